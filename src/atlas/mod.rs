@@ -1,0 +1,1 @@
+//! Packing onto the integer grid.

@@ -1,0 +1,1 @@
+//! Barriers that go to infinity as an element degenerates.

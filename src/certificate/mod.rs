@@ -1,0 +1,1 @@
+//! Exact judgement of written UVs.

@@ -1,0 +1,1 @@
+//! Seams: surfaces opened to disks.

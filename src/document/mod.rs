@@ -1,0 +1,1 @@
+//! glTF and other files, read and written with everything else preserved.

@@ -1,0 +1,1 @@
+//! A valid start for every disk, and the way from it to the optimum.

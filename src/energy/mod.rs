@@ -1,0 +1,1 @@
+//! Deformation energies as functions of singular values.

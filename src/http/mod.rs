@@ -1,0 +1,1 @@
+//! Routes, problems, OpenAPI, progress, the page.

@@ -1,0 +1,25 @@
+//! unwrapd: locally injective mappings as a library, a command line and a service.
+pub mod numerics;
+pub mod mesh;
+pub mod cut;
+pub mod energy;
+pub mod barrier;
+pub mod solver;
+pub mod embed;
+pub mod charts;
+pub mod certificate;
+pub mod atlas;
+pub mod measure;
+#[cfg(feature = "files")]
+pub mod document;
+#[cfg(feature = "files")]
+pub mod picture;
+pub mod pipeline;
+#[cfg(feature = "service")]
+pub mod jobs;
+#[cfg(feature = "service")]
+pub mod store;
+#[cfg(feature = "service")]
+pub mod http;
+#[cfg(feature = "service")]
+pub mod cli;

@@ -1,0 +1,2 @@
+//! The `unwrapd` binary.
+fn main() {}

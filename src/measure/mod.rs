@@ -1,0 +1,1 @@
+//! What a UV map is worth: distortion, seams, packing, overlaps.

@@ -1,0 +1,1 @@
+//! Surfaces: welding, adjacency, boundary loops, defects; readers of mesh files.

@@ -1,0 +1,1 @@
+//! Small linear algebra, sparse Cholesky, exact predicates.

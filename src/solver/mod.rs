@@ -1,0 +1,1 @@
+//! Projected Newton with an exact largest step.

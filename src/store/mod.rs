@@ -1,0 +1,1 @@
+//! SQLite records and blob files.
