@@ -1,1 +1,3 @@
 //! What a job is, its queue, its compute child.
+
+pub mod compute;
