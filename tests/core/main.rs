@@ -1,1 +1,2 @@
 //! Tests of the geometry library.
+mod atlas;
