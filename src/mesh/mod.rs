@@ -1,1 +1,20 @@
 //! Surfaces: welding, adjacency, boundary loops, defects; readers of mesh files.
+//!
+//! A [`Surface`] is any list of triangles made fit to be unwrapped: vertices at bit-equal positions are one vertex, faces
+//! that repeat a position are left out, and what is broken is counted ([`Defects`]), never refused. Its [`Adjacency`] says
+//! which faces are glued along which edge. Every edge is glued to at most one other, so where three or more faces meet,
+//! the surface is cut open, and a vertex shared by two fans (a bow tie) falls apart by itself: what the adjacency
+//! describes is always a 2-manifold, possibly with boundary, in several pieces, and possibly not orientable.
+
+mod adjacency;
+mod defects;
+mod edges;
+mod surface;
+mod union_find;
+mod weld;
+
+pub use adjacency::Adjacency;
+pub use defects::{Defects, has_zero_area};
+pub use edges::{CUT, next, origin, same_direction};
+pub use surface::{MeshError, Surface};
+pub use union_find::UnionFind;

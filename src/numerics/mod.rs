@@ -1,1 +1,2 @@
 //! Small linear algebra, sparse Cholesky, exact predicates.
+pub mod vec3;

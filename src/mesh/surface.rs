@@ -1,0 +1,104 @@
+//! A triangle surface with one vertex per position.
+
+use super::{Adjacency, Defects, edges::Edges, weld::weld};
+
+/// Triangles over distinct positions, with what is wrong with them counted.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Distinct positions, in the order in which the input first has them. Vertices that no triangle uses are kept.
+    pub positions: Vec<[f64; 3]>,
+    /// Three different vertices each, wound as in the input.
+    pub triangles: Vec<[u32; 3]>,
+    /// For each triangle its face in the input; increasing.
+    pub faces: Vec<u32>,
+    /// What the input's faces suffer from.
+    pub defects: Defects,
+    adjacency: Adjacency,
+}
+
+/// Why a list of triangles is no surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MeshError {
+    /// A face names a vertex that does not exist.
+    #[error("face {face} names vertex {vertex}, but there are only {n_vertices} vertices")]
+    IndexOutOfRange {
+        /// The first such face.
+        face: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// How many there are.
+        n_vertices: usize,
+    },
+    /// A face's vertex has a coordinate that is infinite or not a number.
+    #[error("vertex {vertex} has a coordinate that is not finite")]
+    NonFinitePosition {
+        /// The first such vertex.
+        vertex: u32,
+    },
+    /// More faces or vertices than 32-bit corner indices can count.
+    #[error("too many faces or vertices for 32-bit indices")]
+    TooLarge,
+}
+
+impl Surface {
+    /// The surface of an indexed triangle list: vertices at equal positions (bit-equal, −0 = 0) become one, and faces that
+    /// name a position twice are left out.
+    ///
+    /// Everything else is kept, however broken; [`defects`](Self::defects) counts it. Vertices that no face names may hold
+    /// anything, also NaN. Nearly linear in the size of the input.
+    pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Self, MeshError> {
+        if positions.len() >= u32::MAX as usize || triangles.len() >= u32::MAX as usize / 3 {
+            return Err(MeshError::TooLarge);
+        }
+        validate(positions, triangles)?;
+        let (distinct, vertex_of) = weld(positions);
+        let mut kept = Vec::with_capacity(triangles.len());
+        let mut faces = Vec::with_capacity(triangles.len());
+        for (face, triangle) in triangles.iter().enumerate() {
+            let [a, b, c] = triangle.map(|v| vertex_of[v as usize]);
+            if a != b && b != c && c != a {
+                kept.push([a, b, c]);
+                faces.push(face as u32);
+            }
+        }
+        let edges = Edges::new(distinct.len(), &kept);
+        let adjacency = Adjacency::new(&distinct, &kept, &edges);
+        let mut defects = Defects::of_triangles(&distinct, &kept, &edges, &adjacency);
+        defects.count_input(positions.len(), triangles, distinct.len(), kept.len());
+        Ok(Self {
+            positions: distinct,
+            triangles: kept,
+            faces,
+            defects,
+            adjacency,
+        })
+    }
+
+    /// Which triangles are glued to which.
+    pub fn adjacency(&self) -> &Adjacency {
+        &self.adjacency
+    }
+
+    /// The positions of a triangle's corners.
+    pub fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {
+        self.triangles[triangle].map(|v| self.positions[v as usize])
+    }
+}
+
+fn validate(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    for (face, triangle) in triangles.iter().enumerate() {
+        for &vertex in triangle {
+            let Some(position) = positions.get(vertex as usize) else {
+                return Err(MeshError::IndexOutOfRange {
+                    face,
+                    vertex,
+                    n_vertices: positions.len(),
+                });
+            };
+            if !position.iter().all(|x| x.is_finite()) {
+                return Err(MeshError::NonFinitePosition { vertex });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,50 @@
+//! Vectors of space as plain `[f64; 3]`.
+
+/// a − b.
+pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// a + t b.
+pub fn add_scaled(a: [f64; 3], t: f64, b: [f64; 3]) -> [f64; 3] {
+    [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
+}
+
+/// a·b.
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// a × b.
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// ‖a‖.
+pub fn norm(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// ‖a − b‖.
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    norm(sub(a, b))
+}
+
+/// (b − a) × (c − a): the triangle's normal, as long as twice its area.
+pub fn area_vector(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> [f64; 3] {
+    cross(sub(b, a), sub(c, a))
+}
+
+/// a / ‖a‖, or the zero vector where a has no direction.
+pub fn unit(a: [f64; 3]) -> [f64; 3] {
+    let length = norm(a);
+    if length > 0.0 {
+        a.map(|x| x / length)
+    } else {
+        [0.0; 3]
+    }
+}
