@@ -1,2 +1,10 @@
 //! Small linear algebra, sparse Cholesky, exact predicates.
+//!
+//! What every other module computes with, and nothing about meshes: vectors and matrices of plane and space, a sparse
+//! factorization whose symbolic part is done once per pattern, and the exact sign of an orientation. Everything is
+//! plain `f64` arrays; nothing here allocates inside an iteration.
+
+pub mod cholesky;
+pub mod predicates;
+pub mod vec2;
 pub mod vec3;

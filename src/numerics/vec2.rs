@@ -1,0 +1,22 @@
+//! Vectors of the plane as plain `[f64; 2]`.
+
+/// a − b.
+pub fn sub(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// a·b.
+pub fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// The third coordinate of a × b: twice the signed area of the triangle 0, a, b.
+pub fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// Twice the signed area of the triangle a, b, c, positive if counter-clockwise; rounded, see
+/// [`orient2d_sign`](super::predicates::orient2d_sign) for its exact sign.
+pub fn doubled_area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    cross(sub(b, a), sub(c, a))
+}

@@ -1,0 +1,1 @@
+//! The solver: descent and feasibility at every iterate.

@@ -1,0 +1,1 @@
+//! One check of derivatives for every density, barrier and objective.
