@@ -1,1 +1,90 @@
 //! glTF and other files, read and written with everything else preserved.
+//!
+//! A [`Document`] is what a file said, whole; [`Primitive`]s are the triangles in it. Nothing is welded, repaired or
+//! reordered here: positions are rounded to f32 and handed over as the file has them, and a new UV set is written into
+//! the document of record, so what an unwrapping was not asked to change cannot be lost.
+//!
+//! This module does no input or output of its own. An [`Upload`] carries the main file and every file it may refer to;
+//! a URI that is neither data nor a member of the upload is an error, never an open file or a connection. Every input is
+//! taken to be hostile: counts are believed only as far as bytes back them, and every failure is a [`DocumentError`].
+mod error;
+pub mod gltf;
+mod group;
+mod notes;
+pub mod obj;
+pub mod soup;
+mod upload;
+mod uvs;
+
+pub use error::DocumentError;
+pub use group::{Group, GroupBy, Primitive};
+pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
+pub use upload::Upload;
+pub use uvs::{CornerUvs, NewUvs, OutputFormat, WriteOptions, Written};
+
+/// A file as it was read.
+pub enum Document {
+    /// glTF 2.0, `.glb` or `.gltf`.
+    Gltf(gltf::GltfDocument),
+    /// Wavefront OBJ.
+    Obj(obj::ObjDocument),
+    /// OFF, PLY or STL: triangles without a document around them.
+    Soup(soup::SoupDocument),
+}
+
+impl Document {
+    /// Reads the main file of `upload`; its format is known by its content, else by the extension of its name.
+    pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
+        if gltf::is_gltf(upload) {
+            gltf::GltfDocument::read(upload).map(Self::Gltf)
+        } else if obj::is_obj(upload) {
+            obj::ObjDocument::read(upload).map(Self::Obj)
+        } else if soup::is_soup(upload) {
+            soup::SoupDocument::read(upload).map(Self::Soup)
+        } else {
+            Err(DocumentError::UnknownFormat)
+        }
+    }
+
+    /// The triangle primitives in file order.
+    pub fn primitives(&self) -> &[Primitive] {
+        match self {
+            Self::Gltf(document) => document.primitives(),
+            Self::Obj(document) => document.primitives(),
+            Self::Soup(document) => document.primitives(),
+        }
+    }
+
+    /// Which primitives share one UV space, in the order of their first primitives. Files without meshes and materials
+    /// are one group.
+    pub fn groups(&self, by: GroupBy) -> Vec<Group> {
+        let by = match self {
+            Self::Gltf(_) => by,
+            Self::Obj(_) | Self::Soup(_) => GroupBy::Scene,
+        };
+        group::groups(self.primitives(), by)
+    }
+
+    /// The UVs of set `set` per face corner in the numbers of the file; `None` where the primitive has no such set.
+    pub fn corner_uvs(
+        &self,
+        primitive: usize,
+        set: u32,
+    ) -> Result<Option<Vec<CornerUvs>>, DocumentError> {
+        match self {
+            Self::Gltf(document) => document.corner_uvs(primitive, set),
+            Self::Obj(document) => document.corner_uvs(primitive, set),
+            Self::Soup(document) => document.corner_uvs(primitive, set),
+        }
+    }
+
+    /// The document with `uvs` as a UV set.
+    pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
+        uvs.check(self.primitives())?;
+        match self {
+            Self::Gltf(document) => document.write(uvs, options),
+            Self::Obj(document) => document.write(uvs, options),
+            Self::Soup(document) => document.write(uvs, options),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+use thiserror::Error;
+
+/// Why a file cannot be read or written.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum DocumentError {
+    /// The file is sound but has no triangle.
+    #[error("the file has no triangle")]
+    NoTriangles,
+    /// Neither the content nor the name tells a format that can be read.
+    #[error("not a glTF, OBJ, OFF, PLY or STL file")]
+    UnknownFormat,
+    /// The file is glTF but breaks its rules where that matters here.
+    #[error("invalid glTF: {0}")]
+    InvalidGltf(String),
+    /// The file is OBJ, OFF, PLY or STL but cannot be parsed.
+    #[error("invalid mesh file: {0}")]
+    InvalidMesh(String),
+    /// A glTF version other than 2.
+    #[error("glTF version {0} is not supported, only 2.x")]
+    UnsupportedVersion(String),
+    /// A required extension that is not known here.
+    #[error("the file requires the extension {0}, which is not supported")]
+    UnsupportedExtension(String),
+    /// A URI that is neither data nor a file of the upload.
+    #[error("the file refers to `{0}`, which was not supplied")]
+    MissingResource(String),
+    /// A face names a vertex that does not exist.
+    #[error("vertex index out of range: {0}")]
+    IndexOutOfRange(String),
+    /// A vertex position is infinite or not a number.
+    #[error("a vertex position is not finite: {0}")]
+    NonFinitePosition(String),
+    /// The file asks for more than is reasonable for its size.
+    #[error("limit exceeded: {0}")]
+    LimitExceeded(String),
+    /// The output format cannot hold this document.
+    #[error("cannot write {0}")]
+    UnsupportedOutput(String),
+    /// The UVs to write do not fit the document.
+    #[error("the UVs do not fit the primitives of the document")]
+    InvalidUvs,
+}
+
+impl DocumentError {
+    /// A stable name for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoTriangles => "no_triangles",
+            Self::UnknownFormat => "unknown_format",
+            Self::InvalidGltf(_) => "invalid_gltf",
+            Self::InvalidMesh(_) => "invalid_mesh",
+            Self::UnsupportedVersion(_) => "unsupported_version",
+            Self::UnsupportedExtension(_) => "unsupported_extension",
+            Self::MissingResource(_) => "missing_resource",
+            Self::IndexOutOfRange(_) => "index_out_of_range",
+            Self::NonFinitePosition(_) => "non_finite_position",
+            Self::LimitExceeded(_) => "limit_exceeded",
+            Self::UnsupportedOutput(_) => "unsupported_output",
+            Self::InvalidUvs => "invalid_uvs",
+        }
+    }
+}

@@ -1,0 +1,73 @@
+use serde::{Deserialize, Serialize};
+
+/// The triangles of one primitive, as the file has them.
+///
+/// Strips and fans are expanded; faces that name a vertex twice are kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Primitive {
+    /// Index of the mesh in the file.
+    pub mesh: usize,
+    /// Index of the primitive in its mesh; points and lines count too.
+    pub primitive: usize,
+    /// Index of the material.
+    pub material: Option<usize>,
+    /// Positions of all vertices, used or not, in the units of the mesh (no node transform).
+    pub positions: Vec<[f32; 3]>,
+    /// Vertex indices of the faces.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Which primitives share one atlas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum GroupBy {
+    /// One atlas per mesh.
+    #[default]
+    Mesh,
+    /// One atlas for the whole file.
+    Scene,
+    /// One atlas per material.
+    Material,
+    /// One atlas per primitive.
+    Primitive,
+}
+
+/// Primitives that share one UV space.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    /// `scene`, `mesh0`, `mesh0/prim0` or `material0` (`material-1` for no material).
+    pub name: String,
+    /// Indices into the document's primitives, ascending.
+    pub primitives: Vec<usize>,
+}
+
+/// Groups in the order of their first primitives.
+pub(super) fn groups(primitives: &[Primitive], by: GroupBy) -> Vec<Group> {
+    let mut places = std::collections::HashMap::new();
+    let mut groups: Vec<Group> = Vec::new();
+    for (index, primitive) in primitives.iter().enumerate() {
+        let name = group_name(primitive, by);
+        let place = *places.entry(name.clone()).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Group {
+                name,
+                primitives: Vec::new(),
+            });
+        }
+        groups[place].primitives.push(index);
+    }
+    groups
+}
+
+fn group_name(primitive: &Primitive, by: GroupBy) -> String {
+    match by {
+        GroupBy::Scene => "scene".to_owned(),
+        GroupBy::Mesh => format!("mesh{}", primitive.mesh),
+        GroupBy::Primitive => format!("mesh{}/prim{}", primitive.mesh, primitive.primitive),
+        GroupBy::Material => match primitive.material {
+            Some(material) => format!("material{material}"),
+            None => "material-1".to_owned(),
+        },
+    }
+}
