@@ -1,1 +1,43 @@
-//! Exact judgement of written UVs.
+//! Exact judgement of UVs as they stand in a file.
+//!
+//! A map that is injective in the solver need not be after rounding, so nothing the solver or the packer believes counts
+//! here. [`certify`] takes positions, triangles and the UVs of every corner, as f64 values that hold the file's numbers
+//! exactly, and finds everything again: which vertices are one (equal positions), which faces hang together in UV space
+//! (charts), how they are wound against each other, and the orientation of each by an exact predicate. Nothing is shared
+//! with the code that makes or writes UVs.
+//!
+//! **Charts.** Two faces on a common edge (of welded positions) belong to one chart when the UVs of both ends agree to 1e-7 of
+//! the UV extent. That is less than one step of the 2⁻²³ grid over the unit square, so for UVs this program writes it means
+//! exactly equal; in files of others it lets seams that differ by rounding alone count as one. The tolerance decides only what
+//! is compared with what: orientation and overlap have none.
+//!
+//! **Winding.** A file may wind neighbours inconsistently. Winding is propagated over the chart, and a face is flipped
+//! when its orientation, so corrected, is not the one that carries most UV area in its chart. A mirrored chart is therefore
+//! valid, a Möbius strip in one piece is not.
+//!
+//! **What is not judged**: separation after rounding ([`Certificate::grid_bits`] speaks of orientations only).
+
+mod box_tree;
+mod charts;
+mod edges;
+mod judgement;
+mod overlap;
+mod rounding;
+mod topology;
+mod weld;
+
+pub(crate) use box_tree::{Bounds, BoxTree, Visit};
+pub(crate) use edges::Start;
+pub use judgement::{Certificate, Overlap, certify};
+pub(crate) use overlap::{OrientedFaces, Pairs};
+pub(crate) use topology::UvTopology;
+
+/// The UVs of a face's three corners, as the file has them.
+pub type CornerUvs = [[f64; 2]; 3];
+
+/// The UV chart of every face: 0, 1, … in the order of their first faces, found as [`certify`] finds them.
+///
+/// Charts without UV area are numbered too.
+pub fn chart_ids(positions: &[[f64; 3]], triangles: &[[u32; 3]], uvs: &[CornerUvs]) -> Vec<u32> {
+    UvTopology::new(positions, triangles, uvs).charts.of_face
+}

@@ -1,0 +1,193 @@
+//! Which of many boxes meet: a tree of bounding boxes over Morton order.
+
+/// Smallest and greatest coordinates of a box.
+pub(crate) type Bounds = [[f64; 2]; 2];
+
+/// Whether a search saw everything.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Visit {
+    Complete,
+    /// The budget was used up before all pairs had been visited.
+    Truncated,
+}
+
+/// Boxes per leaf: testing a handful outright is cheaper than descending further.
+const LEAF: usize = 4;
+
+/// Encloses nothing and meets nothing.
+const NOTHING: Bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+
+/// A complete binary tree over boxes in Morton order of their centres; the children of node `i` are `2i` and `2i + 1`, the
+/// root is 1.
+pub(crate) struct BoxTree {
+    items: Vec<u32>,
+    boxes: Vec<Bounds>,
+    nodes: Vec<Bounds>,
+}
+
+impl BoxTree {
+    pub fn new(boxes: &[Bounds]) -> BoxTree {
+        let whole = boxes.iter().fold(NOTHING, union);
+        let mut sorted: Vec<(u64, u32)> =
+            boxes.iter().map(|b| morton(b, &whole)).zip(0..).collect();
+        sorted.sort_unstable();
+        let items: Vec<u32> = sorted.into_iter().map(|(_, item)| item).collect();
+        let boxes: Vec<Bounds> = items.iter().map(|&i| boxes[i as usize]).collect();
+        let leaves = boxes.len().div_ceil(LEAF).next_power_of_two();
+        let mut nodes = vec![NOTHING; 2 * leaves];
+        for (leaf, chunk) in boxes.chunks(LEAF).enumerate() {
+            nodes[leaves + leaf] = chunk.iter().fold(NOTHING, union);
+        }
+        for node in (1..leaves).rev() {
+            nodes[node] = union(nodes[2 * node], &nodes[2 * node + 1]);
+        }
+        BoxTree { items, boxes, nodes }
+    }
+
+    /// Visits every pair of boxes whose interiors meet once, in a fixed order, within a budget of comparisons.
+    pub fn pairs(&self, budget: u64, mut visit: impl FnMut(u32, u32)) -> Visit {
+        let leaves = self.nodes.len() / 2;
+        let mut left = budget;
+        let mut stack = vec![(1, 1)];
+        while let Some((a, b)) = stack.pop() {
+            if left < (LEAF * LEAF) as u64 {
+                return Visit::Truncated;
+            }
+            if a != b && !meet(&self.nodes[a], &self.nodes[b]) {
+                left -= 1;
+            } else if a < leaves {
+                left -= 1;
+                stack.extend([(2 * a, 2 * b), (2 * a, 2 * b + 1), (2 * a + 1, 2 * b + 1)]);
+                if a != b {
+                    stack.push((2 * a + 1, 2 * b));
+                }
+            } else {
+                left -= (LEAF * LEAF) as u64;
+                self.leaf_pairs(a - leaves, b - leaves, &mut visit);
+            }
+        }
+        Visit::Complete
+    }
+
+    fn leaf_pairs(&self, a: usize, b: usize, visit: &mut impl FnMut(u32, u32)) {
+        for i in self.leaf(a) {
+            for j in self.leaf(b) {
+                if (a != b || i < j) && meet(&self.boxes[i], &self.boxes[j]) {
+                    visit(self.items[i], self.items[j]);
+                }
+            }
+        }
+    }
+
+    fn leaf(&self, leaf: usize) -> std::ops::Range<usize> {
+        let end = self.boxes.len();
+        (leaf * LEAF).min(end)..((leaf + 1) * LEAF).min(end)
+    }
+
+    /// The smallest distance between two items of different groups, infinite when there is only one group.
+    ///
+    /// `distance` of two items is never less than the distance of their boxes. Works through at most `budget` comparisons.
+    pub fn closest(
+        &self,
+        groups: &[u32],
+        budget: u64,
+        mut distance: impl FnMut(u32, u32) -> f64,
+    ) -> (f64, Visit) {
+        let leaves = self.nodes.len() / 2;
+        let group_of = self.groups_of_nodes(groups);
+        let same = |a: usize, b: usize| group_of[a].is_some() && group_of[a] == group_of[b];
+        let mut best = f64::INFINITY;
+        let mut left = budget;
+        let mut stack = vec![(0.0, 1, 1)];
+        while let Some((bound, a, b)) = stack.pop() {
+            if left == 0 {
+                return (best, Visit::Truncated);
+            }
+            left -= 1;
+            if bound >= best || same(a, b) {
+                continue;
+            }
+            if a >= leaves {
+                for (i, j) in self.leaf(a - leaves).flat_map(|i| {
+                    self.leaf(b - leaves).map(move |j| (i, j))
+                }) {
+                    let (p, q) = (self.items[i], self.items[j]);
+                    if groups[p as usize] != groups[q as usize]
+                        && box_distance(&self.boxes[i], &self.boxes[j]) < best
+                    {
+                        best = best.min(distance(p, q));
+                    }
+                }
+                continue;
+            }
+            let mut children = vec![(2 * a, 2 * b), (2 * a, 2 * b + 1), (2 * a + 1, 2 * b + 1)];
+            if a != b {
+                children.push((2 * a + 1, 2 * b));
+            }
+            let from = stack.len();
+            stack.extend(
+                children.iter().map(|&(a, b)| (box_distance(&self.nodes[a], &self.nodes[b]), a, b)),
+            );
+            stack[from..].sort_by(|x, y| y.0.total_cmp(&x.0)); // the nearest is taken first
+        }
+        (best, Visit::Complete)
+    }
+
+    /// The group all items below a node belong to, if it is one.
+    fn groups_of_nodes(&self, groups: &[u32]) -> Vec<Option<u32>> {
+        let leaves = self.nodes.len() / 2;
+        let mut of_node = vec![None; 2 * leaves];
+        for leaf in 0..leaves {
+            let mut members = self.leaf(leaf).map(|i| groups[self.items[i] as usize]);
+            let first = members.next();
+            of_node[leaves + leaf] = first.filter(|&g| members.all(|m| m == g));
+        }
+        for node in (1..leaves).rev() {
+            let (l, r) = (of_node[2 * node], of_node[2 * node + 1]);
+            of_node[node] = l.filter(|_| l == r);
+        }
+        of_node
+    }
+}
+
+fn union(a: Bounds, b: &Bounds) -> Bounds {
+    [
+        [a[0][0].min(b[0][0]), a[0][1].min(b[0][1])],
+        [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])],
+    ]
+}
+
+/// Whether the interiors of two boxes meet.
+fn meet(a: &Bounds, b: &Bounds) -> bool {
+    a[0][0] < b[1][0] && b[0][0] < a[1][0] && a[0][1] < b[1][1] && b[0][1] < a[1][1]
+}
+
+fn box_distance(a: &Bounds, b: &Bounds) -> f64 {
+    let gap = |axis: usize| (b[0][axis] - a[1][axis]).max(a[0][axis] - b[1][axis]).max(0.0);
+    gap(0).hypot(gap(1))
+}
+
+/// Place of a box's centre on the Z-order curve over 2³² × 2³² cells of `whole`.
+fn morton(b: &Bounds, whole: &Bounds) -> u64 {
+    let cell = |axis: usize| {
+        let size = whole[1][axis] - whole[0][axis];
+        let part = (0.5 * (b[0][axis] + b[1][axis]) - whole[0][axis]) / size;
+        (part * f64::from(u32::MAX)) as u32 // NaN (no extent) becomes 0
+    };
+    spread(cell(0)) | (spread(cell(1)) << 1)
+}
+
+/// The bits of `x` moved to the even places.
+fn spread(x: u32) -> u64 {
+    let mut x = u64::from(x);
+    for (shift, mask) in [
+        (16, 0x0000_ffff_0000_ffff),
+        (8, 0x00ff_00ff_00ff_00ff),
+        (4, 0x0f0f_0f0f_0f0f_0f0f),
+        (2, 0x3333_3333_3333_3333),
+        (1, 0x5555_5555_5555_5555),
+    ] {
+        x = (x | (x << shift)) & mask;
+    }
+    x
+}

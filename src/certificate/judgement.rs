@@ -1,0 +1,150 @@
+//! The certificate and the rules by which it is given.
+
+use super::CornerUvs;
+use super::box_tree::Visit;
+use super::overlap::OrientedFaces;
+use super::rounding::coarsest_bits;
+use super::topology::UvTopology;
+use serde::{Deserialize, Serialize};
+
+/// How many offending faces and pairs a certificate names.
+const NAMED: usize = 8;
+
+/// Whether faces are tested against each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum Overlap {
+    /// Only the orientation of each face is judged.
+    Skip,
+    /// Pairs of faces whose interiors intersect are counted too.
+    #[default]
+    Test,
+}
+
+/// What is proven about the UVs of a mesh, by exact predicates on the numbers of the file.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Certificate {
+    /// Faces judged, all those below included.
+    pub faces: usize,
+    /// Faces that name one position twice. They need no UV area; where they have some it must not be flipped.
+    pub exempt_faces: usize,
+    /// Faces that cannot be judged: a UV or a position is not finite or missing.
+    pub nonfinite_faces: usize,
+    /// Charts found from the UVs, those of exempt faces alone left out.
+    pub charts: usize,
+    /// Charts whose winding contradicts itself (a Möbius strip in one piece); no map of them is injective.
+    pub nonorientable_charts: usize,
+    /// Faces oriented against the rest of their chart.
+    pub flipped: usize,
+    /// Faces of exactly zero UV area, exempt ones left out.
+    pub degenerate: usize,
+    /// Pairs of faces whose interiors intersect; null when not tested.
+    pub overlapping_pairs: Option<u64>,
+    /// Those of them that lie in one chart.
+    pub overlapping_pairs_same_chart: Option<u64>,
+    /// Those of them that lie in two charts.
+    pub overlapping_pairs_between_charts: Option<u64>,
+    /// Whether the search for pairs stopped at its limit, so that there may be more.
+    pub overlap_truncated: bool,
+    /// The coarsest of 23, 16, 14 and 12 bits at which every orientation is kept; null when the map is not locally injective, or
+    /// only its full precision is. 23: UVs rounded to multiples of 2⁻²³ (the grid written here) keep it. 16, 14, 12: it
+    /// survives any move of each coordinate by 1/(2(2ᵇ−1)) + 2⁻¹⁶. Overlaps after rounding are not included.
+    pub grid_bits: Option<u32>,
+    /// The first few faces that are flipped, degenerate or cannot be judged.
+    pub offending_faces: Vec<u32>,
+    /// The first few pairs found to overlap.
+    pub offending_pairs: Vec<[u32; 2]>,
+}
+
+impl Certificate {
+    /// Whether the map is proven locally injective: every face not exempt has positive area relative to its chart.
+    pub fn is_valid(&self) -> bool {
+        self.flipped == 0
+            && self.degenerate == 0
+            && self.nonfinite_faces == 0
+            && self.nonorientable_charts == 0
+    }
+
+    /// Whether, beyond that, no two faces are proven to overlap: the map is bijective.
+    pub fn is_bijective(&self) -> bool {
+        self.is_valid() && self.overlapping_pairs == Some(0) && !self.overlap_truncated
+    }
+}
+
+/// Judges the UVs of every face's corners.
+///
+/// `uvs[f][c]` belongs to `positions[triangles[f][c]]` and is what the file says, converted to f64 without rounding (f32 or
+/// normalized integers). Faces are judged relative to their chart (see the [module](super)), so it does not matter whether
+/// v points up or down. Costs a sort of the vertices and, with [`Overlap::Test`], a search over a tree of boxes.
+pub fn certify(
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    uvs: &[CornerUvs],
+    overlap: Overlap,
+) -> Certificate {
+    let topology = UvTopology::new(positions, triangles, uvs);
+    let mut certificate = judge_faces(&topology);
+    if overlap == Overlap::Test {
+        judge_pairs(&topology, &mut certificate);
+    }
+    certificate
+}
+
+fn judge_faces(topology: &UvTopology) -> Certificate {
+    let n_faces = topology.faces.len();
+    let mut certificate = Certificate { faces: n_faces, ..Certificate::default() };
+    let judged = |f: usize| !topology.unusable[f] && !topology.repeats_position(f);
+    let positive = topology.chart_orientations(judged);
+    let mut charts = vec![false; positive.len()];
+    let mut oriented = Vec::with_capacity(n_faces);
+    for face in 0..n_faces {
+        let chart = topology.charts.of_face[face] as usize;
+        let sign = topology.orientation_in_chart(face);
+        let exempt = topology.repeats_position(face);
+        let count = if topology.unusable[face] {
+            &mut certificate.nonfinite_faces
+        } else if sign == 0 && !exempt {
+            &mut certificate.degenerate
+        } else if sign * positive[chart] < 0 {
+            &mut certificate.flipped
+        } else {
+            certificate.exempt_faces += usize::from(exempt);
+            if sign != 0 {
+                oriented.push((topology.uvs[face], topology.orientation[face]));
+            }
+            charts[chart] |= !exempt;
+            continue;
+        };
+        *count += 1;
+        certificate.exempt_faces += usize::from(exempt);
+        charts[chart] |= judged(face);
+        if certificate.offending_faces.len() < NAMED {
+            certificate.offending_faces.push(face as u32);
+        }
+    }
+    let counted = |chart: &usize| charts[*chart];
+    certificate.charts = (0..charts.len()).filter(counted).count();
+    certificate.nonorientable_charts =
+        (0..charts.len()).filter(counted).filter(|&c| topology.charts.nonorientable[c]).count();
+    if certificate.is_valid() {
+        certificate.grid_bits = coarsest_bits(&oriented);
+    }
+    certificate
+}
+
+fn judge_pairs(topology: &UvTopology, certificate: &mut Certificate) {
+    let (mut same, mut between) = (0, 0);
+    let visit = OrientedFaces::new(topology).overlaps(|pair| {
+        let [a, b] = pair.faces.map(|f| topology.charts.of_face[f as usize]);
+        *if a == b { &mut same } else { &mut between } += 1;
+        if certificate.offending_pairs.len() < NAMED {
+            certificate.offending_pairs.push(pair.faces);
+        }
+    });
+    certificate.overlapping_pairs = Some(same + between);
+    certificate.overlapping_pairs_same_chart = Some(same);
+    certificate.overlapping_pairs_between_charts = Some(between);
+    certificate.overlap_truncated = visit == Visit::Truncated;
+}

@@ -1,0 +1,68 @@
+//! Pairs of faces whose interiors intersect in UV space.
+
+use super::CornerUvs;
+use super::box_tree::{Bounds, BoxTree, Visit};
+use super::topology::UvTopology;
+use crate::numerics::predicates::orient2d_sign;
+
+/// Box comparisons before the search gives up; some seconds. A map without overlaps needs some 20 per face, so only meshes
+/// whose faces lie in heaps come near it.
+const BUDGET: u64 = 400_000_000;
+
+/// The faces of non-zero orientation, all made counter-clockwise.
+pub(crate) struct OrientedFaces {
+    faces: Vec<u32>,
+    corners: Vec<CornerUvs>,
+}
+
+/// A pair of overlapping faces.
+#[derive(Clone, Copy)]
+pub(crate) struct Pairs {
+    pub faces: [u32; 2],
+    pub corners: [CornerUvs; 2],
+}
+
+impl OrientedFaces {
+    pub fn new(topology: &UvTopology) -> OrientedFaces {
+        let n_faces = topology.faces.len() as u32;
+        let faces: Vec<u32> =
+            (0..n_faces).filter(|&f| topology.orientation[f as usize] != 0).collect();
+        let counter_clockwise = |&f: &u32| {
+            let [a, b, c] = topology.uvs[f as usize];
+            if topology.orientation[f as usize] > 0 { [a, b, c] } else { [a, c, b] }
+        };
+        let corners = faces.iter().map(counter_clockwise).collect();
+        OrientedFaces { faces, corners }
+    }
+
+    /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes.
+    pub fn overlaps(&self, mut visit: impl FnMut(Pairs)) -> Visit {
+        let boxes: Vec<Bounds> = self.corners.iter().map(bounds).collect();
+        BoxTree::new(&boxes).pairs(BUDGET, |i, j| {
+            let corners = [self.corners[i as usize], self.corners[j as usize]];
+            if interiors_intersect(&corners[0], &corners[1]) {
+                let faces = [self.faces[i as usize], self.faces[j as usize]];
+                visit(Pairs { faces, corners });
+            }
+        })
+    }
+}
+
+fn bounds([a, b, c]: &CornerUvs) -> Bounds {
+    let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]);
+    let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]);
+    [[low(0), low(1)], [high(0), high(1)]]
+}
+
+/// Whether two counter-clockwise triangles share interior points: no edge line of either has the other on its outer side.
+fn interiors_intersect(a: &CornerUvs, b: &CornerUvs) -> bool {
+    !separates(a, b) && !separates(b, a)
+}
+
+/// Whether an edge line of `a` has all of `b` on its outer side or on itself.
+fn separates(a: &CornerUvs, b: &CornerUvs) -> bool {
+    (0..3).any(|e| {
+        let (p, q) = (a[e], a[(e + 1) % 3]);
+        b.iter().all(|&corner| orient2d_sign(p, q, corner) <= 0)
+    })
+}

@@ -1,0 +1,100 @@
+//! What every figure needs of each face and chart.
+
+use crate::certificate::UvTopology;
+
+/// Areas of faces and charts.
+pub(super) struct FaceMeasures {
+    pub area_3d: Vec<f64>,
+    pub area_uv: Vec<f64>,
+    /// Whether the face has no area in 3D, by the tests of the [module](super).
+    pub degenerate_3d: Vec<bool>,
+    pub total_3d: f64,
+    pub total_uv: f64,
+    /// Diagonal of the bounding box of all positions.
+    pub diagonal: f64,
+    pub charts: Vec<ChartMeasures>,
+}
+
+#[derive(Clone, Copy, Default)]
+pub(super) struct ChartMeasures {
+    pub faces: usize,
+    pub area_3d: f64,
+    pub area_uv: f64,
+}
+
+impl ChartMeasures {
+    /// Charts without UV area are not counted as charts.
+    pub fn is_real(&self) -> bool {
+        self.area_uv > 0.0
+    }
+}
+
+impl FaceMeasures {
+    pub fn new(topology: &UvTopology) -> FaceMeasures {
+        let diagonal = diagonal(&topology.points);
+        let n_faces = topology.faces.len();
+        let mut area_3d = Vec::with_capacity(n_faces);
+        let mut degenerate_3d = Vec::with_capacity(n_faces);
+        for face in 0..n_faces {
+            let [a, b, c] = face_points(topology, face);
+            let (e1, e2, e3) = (sub(b, a), sub(c, a), sub(c, b));
+            let normal = cross(e1, e2);
+            let area = 0.5 * dot(normal, normal).sqrt();
+            let longest = dot(e1, e1).max(dot(e2, e2)).max(dot(e3, e3));
+            let sliver = 2.0 * area < 1e-9 * longest || area < 1e-14 * diagonal * diagonal;
+            area_3d.push(area);
+            degenerate_3d.push(area <= 0.0 || sliver);
+        }
+        let area_uv: Vec<f64> = (0..n_faces).map(|f| topology.area(f)).collect();
+        let mut charts = vec![ChartMeasures::default(); topology.charts.nonorientable.len()];
+        for (face, &chart) in topology.charts.of_face.iter().enumerate() {
+            let chart = &mut charts[chart as usize];
+            chart.faces += 1;
+            chart.area_3d += area_3d[face];
+            chart.area_uv += area_uv[face];
+        }
+        FaceMeasures {
+            total_3d: area_3d.iter().sum(),
+            total_uv: area_uv.iter().sum(),
+            area_3d,
+            area_uv,
+            degenerate_3d,
+            diagonal,
+            charts,
+        }
+    }
+
+    /// A₃d / A_uv: squared lengths in UV times this compare with those on the surface.
+    pub fn area_scale(&self) -> f64 {
+        self.total_3d / self.total_uv.max(1e-300)
+    }
+}
+
+pub(super) fn face_points(topology: &UvTopology, face: usize) -> [[f64; 3]; 3] {
+    topology.faces[face].map(|v| topology.points[v as usize])
+}
+
+pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn diagonal(points: &[[f64; 3]]) -> f64 {
+    let first = points.first().copied().unwrap_or_default();
+    let (mut low, mut high) = (first, first);
+    for point in points {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(point[axis]);
+            high[axis] = high[axis].max(point[axis]);
+        }
+    }
+    let size = sub(high, low);
+    dot(size, size).sqrt()
+}

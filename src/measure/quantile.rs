@@ -1,0 +1,35 @@
+//! Weighted quantiles.
+
+/// Values with weights, sorted.
+pub(super) struct Weighted {
+    values: Vec<f64>,
+    /// Sum of the weights up to each value.
+    cumulated: Vec<f64>,
+}
+
+impl Weighted {
+    pub fn new(mut pairs: Vec<(f64, f64)>) -> Weighted {
+        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut sum = 0.0;
+        let cumulated = pairs.iter().map(|(_, weight)| {
+            sum += weight;
+            sum
+        });
+        Weighted { cumulated: cumulated.collect(), values: pairs.iter().map(|p| p.0).collect() }
+    }
+
+    /// The smallest value at which the weight reaches the part `q` of all.
+    pub fn quantile(&self, q: f64) -> Option<f64> {
+        let wanted = q * self.cumulated.last()?;
+        let index = self.cumulated.partition_point(|&c| c < wanted);
+        Some(self.values[index.min(self.values.len() - 1)])
+    }
+
+    pub fn min(&self) -> Option<f64> {
+        self.values.first().copied()
+    }
+
+    pub fn max(&self) -> Option<f64> {
+        self.values.last().copied()
+    }
+}
