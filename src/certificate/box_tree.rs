@@ -41,7 +41,11 @@ impl BoxTree {
         for node in (1..leaves).rev() {
             nodes[node] = union(nodes[2 * node], &nodes[2 * node + 1]);
         }
-        BoxTree { items, boxes, nodes }
+        BoxTree {
+            items,
+            boxes,
+            nodes,
+        }
     }
 
     /// Visits every pair of boxes whose interiors meet once, in a fixed order, within a budget of comparisons.
@@ -108,9 +112,10 @@ impl BoxTree {
                 continue;
             }
             if a >= leaves {
-                for (i, j) in self.leaf(a - leaves).flat_map(|i| {
-                    self.leaf(b - leaves).map(move |j| (i, j))
-                }) {
+                for (i, j) in self
+                    .leaf(a - leaves)
+                    .flat_map(|i| self.leaf(b - leaves).map(move |j| (i, j)))
+                {
                     let (p, q) = (self.items[i], self.items[j]);
                     if groups[p as usize] != groups[q as usize]
                         && box_distance(&self.boxes[i], &self.boxes[j]) < best
@@ -126,7 +131,9 @@ impl BoxTree {
             }
             let from = stack.len();
             stack.extend(
-                children.iter().map(|&(a, b)| (box_distance(&self.nodes[a], &self.nodes[b]), a, b)),
+                children
+                    .iter()
+                    .map(|&(a, b)| (box_distance(&self.nodes[a], &self.nodes[b]), a, b)),
             );
             stack[from..].sort_by(|x, y| y.0.total_cmp(&x.0)); // the nearest is taken first
         }
@@ -163,7 +170,11 @@ fn meet(a: &Bounds, b: &Bounds) -> bool {
 }
 
 fn box_distance(a: &Bounds, b: &Bounds) -> f64 {
-    let gap = |axis: usize| (b[0][axis] - a[1][axis]).max(a[0][axis] - b[1][axis]).max(0.0);
+    let gap = |axis: usize| {
+        (b[0][axis] - a[1][axis])
+            .max(a[0][axis] - b[1][axis])
+            .max(0.0)
+    };
     gap(0).hypot(gap(1))
 }
 

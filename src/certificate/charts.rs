@@ -25,7 +25,7 @@ impl Charts {
             contradiction: vec![false; n_faces],
         };
         for link in links {
-            forest.join(link);
+            forest.join(&link);
         }
         let mut charts = Charts {
             of_face: Vec::with_capacity(n_faces),
@@ -37,12 +37,16 @@ impl Charts {
             let (root, reversed) = forest.root(face);
             if root == face {
                 charts.of_face.push(charts.nonorientable.len() as u32);
-                charts.nonorientable.push(forest.contradiction[face as usize]);
+                charts
+                    .nonorientable
+                    .push(forest.contradiction[face as usize]);
             } else {
                 charts.of_face.push(charts.of_face[root as usize]);
             }
             let contradiction = forest.contradiction[root as usize];
-            charts.winding.push(if reversed && !contradiction { -1 } else { 1 });
+            charts
+                .winding
+                .push(if reversed && !contradiction { -1 } else { 1 });
         }
         charts
     }
@@ -74,7 +78,7 @@ impl Forest {
     }
 
     /// Joins the trees of two faces under the smaller root.
-    fn join(&mut self, link: Link) {
+    fn join(&mut self, link: &Link) {
         let (a, against_a) = self.root(link.faces[0]);
         let (b, against_b) = self.root(link.faces[1]);
         let against = against_a ^ against_b ^ link.same_direction;

@@ -42,9 +42,19 @@ pub(crate) fn halfedge(corner: u32, faces: &[[u32; 3]], uvs: &[CornerUvs]) -> Ha
     let (a, b) = (faces[face][c], faces[face][next]);
     let (uv_a, uv_b) = (uvs[face][c], uvs[face][next]);
     if a < b {
-        Halfedge { face: corner / 3, vertices: [a, b], uvs: [uv_a, uv_b], forward: true }
+        Halfedge {
+            face: corner / 3,
+            vertices: [a, b],
+            uvs: [uv_a, uv_b],
+            forward: true,
+        }
     } else {
-        Halfedge { face: corner / 3, vertices: [b, a], uvs: [uv_b, uv_a], forward: false }
+        Halfedge {
+            face: corner / 3,
+            vertices: [b, a],
+            uvs: [uv_b, uv_a],
+            forward: false,
+        }
     }
 }
 
@@ -59,9 +69,7 @@ impl UvEdges {
         let (mut order, first) = by_lower_vertex(faces, n_vertices);
         for vertex in 0..n_vertices {
             let corners = &mut order[first[vertex]..first[vertex + 1]];
-            corners.sort_by(|&a, &b| {
-                compare(&halfedge(a, faces, uvs), &halfedge(b, faces, uvs))
-            });
+            corners.sort_by(|&a, &b| compare(&halfedge(a, faces, uvs), &halfedge(b, faces, uvs)));
         }
         let mut start = Vec::with_capacity(order.len());
         let mut previous: Option<Halfedge> = None;
@@ -69,7 +77,11 @@ impl UvEdges {
             let current = halfedge(corner, faces, uvs);
             start.push(match previous {
                 Some(p) if p.vertices == current.vertices => {
-                    if agree(p.uvs, current.uvs, tolerance) { Start::Same } else { Start::Group }
+                    if agree(p.uvs, current.uvs, tolerance) {
+                        Start::Same
+                    } else {
+                        Start::Group
+                    }
                 }
                 _ => Start::Edge,
             });

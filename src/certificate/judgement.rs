@@ -94,7 +94,10 @@ pub fn certify(
 
 fn judge_faces(topology: &UvTopology) -> Certificate {
     let n_faces = topology.faces.len();
-    let mut certificate = Certificate { faces: n_faces, ..Certificate::default() };
+    let mut certificate = Certificate {
+        faces: n_faces,
+        ..Certificate::default()
+    };
     let judged = |f: usize| !topology.unusable[f] && !topology.repeats_position(f);
     let positive = topology.chart_orientations(judged);
     let mut charts = vec![false; positive.len()];
@@ -126,8 +129,10 @@ fn judge_faces(topology: &UvTopology) -> Certificate {
     }
     let counted = |chart: &usize| charts[*chart];
     certificate.charts = (0..charts.len()).filter(counted).count();
-    certificate.nonorientable_charts =
-        (0..charts.len()).filter(counted).filter(|&c| topology.charts.nonorientable[c]).count();
+    certificate.nonorientable_charts = (0..charts.len())
+        .filter(counted)
+        .filter(|&c| topology.charts.nonorientable[c])
+        .count();
     if certificate.is_valid() {
         certificate.grid_bits = coarsest_bits(&oriented);
     }

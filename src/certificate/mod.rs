@@ -29,7 +29,7 @@ mod weld;
 pub(crate) use box_tree::{Bounds, BoxTree, Visit};
 pub(crate) use edges::Start;
 pub use judgement::{Certificate, Overlap, certify};
-pub(crate) use overlap::{OrientedFaces, Pairs};
+pub(crate) use overlap::OrientedFaces;
 pub(crate) use topology::UvTopology;
 
 /// The UVs of a face's three corners, as the file has them.

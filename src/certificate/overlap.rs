@@ -1,4 +1,4 @@
-//! Pairs of faces whose interiors intersect in UV space.
+//! OverlappingPair of faces whose interiors intersect in UV space.
 
 use super::CornerUvs;
 use super::box_tree::{Bounds, BoxTree, Visit};
@@ -17,7 +17,7 @@ pub(crate) struct OrientedFaces {
 
 /// A pair of overlapping faces.
 #[derive(Clone, Copy)]
-pub(crate) struct Pairs {
+pub(crate) struct OverlappingPair {
     pub faces: [u32; 2],
     pub corners: [CornerUvs; 2],
 }
@@ -25,24 +25,29 @@ pub(crate) struct Pairs {
 impl OrientedFaces {
     pub fn new(topology: &UvTopology) -> OrientedFaces {
         let n_faces = topology.faces.len() as u32;
-        let faces: Vec<u32> =
-            (0..n_faces).filter(|&f| topology.orientation[f as usize] != 0).collect();
+        let faces: Vec<u32> = (0..n_faces)
+            .filter(|&f| topology.orientation[f as usize] != 0)
+            .collect();
         let counter_clockwise = |&f: &u32| {
             let [a, b, c] = topology.uvs[f as usize];
-            if topology.orientation[f as usize] > 0 { [a, b, c] } else { [a, c, b] }
+            if topology.orientation[f as usize] > 0 {
+                [a, b, c]
+            } else {
+                [a, c, b]
+            }
         };
         let corners = faces.iter().map(counter_clockwise).collect();
         OrientedFaces { faces, corners }
     }
 
     /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes.
-    pub fn overlaps(&self, mut visit: impl FnMut(Pairs)) -> Visit {
+    pub fn overlaps(&self, mut visit: impl FnMut(OverlappingPair)) -> Visit {
         let boxes: Vec<Bounds> = self.corners.iter().map(bounds).collect();
         BoxTree::new(&boxes).pairs(BUDGET, |i, j| {
             let corners = [self.corners[i as usize], self.corners[j as usize]];
             if interiors_intersect(&corners[0], &corners[1]) {
                 let faces = [self.faces[i as usize], self.faces[j as usize]];
-                visit(Pairs { faces, corners });
+                visit(OverlappingPair { faces, corners });
             }
         })
     }

@@ -22,14 +22,13 @@ pub(crate) fn coarsest_bits(faces: &[(CornerUvs, i8)]) -> Option<u32> {
     if faces.is_empty() || faces.iter().any(|(uvs, _)| far(uvs)) {
         return None;
     }
-    let coarsest_by_moving =
-        [16, 14, 12].into_iter().take_while(|&bits| {
-            faces.iter().all(|(uvs, sign)| survives(&units(uvs, *sign, UNIT_BITS), allowance(bits)))
-        });
+    let coarsest_by_moving = [16, 14, 12].into_iter().take_while(|&bits| {
+        faces
+            .iter()
+            .all(|(uvs, sign)| survives(&units(uvs, *sign, UNIT_BITS), allowance(bits)))
+    });
     coarsest_by_moving.last().or_else(|| {
-        let survives_rounding = |(uvs, sign): &(CornerUvs, i8)| {
-            survives(&units(uvs, *sign, 23), 0)
-        };
+        let survives_rounding = |(uvs, sign): &(CornerUvs, i8)| survives(&units(uvs, *sign, 23), 0);
         faces.iter().all(survives_rounding).then_some(23)
     })
 }

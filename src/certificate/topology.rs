@@ -29,18 +29,20 @@ pub(crate) struct UvTopology {
 }
 
 impl UvTopology {
-    pub fn new(
-        positions: &[[f64; 3]],
-        triangles: &[[u32; 3]],
-        uvs: &[CornerUvs],
-    ) -> UvTopology {
+    pub fn new(positions: &[[f64; 3]], triangles: &[[u32; 3]], uvs: &[CornerUvs]) -> UvTopology {
         let usable: Vec<bool> = (0..triangles.len())
             .map(|f| is_usable(positions, &triangles[f], uvs.get(f)))
             .collect();
         let origin = [0.0; 3];
         let mut finite: Vec<[f64; 3]> = positions
             .iter()
-            .map(|p| if p.iter().all(|x| x.is_finite()) { *p } else { origin })
+            .map(|p| {
+                if p.iter().all(|x| x.is_finite()) {
+                    *p
+                } else {
+                    origin
+                }
+            })
             .collect();
         if finite.is_empty() {
             finite.push(origin); // what faces without any position refer to
@@ -55,7 +57,10 @@ impl UvTopology {
         let tolerance = UV_TOLERANCE * extent(bounds);
         let edges = UvEdges::new(&faces, &uvs, weld.points.len(), tolerance);
         let charts = Charts::new(faces.len(), links(&edges, &faces, &uvs));
-        let orientation = uvs.iter().map(|&[a, b, c]| orient2d_sign(a, b, c)).collect();
+        let orientation = uvs
+            .iter()
+            .map(|&[a, b, c]| orient2d_sign(a, b, c))
+            .collect();
         UvTopology {
             points: weld.points,
             faces,
@@ -106,7 +111,11 @@ impl UvTopology {
             *count += i64::from(sign);
         }
         let sign = |(area, count): (f64, i64)| {
-            if area == 0.0 { count.signum() as i8 } else { area.signum() as i8 }
+            if area == 0.0 {
+                count.signum() as i8
+            } else {
+                area.signum() as i8
+            }
         };
         balance.into_iter().map(sign).collect()
     }
@@ -114,7 +123,9 @@ impl UvTopology {
 
 fn is_usable(positions: &[[f64; 3]], triangle: &[u32; 3], uvs: Option<&CornerUvs>) -> bool {
     let finite_position = |&i: &u32| {
-        positions.get(i as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()))
+        positions
+            .get(i as usize)
+            .is_some_and(|p| p.iter().all(|x| x.is_finite()))
     };
     uvs.is_some_and(|uvs| uvs.as_flattened().iter().all(|x| x.is_finite()))
         && triangle.iter().all(finite_position)
@@ -142,9 +153,17 @@ fn links<'a>(
     faces: &'a [[u32; 3]],
     uvs: &'a [CornerUvs],
 ) -> impl Iterator<Item = Link> + 'a {
-    let pairs = edges.order.windows(2).zip(&edges.start[edges.start.len().min(1)..]);
-    pairs.filter(|(_, start)| **start == Start::Same).map(|(pair, _)| {
-        let (a, b) = (halfedge(pair[0], faces, uvs), halfedge(pair[1], faces, uvs));
-        Link { faces: [a.face, b.face], same_direction: a.forward == b.forward }
-    })
+    let pairs = edges
+        .order
+        .windows(2)
+        .zip(&edges.start[edges.start.len().min(1)..]);
+    pairs
+        .filter(|(_, start)| **start == Start::Same)
+        .map(|(pair, _)| {
+            let (a, b) = (halfedge(pair[0], faces, uvs), halfedge(pair[1], faces, uvs));
+            Link {
+                faces: [a.face, b.face],
+                same_direction: a.forward == b.forward,
+            }
+        })
 }

@@ -9,8 +9,11 @@ pub(crate) struct Weld {
 }
 
 pub(crate) fn weld(positions: &[[f64; 3]]) -> Weld {
-    let mut sorted: Vec<([f64; 3], u32)> =
-        positions.iter().map(|p| p.map(|x| x + 0.0)).zip(0..).collect(); // −0 + 0 = 0
+    let mut sorted: Vec<([f64; 3], u32)> = positions
+        .iter()
+        .map(|p| p.map(|x| x + 0.0))
+        .zip(0..)
+        .collect(); // −0 + 0 = 0
     sorted.sort_unstable_by(|(a, _), (b, _)| {
         a[0].total_cmp(&b[0])
             .then_with(|| a[1].total_cmp(&b[1]))

@@ -21,12 +21,7 @@ pub(super) struct Coverage {
 ///
 /// Half-open scan conversion in fixed point, exact once corners are rounded to 2⁻¹⁶ texel: in a triangulation without overlaps
 /// every centre is counted exactly once, also on edges and vertices.
-pub(super) fn coverage(
-    uvs: &[CornerUvs],
-    texels: u32,
-    origin: [f64; 2],
-    side: f64,
-) -> Coverage {
+pub(super) fn coverage(uvs: &[CornerUvs], texels: u32, origin: [f64; 2], side: f64) -> Coverage {
     let scale = f64::from(texels) * ONE as f64;
     let fixed = |uv: [f64; 2]| {
         [0, 1].map(|axis| ((uv[axis] - origin[axis]) / side * scale).round_ties_even() as i64)

@@ -38,7 +38,11 @@ impl Density {
             .collect();
         let weight: f64 = densities.iter().map(|(_, w)| w).sum();
         let mean = densities.iter().map(|(d, w)| d * w).sum::<f64>() / weight;
-        let variance = densities.iter().map(|(d, w)| (d - mean).powi(2) * w).sum::<f64>() / weight;
+        let variance = densities
+            .iter()
+            .map(|(d, w)| (d - mean).powi(2) * w)
+            .sum::<f64>()
+            / weight;
         let sorted = Weighted::new(densities);
         let spread = |low: f64, high: f64| (low != 0.0).then(|| high / low);
         Density {

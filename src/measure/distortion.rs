@@ -74,7 +74,11 @@ pub fn face_distortion(
             degenerate: values.is_none(),
         }
     };
-    flipped(&topology).into_iter().enumerate().map(of_face).collect()
+    flipped(&topology)
+        .into_iter()
+        .enumerate()
+        .map(of_face)
+        .collect()
 }
 
 impl Distortion {
@@ -87,7 +91,12 @@ impl Distortion {
         }
         let weight: f64 = measured.iter().map(|(_, w)| w).sum();
         let mean = |of: fn(&Stretch) -> f64| {
-            Some(measured.iter().map(|(s, w)| w / weight * of(s)).sum::<f64>())
+            Some(
+                measured
+                    .iter()
+                    .map(|(s, w)| w / weight * of(s))
+                    .sum::<f64>(),
+            )
         };
         let sorted = |of: fn(&Stretch) -> f64| {
             Weighted::new(measured.iter().map(|(s, w)| (of(s), *w)).collect())
@@ -97,7 +106,10 @@ impl Distortion {
         let dirichlet = sorted(Stretch::symmetric_dirichlet);
         Distortion {
             l2_stretch: mean(Stretch::squared_inverse).map(|sum| (0.5 * sum).sqrt()),
-            linf_stretch: measured.iter().map(|(s, _)| 1.0 / s.sigma[1]).reduce(f64::max),
+            linf_stretch: measured
+                .iter()
+                .map(|(s, _)| 1.0 / s.sigma[1])
+                .reduce(f64::max),
             conformal_mean: mean(Stretch::conformal),
             conformal_p99: conformal.quantile(0.99),
             conformal_max: conformal.max(),
@@ -143,10 +155,15 @@ impl Stretch {
         let squared = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
         let (e, g) = (squared(column_1), squared(column_2));
         let f = column_1[0] * column_2[0] + column_1[1] * column_2[1];
-        let determinant =
-            (column_1[0] * column_2[1] - column_1[1] * column_2[0]).abs().max(1e-300);
+        let determinant = (column_1[0] * column_2[1] - column_1[1] * column_2[0])
+            .abs()
+            .max(1e-300);
         let greater = (0.5 * (e + g + (e - g).hypot(2.0 * f))).sqrt();
-        Some(Stretch { sigma: [greater, determinant / greater], squares: e + g, determinant })
+        Some(Stretch {
+            sigma: [greater, determinant / greater],
+            squares: e + g,
+            determinant,
+        })
     }
 
     fn conformal(&self) -> f64 {

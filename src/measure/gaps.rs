@@ -35,7 +35,11 @@ impl Gaps {
         if real < 2 || boundary.segments.is_empty() {
             return Gaps::default();
         }
-        let side = if in_unit_square(topology) { 1.0 } else { topology.extent() };
+        let side = if in_unit_square(topology) {
+            1.0
+        } else {
+            topology.extent()
+        };
         let (nearest, visit) = boundary.nearest_charts(faces.charts.len(), side / 1024.0);
         let within = nearest.iter().copied().fold(f64::INFINITY, f64::min);
         let (gap, visit) = if within.is_finite() || visit == Visit::Truncated {
@@ -46,7 +50,12 @@ impl Gaps {
         let gap_uv = gap.is_finite().then_some(gap / side);
         // 0.999: a chart placed just a texel away may come out nearer by rounding.
         let closer_than = |texels: f64| {
-            Some(nearest.iter().filter(|&&gap| gap < side / texels * 0.999).count())
+            Some(
+                nearest
+                    .iter()
+                    .filter(|&&gap| gap < side / texels * 0.999)
+                    .count(),
+            )
         };
         Gaps {
             gap_uv,
@@ -71,7 +80,10 @@ struct Boundary {
 impl Boundary {
     fn new(topology: &UvTopology, faces: &FaceMeasures) -> Boundary {
         let start = &topology.edges.start;
-        let mut boundary = Boundary { segments: Vec::new(), charts: Vec::new() };
+        let mut boundary = Boundary {
+            segments: Vec::new(),
+            charts: Vec::new(),
+        };
         for (k, &corner) in topology.edges.order.iter().enumerate() {
             let alone = start[k] != Start::Same && start.get(k + 1) != Some(&Start::Same);
             let chart = topology.charts.of_face[(corner / 3) as usize];

@@ -62,7 +62,10 @@ impl MeasureOptions {
 
 impl Default for MeasureOptions {
     fn default() -> Self {
-        MeasureOptions { raster_texels: 4096, overlap: Overlap::Test }
+        MeasureOptions {
+            raster_texels: 4096,
+            overlap: Overlap::Test,
+        }
     }
 }
 
@@ -124,9 +127,14 @@ pub fn measure(
         seams: Seams::new(&topology, &faces),
         distortion: Distortion::new(&topology, &faces),
         density: Density::new(&topology, &faces),
-        packing: Packing::new(&topology, options.raster_texels.clamp(1, MeasureOptions::MAX_RASTER)),
+        packing: Packing::new(
+            &topology,
+            options.raster_texels.clamp(1, MeasureOptions::MAX_RASTER),
+        ),
         gaps: Gaps::new(&topology, &faces),
-        bijective: overlaps.overlap_pairs.map(|pairs| locally_injective && pairs == 0),
+        bijective: overlaps
+            .overlap_pairs
+            .map(|pairs| locally_injective && pairs == 0),
         locally_injective,
         size,
         validity,

@@ -15,7 +15,10 @@ impl Weighted {
             sum += weight;
             sum
         });
-        Weighted { cumulated: cumulated.collect(), values: pairs.iter().map(|p| p.0).collect() }
+        Weighted {
+            cumulated: cumulated.collect(),
+            values: pairs.iter().map(|p| p.0).collect(),
+        }
     }
 
     /// The smallest value at which the weight reaches the part `q` of all.

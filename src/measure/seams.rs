@@ -70,9 +70,16 @@ fn edges(topology: &UvTopology) -> Vec<Edge> {
             }
             (Start::Same, Some(edge)) => edge.faces += 1,
             _ => {
-                let [a, b] = topology.halfedge(corner).vertices.map(|v| topology.points[v as usize]);
+                let [a, b] = topology
+                    .halfedge(corner)
+                    .vertices
+                    .map(|v| topology.points[v as usize]);
                 let along = sub(b, a);
-                edges.push(Edge { faces: 1, groups: 1, length: dot(along, along).sqrt() });
+                edges.push(Edge {
+                    faces: 1,
+                    groups: 1,
+                    length: dot(along, along).sqrt(),
+                });
             }
         }
     }
