@@ -8,6 +8,7 @@
 
 mod adjacency;
 mod defects;
+mod disk;
 mod edges;
 mod surface;
 mod union_find;
@@ -15,6 +16,7 @@ mod weld;
 
 pub use adjacency::Adjacency;
 pub use defects::{Defects, has_zero_area};
+pub use disk::{Disk, NotADisk};
 pub use edges::{CUT, next, origin, same_direction};
 pub use surface::{MeshError, Surface};
 pub use union_find::UnionFind;

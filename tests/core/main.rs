@@ -5,3 +5,4 @@ mod energy;
 mod numerics;
 mod solver;
 mod taylor;
+mod disk;
