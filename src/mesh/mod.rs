@@ -10,6 +10,8 @@ mod adjacency;
 mod defects;
 mod disk;
 mod edges;
+#[cfg(feature = "files")]
+pub mod io;
 mod surface;
 mod union_find;
 mod weld;

@@ -1,8 +1,10 @@
 //! Tests of the geometry library.
 mod atlas;
 mod barrier;
+mod disk;
 mod energy;
+#[cfg(feature = "files")]
+mod io;
 mod numerics;
 mod solver;
 mod taylor;
-mod disk;

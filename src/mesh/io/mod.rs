@@ -1,0 +1,171 @@
+//! Readers of triangle and polygon meshes in text and binary files.
+//!
+//! Bytes in, plain arrays or a [`ReadError`] out; nothing is opened, nothing panics, and memory is bounded by
+//! a small multiple of the input: a count that a file claims is never trusted, it only says when to stop.
+//! Polygons become fans of triangles around their first corner, in the order of the file, so a face index means
+//! the same in every tool that does so. Coordinates are parsed as `f64` and rounded to `f32` once, −0 becoming 0:
+//! what is welded, mapped and measured is what is written.
+pub mod obj;
+pub mod off;
+pub mod ply;
+pub mod stl;
+
+/// Positions and triangles of one file, in the file's order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct IndexedTriangles {
+    /// Vertex positions.
+    pub positions: Vec<[f32; 3]>,
+    /// Three vertex indices for each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// The mesh formats read here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ.
+    Obj,
+    /// Geomview OFF, text.
+    Off,
+    /// Stanford PLY, text or binary.
+    Ply,
+    /// Stereolithography, text or binary.
+    Stl,
+}
+
+/// Why a file cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ReadError {
+    /// The file does not follow its format.
+    #[error("{format}, {place} {at}: {cause}")]
+    Malformed {
+        /// Name of the format.
+        format: &'static str,
+        /// What `at` counts: `line` or `byte`.
+        place: &'static str,
+        /// Where, lines from 1.
+        at: usize,
+        /// What is wrong there.
+        cause: &'static str,
+    },
+    /// A coordinate is NaN, infinite or beyond the range of `f32`.
+    #[error("vertex {vertex} has a coordinate that is not a finite f32")]
+    NonFinitePosition {
+        /// Index of the vertex, from 0.
+        vertex: usize,
+    },
+    /// A face names a vertex that is not there.
+    #[error("a face names vertex {index} of {n_vertices}")]
+    IndexOutOfRange {
+        /// Index of the vertex, from 0.
+        index: i64,
+        /// Number of vertices in the file.
+        n_vertices: usize,
+    },
+}
+
+impl ReadError {
+    /// Stable name of the cause, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed { .. } => "invalid_mesh",
+            Self::NonFinitePosition { .. } => "non_finite_position",
+            Self::IndexOutOfRange { .. } => "index_out_of_range",
+        }
+    }
+}
+
+impl Format {
+    /// The format of a file, by its first bytes where they tell, else by the extension of its name.
+    pub fn detect(name: &str, bytes: &[u8]) -> Option<Self> {
+        let extension = name.rsplit_once('.').map(|(_, e)| e.to_ascii_lowercase());
+        if bytes.starts_with(b"ply") && matches!(bytes.get(3), Some(b'\n' | b'\r' | b' ')) {
+            return Some(Self::Ply);
+        }
+        if off::has_header(bytes) {
+            return Some(Self::Off);
+        }
+        if stl::is_binary(bytes) || stl::has_text_header(bytes) {
+            return Some(Self::Stl);
+        }
+        match extension.as_deref() {
+            Some("obj") => Some(Self::Obj),
+            Some("off") => Some(Self::Off),
+            Some("ply") => Some(Self::Ply),
+            Some("stl") => Some(Self::Stl),
+            _ => obj::has_statements(bytes).then_some(Self::Obj),
+        }
+    }
+}
+
+/// A position as the rest of the program sees it: finite, in `f32`, without negative zeros.
+fn position(coordinates: [f64; 3], vertex: usize) -> Result<[f32; 3], ReadError> {
+    let rounded = coordinates.map(|x| x as f32 + 0.0);
+    if rounded.iter().all(|x| x.is_finite()) {
+        Ok(rounded)
+    } else {
+        Err(ReadError::NonFinitePosition { vertex })
+    }
+}
+
+/// Appends the fan of a polygon to `triangles`; fewer than three corners make none.
+fn push_fan(
+    triangles: &mut Vec<[u32; 3]>,
+    polygon: &[i64],
+    n_vertices: usize,
+) -> Result<(), ReadError> {
+    let corner = |index: i64| match usize::try_from(index) {
+        Ok(i) if i < n_vertices => {
+            u32::try_from(i).map_err(|_| ReadError::IndexOutOfRange { index, n_vertices })
+        }
+        _ => Err(ReadError::IndexOutOfRange { index, n_vertices }),
+    };
+    for k in 1..polygon.len().saturating_sub(1) {
+        triangles.push([
+            corner(polygon[0])?,
+            corner(polygon[k])?,
+            corner(polygon[k + 1])?,
+        ]);
+    }
+    Ok(())
+}
+
+/// The lines of a text, numbered from 1; `\n`, `\r\n` and `\r` all end a line.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut rest = bytes;
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.iter().position(|&b| b == b'\n' || b == b'\r');
+        let line = &rest[..end.unwrap_or(rest.len())];
+        let ending = match end {
+            None => 0,
+            Some(e) if rest[e..].starts_with(b"\r\n") => 2,
+            Some(_) => 1,
+        };
+        rest = &rest[line.len() + ending..];
+        number += 1;
+        Some((number, line))
+    })
+}
+
+/// The words of a line, separated by blanks.
+fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty())
+}
+
+/// A number in a text; `nan` and `inf` are numbers here, [`position`] refuses them.
+fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+/// Three numbers from the next three words.
+fn three_numbers<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<[f64; 3]> {
+    Some([
+        number(words.next()?)?,
+        number(words.next()?)?,
+        number(words.next()?)?,
+    ])
+}

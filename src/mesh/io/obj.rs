@@ -1,0 +1,228 @@
+//! OBJ: vertices, texture coordinates and polygons, with what is needed to write the same file again.
+//!
+//! Read without a library: those at hand give triangles grouped by material, while a file that is to be written
+//! back needs its polygons in order and every other statement ([`statements`]) as it stands.
+//!
+//! A vertex may be named before it is defined; a negative index counts back from the vertices defined so far. A
+//! position that is not there is an error. A texture coordinate or normal that is not there is taken as not
+//! given, as neither is needed to map the surface.
+use super::{IndexedTriangles, ReadError, number, position, push_fan, three_numbers, words};
+
+/// One corner of a polygon. Indices count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Corner {
+    /// Index of the position.
+    pub vertex: u32,
+    /// Index of the texture coordinate.
+    pub texcoord: Option<u32>,
+    /// Index of the normal.
+    pub normal: Option<u32>,
+}
+
+/// An OBJ file.
+#[derive(Debug, Clone, Default)]
+pub struct Obj {
+    /// Positions and the fans of all polygons, in the file's order.
+    pub mesh: IndexedTriangles,
+    /// Texture coordinates as the file has them, v up.
+    pub texcoords: Vec<[f64; 2]>,
+    /// Normals.
+    pub normals: Vec<[f32; 3]>,
+    /// Corners of all polygons, one polygon after the other.
+    pub corners: Vec<Corner>,
+    /// For each polygon the end of its corners in `corners`.
+    pub polygon_ends: Vec<usize>,
+}
+
+impl Obj {
+    /// The polygons in the file's order; those of fewer than three corners have no triangles.
+    pub fn polygons(&self) -> impl Iterator<Item = &[Corner]> {
+        let mut start = 0;
+        self.polygon_ends.iter().map(move |&end| {
+            let polygon = &self.corners[start..end];
+            start = end;
+            polygon
+        })
+    }
+}
+
+/// One statement: a line, or several joined by a backslash at their ends.
+#[derive(Debug, Clone)]
+pub struct Statement<'a> {
+    /// Number of its first line, from 1.
+    pub line: usize,
+    /// The text as it stands, with its line ending.
+    pub raw: &'a [u8],
+    /// The first word; empty for blank lines and comments.
+    pub keyword: &'a [u8],
+    /// The words after it, up to a comment.
+    pub words: Vec<&'a [u8]>,
+}
+
+fn malformed(line: usize, cause: &'static str) -> ReadError {
+    ReadError::Malformed {
+        format: "OBJ",
+        place: "line",
+        at: line,
+        cause,
+    }
+}
+
+/// The statements of a file; their `raw` texts one after the other are the file.
+pub fn statements(bytes: &[u8]) -> impl Iterator<Item = Statement<'_>> {
+    let mut rest = bytes;
+    let mut line = 1;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        let (raw, n_lines) = statement_text(rest);
+        rest = &rest[raw.len()..];
+        let text = raw.split(|&b| b == b'#').next().unwrap_or_default();
+        let mut words = words(text).filter(|word| *word != b"\\");
+        let statement = Statement {
+            line,
+            raw,
+            keyword: words.next().unwrap_or_default(),
+            words: words.collect(),
+        };
+        line += n_lines;
+        Some(statement)
+    })
+}
+
+/// The first statement with its ending, and its number of lines. A comment is not continued.
+fn statement_text(bytes: &[u8]) -> (&[u8], usize) {
+    let mut end = 0;
+    let mut n_lines = 0;
+    loop {
+        let line = &bytes[end..];
+        let Some(length) = line.iter().position(|&b| b == b'\n' || b == b'\r') else {
+            return (bytes, n_lines + 1);
+        };
+        n_lines += 1;
+        end += length
+            + if line[length..].starts_with(b"\r\n") {
+                2
+            } else {
+                1
+            };
+        let line = &line[..length];
+        if !line.ends_with(b"\\") || line.contains(&b'#') {
+            return (&bytes[..end], n_lines);
+        }
+    }
+}
+
+/// Whether the text has one of the format's statements among its first lines.
+pub(super) fn has_statements(bytes: &[u8]) -> bool {
+    statements(&bytes[..bytes.len().min(4096)])
+        .find(|s| !s.keyword.is_empty())
+        .is_some_and(|s| {
+            matches!(
+                s.keyword,
+                b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"mtllib" | b"usemtl" | b"s"
+            )
+        })
+}
+
+/// A corner as the text has it: indices from 1, negative ones already resolved, 0 where none is given.
+type RawCorner = [i64; 3];
+
+/// Reads an OBJ file.
+pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
+    let mut obj = Obj::default();
+    let mut raw_corners: Vec<RawCorner> = Vec::new();
+    for statement in statements(bytes) {
+        let words = &mut statement.words.iter().copied();
+        match statement.keyword {
+            b"v" => {
+                let coordinates = three_numbers(words)
+                    .ok_or_else(|| malformed(statement.line, "a vertex needs three numbers"))?;
+                let vertex = obj.mesh.positions.len();
+                obj.mesh.positions.push(position(coordinates, vertex)?);
+            }
+            b"vt" => obj.texcoords.push(texcoord(words)),
+            b"vn" => obj
+                .normals
+                .push(three_numbers(words).map_or([f32::NAN; 3], |n| n.map(|x| x as f32))),
+            b"f" | b"fo" => {
+                let defined = [
+                    obj.mesh.positions.len(),
+                    obj.texcoords.len(),
+                    obj.normals.len(),
+                ];
+                for word in words {
+                    let corner = raw_corner(word, defined);
+                    raw_corners
+                        .push(corner.ok_or_else(|| {
+                            malformed(statement.line, "a corner is not an index")
+                        })?);
+                }
+                obj.polygon_ends.push(raw_corners.len());
+            }
+            _ => {}
+        }
+    }
+    resolve(&mut obj, &raw_corners)?;
+    Ok(obj)
+}
+
+/// One or two numbers; what is not a number becomes NaN, and is for the measures to find.
+fn texcoord<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> [f64; 2] {
+    let mut next = |default| {
+        words
+            .next()
+            .map_or(default, |w| number(w).unwrap_or(f64::NAN))
+    };
+    [next(f64::NAN), next(0.0)]
+}
+
+fn raw_corner(word: &[u8], defined: [usize; 3]) -> Option<RawCorner> {
+    let mut corner = [0; 3];
+    for (k, text) in word.split(|&b| b == b'/').enumerate() {
+        let slot = corner.get_mut(k)?;
+        if text.is_empty() && k > 0 {
+            continue;
+        }
+        let index: i64 = number(text)?;
+        *slot = if index < 0 {
+            // Before the first one: kept negative, so that it is found out of range.
+            let resolved = index.checked_add(defined[k] as i64 + 1)?;
+            if resolved > 0 { resolved } else { i64::MIN }
+        } else {
+            index
+        };
+    }
+    Some(corner)
+}
+
+/// Checks the corners against what the whole file defines, and makes the triangles.
+fn resolve(obj: &mut Obj, raw_corners: &[RawCorner]) -> Result<(), ReadError> {
+    let n_vertices = obj.mesh.positions.len();
+    let optional = |index: i64, n: usize| {
+        let index = u32::try_from(index.checked_sub(1)?).ok()?;
+        ((index as usize) < n).then_some(index)
+    };
+    obj.corners.reserve_exact(raw_corners.len());
+    for corner in raw_corners {
+        let vertex = optional(corner[0], n_vertices).ok_or(ReadError::IndexOutOfRange {
+            index: corner[0].saturating_sub(1),
+            n_vertices,
+        })?;
+        obj.corners.push(Corner {
+            vertex,
+            texcoord: optional(corner[1], obj.texcoords.len()),
+            normal: optional(corner[2], obj.normals.len()),
+        });
+    }
+    let mut start = 0;
+    let mut polygon = Vec::new();
+    for &end in &obj.polygon_ends {
+        polygon.clear();
+        polygon.extend(obj.corners[start..end].iter().map(|c| i64::from(c.vertex)));
+        push_fan(&mut obj.mesh.triangles, &polygon, n_vertices)?;
+        start = end;
+    }
+    Ok(())
+}
