@@ -4,6 +4,7 @@
 //! factorization whose symbolic part is done once per pattern, and the exact sign of an orientation. Everything is
 //! plain `f64` arrays; nothing here allocates inside an iteration.
 
+pub mod block;
 pub mod cholesky;
 pub mod predicates;
 pub mod vec2;

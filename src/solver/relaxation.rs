@@ -1,0 +1,56 @@
+//! How much of the negative curvature is removed: a schedule.
+
+use super::settings::Projection;
+
+/// ω in [0, 1]: negative eigenvalues of a triangle's Hessian are multiplied by τ = 1 − ω. With ω = 1 the matrix is
+/// positive semidefinite and the step cautious, with ω = 0 it is the true Hessian and convergence quadratic.
+#[derive(Clone, Copy, Debug)]
+pub struct Relaxation {
+    omega: f64,
+    projection: Projection,
+}
+
+impl Relaxation {
+    pub fn new(projection: Projection) -> Self {
+        Self {
+            omega: 1.0,
+            projection,
+        }
+    }
+
+    /// The factor of negative eigenvalues.
+    pub fn tau(&self) -> f64 {
+        1.0 - self.omega
+    }
+
+    /// After a step: nearly full ones that gain less than 1 % mean that the model is good and the end slow, so ω falls;
+    /// short ones that the model is bad. Thresholds half as strict cost up to 15 % more factorizations.
+    pub fn after_step(&mut self, length: f64, relative_decrease: f64) {
+        if self.projection == Projection::PositiveSemidefinite {
+            return;
+        }
+        if length > 0.9 && relative_decrease < 0.01 {
+            self.omega = if self.omega < 4e-3 {
+                0.0
+            } else {
+                0.25 * self.omega
+            };
+        } else if length < 0.5 {
+            self.omega = (4.0 * self.omega).clamp(0.05, 1.0);
+        }
+    }
+
+    /// After a factorization that failed: false if the matrix was already the most definite one.
+    pub fn after_indefinite(&mut self) -> bool {
+        let exhausted = self.omega >= 1.0;
+        self.omega = (8.0 * self.omega).clamp(0.02, 1.0);
+        !exhausted
+    }
+
+    /// After a direction along which no step helped: false if it came from the most definite matrix.
+    pub fn after_useless_direction(&mut self) -> bool {
+        let exhausted = self.omega >= 1.0;
+        self.omega = 1.0;
+        !exhausted
+    }
+}

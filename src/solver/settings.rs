@@ -1,0 +1,88 @@
+//! What the solver is told and what it tells.
+
+use serde::{Deserialize, Serialize};
+
+/// When to stop and how to regularize.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Steps at most.
+    pub max_iterations: usize,
+    /// Converged when the Newton decrement −½g·d, the decrease the quadratic model promises, is at most this share of
+    /// the energy, and the step was full.
+    pub tolerance: f64,
+    /// What to do about negative curvature.
+    pub projection: Projection,
+}
+
+impl Settings {
+    /// Tolerance 1e-4: enough for texture coordinates, and spares large meshes the tail.
+    pub fn draft() -> Self {
+        Self {
+            max_iterations: 200,
+            tolerance: 1e-4,
+            projection: Projection::Relaxed,
+        }
+    }
+
+    /// Tolerance 1e-6.
+    pub fn normal() -> Self {
+        Self {
+            tolerance: 1e-6,
+            ..Self::draft()
+        }
+    }
+
+    /// Tolerance 1e-9, for comparisons; 1000 steps.
+    pub fn exact() -> Self {
+        Self {
+            max_iterations: 1000,
+            tolerance: 1e-9,
+            ..Self::draft()
+        }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self::draft()
+    }
+}
+
+/// How negative curvature of a triangle enters the matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// Less and less of it is removed as full steps gain little.
+    #[default]
+    Relaxed,
+    /// It is always removed: best far from a minimum, slow near one.
+    PositiveSemidefinite,
+}
+
+/// How a minimization ended. The map is valid in every case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// The decrement fell below the tolerance.
+    Converged,
+    /// No step lowers the energy any further, or the start was outside the domain.
+    Stalled,
+    /// After [`Settings::max_iterations`].
+    IterationLimit,
+    /// The watcher said so.
+    Stopped,
+}
+
+/// What a minimization did.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// How it ended.
+    pub status: Status,
+    /// Steps taken.
+    pub iterations: usize,
+    /// Matrices factored, failed attempts included.
+    pub factorizations: usize,
+    /// Energy of the start.
+    pub energy_first: f64,
+    /// Energy of the result.
+    pub energy_last: f64,
+}
