@@ -20,7 +20,7 @@ pub fn best_scale(term: &dyn Term, x: &[f64]) -> f64 {
         }
         term.value(&scaled)
     };
-    let mut best = (energy(0.0), 0.0);
+    let mut best = (energy(0.0), 0.0_f64);
     for direction in [1.0, -1.0] {
         while best.1.abs() < 30.0 {
             let exponent = best.1 + direction;
