@@ -53,6 +53,16 @@ pub struct Local {
 }
 
 impl Local {
+    /// Adds one triangle's share.
+    pub fn add(&mut self, gradient: [f64; 2], hessian: [f64; 3]) {
+        for (sum, share) in self.gradient.iter_mut().zip(gradient) {
+            *sum += share;
+        }
+        for (sum, share) in self.hessian.iter_mut().zip(hessian) {
+            *sum += share;
+        }
+    }
+
     /// The Newton direction −H⁻¹g, with H shifted by 1e-9 of its trace so that it exists.
     pub fn newton_direction(&self) -> [f64; 2] {
         let [mut h00, h10, mut h11] = self.hessian;

@@ -119,12 +119,7 @@ impl<D: Density, G: Guard> Term for Triangles<D, G> {
             let pulled = Pulled::new(self.element_derivatives(element, &j), &j, 0.0);
             let gradient = element.gradients(&pulled)[k];
             let hessian = element.blocks(&pulled).0[k];
-            for i in 0..2 {
-                local.gradient[i] += gradient[i];
-            }
-            for i in 0..3 {
-                local.hessian[i] += hessian[i];
-            }
+            local.add(gradient, hessian);
         }
         local
     }

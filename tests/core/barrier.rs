@@ -1,1 +1,89 @@
 //! Barriers: derivatives, domain.
+
+use unwrapd::barrier::{BarrierKind, InverseSpline, MapEnergy, NoBarrier, epsilon, map_energy};
+use unwrapd::energy::{Arap, EnergyKind, Guard, Lscm, SymmetricDirichlet, Triangles};
+
+use crate::energy::assert_triangle_taylor;
+use crate::taylor::assert_taylor;
+
+const SPLINE: InverseSpline = InverseSpline {
+    beta: 0.7,
+    s: 1.3,
+    epsilon: 0.02,
+};
+
+#[test]
+fn taylor_inverse_spline_alone() {
+    for det in [0.06, 0.3, 0.9, 1.2] {
+        let [first, second] = SPLINE.derivatives(det, 0.8);
+        let d = 0.5 * (det - SPLINE.floor(0.8));
+        let value = |x: &[f64]| SPLINE.value(x[0], 0.8);
+        assert_taylor(value, &[first], |v| vec![second * v[0]], &[det], &[d]);
+    }
+}
+
+#[test]
+fn taylor_inverse_spline_on_every_density() {
+    assert_triangle_taylor(|t, r| Box::new(Triangles::new(t, r, Arap, SPLINE)));
+    assert_triangle_taylor(|t, r| Box::new(Triangles::new(t, r, Lscm, SPLINE)));
+    assert_triangle_taylor(|t, r| Box::new(Triangles::new(t, r, SymmetricDirichlet, SPLINE)));
+}
+
+#[test]
+fn spline_is_infinite_at_epsilon() {
+    let rest_area = 0.5;
+    let floor = SPLINE.floor(rest_area);
+    assert_eq!(floor * rest_area, SPLINE.epsilon);
+    assert_eq!(SPLINE.value(floor, rest_area), f64::INFINITY);
+    assert_eq!(SPLINE.value(-1.0, rest_area), f64::INFINITY);
+    assert!(SPLINE.value(floor * (1.0 + 1e-9), rest_area) > 1e6);
+}
+
+#[test]
+fn spline_ends_twice_differentiable_at_its_support() {
+    let end = SPLINE.s + SPLINE.floor(1.0);
+    assert_eq!(SPLINE.value(end * 1.000_001, 1.0), 0.0);
+    assert_eq!(SPLINE.derivatives(end * 1.000_001, 1.0), [0.0; 2]);
+    let inside = end * (1.0 - 1e-7);
+    assert!(SPLINE.value(inside, 1.0) >= 0.0 && SPLINE.value(inside, 1.0) < 1e-15);
+    let [first, second] = SPLINE.derivatives(inside, 1.0);
+    assert!((-1e-12..=0.0).contains(&first) && (0.0..1e-6).contains(&second));
+}
+
+#[test]
+fn spline_is_the_papers_formula() {
+    let (det, rest_area) = (0.4, 0.5);
+    let c = det * rest_area - SPLINE.epsilon;
+    let s = SPLINE.s * rest_area;
+    let g = (c / s).powi(3) - 3.0 * (c / s).powi(2) + 3.0 * (c / s);
+    let expected = SPLINE.beta * (1.0 / g - 1.0);
+    assert!((SPLINE.value(det, rest_area) - expected).abs() < 1e-14);
+}
+
+#[test]
+fn domains_in_words() {
+    let rest = [unwrapd::energy::RestShape::from_edges(
+        [1.0, 0.0],
+        [0.0, 1.0],
+    )];
+    let parameters = |energy, barrier| MapEnergy {
+        energy,
+        barrier,
+        beta: 0.01,
+        s: 1.0,
+        epsilon: epsilon(0.5, 0.5),
+    };
+    let flipped = [0.0, 0.0, 0.0, 1.0, 1.0, 0.0];
+    for (energy, barrier, forbids) in [
+        (EnergyKind::Arap, BarrierKind::InverseSpline, true),
+        (EnergyKind::Lscm, BarrierKind::InverseSpline, true),
+        (EnergyKind::SymmetricDirichlet, BarrierKind::None, true),
+        (EnergyKind::Arap, BarrierKind::None, false),
+    ] {
+        let term = map_energy(&[[0, 1, 2]], &rest, &parameters(energy, barrier));
+        assert_eq!(term.forbids_flips(), forbids);
+        assert_eq!(term.value(&flipped).is_infinite(), forbids);
+        assert_eq!(term.smallest(&flipped), -1.0);
+    }
+    assert_eq!(NoBarrier.value(-1.0, 1.0), 0.0);
+}
