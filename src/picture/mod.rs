@@ -1,1 +1,19 @@
-//! Drawings of UV layouts and distortion.
+//! Drawings of UV layouts and their distortion.
+//!
+//! A picture lies as the texture does: where all UVs are inside the unit square, the picture is that square, and a
+//! pixel of it is a texel of a texture of the same size. Faces are filled by supersampling with a half-open scan
+//! conversion, so a sample on a common edge belongs to one face, and what is covered twice overlaps indeed. Edges of
+//! faces are drawn where faces are large enough to show them, the borders of charts always.
+//! Equal input gives equal bytes.
+mod canvas;
+mod colour;
+mod heat;
+mod layout;
+mod legend;
+mod panel;
+mod raster;
+mod text;
+
+pub use heat::{HeatmapMeasure, heatmap_png};
+pub use layout::layout_png;
+pub use panel::Panel;

@@ -1,0 +1,123 @@
+//! Pixels: blending, lines, copying, and the PNG they end in.
+use super::colour::{BACKGROUND, Rgb, mix};
+use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+
+/// A picture, row 0 at the top.
+pub(super) struct Canvas {
+    pub width: usize,
+    pub height: usize,
+    pub pixels: Vec<Rgb>,
+}
+
+impl Canvas {
+    pub fn new(width: usize, height: usize) -> Self {
+        Self {
+            width,
+            height,
+            pixels: vec![BACKGROUND; width * height],
+        }
+    }
+
+    /// Fills the pixels of a rectangle, cut at the borders.
+    pub fn fill(
+        &mut self,
+        columns: std::ops::Range<usize>,
+        rows: std::ops::Range<usize>,
+        colour: Rgb,
+    ) {
+        for row in rows.start..rows.end.min(self.height) {
+            for column in columns.start..columns.end.min(self.width) {
+                self.pixels[row * self.width + column] = colour;
+            }
+        }
+    }
+
+    /// Copies `other` with its upper left corner at `(column, row)`; it must fit.
+    pub fn place(&mut self, other: &Canvas, column: usize, row: usize) {
+        for (k, line) in other.pixels.chunks(other.width.max(1)).enumerate() {
+            let start = (row + k) * self.width + column;
+            self.pixels[start..start + line.len()].copy_from_slice(line);
+        }
+    }
+
+    /// Lays the lines of a mask on the picture.
+    pub fn ink(&mut self, lines: &Lines, colour: Rgb, opacity: f32) {
+        for (pixel, &coverage) in self.pixels.iter_mut().zip(&lines.coverage) {
+            if coverage > 0 {
+                *pixel = mix(*pixel, colour, f32::from(coverage) / 255.0 * opacity);
+            }
+        }
+    }
+
+    /// The PNG file.
+    pub fn png(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let written = PngEncoder::new(&mut bytes).write_image(
+            self.pixels.as_flattened(),
+            self.width as u32,
+            self.height as u32,
+            ExtendedColorType::Rgb8,
+        );
+        // Writing to memory fails for wrong dimensions only.
+        debug_assert!(written.is_ok());
+        bytes
+    }
+}
+
+/// How much of each pixel is covered by lines; where lines meet it is the greater, not the sum.
+pub(super) struct Lines {
+    width: usize,
+    height: usize,
+    coverage: Vec<u8>,
+}
+
+impl Lines {
+    pub fn new(canvas: &Canvas) -> Self {
+        Self {
+            width: canvas.width,
+            height: canvas.height,
+            coverage: vec![0; canvas.width * canvas.height],
+        }
+    }
+
+    /// Draws a segment with round ends; coordinates in pixels, pixel (0, 0) has its centre at (0.5, 0.5).
+    pub fn segment(&mut self, a: [f64; 2], b: [f64; 2], thickness: f64) {
+        let reach = 0.5 * thickness + 0.5;
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let length_squared = d[0] * d[0] + d[1] * d[1];
+        let rows = span(a[1].min(b[1]) - reach, a[1].max(b[1]) + reach, self.height);
+        for row in rows {
+            let y = row as f64 + 0.5;
+            for column in self.columns_near(a, d, y, reach) {
+                let p = [column as f64 + 0.5 - a[0], y - a[1]];
+                let t = if length_squared > 0.0 {
+                    ((p[0] * d[0] + p[1] * d[1]) / length_squared).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
+                let distance = (p[0] - t * d[0]).hypot(p[1] - t * d[1]);
+                let covered =
+                    ((reach - distance).clamp(0.0, 1.0) * thickness.min(1.0) * 255.0) as u8;
+                let pixel = &mut self.coverage[row * self.width + column];
+                *pixel = covered.max(*pixel);
+            }
+        }
+    }
+
+    /// Columns of row `y` that the part of the segment near that row can touch.
+    fn columns_near(&self, a: [f64; 2], d: [f64; 2], y: f64, reach: f64) -> std::ops::Range<usize> {
+        let at = |y: f64| (((y - a[1]) / d[1]).clamp(0.0, 1.0)) * d[0] + a[0];
+        let (from, to) = if d[1].abs() > 1e-9 {
+            (at(y - reach), at(y + reach))
+        } else {
+            (a[0], a[0] + d[0])
+        };
+        span(from.min(to) - reach, from.max(to) + reach, self.width)
+    }
+}
+
+/// Pixels that an interval touches, of `n`.
+fn span(from: f64, to: f64, n: usize) -> std::ops::Range<usize> {
+    let end = (to.ceil().max(0.0) as usize).min(n);
+    (from.floor().max(0.0) as usize).min(end)..end
+}

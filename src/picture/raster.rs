@@ -1,0 +1,155 @@
+//! Filling triangles on a grid of samples, several to a pixel.
+use super::canvas::Canvas;
+use super::colour::{BACKGROUND, INK, OVERLAP, Rgb, mix};
+
+/// Steps of a corner's coordinates to a sample.
+const STEPS: i64 = 256;
+/// Most samples along a side; bounds the memory of a picture.
+const MOST_SAMPLES: usize = 4096;
+/// Thickness of the line between two faces, in pixels.
+const EDGE_PIXELS: f64 = 0.8;
+
+/// A square of samples.
+pub(super) struct Raster {
+    side: usize,
+    per_pixel: usize,
+    colours: Vec<Rgb>,
+    /// Faces that cover each sample; stops at 2.
+    layers: Vec<u8>,
+}
+
+/// How a face is laid on what is there.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// A sample covered before shows the overlap.
+    Counted,
+    /// Over everything.
+    OnTop,
+}
+
+impl Raster {
+    /// Samples for a picture of `pixels` by `pixels`.
+    pub fn new(pixels: usize) -> Self {
+        let per_pixel = (MOST_SAMPLES / pixels.max(1)).clamp(1, 3);
+        let side = pixels * per_pixel;
+        Self {
+            side,
+            per_pixel,
+            colours: vec![BACKGROUND; side * side],
+            layers: vec![0; side * side],
+        }
+    }
+
+    /// Fills a triangle given in pixels. Its edges are drawn with the given opacity, each face drawing its half.
+    pub fn fill(&mut self, corners: [[f64; 2]; 3], colour: Rgb, edge_opacity: f32, mode: Mode) {
+        let scale = (self.per_pixel as i64 * STEPS) as f64;
+        let limit = (4 * MOST_SAMPLES as i64 * STEPS) as f64;
+        let fixed = corners.map(|p| p.map(|x| (x * scale).round().clamp(-limit, limit) as i64));
+        let mut sorted = fixed;
+        sorted.sort_unstable_by_key(|p| p[1]);
+        let [low, middle, high] = sorted;
+        let edges = Edges::new(&fixed);
+        let reach = 0.5 * EDGE_PIXELS * self.per_pixel as f64;
+        for row in rows(low[1], high[1], self.side) {
+            let y = row as i64 * STEPS + STEPS / 2;
+            let short = if y < middle[1] {
+                [low, middle]
+            } else {
+                [middle, high]
+            };
+            let (a, b) = (
+                first_sample(low, high, y),
+                first_sample(short[0], short[1], y),
+            );
+            let last = self.side as i64;
+            for column in a.min(b).clamp(0, last)..a.max(b).clamp(0, last) {
+                let shown = if edge_opacity > 0.0 {
+                    let distance = edges.distance([column * STEPS + STEPS / 2, y]);
+                    let cover = (reach - distance + 0.5).clamp(0.0, 1.0) as f32;
+                    mix(colour, INK, cover * edge_opacity)
+                } else {
+                    colour
+                };
+                self.set(row * self.side + column as usize, shown, mode);
+            }
+        }
+    }
+
+    fn set(&mut self, sample: usize, colour: Rgb, mode: Mode) {
+        let layers = &mut self.layers[sample];
+        *layers = (*layers + 1).min(2);
+        let overlaps = *layers > 1 && mode == Mode::Counted;
+        self.colours[sample] = if overlaps {
+            mix(colour, OVERLAP, 0.85)
+        } else {
+            colour
+        };
+    }
+
+    /// Averages the samples of each pixel.
+    pub fn canvas(&self) -> Canvas {
+        let pixels = self.side / self.per_pixel;
+        let mut canvas = Canvas::new(pixels, pixels);
+        let n = (self.per_pixel * self.per_pixel) as u32;
+        for (row, line) in canvas.pixels.chunks_mut(pixels.max(1)).enumerate() {
+            for (column, pixel) in line.iter_mut().enumerate() {
+                let mut sum = [0_u32; 3];
+                for y in 0..self.per_pixel {
+                    let start = (row * self.per_pixel + y) * self.side + column * self.per_pixel;
+                    for colour in &self.colours[start..start + self.per_pixel] {
+                        for (sum, &channel) in sum.iter_mut().zip(colour) {
+                            *sum += u32::from(channel);
+                        }
+                    }
+                }
+                *pixel = sum.map(|s| ((s + n / 2) / n) as u8);
+            }
+        }
+        canvas
+    }
+}
+
+/// Rows of samples at or above `low` and below `high`.
+fn rows(low: i64, high: i64, side: usize) -> std::ops::Range<usize> {
+    let first = |y: i64| (y + STEPS / 2 - 1).div_euclid(STEPS).clamp(0, side as i64) as usize;
+    first(low)..first(high)
+}
+
+/// First sample of row `y` at or right of the edge, whose ends are in ascending order of y: exact, and the same for
+/// both faces of an edge.
+fn first_sample(a: [i64; 2], b: [i64; 2], y: i64) -> i64 {
+    let height = (b[1] - a[1]).max(1);
+    let x_times_height = a[0] * height + (b[0] - a[0]) * (y - a[1]);
+    let centre = STEPS / 2 * height;
+    let step = STEPS * height;
+    // The smallest c with c·STEPS + STEPS/2 ≥ x.
+    (x_times_height - centre + step - 1).div_euclid(step)
+}
+
+/// Distances to the three lines of a triangle's edges.
+struct Edges {
+    /// Per edge a point on it and its unit normal.
+    lines: [([f64; 2], [f64; 2]); 3],
+}
+
+impl Edges {
+    fn new(corners: &[[i64; 2]; 3]) -> Self {
+        let lines = [0, 1, 2].map(|k| {
+            let a = corners[k].map(|x| x as f64);
+            let b = corners[(k + 1) % 3].map(|x| x as f64);
+            let d = [b[0] - a[0], b[1] - a[1]];
+            let length = d[0].hypot(d[1]).max(1.0);
+            (a, [-d[1] / length, d[0] / length])
+        });
+        Self { lines }
+    }
+
+    /// Distance of a point inside to the nearest edge, in samples.
+    fn distance(&self, point: [i64; 2]) -> f64 {
+        let p = point.map(|x| x as f64);
+        let distances = self
+            .lines
+            .map(|(a, n)| ((p[0] - a[0]) * n[0] + (p[1] - a[1]) * n[1]).abs());
+        distances[0].min(distances[1]).min(distances[2]) / STEPS as f64
+    }
+}
