@@ -36,6 +36,9 @@ pub enum DocumentError {
     /// The output format cannot hold this document.
     #[error("cannot write {0}")]
     UnsupportedOutput(String),
+    /// A texture samples the set that was asked for.
+    #[error("textures sample UV set {0}; choose another, or overwrite it")]
+    TexcoordInUse(u32),
     /// The UVs to write do not fit the document.
     #[error("the UVs do not fit the primitives of the document")]
     InvalidUvs,
@@ -56,6 +59,7 @@ impl DocumentError {
             Self::NonFinitePosition(_) => "non_finite_position",
             Self::LimitExceeded(_) => "limit_exceeded",
             Self::UnsupportedOutput(_) => "unsupported_output",
+            Self::TexcoordInUse(_) => "texcoord_in_use",
             Self::InvalidUvs => "invalid_uvs",
         }
     }

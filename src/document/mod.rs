@@ -16,6 +16,7 @@ pub mod soup;
 mod upload;
 mod uvs;
 
+use crate::measure::VAxis;
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
@@ -63,6 +64,14 @@ impl Document {
             Self::Obj(_) | Self::Soup(_) => GroupBy::Scene,
         };
         group::groups(self.primitives(), by)
+    }
+
+    /// Where v points in the numbers of the file.
+    pub fn v_axis(&self) -> VAxis {
+        match self {
+            Self::Gltf(_) => VAxis::Down,
+            Self::Obj(_) | Self::Soup(_) => VAxis::Up,
+        }
     }
 
     /// The UVs of set `set` per face corner in the numbers of the file; `None` where the primitive has no such set.

@@ -57,8 +57,8 @@ pub enum TangentsNote {
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct AffectedTexture {
-    /// Index of the material.
-    pub material: usize,
+    /// Index of the material; none for a texture that the primitive itself names.
+    pub material: Option<usize>,
     /// Where in the material the texture is named, such as `pbrMetallicRoughness/baseColorTexture`.
     pub slot: String,
     /// Index of the texture.

@@ -1,38 +1,142 @@
-//! glTF 2.0.
-use crate::document::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
+//! glTF 2.0, `.glb` and `.gltf`.
+//!
+//! The document of record is the JSON value itself, its order and numbers kept: what is not touched cannot be lost.
+//! Reading brings it into one shape: all buffers joined into one array of bytes, Draco and meshopt data decoded into
+//! plain accessors. Accessors are read by a reader that checks each against the bytes that are really there. Writing
+//! appends: new views and accessors behind the old ones, and the primitives point to them; accessors that something
+//! else may share are never changed.
+mod accessor;
+mod body;
+mod bounds;
+mod buffers;
+mod component;
+mod draco;
+mod extensions;
+mod glb;
+mod images;
+mod json;
+mod meshopt;
+mod primitives;
+mod rewrite;
+mod split;
+mod tangents;
+mod texcoord_set;
+mod textures;
+mod uri;
+mod write;
 
-/// A file as it was read.
+use super::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
+use accessor::Accessor;
+use body::Body;
+use json::{invalid, item, items, unsigned};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// A glTF document, decompressed.
 pub struct GltfDocument {
+    body: Body,
+    /// GLB chunks that are neither JSON nor the binary buffer.
+    chunks: Vec<(u32, Vec<u8>)>,
+    /// Files that images may refer to.
+    resources: BTreeMap<String, Vec<u8>>,
+    /// Compression extensions that reading undid.
+    decompressed: Vec<String>,
     primitives: Vec<Primitive>,
 }
 
-/// Whether the content, or else the name, says so.
+/// Whether the content, or else the name, says that this is glTF.
 pub(in crate::document) fn is_gltf(upload: &Upload) -> bool {
-    upload.extension() == "glb"
+    glb::is_glb(&upload.bytes)
+        || matches!(upload.extension().as_str(), "glb" | "gltf")
+        || without_mark(&upload.bytes)
+            .trim_ascii_start()
+            .starts_with(b"{")
+}
+
+/// Text without the byte order mark that some editors put before it.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
 }
 
 impl GltfDocument {
-    /// Reads the main file.
-    pub fn read(_upload: &Upload) -> Result<Self, DocumentError> {
-        Err(DocumentError::UnknownFormat)
+    /// Reads a `.glb` or `.gltf` file; the content tells which.
+    pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
+        let container = if glb::is_glb(&upload.bytes) {
+            glb::split(&upload.bytes)?
+        } else {
+            glb::Container {
+                json: &upload.bytes,
+                bin: None,
+                others: Vec::new(),
+            }
+        };
+        let json: Value = serde_json::from_slice(without_mark(container.json))
+            .map_err(|error| invalid(format!("not JSON: {error}")))?;
+        if !json.is_object() {
+            return Err(invalid("the JSON is not an object"));
+        }
+        extensions::check(&json)?;
+        let mut body = buffers::join(json, container.bin, upload)?;
+        draco::decompress(&mut body)?;
+        let compression = [draco::NAME, meshopt::NAMES[0], meshopt::NAMES[1]];
+        let decompressed = extensions::prune(&mut body.json, &compression)?;
+        let primitives = primitives::collect(&body)?;
+        if primitives
+            .iter()
+            .all(|primitive| primitive.triangles.is_empty())
+        {
+            return Err(DocumentError::NoTriangles);
+        }
+        let others = container.others.into_iter();
+        Ok(Self {
+            body,
+            chunks: others.map(|(kind, bytes)| (kind, bytes.to_vec())).collect(),
+            resources: upload.resources.clone(),
+            decompressed,
+            primitives,
+        })
     }
 
-    /// The triangles.
+    /// The triangle primitives in file order.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
     }
 
-    /// The UVs of set `set`.
+    /// The UVs of `TEXCOORD_set` per face corner as stored, v down; `None` where the primitive has no such attribute.
     pub fn corner_uvs(
         &self,
-        _primitive: usize,
-        _set: u32,
+        primitive: usize,
+        set: u32,
     ) -> Result<Option<Vec<CornerUvs>>, DocumentError> {
-        Ok(None)
+        let Some(primitive) = self.primitives.get(primitive) else {
+            return Ok(None);
+        };
+        let attributes = &self.object(primitive)?["attributes"];
+        let Some(index) = unsigned(attributes, &format!("TEXCOORD_{set}"))? else {
+            return Ok(None);
+        };
+        let accessor = Accessor::open(&self.body, index)?;
+        if !accessor.is("VEC2") {
+            return Err(invalid(format!("TEXCOORD_{set} is not of type VEC2")));
+        }
+        let values = accessor.values()?;
+        let uv = |vertex: u32| [values[2 * vertex as usize], values[2 * vertex as usize + 1]];
+        let faces = primitive.triangles.iter();
+        Ok(Some(faces.map(|face| face.map(uv)).collect()))
     }
 
-    /// The document with `uvs`.
-    pub fn write(&self, _uvs: &NewUvs, _options: &WriteOptions) -> Result<Written, DocumentError> {
-        Err(DocumentError::UnknownFormat)
+    /// The JSON of a primitive.
+    fn object(&self, primitive: &Primitive) -> Result<&Value, DocumentError> {
+        items(
+            item(&self.body.json, "meshes", primitive.mesh)?,
+            "primitives",
+        )?
+        .get(primitive.primitive)
+        .ok_or_else(|| invalid("a primitive is gone"))
+    }
+
+    /// The document with `uvs` as a `TEXCOORD_n`.
+    pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
+        write::write(self, uvs, options)
     }
 }

@@ -1,0 +1,100 @@
+//! What the document demands of its reader.
+use super::json::{extension, invalid, items, object_mut};
+use super::{draco, meshopt};
+use crate::document::DocumentError;
+use serde_json::Value;
+
+/// Extensions of meshes, primitives, accessors and buffers that are understood, or that say nothing about the shape.
+const KNOWN: [&str; 10] = [
+    "KHR_mesh_quantization",
+    draco::NAME,
+    meshopt::NAMES[0],
+    meshopt::NAMES[1],
+    "KHR_materials_variants",
+    "EXT_mesh_features",
+    "EXT_mesh_manifold",
+    "EXT_structural_metadata",
+    "CESIUM_primitive_outline",
+    "KHR_xmp_json_ld",
+];
+
+/// Refuses versions other than 2.x, and required extensions that are unknown and attached where they can change what
+/// the geometry is: to buffers, buffer views, accessors, meshes or primitives. Others, on nodes, materials, lights and
+/// the like, are kept as they are.
+pub(super) fn check(json: &Value) -> Result<(), DocumentError> {
+    let number = |key| json.get("asset")?.get(key)?.as_str();
+    let version = number("version").ok_or_else(|| invalid("`asset.version` is missing"))?;
+    let demanded = number("minVersion").unwrap_or("2.0");
+    if !version.starts_with("2.") || demanded != "2.0" {
+        let newest = if demanded == "2.0" { version } else { demanded };
+        let newest = newest.chars().filter(|c| !c.is_control()).take(20);
+        return Err(DocumentError::UnsupportedVersion(newest.collect()));
+    }
+    for name in items(json, "extensionsRequired")? {
+        let name = name
+            .as_str()
+            .ok_or_else(|| invalid("`extensionsRequired` holds something that is no name"))?;
+        if !KNOWN.contains(&name) && shapes_geometry(json, name)? {
+            return Err(DocumentError::UnsupportedExtension(name.to_owned()));
+        }
+    }
+    Ok(())
+}
+
+fn shapes_geometry(json: &Value, name: &str) -> Result<bool, DocumentError> {
+    for collection in ["buffers", "bufferViews", "accessors", "meshes"] {
+        let objects = items(json, collection)?;
+        if objects
+            .iter()
+            .any(|object| extension(object, name).is_some())
+        {
+            return Ok(true);
+        }
+    }
+    for mesh in items(json, "meshes")? {
+        let primitives = items(mesh, "primitives")?;
+        if primitives
+            .iter()
+            .any(|object| extension(object, name).is_some())
+        {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Takes each of `names` that no object of the document carries any more off the lists of extensions, and returns those
+/// that were on one.
+pub(super) fn prune(json: &mut Value, names: &[&str]) -> Result<Vec<String>, DocumentError> {
+    let mut dropped = Vec::new();
+    for name in names {
+        if carries(json, name) {
+            continue;
+        }
+        for list in ["extensionsUsed", "extensionsRequired"] {
+            let Some(Value::Array(listed)) = json.get_mut(list) else {
+                continue;
+            };
+            let before = listed.len();
+            listed.retain(|listed| listed != name);
+            if listed.len() < before && !dropped.iter().any(|dropped| dropped == name) {
+                dropped.push((*name).to_owned());
+            }
+            if listed.is_empty() {
+                object_mut(json)?.shift_remove(list);
+            }
+        }
+    }
+    Ok(dropped)
+}
+
+/// Whether any object has the extension. The depth of the document is bounded by its parser.
+fn carries(value: &Value, name: &str) -> bool {
+    match value {
+        Value::Array(items) => items.iter().any(|item| carries(item, name)),
+        Value::Object(members) => {
+            extension(value, name).is_some() || members.values().any(|member| carries(member, name))
+        }
+        _ => false,
+    }
+}

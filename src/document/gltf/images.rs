@@ -1,0 +1,97 @@
+//! Images that lie beside the document.
+use super::body::{Body, Target};
+use super::json::{item_mut, items, remove};
+use super::uri;
+use crate::document::DocumentError;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Takes every image that was supplied into the binary buffer, so that one file holds all. Returns the URIs of those
+/// that stay outside.
+pub(super) fn embed(
+    body: &mut Body,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<Vec<String>, DocumentError> {
+    let mut outside = Vec::new();
+    let mut views: BTreeMap<&str, usize> = BTreeMap::new();
+    for index in 0..items(&body.json, "images")?.len() {
+        let Some(uri) = external_uri(&items(&body.json, "images")?[index]) else {
+            continue;
+        };
+        let found = uri::member(&uri, resources)
+            .and_then(|(name, bytes)| Some((name, bytes, mime_type(name, bytes)?)));
+        let Some((name, bytes, mime_type)) = found else {
+            outside.push(uri);
+            continue;
+        };
+        let view = match views.get(name) {
+            Some(view) => *view,
+            None => body.push_view(bytes, None, Target::Other)?,
+        };
+        views.insert(name, view);
+        let image = item_mut(&mut body.json, "images", index)?;
+        remove(image, "uri");
+        image["bufferView"] = json!(view);
+        image["mimeType"] = json!(mime_type);
+    }
+    Ok(outside)
+}
+
+/// The supplied images by their names, to be written beside the document, and the URIs of those that were not supplied.
+pub(super) fn beside(
+    json: &Value,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<(Vec<(String, Vec<u8>)>, Vec<String>), DocumentError> {
+    let (mut files, mut outside) = (Vec::new(), Vec::new());
+    let mut names = BTreeSet::new();
+    for uri in items(json, "images")?.iter().filter_map(external_uri) {
+        match uri::member(&uri, resources) {
+            Some((name, bytes)) if names.insert(name) => {
+                files.push((name.to_owned(), bytes.to_vec()))
+            }
+            Some(_) => {}
+            None => outside.push(uri),
+        }
+    }
+    Ok((files, outside))
+}
+
+fn external_uri(image: &Value) -> Option<String> {
+    let uri = image.get("uri")?.as_str()?;
+    (!uri::is_data(uri)).then(|| uri.to_owned())
+}
+
+/// The media type by content, else by name; `None` where it is not known, and an embedded image must have one.
+fn mime_type(name: &str, bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => return Some("image/png"),
+        [0xFF, 0xD8, 0xFF, ..] => return Some("image/jpeg"),
+        [
+            b'R',
+            b'I',
+            b'F',
+            b'F',
+            _,
+            _,
+            _,
+            _,
+            b'W',
+            b'E',
+            b'B',
+            b'P',
+            ..,
+        ] => return Some("image/webp"),
+        [0xAB, b'K', b'T', b'X', b' ', b'2', b'0', ..] => return Some("image/ktx2"),
+        _ => {}
+    }
+    let extension = name.rsplit_once('.')?.1.to_ascii_lowercase();
+    Some(match extension.as_str() {
+        "png" => "image/png",
+        "jpg" | "jpeg" => "image/jpeg",
+        "webp" => "image/webp",
+        "ktx2" => "image/ktx2",
+        "avif" => "image/avif",
+        "dds" => "image/vnd-ms.dds",
+        _ => return None,
+    })
+}

@@ -1,0 +1,191 @@
+//! The triangles of a document.
+use super::accessor::Accessor;
+use super::body::Body;
+use super::component::Component;
+use super::json::{invalid, items, unsigned};
+use crate::document::{DocumentError, Primitive};
+use serde_json::Value;
+
+/// Largest number of vertices, and of faces, over all primitives. Primitives may share accessors, so that the size of
+/// a file does not bound their sum.
+const MAX_ELEMENTS: usize = 1 << 26;
+
+/// Largest count of positions or indices that no bytes stand behind.
+const MAX_UNBACKED: usize = 1 << 20;
+
+/// How vertices make faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mode {
+    Triangles,
+    Strip,
+    Fan,
+}
+
+/// The mode of a primitive; `None` for points and lines.
+pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
+    Ok(match unsigned(primitive, "mode")?.unwrap_or(4) {
+        4 => Some(Mode::Triangles),
+        5 => Some(Mode::Strip),
+        6 => Some(Mode::Fan),
+        0..=3 => None,
+        _ => return Err(invalid("unknown primitive `mode`")),
+    })
+}
+
+/// Every primitive that has triangles and positions, in file order.
+pub(super) fn collect(body: &Body) -> Result<Vec<Primitive>, DocumentError> {
+    let mut primitives = Vec::new();
+    let (mut n_vertices, mut n_faces) = (0, 0);
+    for (mesh, object) in items(&body.json, "meshes")?.iter().enumerate() {
+        for (index, object) in items(object, "primitives")?.iter().enumerate() {
+            let read = read(body, object).map_err(|error| located(error, mesh, index))?;
+            let Some((positions, triangles)) = read else {
+                continue;
+            };
+            n_vertices += positions.len();
+            n_faces += triangles.len();
+            if n_vertices.max(n_faces) > MAX_ELEMENTS {
+                return Err(DocumentError::LimitExceeded(
+                    "the file has too many vertices or faces".to_owned(),
+                ));
+            }
+            primitives.push(Primitive {
+                mesh,
+                primitive: index,
+                material: unsigned(object, "material")?,
+                positions,
+                triangles,
+            });
+        }
+    }
+    Ok(primitives)
+}
+
+/// Says in which primitive an error is.
+pub(super) fn located(error: DocumentError, mesh: usize, primitive: usize) -> DocumentError {
+    let at = |message: String| format!("mesh {mesh}, primitive {primitive}: {message}");
+    match error {
+        DocumentError::InvalidGltf(message) => DocumentError::InvalidGltf(at(message)),
+        DocumentError::IndexOutOfRange(message) => DocumentError::IndexOutOfRange(at(message)),
+        DocumentError::NonFinitePosition(message) => DocumentError::NonFinitePosition(at(message)),
+        error => error,
+    }
+}
+
+type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
+
+fn read(body: &Body, primitive: &Value) -> Result<Option<Triangles>, DocumentError> {
+    let Some(mode) = mode(primitive)? else {
+        return Ok(None);
+    };
+    let attributes = primitive
+        .get("attributes")
+        .filter(|attributes| attributes.is_object())
+        .ok_or_else(|| invalid("it has no `attributes`"))?;
+    let Some(position) = unsigned(attributes, "POSITION")? else {
+        return Ok(None);
+    };
+    let accessor = Accessor::open(body, position)?;
+    if !accessor.is("VEC3") {
+        return Err(invalid("POSITION is not of type VEC3"));
+    }
+    check_backed(&accessor)?;
+    check_attributes(body, primitive, attributes, accessor.count)?;
+    let positions: Vec<[f32; 3]> = accessor.vectors()?;
+    if let Some(vertex) = positions
+        .iter()
+        .position(|p| !p.iter().all(|x| x.is_finite()))
+    {
+        return Err(DocumentError::NonFinitePosition(format!("vertex {vertex}")));
+    }
+    let indices = indices(body, primitive, positions.len())?;
+    Ok(Some((positions, faces(&indices, mode))))
+}
+
+fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
+    if accessor.is_backed() || accessor.count <= MAX_UNBACKED {
+        return Ok(());
+    }
+    Err(DocumentError::LimitExceeded(format!(
+        "an accessor without data has {} elements",
+        accessor.count
+    )))
+}
+
+/// Whether all attributes and morph targets have an element for each vertex, so that vertices can be split.
+fn check_attributes(
+    body: &Body,
+    primitive: &Value,
+    attributes: &Value,
+    n_vertices: usize,
+) -> Result<(), DocumentError> {
+    for set in std::iter::once(attributes).chain(items(primitive, "targets")?) {
+        let Some(set) = set.as_object() else {
+            return Err(invalid("a morph target is not an object"));
+        };
+        for (name, index) in set {
+            let index = super::json::as_unsigned(index)
+                .ok_or_else(|| invalid(format!("attribute {name} is not an accessor index")))?;
+            if Accessor::open(body, index)?.count != n_vertices {
+                return Err(invalid(format!(
+                    "attribute {name} has not as many elements as POSITION"
+                )));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The vertex indices of a primitive, all in range; without indices the vertices follow one another.
+pub(super) fn indices(
+    body: &Body,
+    primitive: &Value,
+    n_vertices: usize,
+) -> Result<Vec<u32>, DocumentError> {
+    let Some(index) = unsigned(primitive, "indices")? else {
+        return Ok((0..n_vertices as u32).collect());
+    };
+    let accessor = Accessor::open(body, index)?;
+    let is_unsigned = matches!(
+        accessor.component,
+        Component::U8 | Component::U16 | Component::U32
+    );
+    if !accessor.is("SCALAR") || !is_unsigned {
+        return Err(invalid("the indices are not unsigned integers"));
+    }
+    check_backed(&accessor)?;
+    let packed = accessor.packed()?;
+    let indices: Vec<u32> = packed
+        .chunks_exact(accessor.component.size())
+        .map(|bytes| accessor.component.read(bytes) as u32)
+        .collect();
+    match indices.iter().find(|index| **index as usize >= n_vertices) {
+        Some(index) => Err(DocumentError::IndexOutOfRange(format!(
+            "vertex {index} of {n_vertices}"
+        ))),
+        None => Ok(indices),
+    }
+}
+
+/// Faces as the specification orders their corners; incomplete ones are left out.
+fn faces(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
+    let windows = indices.windows(3).enumerate();
+    match mode {
+        Mode::Triangles => indices
+            .chunks_exact(3)
+            .map(|face| [face[0], face[1], face[2]])
+            .collect(),
+        Mode::Strip => windows
+            .map(|(i, w)| {
+                if i % 2 == 0 {
+                    [w[0], w[1], w[2]]
+                } else {
+                    [w[0], w[2], w[1]]
+                }
+            })
+            .collect(),
+        Mode::Fan => windows
+            .map(|(i, _)| [indices[i + 1], indices[i + 2], indices[0]])
+            .collect(),
+    }
+}

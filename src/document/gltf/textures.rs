@@ -1,0 +1,161 @@
+//! Which textures sample which UV set.
+use super::json::{as_unsigned, item, items, remove, remove_extension, unsigned};
+use crate::document::{AffectedTexture, DocumentError, Primitive};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+
+const TRANSFORM: &str = "KHR_texture_transform";
+
+/// A place where a texture is named together with the UV set it is sampled by.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct TextureUse {
+    /// The material; `None` for textures of the primitive itself.
+    pub material: Option<usize>,
+    /// JSON pointer of the texture info.
+    pub pointer: String,
+    /// Path within the material or the primitive.
+    pub slot: String,
+    pub texture: usize,
+    /// n of the `TEXCOORD_n` in effect.
+    pub set: u32,
+    /// Whether tangents are relative to it.
+    pub is_normal_map: bool,
+}
+
+/// The texture uses of every primitive; materials are searched once.
+#[derive(Default)]
+pub(super) struct TextureUses {
+    materials: HashMap<usize, Vec<TextureUse>>,
+}
+
+impl TextureUses {
+    /// What the materials of a primitive, variants included, and its own extensions sample.
+    pub fn of(
+        &mut self,
+        json: &Value,
+        primitive: &Primitive,
+        object: &Value,
+    ) -> Result<Vec<TextureUse>, DocumentError> {
+        let mut uses = Vec::new();
+        for material in materials(primitive, object)? {
+            let found = match self.materials.get(&material) {
+                Some(found) => found,
+                None => {
+                    let mut found = Vec::new();
+                    if let Ok(object) = item(json, "materials", material) {
+                        let place = Place {
+                            material: Some(material),
+                            pointer: format!("/materials/{material}"),
+                        };
+                        place.search(object, "", &mut found);
+                    }
+                    self.materials.entry(material).or_insert(found)
+                }
+            };
+            uses.extend_from_slice(found);
+        }
+        if let Some(extensions) = object.get("extensions") {
+            let (mesh, primitive) = (primitive.mesh, primitive.primitive);
+            let place = Place {
+                material: None,
+                pointer: format!("/meshes/{mesh}/primitives/{primitive}/extensions"),
+            };
+            place.search(extensions, "", &mut uses);
+        }
+        Ok(uses)
+    }
+}
+
+/// The material of a primitive and those of its variants.
+fn materials(primitive: &Primitive, object: &Value) -> Result<Vec<usize>, DocumentError> {
+    let mut materials: Vec<usize> = primitive.material.into_iter().collect();
+    if let Some(variants) = super::json::extension(object, "KHR_materials_variants") {
+        for mapping in items(variants, "mappings")? {
+            materials.extend(unsigned(mapping, "material")?);
+        }
+    }
+    materials.sort_unstable();
+    materials.dedup();
+    Ok(materials)
+}
+
+/// Where texture infos are searched.
+struct Place {
+    material: Option<usize>,
+    pointer: String,
+}
+
+impl Place {
+    /// Collects every texture info below `value`: an object with an `index`, under a name that ends in `texture`.
+    fn search(&self, value: &Value, slot: &str, uses: &mut Vec<TextureUse>) {
+        let children: Vec<(String, &Value)> = match value {
+            Value::Object(members) => members.iter().map(|(k, v)| (k.clone(), v)).collect(),
+            Value::Array(items) => items
+                .iter()
+                .enumerate()
+                .map(|(k, v)| (k.to_string(), v))
+                .collect(),
+            _ => return,
+        };
+        for (key, child) in children {
+            if key == "extras" {
+                continue;
+            }
+            let slot = if slot.is_empty() {
+                key.clone()
+            } else {
+                format!("{slot}/{key}")
+            };
+            let key = key.to_ascii_lowercase();
+            let texture = child.get("index").and_then(as_unsigned);
+            if let Some(texture) = texture.filter(|_| key.ends_with("texture")) {
+                uses.push(TextureUse {
+                    material: self.material,
+                    pointer: format!("{}/{slot}", self.pointer),
+                    texture,
+                    set: set_in_effect(child),
+                    is_normal_map: key.ends_with("normaltexture"),
+                    slot,
+                });
+            } else {
+                self.search(child, &slot, uses);
+            }
+        }
+    }
+}
+
+/// The set that a texture info samples: its transform's, else its own, else 0.
+fn set_in_effect(info: &Value) -> u32 {
+    let set = |object: Option<&Value>| as_unsigned(object?.get("texCoord")?);
+    set(super::json::extension(info, TRANSFORM))
+        .or_else(|| set(Some(info)))
+        .and_then(|set| u32::try_from(set).ok())
+        .unwrap_or(0)
+}
+
+/// Takes the texture transform off a texture info and keeps the set it samples. Whether there was one.
+pub(super) fn remove_transform(json: &mut Value, texture: &TextureUse) -> bool {
+    let Some(info) = json.pointer_mut(&texture.pointer) else {
+        return false;
+    };
+    if remove_extension(info, TRANSFORM).is_none() {
+        return false;
+    }
+    if texture.set == 0 {
+        remove(info, "texCoord");
+    } else {
+        info["texCoord"] = json!(texture.set);
+    }
+    true
+}
+
+/// What the reader of the report has to re-bake.
+pub(super) fn affected(json: &Value, texture: &TextureUse) -> AffectedTexture {
+    let source = item(json, "textures", texture.texture).ok();
+    AffectedTexture {
+        material: texture.material,
+        slot: texture.slot.clone(),
+        texture: texture.texture,
+        image: source.and_then(|object| unsigned(object, "source").ok().flatten()),
+    }
+}

@@ -1,0 +1,146 @@
+//! The document with a new UV set, as files.
+use super::body::Body;
+use super::json::{item_mut, remove_extension};
+use super::rewrite::{PrimitiveUvs, rewrite};
+use super::texcoord_set::{self, Choice};
+use super::{GltfDocument, extensions, glb, images, primitives, textures, uri};
+use crate::document::{DocumentError, NewUvs, OutputFormat, WriteNotes, WriteOptions, Written};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+
+/// An extension of meshes that names the indices of the primitives, which a split makes wrong.
+const MANIFOLD: &str = "EXT_mesh_manifold";
+
+/// Writes `document` with `uvs`.
+pub(super) fn write(
+    document: &GltfDocument,
+    uvs: &NewUvs,
+    options: &WriteOptions,
+) -> Result<Written, DocumentError> {
+    let choices = texcoord_set::choose(document, uvs, options)?;
+    let mut body = document.body.clone();
+    let mut notes = WriteNotes {
+        extensions_dropped: document.decompressed.clone(),
+        ..WriteNotes::default()
+    };
+    for (index, choice) in choices.iter().enumerate() {
+        let (Some(choice), Some(corners)) = (choice, uvs.corners[index]) else {
+            continue;
+        };
+        let primitive = &document.primitives[index];
+        let uvs = PrimitiveUvs {
+            grid_bits: uvs.grid_bits,
+            corners,
+        };
+        let note = rewrite(document, &mut body, primitive, uvs, choice)
+            .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
+        notes.primitives.push(note);
+        if !choice.missing.is_empty() {
+            notes.remarks.push(format!(
+                "mesh {}, primitive {}: lower UV sets were missing and hold the same UVs",
+                primitive.mesh, primitive.primitive
+            ));
+        }
+    }
+    release_textures(&mut body.json, &choices, &mut notes);
+    drop_manifold(&mut body.json, &mut notes)?;
+    let gone = ["KHR_texture_transform", MANIFOLD];
+    let gone: Vec<&str> = gone
+        .into_iter()
+        .filter(|name| is_dropped(name, &notes))
+        .collect();
+    notes
+        .extensions_dropped
+        .extend(extensions::prune(&mut body.json, &gone)?);
+    let files = files(document, body, options, &mut notes)?;
+    Ok(Written { files, notes })
+}
+
+fn is_dropped(name: &str, notes: &WriteNotes) -> bool {
+    match name {
+        MANIFOLD => notes
+            .primitives
+            .iter()
+            .any(|note| note.vertices_after > note.vertices_before),
+        _ => !notes.transforms_removed.is_empty(),
+    }
+}
+
+/// Lists the textures that sampled a replaced set and takes off the transforms that were made for it.
+fn release_textures(json: &mut Value, choices: &[Option<Choice>], notes: &mut WriteNotes) {
+    let mut affected = BTreeSet::new();
+    for texture in choices.iter().flatten().flat_map(|choice| &choice.replaced) {
+        affected.insert(textures::affected(json, texture));
+        if textures::remove_transform(json, texture) {
+            notes.transforms_removed.push(texture.pointer.clone());
+        }
+    }
+    notes.textures_affected = affected.into_iter().collect();
+}
+
+/// Takes the manifold indices off meshes whose vertices were split.
+fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), DocumentError> {
+    let split = notes
+        .primitives
+        .iter()
+        .filter(|note| note.vertices_after > note.vertices_before);
+    let meshes: BTreeSet<usize> = split.map(|note| note.mesh).collect();
+    for mesh in meshes {
+        if remove_extension(item_mut(json, "meshes", mesh)?, MANIFOLD).is_some() {
+            notes.remarks.push(format!(
+                "mesh {mesh}: {MANIFOLD} described the indices before vertices were split"
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn files(
+    document: &GltfDocument,
+    mut body: Body,
+    options: &WriteOptions,
+    notes: &mut WriteNotes,
+) -> Result<Vec<(String, Vec<u8>)>, DocumentError> {
+    let stem = &options.stem;
+    let (files, outside) = match options.format {
+        OutputFormat::Glb => {
+            let outside = images::embed(&mut body, &document.resources)?;
+            body.seal()?;
+            let glb = glb::join(&to_json(&body.json, false), &body.bin, &document.chunks)?;
+            (vec![(format!("{stem}.glb"), glb)], outside)
+        }
+        OutputFormat::Gltf => {
+            body.seal()?;
+            let name = format!("{stem}.bin");
+            if !body.bin.is_empty() {
+                item_mut(&mut body.json, "buffers", 0)?["uri"] = json!(uri::encoded(&name));
+            }
+            let (images, outside) = images::beside(&body.json, &document.resources)?;
+            let mut files = vec![(format!("{stem}.gltf"), to_json(&body.json, true))];
+            if !body.bin.is_empty() {
+                files.push((name, body.bin));
+            }
+            files.extend(images);
+            (files, outside)
+        }
+        OutputFormat::Obj => {
+            return Err(DocumentError::UnsupportedOutput("glTF as OBJ".to_owned()));
+        }
+    };
+    for uri in outside {
+        let uri: String = uri.chars().filter(|c| !c.is_control()).take(120).collect();
+        notes.remarks.push(format!(
+            "the image `{uri}` was not supplied and stays a reference"
+        ));
+    }
+    Ok(files)
+}
+
+fn to_json(json: &Value, pretty: bool) -> Vec<u8> {
+    let text = if pretty {
+        format!("{json:#}\n")
+    } else {
+        json.to_string()
+    };
+    text.into_bytes()
+}
