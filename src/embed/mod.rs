@@ -1,1 +1,23 @@
 //! A valid start for every disk, and the way from it to the optimum.
+//!
+//! A map of a disk is locally injective when no triangle is flipped or empty. [`parameterize`] finds such a start
+//! ([`start`]), scales it to its best size and minimizes an energy with a barrier from there; the solver never leaves
+//! the maps without flips, so the result is one too. Sizes mean the same everywhere because every chart is brought to a
+//! mean triangle area of 1 first ([`rest_shapes`]), and faces without an area get a rest shape that can be mapped.
+//!
+//! The start is Tutte's: holes closed by virtual faces, the boundary on a circle. The theorem holds in exact arithmetic,
+//! so every triangle is checked with an exact predicate.
+//!
+//! Invariant: every map that leaves this module is positive in every triangle by
+//! [`orient2d_sign`](crate::numerics::predicates::orient2d_sign), unless the caller asked for no barrier. Maps may
+//! still overlap themselves globally; that is not looked at here.
+
+mod closed;
+mod parameterize;
+mod rest;
+mod start;
+mod tutte;
+
+pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
+pub use rest::{RestShapes, rest_shapes};
+pub use start::start;

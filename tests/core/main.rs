@@ -2,6 +2,7 @@
 mod atlas;
 mod barrier;
 mod disk;
+mod embed;
 mod energy;
 #[cfg(feature = "files")]
 mod io;

@@ -1,0 +1,126 @@
+//! What each triangle should look like in the plane.
+
+use crate::energy::RestShape;
+use crate::numerics::vec2;
+use crate::numerics::vec3::{area_vector, cross, distance, dot, norm, sub};
+
+/// A triangle whose altitude is a smaller part of its longest edge is given this altitude: below it, a map that keeps
+/// the shape would have to hold coordinates to ten digits to stay unflipped.
+const SMALLEST_ASPECT: f64 = 1e-4;
+
+/// Shapes below this part of the chart's size are enlarged to it. An atlas stores coordinates to 2⁻²³ of its width, so
+/// smaller triangles could not be told from points there, and nobody can see them.
+const SMALLEST_SIZE: f64 = 1.0 / (1_u64 << 20) as f64;
+
+/// What a substitute shape weighs beyond the triangle's true area, as part of the substitute's area: enough to keep the
+/// substitute in shape, too little to pull on its neighbors.
+const SUBSTITUTE_WEIGHT: f64 = 1e-3;
+
+/// The rest shape of every triangle of a chart: what the map would keep if it could.
+///
+/// Each triangle is flattened isometrically. One of zero or nearly zero area (it still needs a positive area in the
+/// plane) gets a substitute of bounded aspect: its longest edge and the foot on it kept, its altitude raised. Its weight
+/// is its true area and a small part of the substitute's.
+/// All lengths are divided by `scale`, so that the mean area is 1: barrier strength and tolerances then mean the same
+/// for a ring and a city.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestShapes {
+    /// The shapes, one per triangle.
+    pub shapes: Vec<RestShape>,
+    /// Length in the mesh's unit of a length 1 here.
+    pub scale: f64,
+    /// Sum of the areas of the shapes, in the mesh's unit.
+    pub area: f64,
+    /// Sum of the triangles' true areas, in the mesh's unit.
+    pub true_area: f64,
+    /// Shapes shorter than this, in the unit of the shapes, were enlarged to it.
+    pub smallest: f64,
+}
+
+/// The rest shapes of triangles with three distinct corners each.
+///
+/// Any finite coordinates are welcome, from 1e-40 to 1e40 in the same mesh.
+pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes {
+    let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
+    // Lengths relative to the longest edge: no square overflows, and what underflows is enlarged anyway.
+    let longest = (triangles.iter().map(|t| longest_edge(corners(t)).1))
+        .fold(0.0, f64::max)
+        .max(f64::MIN_POSITIVE);
+    let relative = |t: &[u32; 3]| corners(t).map(|p| p.map(|x| x / longest));
+    let size = (triangles.iter())
+        .map(|t| {
+            let edge = longest_edge(relative(t)).1;
+            area(relative(t)).max(0.5 * SMALLEST_ASPECT * edge * edge)
+        })
+        .sum::<f64>()
+        .sqrt();
+    let smallest = SMALLEST_SIZE * size;
+    let mut shapes: Vec<_> = (triangles.iter())
+        .map(|t| rest_shape(relative(t), smallest))
+        .collect();
+    let total: f64 = shapes.iter().map(|shape| shape.area).sum();
+    let unit = (total / triangles.len().max(1) as f64).sqrt();
+    for shape in &mut shapes {
+        *shape = RestShape {
+            inverse: shape.inverse.map(|row| row.map(|x| x * unit)),
+            area: shape.area / (unit * unit),
+            weight: shape.weight / (unit * unit),
+        };
+    }
+    let true_area: f64 = triangles.iter().map(|t| area(relative(t))).sum();
+    RestShapes {
+        shapes,
+        scale: unit * longest,
+        area: total * longest * longest,
+        true_area: true_area * longest * longest,
+        smallest: smallest / unit,
+    }
+}
+
+/// The triangle laid on its longest edge, no shorter than `smallest` and with a bounded aspect.
+pub(super) fn rest_shape(p: [[f64; 3]; 3], smallest: f64) -> RestShape {
+    let (first, length) = longest_edge(p);
+    let [a, b, c] = [first, (first + 1) % 3, (first + 2) % 3];
+    let (base, foot, altitude) = if length < smallest {
+        (smallest, 0.5 * smallest, 0.75_f64.sqrt() * smallest)
+    } else {
+        let (edge, side) = (sub(p[b], p[a]), sub(p[c], p[a]));
+        let altitude = norm(cross(edge, side)) / length;
+        let floor = (SMALLEST_ASPECT * length).max(0.5 * smallest);
+        (length, dot(edge, side) / length, altitude.max(floor))
+    };
+    let mut corners = [[0.0; 2]; 3];
+    corners[b] = [base, 0.0];
+    corners[c] = [foot, altitude];
+    let true_area = area(p);
+    let shape = RestShape::from_edges(
+        vec2::sub(corners[1], corners[0]),
+        vec2::sub(corners[2], corners[0]),
+    );
+    let is_substitute = shape.area > 1.01 * true_area;
+    let extra = if is_substitute {
+        SUBSTITUTE_WEIGHT * shape.area
+    } else {
+        0.0
+    };
+    RestShape {
+        weight: true_area + extra,
+        ..shape
+    }
+}
+
+/// The corner the longest edge starts from, and its length.
+fn longest_edge(p: [[f64; 3]; 3]) -> (usize, f64) {
+    (0..3)
+        .map(|k| (k, distance(p[k], p[(k + 1) % 3])))
+        .fold(
+            (0, 0.0),
+            |best, edge| if edge.1 > best.1 { edge } else { best },
+        )
+}
+
+/// Area of a triangle in space, from the corner opposite to the longest edge: there the rounding is least.
+fn area(p: [[f64; 3]; 3]) -> f64 {
+    let apex = (longest_edge(p).0 + 2) % 3;
+    0.5 * norm(area_vector(p[apex], p[(apex + 1) % 3], p[(apex + 2) % 3]))
+}

@@ -1,0 +1,245 @@
+//! Starts and optimized maps: never a flip, sizes as promised.
+
+use proptest::prelude::*;
+use unwrapd::barrier::BarrierKind;
+use unwrapd::embed::{InvalidStart, Options, optimize, parameterize, rest_shapes, start};
+use unwrapd::energy::EnergyKind;
+use unwrapd::mesh::Disk;
+use unwrapd::numerics::predicates::orient2d_sign;
+use unwrapd::solver::{Control, Iterate};
+
+type Mesh = (Disk, Vec<[f64; 3]>);
+
+fn go_on(_: &Iterate) -> Control {
+    Control::Continue
+}
+
+fn n_bad(disk: &Disk, uv: &[[f64; 2]]) -> usize {
+    let bad = |t: &&[u32; 3]| {
+        let [a, b, c] = t.map(|v| uv[v as usize]);
+        orient2d_sign(a, b, c) <= 0
+    };
+    disk.triangles.iter().filter(bad).count()
+}
+
+fn area(disk: &Disk, uv: &[[f64; 2]]) -> f64 {
+    let doubled = disk.triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|v| uv[v as usize]);
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    });
+    0.5 * doubled.sum::<f64>()
+}
+
+/// `n` × `n` squares, each cut by a diagonal, placed by `place(x, y)` with x, y in 0..=n; `is_hole(x, y)` takes squares
+/// out.
+fn grid(
+    n: usize,
+    is_hole: impl Fn(usize, usize) -> bool,
+    place: impl Fn(usize, usize) -> [f64; 3],
+) -> Mesh {
+    let mut triangles = Vec::new();
+    for y in 0..n {
+        for x in 0..n {
+            if !is_hole(x, y) {
+                let a = (y * (n + 1) + x) as u32;
+                let d = a + n as u32 + 1;
+                let flip = (x + y) % 2 == 0;
+                triangles.extend(if flip {
+                    [[a, a + 1, d + 1], [a, d + 1, d]]
+                } else {
+                    [[a, a + 1, d], [a + 1, d + 1, d]]
+                });
+            }
+        }
+    }
+    let positions: Vec<[f64; 3]> = (0..(n + 1) * (n + 1))
+        .map(|v| place(v % (n + 1), v / (n + 1)))
+        .collect();
+    let disk = Disk::new(positions.len(), triangles).expect("a disk");
+    (disk, positions)
+}
+
+/// A cone of `n` triangles.
+fn cone(n: u32, height: f64) -> Mesh {
+    let mut positions = vec![[0.0, 0.0, height]];
+    positions.extend((0..n).map(|i| {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
+        [angle.cos(), angle.sin(), 0.0]
+    }));
+    let triangles = (0..n).map(|i| [0, 1 + i, 1 + (i + 1) % n]).collect();
+    (
+        Disk::new(positions.len(), triangles).expect("a disk"),
+        positions,
+    )
+}
+
+/// Maps with every energy and checks what is promised of every map.
+fn check(name: &str, (disk, positions): &Mesh) {
+    assert_eq!(n_bad(disk, &start(disk, positions)), 0, "{name}: start");
+    let rest = rest_shapes(positions, &disk.triangles);
+    let wanted = if rest.true_area > 0.0 {
+        rest.true_area
+    } else {
+        rest.area
+    };
+    for energy in [
+        EnergyKind::Arap,
+        EnergyKind::Lscm,
+        EnergyKind::SymmetricDirichlet,
+    ] {
+        let options = Options {
+            energy,
+            ..Options::default()
+        };
+        let embedding = parameterize(disk, positions, &options, &go_on);
+        assert_eq!(n_bad(disk, &embedding.uv), 0, "{name}: {energy:?}");
+        let ratio = area(disk, &embedding.uv) / wanted;
+        assert!(
+            (ratio - 1.0).abs() < 1e-9,
+            "{name}: {energy:?}: area off by {ratio}"
+        );
+        assert!(
+            embedding.summary.energy_last.is_finite(),
+            "{name}: {energy:?}"
+        );
+        assert!(embedding.summary.energy_last <= embedding.summary.energy_first);
+    }
+}
+
+const NO_HOLE: fn(usize, usize) -> bool = |_, _| false;
+
+#[test]
+fn nasty_disks_are_mapped_without_a_flip() {
+    check("one triangle", &cone_slice());
+    check("cone", &cone(12, 3.0));
+    check("needle cone", &cone(40, 1e4));
+    let plane = |x: usize, y: usize| [x as f64, y as f64, 0.0];
+    check("plane", &grid(9, NO_HOLE, plane));
+    check(
+        "hundreds of holes",
+        &grid(41, |x, y| x % 2 == 1 && y % 2 == 1, plane),
+    );
+    check(
+        "all on a line",
+        &grid(6, NO_HOLE, |x, y| [(7 * y + x) as f64, 0.0, 0.0]),
+    );
+    check(
+        "1e-30 apart",
+        &grid(5, NO_HOLE, |x, y| [1e-30 * x as f64, 1e-30 * y as f64, 0.0]),
+    );
+    check(
+        "1e30 large, partly 1e-30 apart",
+        &grid(5, NO_HOLE, |x, y| {
+            let length = if x < 3 { 1e-30 } else { 1e30 };
+            [length * x as f64, 1e30 * y as f64, 0.0]
+        }),
+    );
+    check(
+        "slivers",
+        &grid(8, NO_HOLE, |x, y| [x as f64, 1e-7 * y as f64, 0.0]),
+    );
+    check(
+        "zero-area rows",
+        &grid(8, NO_HOLE, |x, y| {
+            [
+                x as f64 + if y == 3 { 0.5 } else { 0.0 },
+                y.min(3) as f64 + y.saturating_sub(4) as f64,
+                0.0,
+            ]
+        }),
+    );
+}
+
+fn cone_slice() -> Mesh {
+    let disk = Disk::new(3, vec![[0, 1, 2]]).expect("a disk");
+    (disk, vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 1.0]])
+}
+
+#[test]
+fn a_flat_disk_comes_back_as_it_is() {
+    let (disk, positions) = grid(
+        7,
+        |x, y| x == 3 && y < 6 && y > 1,
+        |x, y| [x as f64, 0.8 * y as f64 + 0.3 * (x as f64).sin(), 2.0],
+    );
+    let embedding = parameterize(&disk, &positions, &Options::default(), &go_on);
+    for t in &disk.triangles {
+        for k in 0..3 {
+            let (a, b) = (t[k] as usize, t[(k + 1) % 3] as usize);
+            let distance = |p: &[f64], q: &[f64]| {
+                let squares = p.iter().zip(q).map(|(p, q)| (p - q) * (p - q));
+                squares.sum::<f64>().sqrt()
+            };
+            let ratio = distance(&embedding.uv[a], &embedding.uv[b])
+                / distance(&positions[a], &positions[b]);
+            assert!((ratio - 1.0).abs() < 0.01, "{a} {b}: {ratio}");
+        }
+    }
+}
+
+#[test]
+fn a_bad_start_is_refused_by_triangle() {
+    let (disk, positions) = cone(6, 1.0);
+    let mut uv = start(&disk, &positions);
+    uv[0] = [10.0, 0.0];
+    let outcome = optimize(&disk, &positions, &uv, &Options::default(), &go_on);
+    assert!(matches!(outcome, Err(InvalidStart::NotPositive(_))));
+    uv.pop();
+    let outcome = optimize(&disk, &positions, &uv, &Options::default(), &go_on);
+    assert_eq!(outcome.expect_err("too short"), InvalidStart::Length(6, 7));
+}
+
+#[test]
+fn without_a_barrier_there_is_still_a_map() {
+    let mesh = grid(9, NO_HOLE, |x, y| {
+        [x as f64, y as f64, 9.0 * (x as f64 - 4.0).abs()]
+    });
+    let options = Options {
+        barrier: BarrierKind::None,
+        ..Options::default()
+    };
+    let embedding = parameterize(&mesh.0, &mesh.1, &options, &go_on);
+    assert!(embedding.uv.as_flattened().iter().all(|x| x.is_finite()));
+    assert!(embedding.summary.energy_last < embedding.summary.energy_first);
+}
+
+#[test]
+fn the_watcher_may_end_it_with_a_valid_map() {
+    let (disk, positions) = grid(9, NO_HOLE, |x, y| {
+        [x as f64, y as f64, 3.0 * ((x * y) as f64).sin()]
+    });
+    let twice = |i: &Iterate| {
+        if i.iteration < 2 {
+            Control::Continue
+        } else {
+            Control::Finish
+        }
+    };
+    let embedding = parameterize(&disk, &positions, &Options::default(), &twice);
+    assert_eq!(embedding.summary.iterations, 2);
+    assert_eq!(n_bad(&disk, &embedding.uv), 0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_surfaces_with_holes_are_never_flipped(
+        n in 1_usize..12,
+        holes in any::<u64>(),
+        heights in prop::collection::vec(-3.0..3.0_f64, 169),
+        flat in 1e-6..1.0_f64,
+        unit in -9..9_i32,
+    ) {
+        let unit = 10_f64.powi(unit);
+        let is_hole = |x: usize, y: usize| {
+            // Isolated squares inside, so that what is left is a disk with holes.
+            let inside = x % 2 == 1 && y % 2 == 1 && x + 1 < n && y + 1 < n;
+            inside && holes >> ((x / 2 * 6 + y / 2) % 64) & 1 == 1
+        };
+        let mesh = grid(n, is_hole, |x, y| {
+            [unit * x as f64, unit * flat * y as f64, unit * heights[y * (n + 1) + x]]
+        });
+        check("random", &mesh);
+    }
+}
