@@ -1,1 +1,29 @@
 //! Seams: surfaces opened to disks.
+//!
+//! A seam is an edge along which two faces are no longer glued. [`Sheet`] is a part of a surface with its gluing;
+//! [`open_to_disk`] undoes as little of it as makes the sheet a disk, holes allowed:
+//!
+//! - a sheet of genus 0 with a boundary stays as it is;
+//! - a closed sheet of genus 0 gets a slit between two points far apart, with branches to what is far from it;
+//! - any other gets a cut graph: the tree–cotree decomposition (Eppstein 2003) rooted in the shortest loop that does not
+//!   separate, greedily as Erickson and Whittlesey (2005) choose their loops, its holes left alone.
+//!
+//! The decomposition never asks for an orientation, so a Möbius strip is opened by the same lines as a torus. What has been
+//! cut can be joined again at single edges ([`join_disks`]): two disks glued along one edge are a disk, whatever they were
+//! cut from. Last, [`isolate_doubled_edges`] cuts out faces where a non-manifold input would give a chart two edges between
+//! one pair of vertices, which no straight-line map can draw.
+//!
+//! Nothing here makes a map, and nothing is moved or subdivided.
+
+mod cut_graph;
+mod distances;
+mod doubled;
+mod join;
+mod open;
+mod sheet;
+mod slit;
+
+pub use doubled::isolate_doubled_edges;
+pub use join::join_disks;
+pub use open::open_to_disk;
+pub use sheet::Sheet;

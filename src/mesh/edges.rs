@@ -19,14 +19,14 @@ pub fn same_direction(triangles: &[[u32; 3]], a: u32, b: u32) -> bool {
 }
 
 /// Halfedges grouped by the edge they lie on.
-pub(super) struct Edges {
+pub struct Edges {
     halfedges: Vec<u32>,
     starts: Vec<u32>,
 }
 
 impl Edges {
     /// Buckets by the smaller vertex, each sorted by the larger one: linear but for the degree's logarithm.
-    pub(super) fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
+    pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let ends = |h: u32| {
             let (a, b) = (origin(triangles, h), origin(triangles, next(h)));
             (a.min(b), a.max(b))
@@ -64,7 +64,7 @@ impl Edges {
     }
 
     /// The halfedges of each edge, in file order.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &[u32]> {
+    pub fn iter(&self) -> impl Iterator<Item = &[u32]> {
         self.starts
             .windows(2)
             .map(|w| &self.halfedges[w[0] as usize..w[1] as usize])

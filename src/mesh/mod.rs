@@ -19,6 +19,6 @@ mod weld;
 pub use adjacency::Adjacency;
 pub use defects::{Defects, has_zero_area};
 pub use disk::{Disk, NotADisk};
-pub use edges::{CUT, next, origin, same_direction};
+pub use edges::{CUT, Edges, next, origin, same_direction};
 pub use surface::{MeshError, Surface};
 pub use union_find::UnionFind;

@@ -1,0 +1,147 @@
+//! Charts: parts of a surface opened to disks.
+
+use crate::cut::{Sheet, isolate_doubled_edges, join_disks, open_to_disk};
+use crate::mesh::{CUT, Disk, Surface, UnionFind};
+use crate::numerics::vec3::{area_vector, norm};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Where a surface is cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum Cut {
+    /// Into charts whose normals lie within a cone.
+    #[default]
+    Auto,
+    /// Into one disk per component, by as few and short seams as that takes.
+    Disk,
+}
+
+/// A part of a surface, opened to a disk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// The position of each vertex; both sides of a seam have their own.
+    pub positions: Vec<[f64; 3]>,
+    /// The triangles, consistently wound: most of their area as the surface has it.
+    pub disk: Disk,
+    /// For each triangle's corners the corners `3 t + c` of the surface they come from; a triangle wound the other way than
+    /// its chart has them in reverse order.
+    pub corners: Vec<[u32; 3]>,
+}
+
+/// The charts of a surface, ordered by their first triangles. Deterministic, for any number of threads.
+pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
+    let adjacency = surface.adjacency();
+    let (region, n_regions) = match cut {
+        Cut::Auto => (adjacency.piece.clone(), adjacency.n_pieces),
+        Cut::Disk => (adjacency.piece.clone(), adjacency.n_pieces),
+    };
+    let sheets = Sheet::divide(surface, &adjacency.twin, &region, n_regions);
+    let mut twin = glued_within(&adjacency.twin, &region);
+    let seams: Vec<Vec<u32>> = sheets.par_iter().map(open_to_disk).collect();
+    for (sheet, seams) in sheets.iter().zip(seams) {
+        for h in seams {
+            for side in [h, sheet.twin[h as usize]] {
+                let triangle = sheet.triangles[side as usize / 3];
+                twin[(3 * triangle + side % 3) as usize] = CUT;
+            }
+        }
+    }
+    isolate_doubled_edges(surface, &mut twin);
+    if cut == Cut::Disk {
+        join_disks(surface, &mut twin);
+    }
+    let (label, n_charts) = connected_faces(&twin);
+    Sheet::divide(surface, &twin, &label, n_charts)
+        .into_par_iter()
+        .flat_map_iter(|sheet| open(surface, sheet))
+        .collect()
+}
+
+/// The gluing without what connects different regions.
+fn glued_within(twin: &[u32], region: &[u32]) -> Vec<u32> {
+    (0..)
+        .zip(twin)
+        .map(|(h, &t): (usize, _)| match t {
+            CUT => CUT,
+            t if region[h / 3] != region[t as usize / 3] => CUT,
+            t => t,
+        })
+        .collect()
+}
+
+fn connected_faces(twin: &[u32]) -> (Vec<u32>, usize) {
+    let mut faces = UnionFind::new(twin.len() / 3);
+    for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {
+        faces.unite(h / 3, t / 3);
+    }
+    faces.labels()
+}
+
+/// A sheet as a chart. Sheets are disks by construction; should one not be, its triangles are charts of their own.
+fn open(surface: &Surface, sheet: Sheet) -> Vec<Chart> {
+    let corners = consistent_corners(surface, &sheet);
+    let triangles = corners
+        .iter()
+        .map(|local| local.map(|corner| sheet.vertex[corner as usize]))
+        .collect();
+    let corners = corners
+        .iter()
+        .map(|local| local.map(|c| 3 * sheet.triangles[c as usize / 3] + c % 3))
+        .collect();
+    match Disk::new(sheet.positions.len(), triangles) {
+        Ok(disk) => vec![Chart {
+            positions: sheet.positions,
+            disk,
+            corners,
+        }],
+        Err(_) => sheet
+            .triangles
+            .iter()
+            .filter_map(|&t| single(surface, t))
+            .collect(),
+    }
+}
+
+fn single(surface: &Surface, triangle: u32) -> Option<Chart> {
+    Some(Chart {
+        positions: surface.corners(triangle as usize).to_vec(),
+        disk: Disk::new(3, vec![[0, 1, 2]]).ok()?,
+        corners: vec![[3 * triangle, 3 * triangle + 1, 3 * triangle + 2]],
+    })
+}
+
+/// The corners of each face of a connected sheet, in reverse where its winding disagrees with that of most area.
+fn consistent_corners(surface: &Surface, sheet: &Sheet) -> Vec<[u32; 3]> {
+    let n = sheet.triangles.len();
+    let mut turned: Vec<Option<bool>> = vec![None; n];
+    turned[0] = Some(false);
+    let mut order = vec![0u32];
+    let mut balance = 0.0;
+    let mut done = 0;
+    while let Some(&f) = order.get(done) {
+        done += 1;
+        let this = turned[f as usize] == Some(true);
+        let [a, b, c] = surface.corners(sheet.triangles[f as usize] as usize);
+        let area = norm(area_vector(a, b, c));
+        balance += if this { -area } else { area };
+        for h in 3 * f..3 * f + 3 {
+            let t = sheet.twin[h as usize];
+            if t != CUT && turned[t as usize / 3].is_none() {
+                let same = sheet.vertex[h as usize] == sheet.vertex[t as usize];
+                turned[t as usize / 3] = Some(this != same);
+                order.push(t / 3);
+            }
+        }
+    }
+    (0..n as u32)
+        .map(|f| {
+            if (turned[f as usize] == Some(true)) == (balance >= 0.0) {
+                [3 * f, 3 * f + 2, 3 * f + 1]
+            } else {
+                [3 * f, 3 * f + 1, 3 * f + 2]
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,115 @@
+//! A part of a surface and how its faces are glued.
+
+use crate::mesh::{CUT, Surface, UnionFind, next, origin};
+use crate::numerics::vec3::distance;
+
+/// Some faces of a surface, numbered locally, with the glued edges among them.
+///
+/// Around a vertex the glued faces form one fan by construction, so a bow-tie vertex of the surface is several vertices here.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// For each face of the sheet its triangle in the surface.
+    pub triangles: Vec<u32>,
+    /// For each halfedge `3 f + c` the one glued to it, or [`CUT`].
+    pub twin: Vec<u32>,
+    /// For each corner `3 f + c` its vertex.
+    pub vertex: Vec<u32>,
+    /// For each vertex its position.
+    pub positions: Vec<[f64; 3]>,
+}
+
+impl Sheet {
+    /// The sheets into which labels divide a surface that is glued by `twin`; label `i` makes sheet `i`.
+    pub fn divide(surface: &Surface, twin: &[u32], labels: &[u32], n_labels: usize) -> Vec<Self> {
+        let mut triangles = vec![Vec::new(); n_labels];
+        let mut local = Vec::with_capacity(labels.len());
+        for (t, &label) in labels.iter().enumerate() {
+            local.push(triangles[label as usize].len() as u32);
+            triangles[label as usize].push(t as u32);
+        }
+        triangles
+            .into_iter()
+            .map(|triangles| {
+                let twin = triangles
+                    .iter()
+                    .flat_map(|&t| 3 * t..3 * t + 3)
+                    .map(|h| match twin[h as usize] {
+                        CUT => CUT,
+                        t if labels[t as usize / 3] != labels[h as usize / 3] => CUT,
+                        t => 3 * local[t as usize / 3] + t % 3,
+                    })
+                    .collect();
+                Self::new(surface, triangles, twin)
+            })
+            .collect()
+    }
+
+    fn new(surface: &Surface, triangles: Vec<u32>, twin: Vec<u32>) -> Self {
+        let welded = |corner: u32| {
+            let triangle = triangles[corner as usize / 3] as usize;
+            surface.triangles[triangle][corner as usize % 3]
+        };
+        let (vertex, n_vertices) = fans(&twin, welded);
+        let mut positions = vec![[0.0; 3]; n_vertices];
+        for corner in 0..twin.len() as u32 {
+            positions[vertex[corner as usize] as usize] = surface.positions[welded(corner) as usize];
+        }
+        Self {
+            triangles,
+            twin,
+            vertex,
+            positions,
+        }
+    }
+
+    /// The two vertices of a halfedge.
+    pub fn ends(&self, h: u32) -> [u32; 2] {
+        [self.vertex[h as usize], self.vertex[next(h) as usize]]
+    }
+
+    /// The length of a halfedge.
+    pub fn length(&self, h: u32) -> f64 {
+        let [a, b] = self.ends(h).map(|v| self.positions[v as usize]);
+        distance(a, b)
+    }
+
+    /// One halfedge of each edge.
+    pub fn edges(&self) -> impl Iterator<Item = u32> {
+        (0u32..)
+            .zip(&self.twin)
+            .filter(|&(h, &t)| t == CUT || h < t)
+            .map(|(h, _)| h)
+    }
+
+    /// For each vertex whether it lies on the boundary.
+    pub fn on_boundary(&self) -> Vec<bool> {
+        let mut on_boundary = vec![false; self.positions.len()];
+        for h in (0..self.twin.len() as u32).filter(|&h| self.twin[h as usize] == CUT) {
+            for v in self.ends(h) {
+                on_boundary[v as usize] = true;
+            }
+        }
+        on_boundary
+    }
+}
+
+/// Numbers the vertices of glued faces: corners are one vertex when glued edges connect them around it. `welded` names the
+/// position of a corner, by which the ends of two glued halfedges are told apart.
+pub fn fans(twin: &[u32], welded: impl Fn(u32) -> u32) -> (Vec<u32>, usize) {
+    let mut corners = UnionFind::new(twin.len());
+    for (h, &t) in (0u32..).zip(twin).filter(|&(h, &t)| t != CUT && h < t) {
+        let (near, far) = if welded(h) == welded(t) {
+            (t, next(t))
+        } else {
+            (next(t), t)
+        };
+        corners.unite(h, near);
+        corners.unite(next(h), far);
+    }
+    corners.labels()
+}
+
+/// [`fans`] of a whole surface glued by `twin`.
+pub fn surface_fans(surface: &Surface, twin: &[u32]) -> (Vec<u32>, usize) {
+    fans(twin, |corner| origin(&surface.triangles, corner))
+}

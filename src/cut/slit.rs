@@ -1,0 +1,70 @@
+//! Slits in closed sheets of genus 0.
+
+use super::Sheet;
+use super::distances::{Neighbors, distances, opposite_end};
+use crate::numerics::vec3::{area_vector, norm};
+
+/// A vertex farther from the slit than this share of √area gets a branch. On a round sphere the slit from pole to pole
+/// leaves 0.44 √area; beyond about that, a limb would have to be squeezed through its own root.
+const FAR: f64 = 0.5;
+
+/// At most this many branches: each costs one pass over the sheet.
+const MOST_BRANCHES: usize = 12;
+
+/// The edges of a slit that opens a closed sheet of genus 0 to a disk.
+///
+/// The slit is a shortest path between two approximately farthest points (the far end of a sweep from the far end of a
+/// sweep), with shortest branches to whatever remains far from it. It is a tree of at least two edges.
+pub fn slit(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
+    let sweep = |source: u32| distances(sheet, neighbors, [source], |_| false);
+    let (a, _) = sweep(0).farthest();
+    let from_a = sweep(a);
+    let (b, _) = from_a.farthest();
+    let mut edges: Vec<u32> = from_a.path(sheet, b).collect();
+    let mut on_slit = vec![false; sheet.positions.len()];
+    on_slit[a as usize] = true;
+    mark_ends(sheet, &edges, &mut on_slit);
+    if edges.len() < 2 {
+        edges.extend(continuation(sheet, neighbors, b, &on_slit));
+        mark_ends(sheet, &edges, &mut on_slit);
+    }
+    let reach = FAR * area(sheet).sqrt();
+    for _ in 0..MOST_BRANCHES {
+        let sources = (0u32..).zip(&on_slit).filter(|(_, on)| **on);
+        let from_slit = distances(sheet, neighbors, sources.map(|(v, _)| v), |_| false);
+        let (tip, far) = from_slit.farthest();
+        if far <= reach {
+            break;
+        }
+        edges.extend(from_slit.path(sheet, tip));
+        mark_ends(sheet, &edges, &mut on_slit);
+    }
+    edges
+}
+
+fn mark_ends(sheet: &Sheet, edges: &[u32], on_slit: &mut [bool]) {
+    for &h in edges {
+        for v in sheet.ends(h) {
+            on_slit[v as usize] = true;
+        }
+    }
+}
+
+/// An edge by which a slit of one edge goes on from its end: every closed sheet has a third vertex next to it.
+fn continuation(sheet: &Sheet, neighbors: &Neighbors, end: u32, on_slit: &[bool]) -> Option<u32> {
+    let leaves = |h: &&u32| !on_slit[opposite_end(sheet, **h, end) as usize];
+    neighbors.of(end).iter().find(leaves).copied()
+}
+
+fn area(sheet: &Sheet) -> f64 {
+    let position = |corner: u32| sheet.positions[sheet.vertex[corner as usize] as usize];
+    (0..sheet.triangles.len() as u32)
+        .map(|f| {
+            norm(area_vector(
+                position(3 * f),
+                position(3 * f + 1),
+                position(3 * f + 2),
+            )) / 2.0
+        })
+        .sum()
+}
