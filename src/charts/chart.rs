@@ -34,8 +34,7 @@ pub struct Chart {
 pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
     let adjacency = surface.adjacency();
     let (region, n_regions) = match cut {
-        Cut::Auto => (adjacency.piece.clone(), adjacency.n_pieces),
-        Cut::Disk => (adjacency.piece.clone(), adjacency.n_pieces),
+        Cut::Auto | Cut::Disk => (adjacency.piece.clone(), adjacency.n_pieces),
     };
     let sheets = Sheet::divide(surface, &adjacency.twin, &region, n_regions);
     let mut twin = glued_within(&adjacency.twin, &region);

@@ -22,7 +22,9 @@ pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
     let holes = Holes::new(sheet);
     let mut cut = vec![false; sheet.twin.len()];
     let mut on_cut = vec![false; sheet.positions.len()];
-    let root = holes.root.unwrap_or_else(|| best_root(sheet, neighbors, &holes));
+    let root = holes
+        .root
+        .unwrap_or_else(|| best_root(sheet, neighbors, &holes));
     on_cut[root as usize] = true;
     let mut first = true;
     loop {
@@ -60,8 +62,8 @@ pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
 /// The boundary loops of a sheet, as virtual faces.
 struct Holes {
     /// For each halfedge on the boundary its loop.
-    hole: Vec<u32>,
-    n_holes: usize,
+    loop_of: Vec<u32>,
+    count: usize,
     /// A vertex of the longest loop.
     root: Option<u32>,
 }
@@ -75,7 +77,7 @@ impl Holes {
             sets.unite(a, b);
         }
         let (labels, _) = sets.labels();
-        let mut hole = vec![CUT; sheet.twin.len()];
+        let mut loop_of = vec![CUT; sheet.twin.len()];
         let mut number = vec![CUT; labels.len()];
         let mut lengths: Vec<(f64, u32)> = Vec::new();
         for h in boundary() {
@@ -86,12 +88,12 @@ impl Holes {
                 lengths.push((0.0, vertex));
             }
             lengths[*n as usize].0 += sheet.length(h);
-            hole[h as usize] = *n;
+            loop_of[h as usize] = *n;
         }
         let longest = lengths.iter().max_by(|a, b| a.0.total_cmp(&b.0));
         Self {
-            hole,
-            n_holes: lengths.len(),
+            loop_of,
+            count: lengths.len(),
             root: longest.map(|l| l.1),
         }
     }
@@ -99,7 +101,7 @@ impl Holes {
     /// The node across an edge in the graph of faces and holes.
     fn across(&self, sheet: &Sheet, h: u32) -> u32 {
         match sheet.twin[h as usize] {
-            CUT => sheet.triangles.len() as u32 + self.hole[h as usize],
+            CUT => sheet.triangles.len() as u32 + self.loop_of[h as usize],
             t => t / 3,
         }
     }
@@ -130,7 +132,7 @@ fn shortest_loops(
         })
         .collect();
     candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let mut faces = UnionFind::new(sheet.triangles.len() + holes.n_holes);
+    let mut faces = UnionFind::new(sheet.triangles.len() + holes.count);
     let mut loops: Vec<u32> = candidates
         .into_iter()
         .filter(|&(_, h)| !faces.unite(h / 3, holes.across(sheet, h)))

@@ -57,12 +57,7 @@ fn join_at_boundaries(surface: &Surface, edges: &Edges, twin: &mut [u32], disks:
 
 /// One round of joins at edges that lie inside a disk: the nearest to the boundaries first, each disk at most once, since a
 /// slit changes the distances in it. False if there was none.
-fn join_inside(
-    surface: &Surface,
-    edges: &Edges,
-    twin: &mut [u32],
-    disks: &mut UnionFind,
-) -> bool {
+fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut UnionFind) -> bool {
     let n_faces = surface.triangles.len();
     let Some(whole) = Sheet::divide(surface, twin, &vec![0; n_faces], 1).pop() else {
         return false;

@@ -52,7 +52,8 @@ impl Sheet {
         let (vertex, n_vertices) = fans(&twin, welded);
         let mut positions = vec![[0.0; 3]; n_vertices];
         for corner in 0..twin.len() as u32 {
-            positions[vertex[corner as usize] as usize] = surface.positions[welded(corner) as usize];
+            positions[vertex[corner as usize] as usize] =
+                surface.positions[welded(corner) as usize];
         }
         Self {
             triangles,
