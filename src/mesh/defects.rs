@@ -139,14 +139,15 @@ fn glued_once(adjacency: &Adjacency) -> impl Iterator<Item = u32> {
 fn boundary_loops(triangles: &[[u32; 3]], adjacency: &Adjacency) -> usize {
     let twin = &adjacency.twin;
     let mut loops = UnionFind::new(twin.len());
-    let mut n_loops = 0;
+    let mut n_cut = 0;
+    let mut n_joined = 0;
     for h in (0..twin.len() as u32).filter(|&h| twin[h as usize] == CUT) {
-        n_loops += 1;
+        n_cut += 1;
         for vertex in [origin(triangles, h), origin(triangles, next(h))] {
-            n_loops -= usize::from(loops.unite(h, across_fan(triangles, twin, h, vertex)));
+            n_joined += usize::from(loops.unite(h, across_fan(triangles, twin, h, vertex)));
         }
     }
-    n_loops
+    n_cut - n_joined
 }
 
 /// The cut halfedge at the other end of the fan around `vertex` that begins with the cut halfedge `h`.
