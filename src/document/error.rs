@@ -64,3 +64,15 @@ impl DocumentError {
         }
     }
 }
+
+impl From<crate::mesh::io::ReadError> for DocumentError {
+    fn from(error: crate::mesh::io::ReadError) -> Self {
+        use crate::mesh::io::ReadError;
+        let text = error.to_string();
+        match error {
+            ReadError::Malformed { .. } => Self::InvalidMesh(text),
+            ReadError::NonFinitePosition { .. } => Self::NonFinitePosition(text),
+            ReadError::IndexOutOfRange { .. } => Self::IndexOutOfRange(text),
+        }
+    }
+}

@@ -10,9 +10,13 @@
 mod error;
 pub mod gltf;
 mod group;
+mod new_gltf;
+mod new_obj;
 mod notes;
 pub mod obj;
+mod obj_text;
 pub mod soup;
+mod texcoord_lines;
 mod upload;
 mod uvs;
 
@@ -90,10 +94,11 @@ impl Document {
     /// The document with `uvs` as a UV set.
     pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
         uvs.check(self.primitives())?;
-        match self {
-            Self::Gltf(document) => document.write(uvs, options),
-            Self::Obj(document) => document.write(uvs, options),
-            Self::Soup(document) => document.write(uvs, options),
+        match (self, options.format) {
+            (Self::Obj(document), _) => document.write(uvs, options),
+            (_, OutputFormat::Obj) => new_obj::write(self.primitives(), uvs, options),
+            (Self::Gltf(document), _) => document.write(uvs, options),
+            (Self::Soup(document), _) => document.write(uvs, options),
         }
     }
 }

@@ -1,5 +1,6 @@
-//! OFF, PLY and STL.
-use super::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
+//! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
+use super::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written, new_gltf};
+use crate::mesh::io::{self, Format};
 
 /// A file as it was read.
 pub struct SoupDocument {
@@ -8,21 +9,41 @@ pub struct SoupDocument {
 
 /// Whether the content, or else the name, says so.
 pub(super) fn is_soup(upload: &Upload) -> bool {
-    upload.extension() == "soup"
+    matches!(
+        Format::detect(&upload.name, &upload.bytes),
+        Some(Format::Off | Format::Ply | Format::Stl)
+    )
 }
 
 impl SoupDocument {
     /// Reads the main file.
-    pub fn read(_upload: &Upload) -> Result<Self, DocumentError> {
-        Err(DocumentError::UnknownFormat)
+    pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
+        let mesh = match Format::detect(&upload.name, &upload.bytes) {
+            Some(Format::Off) => io::off::read(&upload.bytes),
+            Some(Format::Ply) => io::ply::read(&upload.bytes),
+            Some(Format::Stl) => io::stl::read(&upload.bytes),
+            Some(Format::Obj) | None => return Err(DocumentError::UnknownFormat),
+        }?;
+        if mesh.triangles.is_empty() {
+            return Err(DocumentError::NoTriangles);
+        }
+        Ok(Self {
+            primitives: vec![Primitive {
+                mesh: 0,
+                primitive: 0,
+                material: None,
+                positions: mesh.positions,
+                triangles: mesh.triangles,
+            }],
+        })
     }
 
-    /// The triangles.
+    /// The triangles: all polygons of the file as one primitive.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
     }
 
-    /// The UVs of set `set`.
+    /// These formats have no UVs that are read here.
     pub fn corner_uvs(
         &self,
         _primitive: usize,
@@ -31,8 +52,8 @@ impl SoupDocument {
         Ok(None)
     }
 
-    /// The document with `uvs`.
-    pub fn write(&self, _uvs: &NewUvs, _options: &WriteOptions) -> Result<Written, DocumentError> {
-        Err(DocumentError::UnknownFormat)
+    /// The triangles with `uvs`, as a new glTF file.
+    pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
+        new_gltf::write(&self.primitives[0], None, uvs, options)
     }
 }

@@ -7,5 +7,7 @@ mod energy;
 #[cfg(feature = "files")]
 mod io;
 mod numerics;
+#[cfg(feature = "files")]
+mod obj_document;
 mod solver;
 mod taylor;
