@@ -1,5 +1,6 @@
 //! Charts: parts of a surface opened to disks.
 
+use super::regions::regions;
 use crate::cut::{Sheet, isolate_doubled_edges, join_disks, open_to_disk};
 use crate::mesh::{CUT, Disk, Surface, UnionFind};
 use crate::numerics::vec3::{area_vector, norm};
@@ -34,7 +35,8 @@ pub struct Chart {
 pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
     let adjacency = surface.adjacency();
     let (region, n_regions) = match cut {
-        Cut::Auto | Cut::Disk => (adjacency.piece.clone(), adjacency.n_pieces),
+        Cut::Auto => regions(surface),
+        Cut::Disk => (adjacency.piece.clone(), adjacency.n_pieces),
     };
     let sheets = Sheet::divide(surface, &adjacency.twin, &region, n_regions);
     let mut twin = glued_within(&adjacency.twin, &region);

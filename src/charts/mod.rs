@@ -8,6 +8,11 @@
 //! normals lie within a cone, so that each chart is nearly flat and hardly ever overlaps itself.
 
 mod chart;
+mod cone;
+mod facets;
+mod merge;
+mod regions;
+mod smooth;
 
 pub use chart::{Chart, Cut, charts};
 
