@@ -1,0 +1,188 @@
+//! Surfaces divided into charts.
+
+use crate::cut::few_vertices;
+use crate::zoo::{self, Mesh};
+use proptest::prelude::*;
+use unwrapd::charts::{Chart, Cut, charts};
+use unwrapd::mesh::{Disk, Surface};
+use unwrapd::numerics::vec3::{area_vector, dot, norm};
+
+fn surface(mesh: &Mesh) -> Surface {
+    Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
+}
+
+/// What must hold for the charts of any surface; returns them.
+fn checked(surface: &Surface, cut: Cut) -> Vec<Chart> {
+    let charts = charts(surface, cut);
+    let mut seen = vec![false; surface.triangles.len()];
+    for chart in &charts {
+        assert_eq!(chart.positions.len(), chart.disk.n_vertices);
+        assert_eq!(chart.corners.len(), chart.disk.triangles.len());
+        let again = Disk::new(chart.disk.n_vertices, chart.disk.triangles.clone());
+        assert_eq!(again.as_ref(), Ok(&chart.disk));
+        let (mut balance, mut total) = (0.0, 0.0);
+        for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
+            let t = corners[0] as usize / 3;
+            assert!(!seen[t], "triangle {t} is in two charts");
+            seen[t] = true;
+            let turn = [1, 2, 0].map(|i| corners[i] % 3);
+            let kept = (0..3).all(|i| turn[i] == (corners[i] + 1) % 3);
+            let turned = (0..3).all(|i| turn[i] == (corners[i] + 2) % 3);
+            assert!(kept || turned);
+            for (&v, &corner) in triangle.iter().zip(corners) {
+                assert_eq!(corner as usize / 3, t);
+                let welded = surface.triangles[t][corner as usize % 3];
+                let position = surface.positions[welded as usize];
+                assert_eq!(chart.positions[v as usize], position);
+            }
+            let [a, b, c] = surface.corners(t);
+            let area = norm(area_vector(a, b, c));
+            balance += if kept { area } else { -area };
+            total += area;
+        }
+        assert!(balance >= -1e-9 * total, "wound against most of its area");
+    }
+    assert!(seen.iter().all(|&s| s), "a triangle is in no chart");
+    charts
+}
+
+#[test]
+fn the_zoo_is_divided() {
+    for mesh in zoo::zoo() {
+        println!("{}", mesh.name);
+        let surface = surface(&mesh);
+        let n_auto = checked(&surface, Cut::Auto).len();
+        let n_disk = checked(&surface, Cut::Disk).len();
+        // Pages of a book share no edge but the one.
+        if !mesh.name.ends_with("on an edge") {
+            assert_eq!(n_disk, surface.defects.components, "{}", mesh.name);
+        }
+        assert!(n_disk <= n_auto.max(surface.defects.components));
+    }
+}
+
+#[test]
+fn a_book_is_bound_in_pairs() {
+    for pages in [3, 5, 200] {
+        let surface = surface(&zoo::book(pages));
+        let n_disk = checked(&surface, Cut::Disk).len();
+        assert_eq!(n_disk, pages.div_ceil(2) as usize);
+    }
+}
+
+#[test]
+fn charts_of_a_closed_surface_are_nearly_flat() {
+    for mesh in [
+        zoo::sphere(48, 31),
+        zoo::torus(60, 30),
+        zoo::slab(3),
+        zoo::sphere(48, 31).with(&zoo::sphere(48, 31).reversed()),
+    ] {
+        let surface = surface(&mesh);
+        for chart in checked(&surface, Cut::Auto) {
+            let normals: Vec<[f64; 3]> = chart
+                .disk
+                .triangles
+                .iter()
+                .map(|t| {
+                    let [a, b, c] = t.map(|v| chart.positions[v as usize]);
+                    area_vector(a, b, c)
+                })
+                .collect();
+            let sum = normals
+                .iter()
+                .fold([0.0; 3], |s, n| [s[0] + n[0], s[1] + n[1], s[2] + n[2]]);
+            for normal in &normals {
+                assert!(dot(*normal, sum) > 0.0, "a triangle faces backwards");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cube_is_few_charts_and_a_sphere_some() {
+    let cube = checked(&surface(&zoo::voxels(&[[0, 0, 0]])), Cut::Auto);
+    assert!((2..=6).contains(&cube.len()), "{}", cube.len());
+    let sphere = checked(&surface(&zoo::sphere(48, 31)), Cut::Auto);
+    assert!((2..=10).contains(&sphere.len()), "{}", sphere.len());
+    assert_eq!(checked(&surface(&zoo::grid(20, 20)), Cut::Auto).len(), 1);
+}
+
+#[test]
+fn charts_are_the_same_every_time() {
+    let surface = surface(&zoo::torus(60, 30).with(&zoo::slab(3)));
+    for cut in [Cut::Auto, Cut::Disk] {
+        let one = rayon::ThreadPoolBuilder::new()
+            .num_threads(1)
+            .build()
+            .expect("a thread");
+        assert_eq!(one.install(|| charts(&surface, cut)), charts(&surface, cut));
+    }
+}
+
+#[test]
+fn charts_do_not_depend_on_the_unit_of_length() {
+    let mesh = zoo::torus(40, 20).with(&zoo::slab(3).moved([9.0, 0.0, 0.0]));
+    for factor in [2f32.powi(-30), 2f32.powi(30)] {
+        let mut scaled = mesh.clone();
+        for p in &mut scaled.positions {
+            *p = p.map(|x| x * factor);
+        }
+        for cut in [Cut::Auto, Cut::Disk] {
+            let corners = |mesh: &Mesh| -> Vec<_> {
+                charts(&surface(mesh), cut)
+                    .into_iter()
+                    .map(|chart| chart.corners)
+                    .collect()
+            };
+            assert_eq!(corners(&mesh), corners(&scaled));
+        }
+    }
+}
+
+#[test]
+fn shuffled_faces_make_as_many_disks() {
+    for mesh in zoo::zoo() {
+        let mut shuffled = mesh.clone();
+        let n = shuffled.triangles.len();
+        for i in (1..n).rev() {
+            shuffled.triangles.swap(i, (i * 7919 + 13) % (i + 1));
+        }
+        let n_disks = |mesh| checked(&surface(mesh), Cut::Disk).len();
+        assert_eq!(n_disks(&mesh), n_disks(&shuffled), "{}", mesh.name);
+        checked(&surface(&shuffled), Cut::Auto);
+    }
+}
+
+#[test]
+fn shared_meshes_are_one_disk_per_component() {
+    for folder in ["closed", "disk"] {
+        let Some(folder) = zoo::shared_data(folder) else {
+            return;
+        };
+        let mut paths: Vec<_> = std::fs::read_dir(folder)
+            .expect("a folder")
+            .map(|entry| entry.expect("an entry").path())
+            .filter(|p| p.extension().is_some_and(|e| e == "obj" || e == "off"))
+            .filter(|p| p.metadata().is_ok_and(|m| m.len() < 1_500_000))
+            .collect();
+        paths.sort();
+        for path in paths {
+            let mesh = zoo::read_mesh(&path).expect("a readable mesh");
+            let surface = surface(&mesh);
+            let disks = checked(&surface, Cut::Disk);
+            println!("{}: {} disks", mesh.name, disks.len());
+            assert!(disks.len() <= surface.defects.components, "{}", mesh.name);
+            checked(&surface, Cut::Auto);
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_triangles_are_divided(mesh in few_vertices()) {
+        let surface = surface(&mesh);
+        checked(&surface, Cut::Disk);
+        checked(&surface, Cut::Auto);
+    }
+}

@@ -1,0 +1,101 @@
+//! Sheets opened to disks.
+
+use crate::zoo::{self, Mesh};
+use proptest::prelude::*;
+use unwrapd::cut::{Sheet, open_to_disk};
+use unwrapd::mesh::{CUT, Disk, Surface};
+
+/// Random triangles on so few vertices that edges have many faces and vertices many fans.
+pub fn few_vertices() -> impl Strategy<Value = Mesh> {
+    let triangle = [0..9u32, 0..9, 0..9];
+    proptest::collection::vec(triangle, 0..40).prop_map(|triangles| Mesh {
+        name: "random".to_owned(),
+        positions: (0..9u8)
+            .map(|i| {
+                let t = f32::from(i);
+                [t.sin(), (2.0 * t).cos(), 0.3 * t]
+            })
+            .collect(),
+        triangles,
+    })
+}
+
+fn sheets(mesh: &Mesh) -> Vec<Sheet> {
+    let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
+    let adjacency = surface.adjacency();
+    Sheet::divide(
+        &surface,
+        &adjacency.twin,
+        &adjacency.piece,
+        adjacency.n_pieces,
+    )
+}
+
+/// A one-sheet mesh opened: the total length of its seams and the number of loops after.
+fn opened(mesh: &Mesh) -> (f64, usize) {
+    let [sheet] = &sheets(mesh)[..] else {
+        panic!("{} is not one sheet", mesh.name);
+    };
+    let seams = open_to_disk(sheet);
+    let length = seams.iter().map(|&h| sheet.length(h)).sum();
+    let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
+    let mut twin = sheet.twin.clone();
+    for h in seams {
+        twin[sheet.twin[h as usize] as usize] = CUT;
+        twin[h as usize] = CUT;
+    }
+    let whole = vec![0; sheet.triangles.len()];
+    let open = Sheet::divide(&surface, &twin, &whole, 1).remove(0);
+    let triangles = open.vertex.chunks(3).map(|t| [t[0], t[1], t[2]]).collect();
+    let disk = Disk::new(open.positions.len(), triangles).expect("a disk");
+    (length, disk.loops.len())
+}
+
+#[test]
+fn what_is_a_disk_stays_one() {
+    assert_eq!(opened(&zoo::grid(4, 3)), (0.0, 1));
+    assert_eq!(opened(&zoo::cone(7)), (0.0, 1));
+    assert_eq!(opened(&zoo::grid(5, 5).without(&[24, 25])), (0.0, 2));
+}
+
+#[test]
+fn a_sphere_is_slit_from_end_to_end() {
+    let (length, loops) = opened(&zoo::sphere(24, 15));
+    assert_eq!(loops, 1);
+    assert!((2.8..3.3).contains(&length), "{length}");
+}
+
+#[test]
+fn the_smallest_closed_surfaces_are_slit() {
+    assert_eq!(opened(&zoo::pillow()).1, 1);
+    assert_eq!(opened(&zoo::sphere(3, 1)).1, 1);
+}
+
+#[test]
+fn a_torus_is_cut_along_its_two_shortest_loops() {
+    // Around the tube 4.2 (as polygons), and around the inside of the ring, radius 1.3.
+    let (length, loops) = opened(&zoo::torus(48, 20));
+    assert_eq!(loops, 1);
+    let shortest = 0.7 * std::f64::consts::TAU + 1.3 * std::f64::consts::TAU;
+    assert!(length < 1.02 * shortest, "{length} {shortest}");
+    assert!(length > 0.95 * shortest, "{length} {shortest}");
+}
+
+#[test]
+fn handles_are_cut_and_holes_are_left() {
+    assert_eq!(opened(&zoo::slab(5)).1, 1);
+    assert_eq!(opened(&zoo::torus(9, 7).without(&[0])).1, 1);
+    let (_, loops) = opened(&zoo::torus(20, 12).without(&[0, 100, 200, 300]));
+    assert!((1..=4).contains(&loops), "{loops}");
+}
+
+proptest! {
+    #[test]
+    fn seams_are_glued_edges(mesh in few_vertices()) {
+        for sheet in sheets(&mesh) {
+            for h in open_to_disk(&sheet) {
+                prop_assert!(sheet.twin[h as usize] != CUT);
+            }
+        }
+    }
+}
