@@ -94,47 +94,43 @@ pub fn certify(
 
 fn judge_faces(topology: &UvTopology) -> Certificate {
     let n_faces = topology.faces.len();
+    let n_charts = topology.charts.nonorientable.len();
+    let is_exempt = |f: usize| topology.repeats_position(f);
+    let is_judged = |f: usize| !topology.unusable[f] && !is_exempt(f);
+    let positive = topology.chart_orientations(is_judged);
+    let mut has_judged = vec![false; n_charts];
+    for face in (0..n_faces).filter(|&f| is_judged(f)) {
+        has_judged[topology.charts.of_face[face] as usize] = true;
+    }
     let mut certificate = Certificate {
         faces: n_faces,
+        exempt_faces: (0..n_faces).filter(|&f| is_exempt(f)).count(),
         ..Certificate::default()
     };
-    let judged = |f: usize| !topology.unusable[f] && !topology.repeats_position(f);
-    let positive = topology.chart_orientations(judged);
-    let mut charts = vec![false; positive.len()];
-    let mut oriented = Vec::with_capacity(n_faces);
     for face in 0..n_faces {
         let chart = topology.charts.of_face[face] as usize;
         let sign = topology.orientation_in_chart(face);
-        let exempt = topology.repeats_position(face);
-        let count = if topology.unusable[face] {
+        let offence = if topology.unusable[face] {
             &mut certificate.nonfinite_faces
-        } else if sign == 0 && !exempt {
+        } else if sign == 0 && !is_exempt(face) {
             &mut certificate.degenerate
-        } else if sign * positive[chart] < 0 {
+        } else if sign != 0 && sign != positive[chart] && has_judged[chart] {
             &mut certificate.flipped
         } else {
-            certificate.exempt_faces += usize::from(exempt);
-            if sign != 0 {
-                oriented.push((topology.uvs[face], topology.orientation[face]));
-            }
-            charts[chart] |= !exempt;
             continue;
         };
-        *count += 1;
-        certificate.exempt_faces += usize::from(exempt);
-        charts[chart] |= judged(face);
+        *offence += 1;
         if certificate.offending_faces.len() < NAMED {
             certificate.offending_faces.push(face as u32);
         }
     }
-    let counted = |chart: &usize| charts[*chart];
-    certificate.charts = (0..charts.len()).filter(counted).count();
-    certificate.nonorientable_charts = (0..charts.len())
-        .filter(counted)
-        .filter(|&c| topology.charts.nonorientable[c])
+    let charts = || (0..n_charts).filter(|&chart| has_judged[chart]);
+    certificate.charts = charts().count();
+    certificate.nonorientable_charts = charts()
+        .filter(|&chart| topology.charts.nonorientable[chart])
         .count();
     if certificate.is_valid() {
-        certificate.grid_bits = coarsest_bits(&oriented);
+        certificate.grid_bits = coarsest_bits(topology);
     }
     certificate
 }

@@ -1,6 +1,7 @@
 //! Tests of the geometry library.
 mod atlas;
 mod barrier;
+mod certificate;
 mod charts;
 mod cut;
 mod disk;
@@ -8,10 +9,12 @@ mod embed;
 mod energy;
 #[cfg(feature = "files")]
 mod io;
+mod measure;
 mod mesh;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
 mod solver;
 mod taylor;
+mod uv_meshes;
 mod zoo;
