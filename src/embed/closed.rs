@@ -10,6 +10,8 @@ pub(super) struct ClosedDisk {
     /// The disk's vertices, then one apex per hole, in the middle of its loop.
     pub positions: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
+    /// The triangles from here on are virtual.
+    pub n_real: usize,
     /// The outer loop, counter-clockwise.
     pub boundary: Vec<u32>,
 }
@@ -20,6 +22,7 @@ impl ClosedDisk {
         let mut closed = Self {
             positions: positions[..disk.n_vertices].to_vec(),
             triangles: disk.triangles.clone(),
+            n_real: disk.triangles.len(),
             boundary: disk.loops[outer].clone(),
         };
         for (_, hole) in disk.loops.iter().enumerate().filter(|(i, _)| *i != outer) {

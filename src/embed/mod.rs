@@ -13,11 +13,16 @@
 //! still overlap themselves globally; that is not looked at here.
 
 mod closed;
+mod decimate;
+mod hierarchy;
 mod parameterize;
+mod reinsert;
 mod rest;
 mod start;
+mod sweep;
+mod triangulation;
 mod tutte;
 
 pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
 pub use rest::{RestShapes, rest_shapes};
-pub use start::start;
+pub use start::{hierarchical_start, start, tutte_start};

@@ -1,21 +1,43 @@
 //! A map without flips to start from.
 
 use super::closed::ClosedDisk;
+use super::hierarchy::coarse_to_fine;
+use super::rest::rest_shapes;
 use super::tutte::{Boundary, tutte_embedding};
 use crate::mesh::Disk;
 use crate::numerics::predicates::orient2d_sign;
 
 /// A locally injective map of the disk: counter-clockwise and positive in every triangle, exactly.
 ///
-/// Holes are closed first, so it is injective where it is Tutte's. Its size and distortion are arbitrary.
+/// Tutte's map if floating point allows, else by way of the hierarchy. Holes are closed first. Size and distortion are
+/// arbitrary.
 pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    let closed = ClosedDisk::new(disk, positions);
-    let mut uv = tutte(&closed).unwrap_or_default();
-    uv.truncate(disk.n_vertices);
-    uv
+    tutte_start(disk, positions)
+        .or_else(|| hierarchical_start(disk, positions))
+        .unwrap_or_default()
 }
 
-/// Tutte's map, if floating point left every triangle positive.
+/// Tutte's map, if floating point left every triangle positive, those that close the holes included.
+pub fn tutte_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
+    let mut uv = tutte(&ClosedDisk::new(disk, positions))?;
+    uv.truncate(disk.n_vertices);
+    Some(uv)
+}
+
+/// A map found coarse to fine. It takes longer than Tutte's but ends near an optimum, in the unit of [`rest_shapes`], and
+/// no disk is known for which it fails.
+pub fn hierarchical_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
+    let rest = rest_shapes(positions, &disk.triangles);
+    let closed = ClosedDisk::new(disk, positions);
+    let relative: Vec<[f64; 3]> = (closed.positions.iter())
+        .map(|p| p.map(|x| x / rest.scale))
+        .collect();
+    let mut uv = coarse_to_fine(&closed, &relative, rest.smallest)?;
+    uv.truncate(disk.n_vertices);
+    Some(uv)
+}
+
+/// Tutte's map of the closed disk, if floating point left every triangle positive.
 ///
 /// Equal angles are tried second: they spare what short boundary edges squeeze.
 pub(super) fn tutte(closed: &ClosedDisk) -> Option<Vec<[f64; 2]>> {

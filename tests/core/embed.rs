@@ -2,7 +2,9 @@
 
 use proptest::prelude::*;
 use unwrapd::barrier::BarrierKind;
-use unwrapd::embed::{InvalidStart, Options, optimize, parameterize, rest_shapes, start};
+use unwrapd::embed::{
+    InvalidStart, Options, hierarchical_start, optimize, parameterize, rest_shapes, start,
+};
 use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::Disk;
 use unwrapd::numerics::predicates::orient2d_sign;
@@ -76,6 +78,8 @@ fn cone(n: u32, height: f64) -> Mesh {
 /// Maps with every energy and checks what is promised of every map.
 fn check(name: &str, (disk, positions): &Mesh) {
     assert_eq!(n_bad(disk, &start(disk, positions)), 0, "{name}: start");
+    let uv = hierarchical_start(disk, positions).expect("a start");
+    assert_eq!(n_bad(disk, &uv), 0, "{name}: hierarchy");
     let rest = rest_shapes(positions, &disk.triangles);
     let wanted = if rest.true_area > 0.0 {
         rest.true_area

@@ -1,0 +1,205 @@
+//! Coarse to fine: a map that cannot fail, and for large disks most of the way to the optimum.
+//!
+//! Vertices are collapsed level by level until Tutte's map of what is left is safe, then put back in reverse order. Each
+//! goes into the kernel of its ring, which is never empty: the neighbor it had been collapsed onto sees the whole ring.
+//! What could still fail is floating point, when rings degenerate; so every level is optimized before the next finer one
+//! is filled in, which keeps rings wide, and is cheap because levels shrink geometrically. The finest level has then
+//! little left to do.
+//!
+//! From: the hierarchy of progressive embeddings (Shen, Jiang, Zorin, Panozzo 2019) turned around: all vertices, not
+//! only those in bad triangles, and collapses in space rather than in the plane.
+
+use super::closed::ClosedDisk;
+use super::decimate::{Care, Collapses, Decimation};
+use super::reinsert::{ROUNDING, Shape, reinsert};
+use super::rest::rest_shape;
+use super::start::{first_bad_triangle, tutte};
+use super::sweep::{Stars, sweep};
+use crate::barrier::map_energy;
+use crate::energy::{RestShape, Term};
+use crate::mesh::Disk;
+use crate::solver::{Control, Iterate, Objective, Projection, Settings, best_scale, minimize};
+
+/// Vertices of the coarsest level, if its shape allows.
+const COARSEST: usize = 300;
+
+/// Vertices of the coarsest level when only topology counts: Tutte's map of a handful of vertices is exact enough.
+const FEWEST: usize = 8;
+
+/// A level keeps this share of its vertices.
+const SHARE: f64 = 0.3;
+
+/// Weight of the triangles that fill holes, as share of what their area would weigh: they keep holes open, no more.
+const VIRTUAL_WEIGHT: f64 = 1e-3;
+
+/// Sweeps after the vertices of a level are back. Four halve the factorizations on the finest level against one or two.
+pub(super) const SWEEPS: usize = 4;
+
+/// Newton steps on a level in between, at most.
+const STEPS_BETWEEN: usize = 5;
+
+/// A level is left when a Newton step promises less than this share of the energy.
+const STEP_GAIN: f64 = 1e-3;
+
+/// Newton steps on the coarsest level, at most: they cost nothing there.
+const STEPS_COARSEST: usize = 100;
+
+/// A mesh before some of its vertices were collapsed.
+struct Level {
+    triangles: Vec<(usize, [u32; 3])>,
+    collapses: Collapses,
+}
+
+/// A map of the closed disk, positive in every triangle, exactly, and near an optimum of the symmetric Dirichlet energy.
+///
+/// `positions` in the unit of the rest shapes. `None` if floating point failed even so; no mesh is known that does it.
+pub(super) fn coarse_to_fine(
+    closed: &ClosedDisk,
+    positions: &[[f64; 3]],
+    smallest: f64,
+) -> Option<Vec<[f64; 2]>> {
+    let shape = Shape {
+        positions,
+        smallest,
+    };
+    let mut decimation = Decimation::new(positions, &closed.triangles, closed.n_real);
+    let mut levels = Vec::new();
+    coarsen(&mut decimation, COARSEST, Care::Shape, &mut levels);
+    let mut coarsest = coarsest_map(closed, &decimation, &shape);
+    if coarsest.is_none() {
+        coarsen(&mut decimation, FEWEST, Care::Topology, &mut levels);
+        coarsest = coarsest_map(closed, &decimation, &shape);
+    }
+    let mut uv = coarsest?;
+    while let Some(level) = levels.pop() {
+        reinsert(&level.collapses, &shape, &mut uv).ok()?;
+        let steps = if levels.is_empty() { 0 } else { STEPS_BETWEEN };
+        System::new(&level.triangles, closed.n_real, &shape).improve(&mut uv, steps);
+    }
+    Some(uv)
+}
+
+/// Adds levels until `goal` vertices are left or no more can go.
+fn coarsen(decimation: &mut Decimation, goal: usize, care: Care, levels: &mut Vec<Level>) {
+    loop {
+        let n = decimation.triangulation.vertices().len();
+        let next = ((SHARE * n as f64) as usize).max(goal);
+        if next >= n {
+            return;
+        }
+        let triangles = decimation.triangulation.triangles().collect();
+        let collapses = decimation.coarsen(next, care);
+        if collapses.list.is_empty() {
+            return;
+        }
+        levels.push(Level {
+            triangles,
+            collapses,
+        });
+    }
+}
+
+/// Tutte's map of what is left, optimized; positions of collapsed vertices mean nothing yet.
+fn coarsest_map(
+    closed: &ClosedDisk,
+    decimation: &Decimation,
+    shape: &Shape,
+) -> Option<Vec<[f64; 2]>> {
+    let triangles: Vec<_> = decimation.triangulation.triangles().collect();
+    let system = System::new(&triangles, closed.n_real, shape);
+    let disk = Disk::new(system.vertices.len(), system.triangles.clone()).ok()?;
+    let positions: Vec<_> = (system.vertices.iter())
+        .map(|&v| shape.positions[v as usize])
+        .collect();
+    let mut coarse = tutte(&ClosedDisk::new(&disk, &positions))?;
+    let scale = best_scale(&*system.term, coarse.as_flattened());
+    for p in &mut coarse {
+        *p = p.map(|x| x * scale);
+    }
+    let mut uv = vec![[0.0; 2]; shape.positions.len()];
+    keep(
+        &system.vertices,
+        &system.triangles,
+        coarse.as_flattened(),
+        &mut uv,
+    );
+    system.improve(&mut uv, STEPS_COARSEST);
+    Some(uv)
+}
+
+/// The energy of one level, its vertices numbered without gaps.
+struct System {
+    vertices: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    term: Box<dyn Term>,
+}
+
+impl System {
+    fn new(level: &[(usize, [u32; 3])], n_real: usize, shape: &Shape) -> Self {
+        let mut vertices: Vec<u32> = level.iter().flat_map(|(_, t)| *t).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let mut local = vec![0; shape.positions.len()];
+        for (i, &v) in vertices.iter().enumerate() {
+            local[v as usize] = i as u32;
+        }
+        let triangles: Vec<[u32; 3]> = (level.iter())
+            .map(|(_, t)| t.map(|v| local[v as usize]))
+            .collect();
+        let rest: Vec<RestShape> = (level.iter())
+            .map(|&(original, t)| {
+                let rest = rest_shape(t.map(|v| shape.positions[v as usize]), shape.smallest);
+                let factor = if original < n_real {
+                    1.0
+                } else {
+                    VIRTUAL_WEIGHT
+                };
+                RestShape {
+                    weight: factor * rest.weight,
+                    ..rest
+                }
+            })
+            .collect();
+        Self {
+            term: map_energy(&triangles, &rest, &ROUNDING),
+            vertices,
+            triangles,
+        }
+    }
+
+    fn gather(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        self.vertices.iter().map(|&v| uv[v as usize]).collect()
+    }
+
+    /// Sweeps, then at most this many Newton steps. What the exact check does not confirm is not taken.
+    fn improve(self, uv: &mut [[f64; 2]], max_iterations: usize) {
+        let mut x = self.gather(uv).into_flattened();
+        let stars = Stars::new(self.vertices.len(), &self.triangles);
+        sweep(&*self.term, &stars, SWEEPS, &mut x);
+        keep(&self.vertices, &self.triangles, &x, uv);
+        if max_iterations == 0 {
+            return;
+        }
+        let mut x = self.gather(uv).into_flattened();
+        let settings = Settings {
+            max_iterations,
+            tolerance: STEP_GAIN,
+            projection: Projection::PositiveSemidefinite,
+        };
+        let mut objective = Objective::new(self.vertices.len(), self.term);
+        minimize(&mut objective, &mut x, &settings, &|_: &Iterate| {
+            Control::Continue
+        });
+        keep(&self.vertices, &self.triangles, &x, uv);
+    }
+}
+
+/// Takes over positions if they are exactly positive.
+fn keep(vertices: &[u32], triangles: &[[u32; 3]], x: &[f64], uv: &mut [[f64; 2]]) {
+    let points: &[[f64; 2]] = x.as_chunks().0;
+    if first_bad_triangle(triangles, points).is_none() {
+        for (&v, &point) in vertices.iter().zip(points) {
+            uv[v as usize] = point;
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Collapsed vertices put back into a map without flipping a triangle.
+
+use super::decimate::{Collapse, Collapses};
+use super::rest::rest_shape;
+use super::sweep::improve_vertex;
+use super::triangulation::pairs;
+use crate::barrier::{BarrierKind, MapEnergy, map_energy};
+use crate::energy::EnergyKind;
+use crate::numerics::predicates::orient2d_sign;
+use crate::numerics::vec2::{cross, dot, sub};
+use crate::numerics::vec3;
+
+/// Symmetric Dirichlet alone: it knows no flipped triangle, and it drives every ring back into shape, so that rings stay
+/// wide enough for floating point.
+pub(super) const ROUNDING: MapEnergy = MapEnergy {
+    energy: EnergyKind::SymmetricDirichlet,
+    barrier: BarrierKind::None,
+    beta: 0.0,
+    s: 1.0,
+    epsilon: 0.0,
+};
+
+/// Local Newton steps on a vertex just put back.
+const STEPS: usize = 4;
+
+/// Steps of the walk towards the neighbor, each 0.6 of the one before: the last is 1e-33 of the first.
+const WALK: usize = 150;
+
+/// A ring left no room that floating point can express.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NoRoom;
+
+/// Surfaces in space: positions in the unit of the rest shapes, and the size below which shapes are enlarged.
+#[derive(Clone, Copy)]
+pub(super) struct Shape<'a> {
+    pub positions: &'a [[f64; 3]],
+    pub smallest: f64,
+}
+
+/// Undoes the collapses, last first; `uv` must be positive on the coarse triangles and then is on the fine ones, exactly.
+pub(super) fn reinsert(
+    collapses: &Collapses,
+    shape: &Shape,
+    uv: &mut [[f64; 2]],
+) -> Result<(), NoRoom> {
+    for collapse in collapses.list.iter().rev() {
+        let ring = collapses.ring(collapse);
+        let is_free = |p: &[f64; 2]| {
+            pairs(ring, collapse.closed)
+                .all(|[a, b]| orient2d_sign(*p, uv[a as usize], uv[b as usize]) > 0)
+        };
+        let place = Some(similar_place(collapse, ring, shape, uv))
+            .filter(is_free)
+            .or_else(|| walk(collapse, ring, uv).find(is_free))
+            .ok_or(NoRoom)?;
+        uv[collapse.vertex as usize] = improved_place(collapse, ring, shape, uv, place);
+    }
+    Ok(())
+}
+
+/// The mean of the places at which the vertex would form, with each edge of its ring, a triangle similar to that in space.
+fn similar_place(collapse: &Collapse, ring: &[u32], shape: &Shape, uv: &[[f64; 2]]) -> [f64; 2] {
+    let at = |v: u32| shape.positions[v as usize];
+    let (mut sum, mut n) = ([0.0; 2], 0.0);
+    for [a, b] in pairs(ring, collapse.closed) {
+        let (edge, side) = (
+            vec3::sub(at(b), at(a)),
+            vec3::sub(at(collapse.vertex), at(a)),
+        );
+        let squared = vec3::dot(edge, edge).max(shape.smallest * shape.smallest);
+        let along = vec3::dot(edge, side) / squared;
+        let height = vec3::norm(vec3::cross(edge, side)) / squared;
+        let (p, q) = (uv[a as usize], uv[b as usize]);
+        let [x, y] = sub(q, p);
+        sum[0] += p[0] + along * x - height * y;
+        sum[1] += p[1] + along * y + height * x;
+        n += 1.0;
+    }
+    sum.map(|x| x / n)
+}
+
+/// Points ever nearer to the neighbor that the vertex had been collapsed onto.
+///
+/// That neighbor sees the whole ring, because its triangles are positive; so does every point close to it in a direction
+/// inside its angle. For a vertex of the boundary the direction is square to its one edge that stays.
+fn walk(
+    collapse: &Collapse,
+    ring: &[u32],
+    uv: &[[f64; 2]],
+) -> impl Iterator<Item = [f64; 2]> + use<> {
+    let n = ring.len();
+    let at = collapse.at as usize;
+    let origin = uv[ring[at] as usize];
+    let edge = |i: usize| sub(uv[ring[i % n] as usize], origin);
+    let (direction, reach) = if collapse.closed {
+        let (after, before) = (edge(at + 1), edge(at + n - 1));
+        (bisector(after, before), length(after).min(length(before)))
+    } else if at == 0 {
+        let [x, y] = edge(1);
+        ([-y, x], length([x, y]))
+    } else {
+        let [x, y] = edge(at - 1);
+        ([y, -x], length([x, y]))
+    };
+    let unit = reach / length(direction).max(f64::MIN_POSITIVE);
+    (0..WALK as i32).map(move |i| {
+        let step = unit * 0.6_f64.powi(i);
+        [
+            origin[0] + step * direction[0],
+            origin[1] + step * direction[1],
+        ]
+    })
+}
+
+fn length(a: [f64; 2]) -> f64 {
+    a[0].hypot(a[1])
+}
+
+/// The direction halfway from `a` counter-clockwise to `b`.
+fn bisector(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    let angle = cross(a, b).atan2(dot(a, b));
+    let half = 0.5
+        * if angle <= 0.0 {
+            angle + std::f64::consts::TAU
+        } else {
+            angle
+        };
+    let (sin, cos) = half.sin_cos();
+    [cos * a[0] - sin * a[1], sin * a[0] + cos * a[1]]
+}
+
+/// The place after a few local Newton steps; every step is checked exactly.
+fn improved_place(
+    collapse: &Collapse,
+    ring: &[u32],
+    shape: &Shape,
+    uv: &[[f64; 2]],
+    place: [f64; 2],
+) -> [f64; 2] {
+    // The vertex is number 0, its ring 1, 2, …
+    let n = ring.len() as u32;
+    let triangles: Vec<[u32; 3]> = (0..n - u32::from(!collapse.closed))
+        .map(|i| [0, 1 + i, 1 + (i + 1) % n])
+        .collect();
+    let at = |v: u32| shape.positions[v as usize];
+    let rest: Vec<_> = pairs(ring, collapse.closed)
+        .map(|[a, b]| rest_shape([at(collapse.vertex), at(a), at(b)], shape.smallest))
+        .collect();
+    let term = map_energy(&triangles, &rest, &ROUNDING);
+    let around: Vec<u32> = (0..triangles.len() as u32).collect();
+    let mut x: Vec<f64> = place.to_vec();
+    x.extend(ring.iter().flat_map(|&v| uv[v as usize]));
+    for _ in 0..STEPS {
+        let before = [x[0], x[1]];
+        let moved = improve_vertex(&*term, 0, &around, &mut x);
+        let points: &[[f64; 2]] = x.as_chunks().0;
+        let is_positive = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| points[v as usize]);
+            orient2d_sign(a, b, c) > 0
+        };
+        if !triangles.iter().all(is_positive) {
+            return before;
+        }
+        if !moved {
+            break;
+        }
+    }
+    [x[0], x[1]]
+}
