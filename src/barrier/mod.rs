@@ -20,6 +20,7 @@ use crate::energy::{
 
 /// Which barrier is added to the energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum BarrierKind {
     /// [`InverseSpline`]: no element inverts.

@@ -39,6 +39,7 @@ pub use triangles::Triangles;
 
 /// Which density is minimized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum EnergyKind {
     /// [`Arap`]: as rigid as possible.

@@ -1,1 +1,38 @@
 //! From a mesh to a certified atlas and its report.
+//!
+//! [`unwrap`] takes plain arrays: it welds, cuts, maps every chart and packs. [`unwrap_document`] takes a file's bytes:
+//! it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and the
+//! certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same for
+//! UVs that a file already has.
+//!
+//! The work runs on a thread pool of its own. Charts of all groups share one queue, largest first; each is mapped by
+//! one thread, so the result does not depend on their number.
+
+mod arrays;
+mod error;
+mod observer;
+mod options;
+mod repeated;
+
+#[cfg(feature = "files")]
+mod documents;
+#[cfg(feature = "files")]
+mod judge;
+#[cfg(feature = "files")]
+mod pictures;
+#[cfg(feature = "files")]
+mod report;
+
+pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap};
+pub use error::PipelineError;
+pub use observer::{Observer, Progress, Stage, Unobserved};
+pub use options::Settings;
+
+#[cfg(feature = "files")]
+pub use documents::{Outcome, unwrap_document};
+#[cfg(feature = "files")]
+pub use judge::{measure_document, verify_document};
+#[cfg(feature = "files")]
+pub use options::{MeasureOptions, Options};
+#[cfg(feature = "files")]
+pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};

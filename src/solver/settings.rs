@@ -60,6 +60,7 @@ pub enum Projection {
 
 /// How a minimization ended. The map is valid in every case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// The decrement fell below the tolerance.

@@ -1,0 +1,198 @@
+//! From a file's bytes to a file's bytes: read, unwrap, write, read again, judge.
+
+use super::PipelineError;
+use super::arrays::{Soup, Unwrapped, in_pool, unwrap_all};
+use super::judge::WrittenUvs;
+use super::observer::{Observer, Stage, Tracker};
+use super::options::Options;
+use super::pictures;
+use super::report::{AtlasReport, GroupReport, Report, Seconds};
+use crate::atlas::GRID_BITS;
+use crate::barrier::BarrierKind;
+use crate::document::{
+    Document, Group, GroupBy, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
+};
+
+/// Everything that comes out of unwrapping a document.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What they are worth.
+    pub report: Report,
+    /// The UV layout, as the texture lies.
+    pub layout_png: Vec<u8>,
+    /// The distortion, as the texture lies.
+    pub heatmap_png: Vec<u8>,
+}
+
+/// Unwraps every mesh of a document and judges the bytes it writes.
+pub fn unwrap_document(
+    upload: &Upload,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Outcome, PipelineError> {
+    options.validate().map_err(PipelineError::InvalidOptions)?;
+    let tracker = Tracker::new(observer, options.time_budget);
+    in_pool(options.threads, || {
+        unwrap_in_pool(upload, options, &tracker)
+    })?
+}
+
+fn unwrap_in_pool(
+    upload: &Upload,
+    options: &Options,
+    tracker: &Tracker,
+) -> Result<Outcome, PipelineError> {
+    let mut seconds = Seconds::default();
+    let mut watch = StopWatch::start(tracker);
+
+    tracker.stage(Stage::Read);
+    let document = Document::read(upload)?;
+    let group_by = group_by(options);
+    let groups = document.groups(group_by);
+    let meshes: Vec<Merged> = groups
+        .iter()
+        .map(|group| Merged::new(document.primitives(), group))
+        .collect();
+    seconds.read = watch.lap();
+
+    let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
+    let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    seconds.unwrap = watch.lap();
+
+    tracker.stage(Stage::Write);
+    let written = write(&document, &groups, &atlases, upload, options)?;
+    seconds.write = watch.lap();
+
+    tracker.stage(Stage::Judge);
+    let uvs = WrittenUvs::read(&written, group_by)?;
+    let mut groups = uvs.judge();
+    add_history(&mut groups, &atlases);
+    let (layout_png, heatmap_png) = pictures::draw(&uvs, options.heatmap_measure);
+    seconds.judge = watch.lap();
+
+    let mut report = Report::new(groups);
+    report.options = Some(options.clone());
+    report.certified &= options.barrier != BarrierKind::None;
+    report.written = Some(written.notes);
+    report.seconds = Some(seconds);
+    Ok(Outcome {
+        files: written.files,
+        report,
+        layout_png,
+        heatmap_png,
+    })
+}
+
+/// An OBJ file has one UV space, whatever was asked for.
+fn group_by(options: &Options) -> GroupBy {
+    match options.format {
+        OutputFormat::Obj => GroupBy::Scene,
+        OutputFormat::Glb | OutputFormat::Gltf => options.group_by,
+    }
+}
+
+/// The primitives of a group as one mesh.
+struct Merged {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Merged {
+    fn new(primitives: &[Primitive], group: &Group) -> Self {
+        let mut merged = Self {
+            positions: Vec::new(),
+            triangles: Vec::new(),
+        };
+        for &index in &group.primitives {
+            let first = merged.positions.len() as u32;
+            merged.positions.extend(&primitives[index].positions);
+            merged.triangles.extend(
+                primitives[index]
+                    .triangles
+                    .iter()
+                    .map(|t| t.map(|v| v + first)),
+            );
+        }
+        merged
+    }
+
+    fn soup(&self) -> Soup<'_> {
+        Soup {
+            positions: &self.positions,
+            triangles: &self.triangles,
+        }
+    }
+}
+
+fn write(
+    document: &Document,
+    groups: &[Group],
+    atlases: &[Unwrapped],
+    upload: &Upload,
+    options: &Options,
+) -> Result<Written, PipelineError> {
+    let primitives = document.primitives();
+    let mut corners = vec![None; primitives.len()];
+    for (group, atlas) in groups.iter().zip(atlases) {
+        let mut rest = atlas.grid.as_slice();
+        for &index in &group.primitives {
+            let (own, others) = rest.split_at(primitives[index].triangles.len());
+            corners[index] = Some(own);
+            rest = others;
+        }
+    }
+    let options = WriteOptions {
+        format: options.format,
+        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
+        texcoord: options.texcoord,
+        overwrite: options.overwrite,
+    };
+    Ok(document.write(
+        &NewUvs {
+            grid_bits: GRID_BITS,
+            corners,
+        },
+        &options,
+    )?)
+}
+
+/// The file name without folders and extension.
+fn stem(name: &str) -> String {
+    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    if stem.is_empty() {
+        "mesh".into()
+    } else {
+        stem.into()
+    }
+}
+
+/// Adds to each group what only unwrapping knows.
+fn add_history(groups: &mut [GroupReport], atlases: &[Unwrapped]) {
+    for (group, atlas) in groups.iter_mut().zip(atlases) {
+        group.defects = Some(atlas.defects.clone());
+        group.atlas = Some(AtlasReport::new(atlas));
+    }
+}
+
+/// Seconds of the observer's clock from lap to lap.
+struct StopWatch<'a> {
+    tracker: &'a Tracker<'a>,
+    last: f64,
+}
+
+impl<'a> StopWatch<'a> {
+    fn start(tracker: &'a Tracker<'a>) -> Self {
+        Self {
+            tracker,
+            last: tracker.elapsed().as_secs_f64(),
+        }
+    }
+
+    fn lap(&mut self) -> f64 {
+        let now = self.tracker.elapsed().as_secs_f64();
+        now - std::mem::replace(&mut self.last, now)
+    }
+}

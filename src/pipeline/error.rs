@@ -1,0 +1,68 @@
+//! Why a mesh could not be unwrapped.
+
+use crate::atlas::AtlasError;
+#[cfg(feature = "files")]
+use crate::document::DocumentError;
+use crate::mesh::MeshError;
+
+/// Why a mesh could not be unwrapped. Every variant has a stable [`code`](Self::code).
+#[derive(Debug, thiserror::Error)]
+pub enum PipelineError {
+    /// An option is out of its range.
+    #[error("{0}")]
+    InvalidOptions(String),
+    /// The arrays are not a mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The file cannot be read or written.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// No face has three distinct positions.
+    #[error("the mesh has no triangle")]
+    NoTriangles,
+    /// The UV set asked for is not there.
+    #[error("{group} has no UV set {texcoord}")]
+    NoUvs {
+        /// Name of the group without UVs.
+        group: String,
+        /// The set asked for.
+        texcoord: u32,
+    },
+    /// The charts do not fit on the grid.
+    #[error(transparent)]
+    Atlas(#[from] AtlasError),
+    /// The worker threads could not be started.
+    #[error("cannot start worker threads: {0}")]
+    Threads(String),
+}
+
+impl PipelineError {
+    /// A stable name for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::InvalidOptions(_) => "invalid_options",
+            Self::Mesh(MeshError::IndexOutOfRange { .. }) => "index_out_of_range",
+            Self::Mesh(MeshError::NonFinitePosition { .. }) => "non_finite_position",
+            Self::Mesh(MeshError::TooLarge) => "limit_exceeded",
+            #[cfg(feature = "files")]
+            Self::Document(error) => error.code(),
+            Self::NoTriangles => "no_triangles",
+            Self::NoUvs { .. } => "no_uvs",
+            Self::Atlas(_) => "no_valid_result",
+            Self::Threads(_) => "internal",
+        }
+    }
+
+    /// The exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 1 anything else.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::InvalidOptions(_) => 2,
+            Self::Mesh(_) | Self::NoTriangles | Self::NoUvs { .. } => 3,
+            #[cfg(feature = "files")]
+            Self::Document(_) => 3,
+            Self::Atlas(_) => 4,
+            Self::Threads(_) => 1,
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! What a caller may choose, with defaults and limits.
+
+use serde::{Deserialize, Serialize};
+
+use crate::barrier::BarrierKind;
+use crate::charts::Cut;
+#[cfg(feature = "files")]
+use crate::document::{GroupBy, OutputFormat};
+use crate::energy::EnergyKind;
+#[cfg(feature = "files")]
+use crate::picture::HeatmapMeasure;
+
+/// How a mesh given as arrays is unwrapped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Distortion energy to minimize.
+    pub energy: EnergyKind,
+    /// Barrier that keeps every triangle from inverting.
+    pub barrier: BarrierKind,
+    /// Weight β of the barrier.
+    pub barrier_strength: f64,
+    /// Support s of the barrier, relative to an element's rest area.
+    pub barrier_support: f64,
+    /// Where to cut.
+    pub cut: Cut,
+    /// Texels along the side of the texture that `padding` is counted in.
+    pub resolution: u32,
+    /// Least distance of two charts, in texels.
+    pub padding: u32,
+    /// Threads to use; all cores if absent. The result does not depend on it.
+    pub threads: Option<usize>,
+    /// Seconds after which the current valid map is taken as it is.
+    pub time_budget: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            energy: EnergyKind::Arap,
+            barrier: BarrierKind::InverseSpline,
+            barrier_strength: 0.01,
+            barrier_support: 1.0,
+            cut: Cut::Auto,
+            resolution: 1024,
+            padding: 2,
+            threads: None,
+            time_budget: None,
+        }
+    }
+}
+
+impl Settings {
+    /// Checks every number against its range; the text names the option.
+    pub fn validate(&self) -> Result<(), String> {
+        let within = |name: &str, value: f64, low: f64, high: f64| {
+            if (low..=high).contains(&value) {
+                Ok(())
+            } else {
+                Err(format!(
+                    "{name} must lie between {low} and {high}, not {value}"
+                ))
+            }
+        };
+        within("barrier_strength", self.barrier_strength, 1e-9, 1e9)?;
+        within("barrier_support", self.barrier_support, 1e-6, 1e6)?;
+        within("resolution", f64::from(self.resolution), 16.0, 65_536.0)?;
+        within(
+            "padding",
+            f64::from(self.padding),
+            0.0,
+            f64::from(self.resolution / 8),
+        )?;
+        if let Some(threads) = self.threads {
+            within("threads", threads as f64, 1.0, 1024.0)?;
+        }
+        if let Some(seconds) = self.time_budget {
+            within("time_budget", seconds, 0.0, 1e6)?;
+        }
+        Ok(())
+    }
+}
+
+/// How a document is unwrapped: [`Settings`] and what concerns the file. The command line's long names in snake case.
+#[cfg(feature = "files")]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct Options {
+    /// Distortion energy to minimize.
+    pub energy: EnergyKind,
+    /// Barrier that keeps every triangle from inverting; `none` is for comparison and never certified.
+    pub barrier: BarrierKind,
+    /// Weight β of the barrier.
+    pub barrier_strength: f64,
+    /// Support s of the barrier, relative to an element's rest area.
+    pub barrier_support: f64,
+    /// Where to cut: few charts, or one per component.
+    pub cut: Cut,
+    /// What shares one atlas.
+    pub group_by: GroupBy,
+    /// The UV set to write; chosen so that no texture breaks if absent.
+    pub texcoord: Option<u32>,
+    /// Replace the UV set even if textures sample it.
+    pub overwrite: bool,
+    /// Texels along the side of the texture that `padding` is counted in.
+    pub resolution: u32,
+    /// Least distance of two charts, in texels.
+    pub padding: u32,
+    /// Threads to use; all that are allowed if absent. The result does not depend on it.
+    pub threads: Option<usize>,
+    /// Seconds after which the current valid map is taken as it is.
+    pub time_budget: Option<f64>,
+    /// What the heat map shows.
+    pub heatmap_measure: HeatmapMeasure,
+    /// Format of the result.
+    pub format: OutputFormat,
+    /// Name of the written files without extension; the input's if absent. Not an option over HTTP.
+    #[serde(skip)]
+    pub stem: Option<String>,
+}
+
+#[cfg(feature = "files")]
+impl Default for Options {
+    fn default() -> Self {
+        let settings = Settings::default();
+        Self {
+            energy: settings.energy,
+            barrier: settings.barrier,
+            barrier_strength: settings.barrier_strength,
+            barrier_support: settings.barrier_support,
+            cut: settings.cut,
+            group_by: GroupBy::Mesh,
+            texcoord: None,
+            overwrite: false,
+            resolution: settings.resolution,
+            padding: settings.padding,
+            threads: settings.threads,
+            time_budget: settings.time_budget,
+            heatmap_measure: HeatmapMeasure::SymmetricDirichlet,
+            format: OutputFormat::Glb,
+            stem: None,
+        }
+    }
+}
+
+#[cfg(feature = "files")]
+impl Options {
+    /// The part that concerns the geometry.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            energy: self.energy,
+            barrier: self.barrier,
+            barrier_strength: self.barrier_strength,
+            barrier_support: self.barrier_support,
+            cut: self.cut,
+            resolution: self.resolution,
+            padding: self.padding,
+            threads: self.threads,
+            time_budget: self.time_budget,
+        }
+    }
+
+    /// Checks every number against its range; the text names the option.
+    pub fn validate(&self) -> Result<(), String> {
+        self.settings().validate()?;
+        match self.texcoord {
+            Some(set) if set > MAX_TEXCOORD => Err(format!(
+                "texcoord must lie between 0 and {MAX_TEXCOORD}, not {set}"
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Highest UV set that may be asked for; no engine reads more than eight.
+#[cfg(feature = "files")]
+const MAX_TEXCOORD: u32 = 7;
+
+/// Which UVs of a document are measured or verified.
+#[cfg(feature = "files")]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct MeasureOptions {
+    /// The UV set.
+    pub texcoord: u32,
+    /// What shares one atlas.
+    pub group_by: GroupBy,
+}
+
+#[cfg(feature = "files")]
+impl Default for MeasureOptions {
+    fn default() -> Self {
+        Self {
+            texcoord: 0,
+            group_by: GroupBy::Mesh,
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! The report: what was read, what was done, and what the written bytes are worth.
+
+use serde::Serialize;
+
+use super::arrays::{ChartRecord, Unwrapped};
+use super::options::Options;
+use crate::certificate::Certificate;
+use crate::document::WriteNotes;
+use crate::measure::Measures;
+use crate::mesh::Defects;
+use crate::solver::Status;
+
+/// Version of the report's schema; it rises when a key changes its meaning or goes.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// The report of a document: what was read, what was done, and what the written bytes are worth.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Report {
+    /// Version of this schema.
+    pub schema_version: u32,
+    /// Version of the program.
+    pub unwrapd_version: &'static str,
+    /// What was asked for; absent where existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub options: Option<Options>,
+    /// Every group has a valid certificate and was mapped with a barrier.
+    pub certified: bool,
+    /// One entry per atlas, in the document's order.
+    pub groups: Vec<GroupReport>,
+    /// What was changed in the document; absent where existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written: Option<WriteNotes>,
+    /// Where the time went; absent where existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<Seconds>,
+}
+
+/// One atlas.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct GroupReport {
+    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
+    pub name: String,
+    /// Distortion, seams, packing and overlaps, measured on the written bytes.
+    pub measures: Measures,
+    /// Exact judgement of the written bytes.
+    pub certificate: Certificate,
+    /// What was found to be wrong with the mesh; absent where existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub defects: Option<Defects>,
+    /// How the atlas was made; absent where existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub atlas: Option<AtlasReport>,
+}
+
+/// How an atlas was made.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct AtlasReport {
+    /// UV length of one unit of length of the mesh.
+    pub scale: f64,
+    /// Padding kept between charts, in texels at the resolution asked for.
+    pub padding_texels: f64,
+    /// One entry per chart.
+    pub charts: Vec<ChartReport>,
+}
+
+/// How a chart was mapped.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct ChartReport {
+    /// Triangles of the chart.
+    pub faces: usize,
+    /// How the optimization ended.
+    pub status: Status,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Factorizations, failed ones included.
+    pub factorizations: usize,
+    /// Energy of the start, barrier included, rest shapes scaled to mean area 1.
+    pub energy_first: f64,
+    /// Energy at the end, in the same units.
+    pub energy_last: f64,
+    /// Seconds from the chart's start to its end.
+    pub seconds: f64,
+}
+
+/// Where the time went, in seconds of the wall clock.
+#[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Seconds {
+    /// Reading the document.
+    pub read: f64,
+    /// Cutting, mapping and packing.
+    pub unwrap: f64,
+    /// Writing the document.
+    pub write: f64,
+    /// Reading the written bytes again and judging them.
+    pub judge: f64,
+}
+
+impl Report {
+    /// The report of UVs as they are: what only unwrapping knows is absent.
+    pub(super) fn new(groups: Vec<GroupReport>) -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            unwrapd_version: env!("CARGO_PKG_VERSION"),
+            options: None,
+            certified: groups.iter().all(|group| group.certificate.is_valid()),
+            groups,
+            written: None,
+            seconds: None,
+        }
+    }
+}
+
+impl AtlasReport {
+    pub(super) fn new(unwrapped: &Unwrapped) -> Self {
+        Self {
+            scale: unwrapped.scale,
+            padding_texels: unwrapped.padding_texels,
+            charts: unwrapped.charts.iter().map(ChartReport::new).collect(),
+        }
+    }
+}
+
+impl ChartReport {
+    fn new(record: &ChartRecord) -> Self {
+        Self {
+            faces: record.faces,
+            status: record.summary.status,
+            iterations: record.summary.iterations,
+            factorizations: record.summary.factorizations,
+            energy_first: record.summary.energy_first,
+            energy_last: record.summary.energy_last,
+            seconds: record.seconds,
+        }
+    }
+}
