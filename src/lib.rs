@@ -1,25 +1,149 @@
-//! unwrapd: locally injective mappings as a library, a command line and a service.
-pub mod atlas;
-pub mod barrier;
-pub mod certificate;
-pub mod charts;
-#[cfg(feature = "service")]
-pub mod cli;
+//! unwrapd unwraps meshes: a glTF goes in, comes back with UVs in which no triangle is flipped or degenerate, proven on
+//! the bytes written, and with a report of its distortion.
+//!
+//! It stands on one paper, *Locally Injective Mappings* (Schüller, Kavan, Panozzo, Sorkine-Hornung 2013): add to a
+//! deformation energy a barrier that goes to infinity as an element's area goes to zero, and minimize the sum with
+//! Newton's method, from a start in which no element is inverted and with steps that never pass through an inversion.
+//! Every iterate is a valid map.
+//!
+//! # In a few lines
+//!
+//! ```
+//! use unwrapd::pipeline::{Settings, Unobserved, unwrap};
+//!
+//! // A pyramid without its base.
+//! let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.5, 0.7_f32]];
+//! let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+//! let atlas = unwrap(&positions, &triangles, &Settings::default(), &Unobserved)?;
+//!
+//! let uvs = atlas.corner_uvs(); // [[u, v]; 3] per triangle, v up, in the unit square, exact in f32
+//! assert_eq!(uvs.len(), triangles.len());
+//!
+//! use unwrapd::certificate::{Overlap, certify};
+//! let positions = positions.map(|p| p.map(f64::from));
+//! assert!(certify(&positions, &triangles, &uvs, Overlap::Test).is_valid());
+//! # Ok::<(), unwrapd::pipeline::PipelineError>(())
+//! ```
+//!
+//! Each stage is usable alone: [`embed::start`] gives a valid embedding of a disk, [`embed::optimize`] improves a given
+//! one under an observer, [`certificate::certify`] judges UVs from anywhere, [`measure::measure`] says what they are
+//! worth.
+//!
+//! # One picture
+//!
+//! ```text
+//!  file ─► document::read ─► mesh::Surface ─► charts ─► embed ─► atlas ─► document::write ─► file
+//!                                                                              │
+//!                            report, pictures ◄─ measure, certificate ◄─ document::read again
+//!
+//!  http ─► jobs (queue, attempts, events) ─► compute child process ─► pipeline
+//!  cli  ───────────────────────────────────────────────────────────► pipeline
+//! ```
+//!
+//! The geometry is a pure library: no I/O, no clock of its own, no logging, no global state. Options, threads and the
+//! observer, which also tells the time, are arguments; a time limit only ends the work early. The server does no geometry: every
+//! computation runs in a child process of the same binary, with a memory limit and a wall-clock limit of its own, so
+//! that a mesh that exhausts memory or finds a bug ends its own job with a cause and never the service.
+//!
+//! # Modules, and who may import whom
+//!
+//! In this order; each may import only earlier ones. A test reads the sources and enforces it, and which outside crates a
+//! module may name.
+//!
+//! | module | what lives there |
+//! |---|---|
+//! | [`numerics`] | sparse Cholesky (symbolic once, numeric each iteration), exact predicates, small closed forms |
+//! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; readers |
+//! | [`cut`] | surfaces opened along seams to disks |
+//! | [`energy`], [`barrier`] | densities as functions of singular values, and what keeps them from inverting |
+//! | [`solver`] | projected Newton, exact largest step, line search, status |
+//! | [`embed`] | a valid start for every disk and the way from it to the optimum |
+//! | [`charts`] | where to cut |
+//! | [`certificate`] | exact judgement of UVs as a file has them |
+//! | [`atlas`] | orientation, packing, the integer grid |
+//! | [`measure`] | distortion, seams, packing, overlaps of any UV map |
+#![cfg_attr(
+    feature = "files",
+    doc = "| [`document`] | glTF, OBJ and others, with everything else preserved |"
+)]
+#![cfg_attr(
+    feature = "files",
+    doc = "| [`picture`] | UV layouts and distortion as PNG |"
+)]
+//! | [`pipeline`] | from arrays or a document to an atlas and its report |
+#![cfg_attr(
+    feature = "service",
+    doc = "| [`jobs`], [`store`], [`http`] | queue and compute child, SQLite and blob files, routes |"
+)]
+#![cfg_attr(feature = "service", doc = "| [`cli`] | commands |")]
+//!
+//! # The certificate
+//!
+//! A map that is injective in f64 need not be after rounding, so the atlas lives on the integer grid of 2⁻²³, exact in
+//! f32: orientation is an exact determinant. [`atlas`] moves the vertices whose rounding would flip a triangle; nothing
+//! else trusts it: the written bytes are read again and judged by [`certificate`], which shares no code with the writer.
+//!
+//! v points down in glTF. Internally v is up; the glTF writer stores 1 − v, so an unmirrored chart has *negative* signed
+//! area in the numbers of a glTF, and positive in those of an OBJ. Orientation is judged relative to the chart.
+//!
+//! # Units
+//!
+//! A chart's rest shapes are scaled to mean area 1 before they are optimized and back afterwards, so that β, ε and
+//! tolerances mean the same for a ring and a city. Faces of zero area get a rest shape of bounded aspect. ε is
+//! min(10⁻⁵ · smallest rest area, 0.1 · smallest area of the start).
+//!
+//! # Where this differs from what one might expect
+//!
+//! - Indices are plain `u32` in plain arrays, not typed ids: researchers hand in and take out their own arrays, and a
+//!   conversion at every border would be most of the code.
+//! - GLB framing is our own 60 lines: the `gltf` crate's typed round trip loses members and its validation panics.
+//! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
+//!
+//! # Invariants
+//!
+//! 1. What leaves [`embed`] has no flip; every iterate of [`solver`] has positive areas; what [`certificate`] says is
+//!    exact on the written bytes.
+//! 2. Same input bytes and options, same output bytes, for any number of threads, on one processor type.
+//! 3. Everything in a document that a job was not asked to change is still there.
+//! 4. An accepted job is never lost: it ends succeeded, failed with a cause, or cancelled, over any crash or restart.
+//! 5. No input makes the process panic, hang, read a file or open a connection it was not given, or exceed its memory.
+
+pub mod numerics;
+
+pub mod mesh;
+
 pub mod cut;
+
+pub mod energy;
+
+pub mod barrier;
+
+pub mod solver;
+
+pub mod embed;
+
+pub mod charts;
+
+pub mod certificate;
+
+pub mod atlas;
+
+pub mod measure;
+
 #[cfg(feature = "files")]
 pub mod document;
-pub mod embed;
-pub mod energy;
-#[cfg(feature = "service")]
-pub mod http;
-#[cfg(feature = "service")]
-pub mod jobs;
-pub mod measure;
-pub mod mesh;
-pub mod numerics;
 #[cfg(feature = "files")]
 pub mod picture;
+
 pub mod pipeline;
-pub mod solver;
+
+#[cfg(feature = "service")]
+pub mod jobs;
 #[cfg(feature = "service")]
 pub mod store;
+
+#[cfg(feature = "service")]
+pub mod http;
+
+#[cfg(feature = "service")]
+pub mod cli;

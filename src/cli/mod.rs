@@ -3,13 +3,21 @@
 //! Exit codes: 0 done; 2 usage; 3 the input cannot be used; 4 not certified or no valid result within the limits;
 //! 1 anything else.
 
+mod failure;
+mod files;
 mod health;
+mod measure;
+mod progress;
 mod serve;
+mod unwrap;
+mod words;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use failure::Failure;
 
 /// Unwraps meshes: glTF in, certified flip-free UVs and a distortion report out.
 #[derive(Parser)]
@@ -21,6 +29,12 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Give a mesh UVs in which no triangle is flipped or degenerate
+    Unwrap(Box<unwrap::Args>),
+    /// Measure the UVs of a file: distortion, seams, packing, overlaps
+    Measure(measure::Args),
+    /// Check exactly that no face of a file's UVs is flipped or degenerate: exit 0 if so, 4 if not
+    Verify(measure::VerifyArgs),
     /// Run the HTTP service
     Serve(Box<serve::Args>),
     /// Print the OpenAPI document of the service
@@ -37,24 +51,20 @@ enum Command {
 
 /// Runs the command line of this process and returns its exit code.
 pub fn run() -> ExitCode {
-    match Cli::parse().command {
-        Command::Serve(args) => report(serve::run(&args)),
+    let result = match Cli::parse().command {
+        Command::Unwrap(args) => unwrap::run(&args),
+        Command::Measure(args) => measure::measure(&args),
+        Command::Verify(args) => measure::verify(&args),
+        Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Openapi => {
             println!("{}", crate::http::openapi());
-            ExitCode::SUCCESS
+            Ok(())
         }
-        Command::Health(args) => report(health::run(&args)),
-        Command::Compute { folder } => crate::jobs::compute::run(&folder),
-    }
-}
-
-/// Prints an error as one line; anything not said otherwise exits with 1.
-fn report(result: Result<(), String>) -> ExitCode {
+        Command::Health(args) => health::run(&args).map_err(Failure::other),
+        Command::Compute { folder } => return crate::jobs::compute::run(&folder),
+    };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("unwrapd: {message}");
-            ExitCode::FAILURE
-        }
+        Err(failure) => failure.report(),
     }
 }

@@ -17,6 +17,7 @@ mod images;
 mod json;
 mod meshopt;
 mod primitives;
+mod references;
 mod rewrite;
 mod split;
 mod tangents;
@@ -26,6 +27,8 @@ mod uri;
 mod write;
 
 use super::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
+pub use references::references;
+
 use accessor::Accessor;
 use body::Body;
 use json::{invalid, item, items, unsigned};

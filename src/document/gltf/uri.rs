@@ -41,13 +41,18 @@ pub(super) fn member<'a>(
     uri: &str,
     resources: &'a BTreeMap<String, Vec<u8>>,
 ) -> Option<(&'a str, &'a [u8])> {
+    candidates(uri)
+        .find_map(|path| resources.get_key_value(&path))
+        .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+}
+
+/// The paths that a relative `uri` may mean: unescaped, and as it stands.
+pub(super) fn candidates(uri: &str) -> impl Iterator<Item = String> {
     let decoded = percent_decode_str(uri).decode_utf8().ok();
     [decoded, Some(Cow::Borrowed(uri))]
         .into_iter()
         .flatten()
         .filter_map(|path| normalized(&path))
-        .find_map(|path| resources.get_key_value(&path))
-        .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
 }
 
 /// Whether the URI carries its content.

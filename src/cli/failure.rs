@@ -1,0 +1,61 @@
+//! Why a command ended, in one line, and its exit status.
+
+use std::process::ExitCode;
+
+use crate::pipeline::PipelineError;
+
+/// Why a command ended, in one line, and its exit status.
+#[derive(Debug)]
+pub(super) struct Failure {
+    exit_code: u8,
+    message: String,
+}
+
+impl Failure {
+    /// The command was called wrongly.
+    pub(super) fn usage(message: impl Into<String>) -> Self {
+        Self {
+            exit_code: 2,
+            message: message.into(),
+        }
+    }
+
+    /// The input cannot be used.
+    pub(super) fn input(message: impl Into<String>) -> Self {
+        Self {
+            exit_code: 3,
+            message: message.into(),
+        }
+    }
+
+    /// Not certified.
+    pub(super) fn uncertified(message: impl Into<String>) -> Self {
+        Self {
+            exit_code: 4,
+            message: message.into(),
+        }
+    }
+
+    /// Anything else.
+    pub(super) fn other(message: impl Into<String>) -> Self {
+        Self {
+            exit_code: 1,
+            message: message.into(),
+        }
+    }
+
+    /// Prints the line and gives the exit status.
+    pub(super) fn report(self) -> ExitCode {
+        eprintln!("unwrapd: {}", self.message);
+        ExitCode::from(self.exit_code)
+    }
+}
+
+impl From<PipelineError> for Failure {
+    fn from(error: PipelineError) -> Self {
+        Self {
+            exit_code: error.exit_code(),
+            message: format!("{error} ({})", error.code()),
+        }
+    }
+}

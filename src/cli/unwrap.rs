@@ -1,0 +1,152 @@
+//! `unwrapd unwrap`: a mesh file in, the same with certified UVs out.
+
+use std::path::PathBuf;
+
+use super::failure::Failure;
+use super::files::{json, read_upload, write_atomically, write_outputs};
+use super::progress::Display;
+use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, word};
+use crate::barrier::BarrierKind;
+use crate::charts::Cut;
+use crate::document::{GroupBy, OutputFormat};
+use crate::energy::EnergyKind;
+use crate::picture::HeatmapMeasure;
+use crate::pipeline::{self, Options, Outcome};
+
+/// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Mesh: .glb, .gltf, .obj, .off, .ply or .stl
+    input: PathBuf,
+    /// Where to write; .glb, .gltf or .obj decides the format
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Distortion energy to minimize
+    #[arg(long, default_value = "arap", value_parser = word::<EnergyKind>(ENERGIES))]
+    energy: EnergyKind,
+    /// Barrier against inversion; `none` is for comparison and never certified
+    #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(BARRIERS))]
+    barrier: BarrierKind,
+    /// Weight β of the barrier
+    #[arg(long, default_value_t = 0.01, value_name = "BETA")]
+    barrier_strength: f64,
+    /// Support s of the barrier, relative to an element's rest area
+    #[arg(long, default_value_t = 1.0, value_name = "S")]
+    barrier_support: f64,
+    /// Few charts, or one chart per component
+    #[arg(long, default_value = "auto", value_parser = word::<Cut>(CUTS))]
+    cut: Cut,
+    /// What shares one atlas
+    #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
+    group_by: GroupBy,
+    /// UV set to write [default: 0 where no texture samples it, else the next free one]
+    #[arg(long, value_name = "N")]
+    texcoord: Option<u32>,
+    /// Replace the UV set even if textures sample it
+    #[arg(long)]
+    overwrite: bool,
+    /// Side of the texture in texels
+    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
+    resolution: u32,
+    /// Least distance of two charts in texels
+    #[arg(long, default_value_t = 2, value_name = "TEXELS")]
+    padding: u32,
+    /// Threads [default: all cores]; the result does not depend on it
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// End with the current valid map after this many seconds
+    #[arg(long, value_name = "SECONDS")]
+    time_budget: Option<f64>,
+    /// Write the report as JSON
+    #[arg(long, value_name = "R.json")]
+    report: Option<PathBuf>,
+    /// Draw the UV layout
+    #[arg(long, value_name = "L.png")]
+    layout: Option<PathBuf>,
+    /// Draw the distortion
+    #[arg(long, value_name = "H.png")]
+    heatmap: Option<PathBuf>,
+    /// What the heat map shows
+    #[arg(long, default_value = "symmetric-dirichlet", value_parser = word::<HeatmapMeasure>(HEATMAPS))]
+    heatmap_measure: HeatmapMeasure,
+}
+
+impl Args {
+    fn options(&self) -> Result<Options, Failure> {
+        Ok(Options {
+            energy: self.energy,
+            barrier: self.barrier,
+            barrier_strength: self.barrier_strength,
+            barrier_support: self.barrier_support,
+            cut: self.cut,
+            group_by: self.group_by,
+            texcoord: self.texcoord,
+            overwrite: self.overwrite,
+            resolution: self.resolution,
+            padding: self.padding,
+            threads: self.threads,
+            time_budget: self.time_budget,
+            heatmap_measure: self.heatmap_measure,
+            format: self.format()?,
+            stem: self
+                .output
+                .file_stem()
+                .map(|stem| stem.to_string_lossy().into_owned()),
+        })
+    }
+
+    fn format(&self) -> Result<OutputFormat, Failure> {
+        let extension = self
+            .output
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_ascii_lowercase();
+        match extension.as_str() {
+            "glb" => Ok(OutputFormat::Glb),
+            "gltf" => Ok(OutputFormat::Gltf),
+            "obj" => Ok(OutputFormat::Obj),
+            _ => Err(Failure::usage(format!(
+                "{}: OUT must end in .glb, .gltf or .obj",
+                self.output.display()
+            ))),
+        }
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let options = args.options()?;
+    options.validate().map_err(Failure::usage)?;
+    let upload = read_upload(&args.input)?;
+    let display = Display::new();
+    let outcome = pipeline::unwrap_document(&upload, &options, &display);
+    display.finish();
+    let outcome = outcome?;
+    write_outputs(&args.output, &outcome.files)?;
+    if let Some(path) = &args.report {
+        write_atomically(path, &json(&outcome.report)?)?;
+    }
+    if let Some(path) = &args.layout {
+        write_atomically(path, &outcome.layout_png)?;
+    }
+    if let Some(path) = &args.heatmap {
+        write_atomically(path, &outcome.heatmap_png)?;
+    }
+    summarize(&outcome);
+    Ok(())
+}
+
+fn summarize(outcome: &Outcome) {
+    for group in &outcome.report.groups {
+        super::measure::print_group(group);
+    }
+    println!(
+        "{}",
+        if outcome.report.certified {
+            "certified"
+        } else {
+            "not certified"
+        }
+    );
+}

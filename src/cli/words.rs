@@ -1,0 +1,19 @@
+//! Option values that are words: the same in the command line, HTTP and reports.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+pub(super) const ENERGIES: &[&str] = &["arap", "lscm", "symmetric-dirichlet"];
+pub(super) const BARRIERS: &[&str] = &["inverse-spline", "none"];
+pub(super) const CUTS: &[&str] = &["auto", "disk"];
+pub(super) const GROUPS: &[&str] = &["mesh", "scene", "material", "primitive"];
+pub(super) const HEATMAPS: &[&str] = &["conformal", "area", "symmetric-dirichlet"];
+
+/// A parser of one of `words` into the enum that serde reads from it.
+pub(super) fn word<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+    words: &'static [&'static str],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(words)
+        .try_map(|word| serde_json::from_value::<T>(Value::String(word)))
+}

@@ -1,0 +1,26 @@
+//! Which files a glTF refers to, for callers that gather them.
+use super::{glb, uri, without_mark};
+use serde_json::Value;
+
+/// Relative paths of the buffers and images that a glTF file refers to, as [`Upload::resources`](crate::document::Upload)
+/// names them. Empty for any other content; data URIs, absolute paths, schemes and paths that climb out are left out.
+pub fn references(bytes: &[u8]) -> Vec<String> {
+    let json = if glb::is_glb(bytes) {
+        glb::split(bytes).map_or(&[][..], |container| container.json)
+    } else {
+        without_mark(bytes)
+    };
+    let root: Value = serde_json::from_slice(json).unwrap_or_default();
+    let members = ["buffers", "images"].map(|key| root[key].as_array());
+    let mut paths: Vec<String> = members
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(|member| member["uri"].as_str())
+        .filter(|text| !uri::is_data(text))
+        .flat_map(uri::candidates)
+        .collect();
+    paths.sort();
+    paths.dedup();
+    paths
+}
