@@ -1,17 +1,38 @@
 //! Charts placed in the unit square, on an integer grid.
 //!
-//! Chart maps arrive one by one, in mesh units and all at one density. Each is turned to a good
-//! angle, all are packed without touching, at one scale, and every vertex is rounded to a multiple
-//! of 2⁻²³, which `f32` holds exactly. Rounding may flip a triangle that was positive in `f64`:
-//! such places are repaired, and what leaves this module is positive in exact integer arithmetic.
+//! Chart maps arrive in mesh units, all at one density. Each is turned to a good angle; all are
+//! packed at one scale by a conservative raster, with a gap that is counted in texels; then every
+//! vertex is rounded to a multiple of 2⁻²³, which `f32` holds exactly. Rounding may take the area of
+//! a triangle that was positive in `f64`: such places are repaired, vertices moving no farther than
+//! they must, and what leaves this module is positive in exact integer arithmetic.
 //!
-//! Charts are never mirrored and never scaled one against the other.
+//! Rounding is done once per chart, before it is turned by quarters and shifted by whole grid units,
+//! so its signs hold wherever the chart lies. A vertex that had to move farther than the gap allows
+//! for makes the charts be laid out again with that much more room.
+//!
+//! Charts are never mirrored. None is scaled against the others, except those so small (below a
+//! texel) that the grid has fewer than a handful of cells for each of their triangles.
+mod layout;
+mod mask;
 mod orientation;
+mod outline;
+mod relax;
+mod sheet;
+mod snap;
 
+use rayon::prelude::*;
 use thiserror::Error;
 
-/// Atlas coordinates are integers in `0..=2^GRID_BITS`, the unit square in steps `f32` represents.
+use layout::{Layout, SLACK};
+use orientation::Bounds;
+use outline::Outline;
+use sheet::Spot;
+use snap::Snapped;
+
+/// Atlas coordinates are integers in `0..=2^GRID_BITS`: the unit square in steps `f32` represents.
 pub const GRID_BITS: u32 = 23;
+/// The side of the unit square in grid units.
+const GRID_SIDE: f64 = (1 << GRID_BITS) as f64;
 
 /// One chart's map: counter-clockwise triangles over vertices in mesh units.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +48,7 @@ pub struct ChartMap<'a> {
 pub struct AtlasOptions {
     /// Side of the texture, in texels, in which the padding is counted.
     pub resolution: u32,
-    /// Smallest distance between two charts, in texels.
+    /// Smallest distance between two charts, in texels; half of it is kept to the border.
     pub padding_texels: u32,
 }
 
@@ -52,23 +73,27 @@ pub struct Placed {
 pub struct Atlas {
     /// The charts, in the order they were given.
     pub placed: Vec<Placed>,
-    /// UV units per mesh unit, the same for every chart.
+    /// UV units per mesh unit.
     pub scale: f64,
     /// Share of the unit square that triangles cover.
     pub utilization: f64,
     /// The distance that is kept between charts, in texels: what was asked for, or less where so
-    /// many charts do not leave room for it.
+    /// many charts leave no room for it.
     pub padding_texels: f64,
+    /// Charts too small for the grid that were enlarged.
+    pub enlarged_charts: usize,
     /// Vertices that do not lie on the grid point next to their exact position, because a triangle
     /// would have lost its area there.
     pub moved_vertices: usize,
+    /// The largest distance between a vertex and its exact position, in grid units.
+    pub largest_move: f64,
 }
 
-/// A chart that cannot be placed.
+/// Charts that cannot be placed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AtlasError {
-    /// A coordinate is not a finite number.
-    #[error("chart {chart} has a coordinate that is not finite")]
+    /// A coordinate, or the area, is not a finite number.
+    #[error("chart {chart} has coordinates that are not finite")]
     NonFinite {
         /// Its index.
         chart: usize,
@@ -85,47 +110,75 @@ pub enum AtlasError {
         /// Its index.
         chart: usize,
     },
+    /// There are more charts than the finest raster can keep apart.
+    #[error("{charts} charts are too many for one atlas")]
+    TooManyCharts {
+        /// Their number.
+        charts: usize,
+    },
 }
 
-/// Places every chart in the unit square, each triangle strictly positive on the grid.
+/// Layouts tried until no vertex moves farther than its chart's room.
+const ROUNDS: usize = 6;
+
+/// Places every chart in the unit square, each triangle strictly positive on the grid, any two charts
+/// at least the padding apart.
+///
+/// The charts must be strictly positive as given. The same input gives the same atlas for any number
+/// of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
-    for (chart, map) in charts.iter().enumerate() {
-        check(chart, map)?;
-    }
-    let turned: Vec<Vec<[f64; 2]>> = charts
-        .iter()
-        .map(|map| orientation::turned(map.uv))
-        .collect();
-    let (offsets, scale) = shelves(&turned, options);
-    let side = f64::from(1 << GRID_BITS);
-    let mut placed = Vec::with_capacity(charts.len());
-    let mut doubled_area = 0.0;
-    for (chart, (map, uv)) in charts.iter().zip(&turned).enumerate() {
-        let grid: Vec<[i32; 2]> = uv
-            .iter()
-            .map(|p| [0, 1].map(|k| ((p[k] + offsets[chart][k]) * scale * side).round() as i32))
-            .collect();
-        for triangle in map.triangles {
-            let area = doubled(triangle.map(|v| grid[v as usize]));
-            if area <= 0 {
-                return Err(AtlasError::NotRepresentable { chart });
+    let outlines = outlines(charts)?;
+    let mut slack = vec![SLACK; charts.len()];
+    let mut cramped = 0;
+    for _ in 0..ROUNDS {
+        let layout =
+            layout::layout(&outlines, &slack, options).ok_or(AtlasError::TooManyCharts {
+                charts: charts.len(),
+            })?;
+        let snapped = snapped(charts, &outlines, &layout)?;
+        let mut settled = true;
+        for (chart, snapped) in snapped.iter().enumerate() {
+            // Shifting and turning round to whole grid units once more.
+            let needed = (snapped.largest_move + 2.0) / layout.cell;
+            if needed > slack[chart] {
+                slack[chart] = 1.5 * needed;
+                (cramped, settled) = (chart, false);
             }
-            doubled_area += area as f64;
         }
-        placed.push(Placed { grid });
+        if settled {
+            return Ok(atlas(charts, &layout, &slack, snapped));
+        }
     }
-    Ok(Atlas {
-        placed,
-        scale,
-        utilization: doubled_area / (2.0 * side * side),
-        padding_texels: f64::from(options.padding_texels),
-        moved_vertices: 0,
-    })
+    Err(AtlasError::NotRepresentable { chart: cramped })
 }
 
-fn check(chart: usize, map: &ChartMap) -> Result<(), AtlasError> {
+/// Checks the charts and turns each to its angle.
+fn outlines<'a>(charts: &[ChartMap<'a>]) -> Result<Vec<Outline<'a>>, AtlasError> {
+    let areas: Vec<f64> = charts
+        .par_iter()
+        .map(check)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .enumerate()
+        .map(|(chart, checked)| checked.map_err(|fault| fault(chart)))
+        .collect::<Result<_, _>>()?;
+    let total: f64 = areas.iter().sum();
+    let turned = charts.par_iter().zip(&areas).map(|(map, &area)| {
+        // A chart that is most of the atlas decides its side; others fit better as rectangles.
+        let bounds = if 2.0 * area > total {
+            Bounds::Square
+        } else {
+            Bounds::Rectangle
+        };
+        Outline::new(map, bounds, area)
+    });
+    Ok(turned.collect())
+}
+
+/// The area of a chart, or what is wrong with it.
+fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
     if map.uv.iter().flatten().any(|x| !x.is_finite()) {
-        return Err(AtlasError::NonFinite { chart });
+        return Err(|chart| AtlasError::NonFinite { chart });
     }
     if map
         .triangles
@@ -133,50 +186,102 @@ fn check(chart: usize, map: &ChartMap) -> Result<(), AtlasError> {
         .flatten()
         .any(|&v| v as usize >= map.uv.len())
     {
-        return Err(AtlasError::IndexOutOfRange { chart });
+        return Err(|chart| AtlasError::IndexOutOfRange { chart });
     }
-    Ok(())
+    let area = outline::area(map);
+    if !area.is_finite() {
+        return Err(|chart| AtlasError::NonFinite { chart });
+    }
+    if area <= 0.0 && !map.triangles.is_empty() {
+        return Err(|chart| AtlasError::NotRepresentable { chart });
+    }
+    Ok(area)
+}
+
+/// Every chart on its own grid.
+fn snapped(
+    charts: &[ChartMap],
+    outlines: &[Outline],
+    layout: &Layout,
+) -> Result<Vec<Snapped>, AtlasError> {
+    let snapped: Vec<Option<Snapped>> = charts
+        .par_iter()
+        .zip(outlines)
+        .zip(&layout.charts)
+        .map(|((map, outline), &(_, stretch))| snap::snapped(map, outline, layout.scale * stretch))
+        .collect();
+    let named = snapped.into_iter().enumerate();
+    named
+        .map(|(chart, snapped)| snapped.ok_or(AtlasError::NotRepresentable { chart }))
+        .collect()
+}
+
+/// Turns and shifts every chart to its place.
+fn atlas(charts: &[ChartMap], layout: &Layout, slack: &[f64], snapped: Vec<Snapped>) -> Atlas {
+    let moved_vertices = snapped.iter().map(|s| s.moved).sum();
+    let largest_move = snapped.iter().map(|s| s.largest_move).fold(0.0, f64::max);
+    let spots = layout.charts.iter().zip(slack);
+    let placed: Vec<Placed> = charts
+        .iter()
+        .zip(snapped.into_iter().zip(spots))
+        .map(|(map, (snapped, (&(spot, _), &slack)))| Placed {
+            grid: if map.triangles.is_empty() {
+                vec![[0; 2]; map.uv.len()]
+            } else {
+                moved(snapped.grid, spot, layout, slack - SLACK)
+            },
+        })
+        .collect();
+    let doubled = |(map, placed): (&ChartMap, &Placed)| {
+        let of = |t: &[u32; 3]| doubled_area(t.map(|v| placed.grid[v as usize])) as f64;
+        map.triangles.iter().map(of).sum::<f64>()
+    };
+    let covered: f64 = charts.iter().zip(&placed).map(doubled).sum();
+    Atlas {
+        placed,
+        scale: layout.scale / GRID_SIDE,
+        utilization: covered / (2.0 * GRID_SIDE * GRID_SIDE),
+        padding_texels: layout.padding_texels,
+        enlarged_charts: layout
+            .charts
+            .iter()
+            .filter(|(_, stretch)| *stretch > 1.0)
+            .count(),
+        moved_vertices,
+        largest_move,
+    }
+}
+
+/// A chart turned by quarters and shifted to its spot; `around` cells of its mask surround it.
+fn moved(mut grid: Vec<[i32; 2]>, spot: Spot, layout: &Layout, around: f64) -> Vec<[i32; 2]> {
+    let near =
+        |corner: u32| ((layout.border + f64::from(corner) + around) * layout.cell).round() as i32;
+    let far = |corner: u32, size: u32| {
+        ((layout.border + f64::from(corner + size) - around) * layout.cell).round() as i32
+    };
+    let Spot {
+        x,
+        y,
+        turns,
+        width,
+        height,
+    } = spot;
+    for p in &mut grid {
+        let [i, j] = *p;
+        *p = match turns {
+            0 => [near(x) + i, near(y) + j],
+            1 => [far(x, height) - j, near(y) + i],
+            2 => [far(x, width) - i, far(y, height) - j],
+            _ => [near(x) + j, far(y, width) - i],
+        };
+    }
+    grid
 }
 
 /// Twice the signed area of a grid triangle, exact.
-fn doubled([a, b, c]: [[i32; 2]; 3]) -> i64 {
+fn doubled_area([a, b, c]: [[i32; 2]; 3]) -> i64 {
     let [ax, ay] = a.map(i64::from);
     let [bx, by] = b.map(i64::from);
     let [cx, cy] = c.map(i64::from);
     (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-}
-
-/// Bounding boxes on shelves: offsets in mesh units and the scale that makes them fit.
-fn shelves(charts: &[Vec<[f64; 2]>], options: &AtlasOptions) -> (Vec<[f64; 2]>, f64) {
-    let boxes: Vec<[f64; 2]> = charts
-        .iter()
-        .map(|uv| [0, 1].map(|k| uv.iter().map(|p| p[k]).fold(0.0, f64::max)))
-        .collect();
-    let area: f64 = boxes.iter().map(|b| b[0] * b[1]).sum();
-    let longest = boxes
-        .iter()
-        .flatten()
-        .copied()
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let mut order: Vec<usize> = (0..boxes.len()).collect();
-    order.sort_by(|&i, &j| boxes[j][1].total_cmp(&boxes[i][1]));
-    let mut side = area.sqrt().max(longest);
-    loop {
-        let gap =
-            side * f64::from(options.padding_texels + 1) / f64::from(options.resolution.max(1));
-        let mut offsets = vec![[0.0; 2]; boxes.len()];
-        let (mut x, mut y, mut shelf) = (0.0, 0.0, 0.0);
-        for &i in &order {
-            if x > 0.0 && x + boxes[i][0] > side {
-                (x, y, shelf) = (0.0, y + shelf + gap, 0.0);
-            }
-            offsets[i] = [x, y];
-            x += boxes[i][0] + gap;
-            shelf = f64::max(shelf, boxes[i][1]);
-        }
-        if y + shelf <= side || side > 1e3 * longest.max(area.sqrt()) {
-            return (offsets, 1.0 / side.max(y + shelf));
-        }
-        side *= 1.02;
-    }
 }

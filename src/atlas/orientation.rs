@@ -1,24 +1,32 @@
-//! The angle at which a chart fills its bounding rectangle best.
+//! The angle at which a chart is packed.
 
-/// The chart rotated so that the bounding rectangle of smallest area is axis-aligned and not higher
-/// than wide, with its lower left corner at the origin.
-pub(super) fn turned(uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let [c, s] = smallest_rectangle(&convex_hull(uv));
-    let mut out: Vec<[f64; 2]> = uv
-        .iter()
-        .map(|&[x, y]| [c * x + s * y, c * y - s * x])
-        .collect();
-    let lowest = [0, 1].map(|k| out.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-    for p in &mut out {
-        *p = [p[0] - lowest[0], p[1] - lowest[1]];
-    }
-    out
+/// What a good angle makes small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bounds {
+    /// The area of the bounding rectangle: many charts share the square.
+    Rectangle,
+    /// The side of the bounding square: one chart has it to itself.
+    Square,
 }
 
-/// Direction of the side of the smallest enclosing rectangle (one side lies on a hull edge).
+/// Hull edges tried at most; the hull of a round chart is thinned to this many.
+const HULL_EDGES: usize = 512;
+/// Angles tried for the bounding square, over a quarter turn.
+const SQUARE_ANGLES: u32 = 360;
+
+/// Unit vector that becomes the horizontal axis.
+pub(super) fn direction(uv: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
+    let hull = convex_hull(uv);
+    match bounds {
+        Bounds::Rectangle => smallest_rectangle(&hull),
+        Bounds::Square => smallest_square(&hull),
+    }
+}
+
+/// One side of the smallest enclosing rectangle lies on a hull edge.
 fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
     let mut best = ([1.0, 0.0], f64::INFINITY);
-    for i in 0..hull.len() {
+    for i in (0..hull.len()).step_by(hull.len().div_ceil(HULL_EDGES).max(1)) {
         let (p, q) = (hull[i], hull[(i + 1) % hull.len()]);
         let d = [q[0] - p[0], q[1] - p[1]];
         let length = d[0].hypot(d[1]);
@@ -29,6 +37,19 @@ fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
                 let along = if width < height { [-d[1], d[0]] } else { d };
                 best = (along, width * height);
             }
+        }
+    }
+    best.0
+}
+
+fn smallest_square(hull: &[[f64; 2]]) -> [f64; 2] {
+    let mut best = ([1.0, 0.0], f64::INFINITY);
+    for step in 0..SQUARE_ANGLES {
+        let angle = std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(SQUARE_ANGLES);
+        let d = [angle.cos(), angle.sin()];
+        let side = extent(hull, d).into_iter().fold(0.0, f64::max);
+        if side < best.1 {
+            best = (d, side);
         }
     }
     best.0
@@ -46,13 +67,13 @@ fn extent(hull: &[[f64; 2]], [c, s]: [f64; 2]) -> [f64; 2] {
     [high[0] - low[0], high[1] - low[1]]
 }
 
-/// Andrew's monotone chain; counter-clockwise.
+/// Andrew's monotone chain, counter-clockwise.
 fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     sorted.dedup();
     let mut hull: Vec<[f64; 2]> = Vec::new();
-    for pass in 0..2 {
+    for _ in 0..2 {
         let start = hull.len();
         for &p in &sorted {
             while hull.len() >= start + 2
@@ -63,9 +84,7 @@ fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
             hull.push(p);
         }
         hull.pop();
-        if pass == 0 {
-            sorted.reverse();
-        }
+        sorted.reverse();
     }
     hull
 }

@@ -1,23 +1,357 @@
-//! Packing: positive on the grid, inside the square, apart.
-use unwrapd::atlas::{AtlasOptions, ChartMap, GRID_BITS, pack};
+//! Packing: positive on the grid, inside the square, apart, the same every time.
+use proptest::prelude::*;
+use unwrapd::atlas::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_BITS, pack};
+
+type Chart = (Vec<[f64; 2]>, Vec<[u32; 3]>);
+
+fn maps(charts: &[Chart]) -> Vec<ChartMap<'_>> {
+    charts
+        .iter()
+        .map(|(uv, triangles)| ChartMap { uv, triangles })
+        .collect()
+}
+
+/// Rings of vertices around a centre; `radius(ring, angle)`, ring 0 is the centre.
+fn disk(rings: usize, sectors: usize, radius: impl Fn(usize, f64) -> f64) -> Chart {
+    let mut uv = vec![[0.0; 2]];
+    let mut triangles = Vec::new();
+    let id = |ring: usize, j: usize| (1 + (ring - 1) * sectors + j % sectors) as u32;
+    for ring in 1..=rings {
+        for j in 0..sectors {
+            let angle = std::f64::consts::TAU * j as f64 / sectors as f64;
+            let r = radius(ring, angle);
+            uv.push([r * angle.cos(), r * angle.sin()]);
+            if ring == 1 {
+                triangles.push([0, id(1, j), id(1, j + 1)]);
+            } else {
+                triangles.push([id(ring - 1, j), id(ring, j), id(ring, j + 1)]);
+                triangles.push([id(ring - 1, j), id(ring, j + 1), id(ring - 1, j + 1)]);
+            }
+        }
+    }
+    (uv, triangles)
+}
+
+/// A blob with a wavy outline.
+fn blob(size: f64, waves: u32, depth: f64) -> Chart {
+    let wavy = move |angle: f64| 1.0 + depth * (f64::from(waves) * angle).cos();
+    disk(2, 18, move |ring, angle| size * ring as f64 * wavy(angle))
+}
+
+fn area(grid: &[[i32; 2]], t: &[u32; 3]) -> i128 {
+    let [a, b, c] = t.map(|v| grid[v as usize].map(i128::from));
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+fn assert_positive_and_inside(charts: &[Chart], atlas: &Atlas) {
+    assert_eq!(charts.len(), atlas.placed.len());
+    for ((uv, triangles), placed) in charts.iter().zip(&atlas.placed) {
+        assert_eq!(uv.len(), placed.grid.len());
+        assert!(
+            placed
+                .grid
+                .iter()
+                .flatten()
+                .all(|&x| (0..=1 << GRID_BITS).contains(&x))
+        );
+        for t in triangles {
+            assert!(area(&placed.grid, t) > 0, "triangle {t:?}");
+        }
+    }
+}
+
+fn boundary(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let edges = || {
+        triangles
+            .iter()
+            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+    };
+    let all: std::collections::HashSet<[u32; 2]> = edges().collect();
+    edges().filter(|&[a, b]| !all.contains(&[b, a])).collect()
+}
+
+fn point_to_segment(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
+    let d = [b[0] - a[0], b[1] - a[1]];
+    let along = (p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1];
+    let t = (along / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
+    (p[0] - a[0] - t * d[0]).hypot(p[1] - a[1] - t * d[1])
+}
+
+/// Smallest distance between the outlines of two charts, in texels; charts inside one another or
+/// crossing are found by their triangles.
+fn smallest_gap(charts: &[Chart], atlas: &Atlas, resolution: u32) -> f64 {
+    let texel = f64::from(1 << GRID_BITS) / f64::from(resolution);
+    let mut gap = f64::INFINITY;
+    for i in 0..charts.len() {
+        for j in 0..charts.len() {
+            let at = |chart: usize, v: u32| atlas.placed[chart].grid[v as usize].map(f64::from);
+            if i == j {
+                continue;
+            }
+            for &[a, b] in &boundary(&charts[i].1) {
+                for &[p, _] in &boundary(&charts[j].1) {
+                    gap = gap.min(point_to_segment(at(j, p), [at(i, a), at(i, b)]));
+                }
+            }
+            let inside = |t: &[u32; 3], p: [i32; 2]| {
+                let corner = |v: u32| atlas.placed[i].grid[v as usize];
+                let [a, b, c] = t.map(corner);
+                [[a, b, p], [b, c, p], [c, a, p]]
+                    .iter()
+                    .all(|s| area(s, &[0, 1, 2]) > 0)
+            };
+            let covered = charts[i]
+                .1
+                .iter()
+                .any(|t| atlas.placed[j].grid.iter().any(|&p| inside(t, p)));
+            assert!(!covered, "chart {j} lies on chart {i}");
+        }
+    }
+    gap / texel
+}
 
 #[test]
-fn one_triangle_fills_half_of_its_rectangle() {
-    let chart = ChartMap {
-        uv: &[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]],
-        triangles: &[[0, 1, 2]],
-    };
-    let atlas = pack(&[chart], &AtlasOptions::default()).unwrap();
+fn one_triangle_fills_half_of_its_square() {
+    let chart = (vec![[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]], vec![[0, 1, 2]]);
+    let atlas = pack(
+        &maps(&[chart]),
+        &AtlasOptions {
+            resolution: 1024,
+            padding_texels: 0,
+        },
+    )
+    .unwrap();
     assert!(
         (atlas.utilization - 0.5).abs() < 0.01,
         "{}",
         atlas.utilization
     );
+}
+
+#[test]
+fn nothing_is_an_empty_atlas() {
+    let atlas = pack(&[], &AtlasOptions::default()).unwrap();
+    assert!(atlas.placed.is_empty());
+    let empty = pack(
+        &[ChartMap {
+            uv: &[],
+            triangles: &[],
+        }],
+        &AtlasOptions::default(),
+    )
+    .unwrap();
+    assert_eq!(empty.placed.len(), 1);
+}
+
+#[test]
+fn what_cannot_be_placed_is_named() {
+    let good = blob(1.0, 3, 0.2);
+    let mut far = good.clone();
+    far.1[3][1] = 1000;
+    let mut infinite = good.clone();
+    infinite.0[2][0] = f64::NAN;
+    let mut flat = good.clone();
+    flat.0.iter_mut().for_each(|p| p[1] = 0.0);
+    let fault =
+        |bad: Chart| pack(&maps(&[good.clone(), bad]), &AtlasOptions::default()).unwrap_err();
+    assert_eq!(fault(far), AtlasError::IndexOutOfRange { chart: 1 });
+    assert_eq!(fault(infinite), AtlasError::NonFinite { chart: 1 });
+    assert_eq!(fault(flat), AtlasError::NotRepresentable { chart: 1 });
+}
+
+#[test]
+fn a_chart_is_turned_but_not_mirrored_or_bent() {
+    let charts = [blob(1.0, 3, 0.3), blob(0.4, 5, 0.2), blob(0.7, 2, 0.5)];
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    let unit = atlas.scale * f64::from(1 << GRID_BITS);
+    for ((uv, _), placed) in charts.iter().zip(&atlas.placed) {
+        for (p, q) in [(0, 5), (3, 30), (18, 22)] {
+            let exact = (uv[p][0] - uv[q][0]).hypot(uv[p][1] - uv[q][1]) * unit;
+            let [a, b] = [p, q].map(|v| placed.grid[v].map(f64::from));
+            assert!(((a[0] - b[0]).hypot(a[1] - b[1]) - exact).abs() < 3.0);
+        }
+    }
+    assert!(atlas.utilization > 0.4, "{}", atlas.utilization);
+    assert!(atlas.moved_vertices == 0 && atlas.largest_move < 1.0);
+}
+
+#[test]
+fn thousands_of_tiny_charts_fit() {
+    let charts: Vec<Chart> = (0..5000)
+        .map(|i| blob(1.0 + f64::from(i % 7) / 7.0, 3, 0.1))
+        .collect();
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(atlas.utilization > 0.4, "{}", atlas.utilization);
+    assert!((atlas.padding_texels - 2.0).abs() < 1e-9);
+}
+
+#[test]
+fn padding_shrinks_when_it_leaves_no_room() {
+    let charts: Vec<Chart> = (0..300)
+        .map(|i| blob(1.0 + f64::from(i) / 300.0, 3, 0.1))
+        .collect();
+    let options = AtlasOptions {
+        resolution: 64,
+        padding_texels: 32,
+    };
+    let atlas = pack(&maps(&charts), &options).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
     assert!(
-        atlas.placed[0]
-            .grid
-            .iter()
-            .flatten()
-            .all(|&x| (0..=1 << GRID_BITS).contains(&x))
+        atlas.padding_texels < 4.0 && atlas.padding_texels > 0.5,
+        "{}",
+        atlas.padding_texels
     );
+    assert!(smallest_gap(&charts[..40], &atlas, 64) >= atlas.padding_texels);
+}
+
+#[test]
+fn an_extreme_aspect_ratio_is_kept() {
+    let needle = (
+        vec![[0.0, 0.0], [1e6, 0.0], [1e6, 1.0], [0.0, 1.0]],
+        vec![[0, 1, 2], [0, 2, 3]],
+    );
+    let charts = [needle, blob(1e5, 3, 0.2)];
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+#[test]
+fn sizes_over_twelve_orders_of_magnitude_are_all_represented() {
+    let charts: Vec<Chart> = (0..13).map(|k| blob(10.0_f64.powi(-k), 3, 0.2)).collect();
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(
+        atlas.enlarged_charts > 0 && atlas.enlarged_charts < 9,
+        "{}",
+        atlas.enlarged_charts
+    );
+    assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+#[test]
+fn a_hole_receives_a_small_chart() {
+    // A frame with a hole of 80 % of its width, and charts that only fit together inside it.
+    let ring = |r: f64| [[-r, -r], [r, -r], [r, r], [-r, r]];
+    let uv = [ring(1.0), ring(0.8)].concat();
+    let triangles = (0..4u32).flat_map(|i| {
+        let j = (i + 1) % 4;
+        [[i, j, 4 + j], [i, 4 + j, 4 + i]]
+    });
+    let square = (ring(0.7).to_vec(), vec![[0, 1, 2], [0, 2, 3]]);
+    let charts = [(uv, triangles.collect()), square];
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert!(atlas.utilization > 0.8, "{}", atlas.utilization);
+    assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+#[test]
+fn threads_and_order_do_not_matter() {
+    let charts: Vec<Chart> = (0..60)
+        .map(|i| blob(1.0 + f64::from(i * i % 61), 2 + i % 4, f64::from(i) / 200.0))
+        .collect();
+    let on = |threads: usize, charts: &[Chart]| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| pack(&maps(charts), &AtlasOptions::default()).unwrap())
+    };
+    let atlas = on(1, &charts);
+    assert_eq!(atlas, on(2, &charts));
+    assert_eq!(atlas, on(4, &charts));
+    let reversed: Vec<Chart> = charts.iter().rev().cloned().collect();
+    let mut other = on(2, &reversed);
+    other.placed.reverse();
+    assert_eq!(atlas, other);
+}
+
+#[test]
+fn needles_thinner_than_a_cell_are_opened() {
+    let n = 600;
+    let at = |i: u32| (1e-9 * f64::from(i)).sin_cos();
+    let mut uv = vec![[0.0, 0.0]];
+    uv.extend((0..=n).map(|i| [at(i).1, at(i).0]));
+    let triangles = (1..=n).map(|i| [0, i, i + 1]).collect();
+    let charts = [(uv, triangles), blob(0.3, 3, 0.2)];
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(atlas.moved_vertices > 0);
+    assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+#[test]
+fn a_thousand_triangles_within_one_cell_are_opened() {
+    // Twelve rings of 40 within 1e-9 of the centre of a disk of radius 1.
+    let radius = |ring: usize, _| {
+        if ring <= 12 {
+            1e-10 * ring as f64
+        } else {
+            0.1 * (ring - 12) as f64
+        }
+    };
+    let chart = disk(22, 40, radius);
+    let fine = chart.1.iter().flatten().filter(|&&v| v <= 12 * 40).count();
+    assert!(fine > 2500);
+    let charts = [chart];
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(atlas.largest_move < 4000.0, "{}", atlas.largest_move);
+}
+
+#[test]
+fn a_graded_disk_keeps_every_ring() {
+    for ratio in [0.5, 0.1, 0.01] {
+        let charts = [disk(20, 12, |ring, _| f64::powi(ratio, 20 - ring as i32))];
+        let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+        assert_positive_and_inside(&charts, &atlas);
+        assert!(
+            atlas.largest_move < 2000.0,
+            "{ratio}: {}",
+            atlas.largest_move
+        );
+    }
+}
+
+#[test]
+fn a_cramped_corner_of_the_outline_keeps_its_distance() {
+    // The fine part is at the outline, which has to move.
+    let mut fine = disk(6, 30, |ring, _| 1e-9 * ring as f64);
+    for i in 0..30 {
+        let j = (i + 1) % 30;
+        let [a, b] = [i, j].map(|k: u32| 1 + 5 * 30 + k);
+        let [x, y] = fine.0[a as usize];
+        if i < 10 {
+            fine.0.push([1e9 * x, 1e9 * y]);
+            let tip = fine.0.len() as u32 - 1;
+            fine.1.push([b, a, tip].map(|v| v));
+            fine.1.last_mut().unwrap().rotate_left(1);
+        }
+    }
+    fine.1.retain(|&t| {
+        let [a, b, c] = t.map(|v| fine.0[v as usize]);
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0
+    });
+    let charts = [fine, blob(1.0, 4, 0.3), blob(0.5, 3, 0.3)];
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn random_charts_are_positive_inside_and_apart(
+        shapes in prop::collection::vec((-3.0..3.0f64, 1u32..7, 0.0..0.6f64), 1..14),
+        resolution in 64u32..2048,
+        padding_texels in 0u32..6,
+    ) {
+        let charts: Vec<Chart> = shapes.iter().map(|&(size, waves, depth)| blob(size.exp(), waves, depth)).collect();
+        let atlas = pack(&maps(&charts), &AtlasOptions { resolution, padding_texels }).unwrap();
+        assert_positive_and_inside(&charts, &atlas);
+        let gap = smallest_gap(&charts, &atlas, resolution);
+        prop_assert!(gap >= atlas.padding_texels, "{gap} < {}", atlas.padding_texels);
+        prop_assert!(gap > 0.0);
+    }
 }

@@ -1,0 +1,215 @@
+//! One chart rounded to the grid with every triangle positive.
+//!
+//! Rounding alone is right for all but a few triangles. Where it is not, the vertices of the
+//! triangle try the grid points around (the ring's kernel, searched exhaustively); what is left is
+//! too narrow for the grid and is opened by [`relax`] in ever larger neighbourhoods, then rounded
+//! again.
+use rayon::prelude::*;
+
+use super::relax::relax;
+use super::{ChartMap, doubled_area, outline::Outline};
+
+/// A chart on the grid, its bounding rectangle's lower left corner near the origin.
+#[derive(Clone, Debug)]
+pub(super) struct Snapped {
+    pub grid: Vec<[i32; 2]>,
+    /// Vertices that are not where rounding alone would put them.
+    pub moved: usize,
+    /// The largest distance between a vertex and its exact position, in grid units.
+    pub largest_move: f64,
+}
+
+/// Grid points tried around the exact position: this many columns and rows to each side.
+const REACH: i32 = 2;
+/// Neighbourhoods tried; each has twice as many rings as the one before.
+const ROUNDS: u32 = 12;
+
+/// The chart at `unit` grid units per mesh unit, or none if a triangle stays without area.
+pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Snapped> {
+    let exact = |v: usize| outline.uv[v].map(|x| x * unit);
+    let rounded: Vec<[i32; 2]> = (0..map.uv.len()).map(|v| round(exact(v))).collect();
+    let mut snap = Snap {
+        triangles: map.triangles,
+        grid: rounded.clone(),
+        rings: Rings::default(),
+    };
+    let all: Vec<u32> = (0..map.triangles.len() as u32).collect();
+    let mut bad = snap.without_area(&all);
+    if !bad.is_empty() {
+        snap.rings = Rings::new(map.uv.len(), map.triangles);
+        snap.repair(map, outline, unit, &mut bad)?;
+    }
+    let distance = |v: usize| {
+        let [x, y] = exact(v);
+        (x - f64::from(snap.grid[v][0])).hypot(y - f64::from(snap.grid[v][1]))
+    };
+    Some(Snapped {
+        moved: rounded
+            .iter()
+            .zip(&snap.grid)
+            .filter(|(a, b)| a != b)
+            .count(),
+        largest_move: (0..map.uv.len()).map(distance).fold(0.0, f64::max),
+        grid: snap.grid,
+    })
+}
+
+fn round(p: [f64; 2]) -> [i32; 2] {
+    p.map(|x| x.round() as i32)
+}
+
+struct Snap<'a> {
+    triangles: &'a [[u32; 3]],
+    grid: Vec<[i32; 2]>,
+    rings: Rings,
+}
+
+impl Snap<'_> {
+    fn repair(
+        &mut self,
+        map: &ChartMap,
+        outline: &Outline,
+        unit: f64,
+        bad: &mut Vec<u32>,
+    ) -> Option<()> {
+        let mut plane = map.uv.to_vec();
+        for round_of in 0..=ROUNDS {
+            let exact = |v: u32| outline.place(plane[v as usize]).map(|x| x * unit);
+            self.nudge(bad, exact);
+            if bad.is_empty() {
+                return Some(());
+            }
+            let patch = self.neighbourhood(bad, 1 << round_of);
+            let free = relax(self.triangles, &self.rings, &patch, 1.0 / unit, &mut plane);
+            for v in free {
+                self.grid[v as usize] = round(outline.place(plane[v as usize]).map(|x| x * unit));
+            }
+            *bad = self.without_area(&patch);
+        }
+        None
+    }
+
+    fn without_area(&self, among: &[u32]) -> Vec<u32> {
+        among
+            .par_iter()
+            .copied()
+            .filter(|&t| !self.is_positive(t))
+            .collect()
+    }
+
+    fn is_positive(&self, t: u32) -> bool {
+        doubled_area(self.triangles[t as usize].map(|v| self.grid[v as usize])) > 0
+    }
+
+    /// Moves vertices of bad triangles to grid points near their exact position, as long as that
+    /// makes fewer triangles bad.
+    fn nudge(&mut self, bad: &mut Vec<u32>, exact: impl Fn(u32) -> [f64; 2]) {
+        loop {
+            let mut improved = false;
+            for &t in &*bad {
+                for v in self.triangles[t as usize] {
+                    improved |= !self.is_positive(t) && self.nudge_vertex(v, exact(v));
+                }
+            }
+            bad.retain(|&t| !self.is_positive(t));
+            if !improved || bad.is_empty() {
+                return;
+            }
+        }
+    }
+
+    fn nudge_vertex(&mut self, v: u32, exact: [f64; 2]) -> bool {
+        let before = self.grid[v as usize];
+        let key = |bad: usize, p: [i32; 2]| {
+            (
+                bad,
+                (f64::from(p[0]) - exact[0]).hypot(f64::from(p[1]) - exact[1]),
+            )
+        };
+        let count = self.bad_in_ring(v);
+        let mut best = (key(count, before), before);
+        let [x, y] = round(exact);
+        for i in -REACH..=REACH {
+            for j in -REACH..=REACH {
+                self.grid[v as usize] = [x + i, y + j];
+                let candidate = key(self.bad_in_ring(v), [x + i, y + j]);
+                if candidate < best.0 {
+                    best = (candidate, [x + i, y + j]);
+                }
+            }
+        }
+        let improved = best.0.0 < count;
+        self.grid[v as usize] = if improved { best.1 } else { before };
+        improved
+    }
+
+    fn bad_in_ring(&self, v: u32) -> usize {
+        self.rings
+            .of(v)
+            .iter()
+            .filter(|&&t| !self.is_positive(t))
+            .count()
+    }
+
+    /// The triangles within so many rings of some triangles, sorted.
+    fn neighbourhood(&self, of: &[u32], n_rings: u32) -> Vec<u32> {
+        let mut inside = vec![false; self.triangles.len()];
+        let mut seen = vec![false; self.grid.len()];
+        let mut patch = of.to_vec();
+        let mut front = of.to_vec();
+        for &t in of {
+            inside[t as usize] = true;
+        }
+        for _ in 0..n_rings {
+            let mut next = Vec::new();
+            for v in front.iter().flat_map(|&t| self.triangles[t as usize]) {
+                if !std::mem::replace(&mut seen[v as usize], true) {
+                    let ring = self.rings.of(v).iter().copied();
+                    next.extend(
+                        ring.filter(|&t| !std::mem::replace(&mut inside[t as usize], true)),
+                    );
+                }
+            }
+            patch.extend(&next);
+            front = next;
+        }
+        patch.sort_unstable();
+        patch
+    }
+}
+
+/// The triangles around each vertex.
+#[derive(Default)]
+pub(super) struct Rings {
+    start: Vec<u32>,
+    triangles: Vec<u32>,
+}
+
+impl Rings {
+    fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
+        let mut start = vec![0; n_vertices + 1];
+        for &v in triangles.iter().flatten() {
+            start[v as usize + 1] += 1;
+        }
+        for v in 0..n_vertices {
+            start[v + 1] += start[v];
+        }
+        let mut next = start.clone();
+        let mut around = vec![0; 3 * triangles.len()];
+        for (t, triangle) in triangles.iter().enumerate() {
+            for &v in triangle {
+                around[next[v as usize] as usize] = t as u32;
+                next[v as usize] += 1;
+            }
+        }
+        Self {
+            start,
+            triangles: around,
+        }
+    }
+
+    pub(super) fn of(&self, v: u32) -> &[u32] {
+        let v = v as usize;
+        &self.triangles[self.start[v] as usize..self.start[v + 1] as usize]
+    }
+}
