@@ -9,11 +9,13 @@ mod embed;
 mod energy;
 #[cfg(feature = "files")]
 mod io;
+mod layers;
 mod measure;
 mod mesh;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
+mod pipeline;
 mod solver;
 mod taylor;
 mod uv_meshes;
