@@ -26,16 +26,20 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("picture", &["measure"], &["image", "rayon"]),
     ("pipeline", &["charts", "atlas", "document", "picture"], &["serde_json", "rayon"]),
     ("jobs", &["pipeline"], &["tokio", "tokio_util", "serde_json", "uuid", "tracing", "nix", "futures_util"]),
-    ("store", &["jobs"], &["sqlx", "tokio", "serde_json", "uuid", "tracing"]),
+    ("store", &["jobs"], &["sqlx", "tokio", "serde_json", "futures_util"]),
     (
         "http",
-        &["store"],
+        &["jobs"],
         &[
-            "axum", "utoipa_axum", "tokio", "tokio_util", "tower_http", "serde_json", "uuid", "tracing",
-            "futures_util",
+            "axum", "utoipa_axum", "tokio", "tokio_util", "tower_http", "serde_json", "tracing", "futures_util",
+            "sha2", "percent_encoding",
         ],
     ),
-    ("cli", &["http"], &["clap", "indicatif", "serde_json", "tokio", "tracing", "tracing_subscriber"]),
+    (
+        "cli",
+        &["http", "store"],
+        &["clap", "indicatif", "serde_json", "tokio", "tokio_util", "tracing", "tracing_subscriber"],
+    ),
     ("lib", &["cli"], &[]),
     ("main", &["cli"], &["clap", "tikv_jemallocator"]),
 ];
