@@ -14,6 +14,8 @@ mod mesh;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
+#[cfg(feature = "files")]
+mod picture;
 mod solver;
 mod taylor;
 mod uv_meshes;
