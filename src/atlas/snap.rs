@@ -7,8 +7,8 @@
 use rayon::prelude::*;
 
 use super::relax::relax;
-use crate::numerics::predicates::orient2d_sign;
 use super::{ChartMap, doubled_area, outline::Outline};
+use crate::numerics::predicates::orient2d_sign;
 
 /// A chart on the grid, its bounding rectangle's lower left corner near the origin.
 #[derive(Clone, Debug)]

@@ -1,5 +1,24 @@
-//! `unwrapd serve`.
+//! `unwrapd serve`: settings, start and graceful stop of the service.
 
+use std::fs::File;
+use std::io::IsTerminal;
+use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::net::TcpListener;
+use tokio::signal::unix::{SignalKind, signal};
+use tokio_util::sync::CancellationToken;
+
+use crate::http;
+use crate::jobs::{self, Jobs, LocalEvents};
+use crate::store::{FileBlobs, SqliteStore};
+
+/// For connections and computations to end once the service is told to stop.
+const STOP_TIME: Duration = Duration::from_secs(10);
+
+/// Every setting has a flag and an environment variable.
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// Address to listen on; port 0 takes a free one
@@ -9,7 +28,7 @@ pub(super) struct Args {
         env = "UNWRAPD_LISTEN",
         default_value = "127.0.0.1:8080"
     )]
-    listen: std::net::SocketAddr,
+    listen: SocketAddr,
     /// Folder for the records and files of jobs; made if it does not exist
     #[arg(
         long,
@@ -17,13 +36,189 @@ pub(super) struct Args {
         env = "UNWRAPD_DATA",
         default_value = "./data"
     )]
-    data: std::path::PathBuf,
+    data: PathBuf,
+    /// Jobs computed at the same time [default: half the cores, at least one]
+    #[arg(long, value_name = "N", env = "UNWRAPD_CONCURRENCY", value_parser = clap::value_parser!(u16).range(1..))]
+    concurrency: Option<u16>,
+    /// Jobs that may wait
+    #[arg(
+        long,
+        value_name = "N",
+        env = "UNWRAPD_QUEUE_DEPTH",
+        default_value_t = 1000
+    )]
+    queue_depth: u32,
+    /// Size of an upload, all its files together, in MiB
+    #[arg(
+        long,
+        value_name = "MIB",
+        env = "UNWRAPD_MAX_UPLOAD_MIB",
+        default_value_t = 256
+    )]
+    max_upload_mib: u64,
+    /// Triangles of a mesh
+    #[arg(
+        long,
+        value_name = "N",
+        env = "UNWRAPD_MAX_TRIANGLES",
+        default_value_t = 5_000_000
+    )]
+    max_triangles: u64,
+    /// Wall-clock time of a job, in seconds
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_JOB_SECONDS",
+        default_value_t = 600.0,
+        value_parser = seconds
+    )]
+    job_seconds: f64,
+    /// Memory of a job, in MiB [default: 8192, or what the machine has if that is less]
+    #[arg(long, value_name = "MIB", env = "UNWRAPD_JOB_MEMORY_MIB")]
+    job_memory_mib: Option<u64>,
+    /// Time of a synchronous call, in seconds
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_SYNCHRONOUS_SECONDS",
+        default_value_t = 60.0,
+        value_parser = seconds
+    )]
+    synchronous_seconds: f64,
 }
 
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.001..=1e6).contains(&seconds) => Ok(seconds),
+        _ => Err("a number of seconds between 0.001 and 1000000".to_owned()),
+    }
+}
+
+/// Default memory of a job, in bytes.
+const JOB_MEMORY: u64 = 8 << 30;
+
+impl Args {
+    fn job_settings(&self) -> std::io::Result<jobs::Settings> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let concurrency = self.concurrency.map_or((cores / 2).max(1), usize::from);
+        let memory = self.job_memory_mib.map(|mib| mib.saturating_mul(1 << 20));
+        Ok(jobs::Settings {
+            scratch: self.data.join("scratch"),
+            program: std::env::current_exe()?,
+            concurrency,
+            threads: (cores / concurrency).max(1),
+            queue_depth: self.queue_depth,
+            time: Duration::from_secs_f64(self.job_seconds),
+            memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory())),
+            triangles: self.max_triangles,
+        })
+    }
+
+    fn http_settings(&self) -> http::Settings {
+        http::Settings {
+            upload_bytes: self.max_upload_mib.saturating_mul(1 << 20),
+            synchronous_time: Duration::from_secs_f64(self.synchronous_seconds),
+        }
+    }
+}
+
+/// Memory of the machine or of the container, in bytes; without bound where neither can be read.
+fn machine_memory() -> u64 {
+    let read = |path| std::fs::read_to_string(path).unwrap_or_default();
+    let total = read("/proc/meminfo")
+        .lines()
+        .find_map(|line| {
+            line.strip_prefix("MemTotal:")?
+                .strip_suffix("kB")?
+                .trim()
+                .parse::<u64>()
+                .ok()
+        })
+        .map_or(u64::MAX, |kib| kib << 10);
+    let container = read("/sys/fs/cgroup/memory.max")
+        .trim()
+        .parse()
+        .unwrap_or(u64::MAX);
+    total.min(container)
+}
+
+/// Serves until SIGTERM or SIGINT.
 pub(super) fn run(args: &Args) -> Result<(), String> {
-    Err(format!(
-        "not ready yet: {} {}",
-        args.listen,
-        args.data.display()
-    ))
+    tracing_subscriber::fmt()
+        .with_env_filter(
+            tracing_subscriber::EnvFilter::builder()
+                .with_default_directive(tracing::Level::INFO.into())
+                .from_env_lossy(),
+        )
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
+        .init();
+    std::fs::create_dir_all(&args.data)
+        .map_err(|error| format!("cannot make {}: {error}", args.data.display()))?;
+    let _lock = lock(&args.data)?;
+    tokio::runtime::Runtime::new()
+        .map_err(|error| error.to_string())?
+        .block_on(serve(args))
+}
+
+/// Two servers on one data folder would take each other's jobs. The lock goes with the process.
+fn lock(data: &Path) -> Result<File, String> {
+    let lock = File::create(data.join("lock")).map_err(|error| error.to_string())?;
+    lock.try_lock()
+        .map_err(|_| format!("another server uses {}", data.display()))?;
+    Ok(lock)
+}
+
+async fn serve(args: &Args) -> Result<(), String> {
+    let text = |error: &dyn std::fmt::Display| error.to_string();
+    let store = SqliteStore::open(&args.data.join("unwrapd.sqlite"))
+        .await
+        .map_err(|e| text(&e))?;
+    let blobs = FileBlobs::open(&args.data.join("blobs")).map_err(|e| text(&e))?;
+    let settings = args.job_settings().map_err(|e| text(&e))?;
+    let jobs = Arc::new(Jobs::new(
+        settings,
+        Arc::new(store),
+        Arc::new(blobs),
+        Arc::new(LocalEvents::default()),
+    ));
+    jobs.recover().await.map_err(|e| text(&e))?;
+
+    let listener = TcpListener::bind(args.listen)
+        .await
+        .map_err(|error| format!("cannot listen on {}: {error}", args.listen))?;
+    let address = listener.local_addr().map_err(|e| text(&e))?;
+    println!("listening on http://{address}");
+
+    let stop = CancellationToken::new();
+    stop_on_signals(&stop).map_err(|e| text(&e))?;
+    let queue = tokio::spawn(Arc::clone(&jobs).run(stop.clone()));
+    let server = tokio::spawn(http::serve(
+        listener,
+        jobs,
+        args.http_settings(),
+        stop.clone(),
+    ));
+    stop.cancelled().await;
+    tracing::info!("stopping");
+    let all = async { (queue.await, server.await) };
+    match tokio::time::timeout(STOP_TIME, all).await {
+        Ok((Ok(()), Ok(served))) => served.map_err(|e| text(&e)),
+        Ok((Err(error), _) | (_, Err(error))) => Err(text(&error)),
+        Err(_) => {
+            tracing::warn!("connections were still open");
+            Ok(())
+        }
+    }
+}
+
+fn stop_on_signals(stop: &CancellationToken) -> std::io::Result<()> {
+    for kind in [SignalKind::terminate(), SignalKind::interrupt()] {
+        let (mut signals, stop) = (signal(kind)?, stop.clone());
+        tokio::spawn(async move {
+            signals.recv().await;
+            stop.cancel();
+        });
+    }
+    Ok(())
 }

@@ -1,6 +1,144 @@
-//! Routes, problems, OpenAPI, progress, the page.
+//! The HTTP interface: routes, problems, OpenAPI, progress, the page.
+//!
+//! It accepts, records and relays; it computes nothing. Every handler is a few lines around one call of
+//! [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI document. Whatever goes wrong is
+//! answered with an RFC 9457 problem that carries a stable code (`problem.rs` has the table).
+
+mod events;
+mod extract;
+mod framing;
+mod jobs;
+mod openapi;
+mod options;
+mod page;
+mod probes;
+mod problem;
+mod results;
+mod settings;
+mod synchronous;
+mod upload;
+mod view;
+
+use std::any::Any;
+use std::sync::Arc;
+
+use axum::extract::DefaultBodyLimit;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::{Router, routing::get};
+use tokio::net::TcpListener;
+use tokio_util::sync::CancellationToken;
+use tokio_util::task::TaskTracker;
+use tower_http::catch_panic::CatchPanicLayer;
+use tower_http::set_header::SetResponseHeaderLayer;
+use tower_http::trace::TraceLayer;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use self::problem::{Code, Problem};
+pub use self::settings::Settings;
+use crate::jobs::Jobs;
+
+/// Scripts, styles and connections of this host only; no frames, no forms elsewhere.
+const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
+    img-src 'self' blob: data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// What every handler may use.
+struct App {
+    jobs: Arc<Jobs>,
+    settings: Settings,
+    stop: CancellationToken,
+    sockets: TaskTracker,
+}
+
+/// How handlers get it.
+type Shared = axum::extract::State<Arc<App>>;
+
+/// The table of contents. What is here is in the OpenAPI document.
+fn routes() -> OpenApiRouter<Arc<App>> {
+    OpenApiRouter::with_openapi(openapi::preamble())
+        .routes(routes!(jobs::create_job, jobs::list_jobs))
+        .routes(routes!(jobs::get_job, jobs::delete_job))
+        .routes(routes!(jobs::finish_job))
+        .routes(routes!(events::watch_job))
+        .routes(routes!(results::get_result))
+        .routes(routes!(results::get_report))
+        .routes(routes!(results::get_layout))
+        .routes(routes!(results::get_heatmap))
+        .routes(routes!(results::get_file))
+        .routes(routes!(synchronous::unwrap))
+        .routes(routes!(synchronous::measure))
+        .routes(routes!(probes::healthz))
+        .routes(routes!(probes::readyz))
+        .routes(routes!(probes::metrics))
+        .routes(routes!(probes::openapi_document))
+}
+
+/// The pages for people, and what they load.
+fn pages() -> Router<Arc<App>> {
+    Router::new()
+        .route("/", get(page::index))
+        .route("/docs", get(page::docs))
+        .route("/assets/{name}", get(page::asset))
+}
 
 /// The OpenAPI document of the service, as JSON.
 pub fn openapi() -> String {
-    "{}".to_owned()
+    openapi::document(routes().into_openapi())
+}
+
+/// Serves until told to stop; then answers what is under way, closes WebSockets with 1001 and returns.
+pub async fn serve(
+    listener: TcpListener,
+    jobs: Arc<Jobs>,
+    settings: Settings,
+    stop: CancellationToken,
+) -> std::io::Result<()> {
+    let app = Arc::new(App {
+        jobs,
+        settings,
+        stop: stop.clone(),
+        sockets: TaskTracker::new(),
+    });
+    axum::serve(listener, router(Arc::clone(&app)))
+        .with_graceful_shutdown(stop.cancelled_owned())
+        .await?;
+    app.sockets.close();
+    app.sockets.wait().await;
+    Ok(())
+}
+
+fn router(app: Arc<App>) -> Router {
+    let header =
+        |name, value| SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value));
+    Router::from(routes())
+        .merge(pages())
+        .fallback(async || Problem::new(Code::NotFound, "there is nothing at this path"))
+        .method_not_allowed_fallback(async || {
+            Problem::new(Code::MethodNotAllowed, "Allow lists what this path answers")
+        })
+        // Uploads count their bytes themselves.
+        .layer(DefaultBodyLimit::disable())
+        .layer(CatchPanicLayer::custom(panicked))
+        .layer(header(
+            header::CONTENT_SECURITY_POLICY,
+            CONTENT_SECURITY_POLICY,
+        ))
+        .layer(header(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
+        .layer(header(header::REFERRER_POLICY, "no-referrer"))
+        .layer(TraceLayer::new_for_http())
+        .with_state(app)
+}
+
+#[allow(clippy::needless_pass_by_value, reason = "the layer hands it over")]
+fn panicked(_: Box<dyn Any + Send>) -> Response {
+    Problem::new(Code::InternalError, "a bug of the service").into_response()
+}
+
+/// An answer with a JSON body.
+fn json<T: serde::Serialize>(status: StatusCode, body: &T) -> Response {
+    match serde_json::to_vec(body) {
+        Ok(bytes) => (status, [(header::CONTENT_TYPE, "application/json")], bytes).into_response(),
+        Err(error) => Problem::internal(&error).into_response(),
+    }
 }

@@ -1,10 +1,224 @@
 //! The compute child: one attempt at one job, in its own process.
+//!
+//! It reads the attempt's folder, limits its own memory, tells its progress on standard output and leaves its results
+//! in the folder. SIGTERM ends it as it ends any process; SIGINT has it finish early with the present valid map; when
+//! its standard input closes, the server is gone, and so is it.
 
+use std::collections::BTreeMap;
+use std::io::{Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
-/// Runs the job in `folder` and returns the exit code of the process.
+use nix::sys::resource::{Resource, setrlimit};
+use nix::sys::signal::{SigSet, Signal};
+
+use super::job::{Failure, Kind, OutputFile};
+use super::progress::Progress;
+use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
+use crate::document::{Document, Upload};
+use crate::pipeline::{self, Observer, PipelineError, Stage};
+use crate::solver::Control;
+
+/// At most so often progress is told within a stage.
+const TELL_INTERVAL: Duration = Duration::from_millis(25);
+
+/// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
 pub fn run(folder: &Path) -> ExitCode {
-    eprintln!("not ready yet: {}", folder.display());
-    ExitCode::FAILURE
+    match attempt(folder) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err((exit_code, failure)) => {
+            eprintln!("{}: {}", failure.code, failure.detail);
+            let written = task::write_json(folder, ERROR, &failure);
+            ExitCode::from(written.map_or(1, |()| exit_code))
+        }
+    }
+}
+
+type Attempt<T> = Result<T, (u8, Failure)>;
+
+fn attempt(folder: &Path) -> Attempt<()> {
+    let finish = Arc::new(AtomicBool::new(false));
+    listen(&finish).map_err(internal)?;
+    let task: Task = task::read_json(folder, TASK).map_err(internal)?;
+    setrlimit(Resource::RLIMIT_DATA, task.memory, task.memory).map_err(internal)?;
+    // A crash is reported by its signal; an image of the memory would only fill the disk.
+    setrlimit(Resource::RLIMIT_CORE, 0, 0).map_err(internal)?;
+    let reporter = Reporter {
+        start: Instant::now(),
+        finish,
+        told: Mutex::new(None),
+    };
+    tell(&Message::Ready);
+    let upload = read_upload(folder, &task.input).map_err(internal)?;
+    check_size(&upload, task.triangles)?;
+    let files = match task.kind {
+        Kind::Unwrap => unwrap(&upload, &task, &reporter)?,
+        Kind::Measure => measure(&upload, &task)?,
+    };
+    let mut output = Vec::new();
+    for (index, (role, name, bytes)) in files.into_iter().enumerate() {
+        std::fs::write(folder.join(task::output_file(index)), &bytes).map_err(internal)?;
+        output.push(OutputFile {
+            role,
+            name,
+            bytes: bytes.len() as u64,
+        });
+    }
+    task::write_json(folder, OUTCOME, &Outcome { output }).map_err(internal)
+}
+
+/// Starts the threads that hear the end of standard input and SIGINT. Called before any other thread exists, since a
+/// thread inherits which signals are blocked.
+fn listen(finish: &Arc<AtomicBool>) -> std::io::Result<()> {
+    let mut signals = SigSet::empty();
+    signals.add(Signal::SIGINT);
+    signals.thread_block()?;
+    let finish = Arc::clone(finish);
+    std::thread::Builder::new().spawn(move || {
+        while signals.wait().is_ok() {
+            finish.store(true, Ordering::Relaxed);
+        }
+    })?;
+    std::thread::Builder::new().spawn(|| {
+        let mut byte = [0];
+        while matches!(std::io::stdin().read(&mut byte), Ok(1..)) {}
+        std::process::exit(1);
+    })?;
+    Ok(())
+}
+
+fn read_upload(folder: &Path, names: &[String]) -> std::io::Result<Upload> {
+    let mut files = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        files.push((
+            name.clone(),
+            std::fs::read(folder.join(task::input_file(index)))?,
+        ));
+    }
+    let (name, bytes) = files.remove(0);
+    let resources: BTreeMap<_, _> = files.into_iter().collect();
+    Ok(Upload {
+        name,
+        bytes,
+        resources,
+    })
+}
+
+/// Refuses a mesh with too many triangles before anything is computed. Reading a file twice takes far less time than
+/// mapping it.
+fn check_size(upload: &Upload, limit: u64) -> Attempt<()> {
+    let document = Document::read(upload).map_err(|error| refusal(&error.into()))?;
+    let faces = document
+        .primitives()
+        .iter()
+        .map(|p| p.triangles.len() as u64);
+    let triangles: u64 = faces.sum();
+    if limit < triangles {
+        let detail = format!("the mesh has {triangles} triangles; {limit} are allowed");
+        return Err((3, Failure::new("limit_exceeded", detail)));
+    }
+    Ok(())
+}
+
+/// What a job leaves: role, name and content of each file.
+type Files = Vec<(String, String, Vec<u8>)>;
+
+fn unwrap(upload: &Upload, task: &Task, reporter: &Reporter) -> Attempt<Files> {
+    let mut options: pipeline::Options =
+        serde_json::from_value(task.options.clone()).map_err(internal)?;
+    let budget = options.time_budget.unwrap_or(f64::INFINITY);
+    options.time_budget = Some(budget.min(task.seconds));
+    options.threads = Some(options.threads.unwrap_or(usize::MAX).min(task.threads));
+    let outcome = pipeline::unwrap_document(upload, &options, reporter).map_err(|e| refusal(&e))?;
+    let report = serde_json::to_vec_pretty(&outcome.report).map_err(internal)?;
+    let mut files: Files = Vec::new();
+    for (name, bytes) in outcome.files {
+        let role = if files.is_empty() {
+            "result".to_owned()
+        } else {
+            format!("files/{name}")
+        };
+        files.push((role, name, bytes));
+    }
+    let mut add = |role: &str, bytes| files.push((role.to_owned(), role.to_owned(), bytes));
+    add("layout.png", outcome.layout_png);
+    add("heatmap.png", outcome.heatmap_png);
+    files.push(("report".to_owned(), "report.json".to_owned(), report));
+    Ok(files)
+}
+
+fn measure(upload: &Upload, task: &Task) -> Attempt<Files> {
+    let options: pipeline::MeasureOptions =
+        serde_json::from_value(task.options.clone()).map_err(internal)?;
+    let report = pipeline::measure_document(upload, &options).map_err(|e| refusal(&e))?;
+    let report = serde_json::to_vec_pretty(&report).map_err(internal)?;
+    Ok(vec![(
+        "report".to_owned(),
+        "report.json".to_owned(),
+        report,
+    )])
+}
+
+fn refusal(error: &PipelineError) -> (u8, Failure) {
+    (
+        error.exit_code(),
+        Failure::new(error.code(), error.to_string()),
+    )
+}
+
+fn internal(error: impl std::fmt::Display) -> (u8, Failure) {
+    (1, Failure::new("internal_error", error.to_string()))
+}
+
+/// Tells the server how far it is, and the pipeline how late it is.
+struct Reporter {
+    start: Instant,
+    finish: Arc<AtomicBool>,
+    /// When something was told last, and of which stage.
+    told: Mutex<Option<(Instant, Stage)>>,
+}
+
+/// Writes one line to the server. Nobody listens any more if this fails: there is no reason to go on.
+fn tell(message: &Message) {
+    let mut line = serde_json::to_vec(message).unwrap_or_default();
+    line.push(b'\n');
+    let mut out = std::io::stdout().lock();
+    if out.write_all(&line).and_then(|()| out.flush()).is_err() {
+        std::process::exit(1);
+    }
+}
+
+impl Observer for Reporter {
+    fn progress(&self, progress: &pipeline::Progress) -> Control {
+        let stage = progress.stage;
+        let progress = Progress {
+            stage: Some(stage),
+            fraction: progress.fraction,
+            chart: progress.chart as u64,
+            charts: progress.charts as u64,
+            iteration: progress.iteration as u64,
+            energy: Some(progress.energy).filter(|e| e.is_finite()),
+            smallest: Some(progress.smallest).filter(|s| s.is_finite()),
+        };
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_due = told
+            .as_ref()
+            .is_none_or(|(when, last)| TELL_INTERVAL <= when.elapsed() || *last != stage);
+        if is_due {
+            *told = Some((Instant::now(), stage));
+            tell(&Message::Progress(progress));
+        }
+        if self.finish.load(Ordering::Relaxed) {
+            Control::Finish
+        } else {
+            Control::Continue
+        }
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.start.elapsed()
+    }
 }

@@ -1,3 +1,42 @@
-//! What a job is, its queue, its compute child.
+//! What a job is, its states, its queue, the compute child and progress events.
+//!
+//! A job is a recorded wish: input files, options, a state. It is queued when its record and its files are safely
+//! stored, and from then on it ends succeeded, failed with a cause, or cancelled, over any crash or restart:
+//!
+//! ```text
+//! queued ──claim──► running ──► succeeded | failed | cancelled
+//!    ▲                 │
+//!    └── server lost ──┘   (a new attempt, at most three lost ones)
+//! ```
+//!
+//! The server itself computes nothing. Every attempt runs in a child process of the same binary (`unwrapd compute`),
+//! which gets a folder with the input and writes its results there. A mesh that exhausts memory, overflows a stack or
+//! finds a bug ends its own attempt; memory goes back to the system; a cancel always works, because it is a signal.
+//! The child ends when its standard input closes, so a killed server leaves no orphans; each attempt has its own
+//! folder and its own number, and what an outdated attempt reports changes no record.
+//!
+//! Where records, files and events live is not decided here: [`JobStore`], [`Blobs`] and [`Events`] are traits.
 
+mod attempt;
+mod child;
 pub mod compute;
+mod events;
+mod job;
+mod progress;
+mod queue;
+mod settings;
+mod storage;
+mod submit;
+mod task;
+mod timestamp;
+
+pub use events::{LocalEvents, Subscription};
+pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, State};
+pub use progress::{Event, Progress, next_attempt_seq};
+pub use queue::{Ended, Jobs};
+pub use settings::Settings;
+pub use storage::{
+    Blobs, Enqueued, Events, IdempotencyKey, JobStore, Listing, StoreError, StoreResult, Wish,
+};
+pub use submit::{Submission, SubmitError, Submitted};
+pub use timestamp::Timestamp;

@@ -16,10 +16,12 @@ const TICKS: [f64; 19] = [
     1e4, 1e6,
 ];
 
-/// The picture with its legend below it.
+/// The picture with its legend below it: title, scale and exceptions in one line, or in two where it is narrow.
 pub(super) fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exceptions) -> Canvas {
     let letters = (drawn.width as f64 / 80.0).clamp(6.0, 16.0);
-    let strip = (4.2 * letters) as usize;
+    let narrow = drawn.width < 640;
+    let line = if narrow { 2.0 * letters } else { 0.0 };
+    let strip = (4.2 * letters + line) as usize;
     let mut canvas = Canvas::new(drawn.width, drawn.height + strip);
     canvas.place(drawn, 0, 0);
     let margin = letters.round();
@@ -27,10 +29,13 @@ pub(super) fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exc
     let mut ink = Lines::new(&canvas);
     text::write(&mut ink, title, margin, top, letters);
     let right = swatches(&mut canvas, &mut ink, exceptions, [margin, top], letters);
-    let bar = [
-        margin + text::width(title, letters) + 2.0 * margin,
-        (right - 2.0 * margin).max(margin + 1.0),
-    ];
+    let bar = if narrow {
+        [2.0 * margin, canvas.width as f64 - 3.0 * margin]
+    } else {
+        let left = margin + text::width(title, letters) + 2.0 * margin;
+        [left, (right - 2.0 * margin).max(left + 1.0)]
+    };
+    let top = top + line;
     for column in bar[0] as usize..bar[1] as usize {
         let t = (column as f64 - bar[0]) / (bar[1] - bar[0]);
         let rows = top as usize..(top + letters) as usize;

@@ -23,8 +23,13 @@ pub struct Panel<'a> {
 const SIDES: std::ops::RangeInclusive<u32> = 64..=4096;
 /// Most panels on a sheet; a note tells how many are left out.
 const MOST_PANELS: usize = 36;
-/// Thickness of chart borders, in pixels.
-const BORDER_PIXELS: f64 = 1.4;
+/// Share of a bounding square that is left free at each side.
+const FRAME_MARGIN: f64 = 0.02;
+
+/// Thickness of chart borders in a picture of so many pixels.
+fn border_thickness(pixels: usize) -> f64 {
+    1.4 * (pixels as f64 / 1024.0).clamp(0.75, 2.0)
+}
 
 /// The square of UV space that is drawn: the unit square if it holds all, else the bounding square.
 #[derive(Clone, Copy)]
@@ -54,9 +59,11 @@ impl Frame {
                 is_unit: true,
             };
         }
+        // Centred, with room for the borders.
+        let full = side * (1.0 + 2.0 * FRAME_MARGIN);
         Self {
-            origin: low,
-            side,
+            origin: [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]) - 0.5 * full),
+            side: full,
             is_unit: false,
         }
     }
@@ -108,7 +115,7 @@ fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas 
     let mut borders = Lines::new(&canvas);
     for [a, b] in border_edges(panel.uvs) {
         let [a, b] = [a, b].map(|uv| frame.pixel(uv, pixels, v_axis));
-        borders.segment(a, b, BORDER_PIXELS);
+        borders.segment(a, b, border_thickness(pixels));
     }
     canvas.ink(&borders, INK, 0.9);
     if !frame.is_unit {

@@ -57,7 +57,7 @@ pub(super) fn write(lines: &mut Lines, text: &str, x: f64, y: f64, height: f64) 
             let place = |p: [f64; 2]| [left + p[0] * unit, y + p[1] * unit];
             let points: Vec<[f64; 2]> = points(polyline).map(place).collect();
             for pair in points.windows(2) {
-                lines.segment(pair[0], pair[1], (0.13 * height).max(1.0));
+                lines.segment(pair[0], pair[1], (0.14 * height).max(1.2));
             }
         }
         left += (letter_width(letter) + GAP) * unit;

@@ -52,11 +52,11 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     (
         "store",
         &["jobs"],
-        &["sqlx", "tokio", "serde_json", "uuid", "tracing"],
+        &["sqlx", "tokio", "serde_json", "futures_util"],
     ),
     (
         "http",
-        &["store"],
+        &["jobs"],
         &[
             "axum",
             "utoipa_axum",
@@ -64,19 +64,21 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "tokio_util",
             "tower_http",
             "serde_json",
-            "uuid",
             "tracing",
             "futures_util",
+            "sha2",
+            "percent_encoding",
         ],
     ),
     (
         "cli",
-        &["http"],
+        &["http", "store"],
         &[
             "clap",
             "indicatif",
             "serde_json",
             "tokio",
+            "tokio_util",
             "tracing",
             "tracing_subscriber",
         ],

@@ -15,6 +15,8 @@ mod mesh;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
+#[cfg(feature = "files")]
+mod picture;
 mod pipeline;
 mod solver;
 mod taylor;

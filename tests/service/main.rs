@@ -1,1 +1,12 @@
-//! Tests of the service.
+//! Tests of the service: a real server on a free port, with its data in a folder that goes with it.
+
+mod failures;
+mod jobs;
+mod meshes;
+mod openapi;
+mod progress;
+mod requests;
+mod restarts;
+mod results;
+mod server;
+mod synchronous;

@@ -1,0 +1,149 @@
+//! Progress, as it happens.
+
+use std::convert::Infallible;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::extract::State;
+use axum::extract::ws::rejection::WebSocketUpgradeRejection;
+use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade, close_code};
+use axum::http::{HeaderMap, header};
+use axum::response::sse::{self, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use futures_util::{StreamExt, stream};
+use serde::Deserialize;
+
+use super::extract::{Parameters, PathId, job_not_found};
+use super::problem::{Code, Problem};
+use super::{App, Shared};
+use crate::jobs::{Event, JobId, Subscription};
+
+/// Between signs of life on a quiet connection.
+const KEEP_ALIVE: Duration = Duration::from_secs(15);
+/// For a client to answer a close frame.
+const CLOSE_TIME: Duration = Duration::from_secs(1);
+
+/// Where to begin.
+#[derive(Deserialize, utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EventsQuery {
+    /// Skip events up to this `seq`; `Last-Event-ID` means the same. The final event is always sent.
+    after: Option<u64>,
+}
+
+/// Watch a job.
+///
+/// A WebSocket gets one JSON object per text message, and is closed with 1000 after the final state or with 1001 when
+/// the service stops. With `Accept: text/event-stream` the same objects come as server-sent events named `progress`,
+/// their `seq` as id. Events are snapshots: `seq` rises and `fraction` never falls, but a slow client misses the ones
+/// between. The final event is always sent, also for a job that has ended.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/events", operation_id = "watchJob", tag = "jobs",
+    params(
+        ("id" = String, Path, format = "uuid", description = "The job"), EventsQuery,
+        ("Last-Event-ID" = Option<u64>, Header, description = "`seq` of the last event seen"),
+    ),
+    responses(
+        (status = 101, description = "The WebSocket; each text message is an Event"),
+        (status = 200, description = "Server-sent events; the data of each is an Event", body = String, content_type = "text/event-stream"),
+        (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 426, description = "`upgrade_required`: neither of the two was asked for", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn watch_job(
+    State(app): Shared,
+    PathId(id): PathId,
+    Parameters(query): Parameters<EventsQuery>,
+    headers: HeaderMap,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Result<Response, Problem> {
+    let resumed = headers
+        .get("last-event-id")
+        .and_then(|id| id.to_str().ok()?.parse().ok());
+    let events = Events::of(&app, id, query.after.or(resumed)).await?;
+    if let Ok(upgrade) = upgrade {
+        let sockets = app.sockets.clone();
+        let relayed = move |socket| sockets.track_future(relay(socket, events, app));
+        return Ok(upgrade.on_upgrade(relayed));
+    }
+    let accepted = headers
+        .get(header::ACCEPT)
+        .and_then(|value| value.to_str().ok());
+    if accepted.is_some_and(|types| types.contains("text/event-stream")) {
+        return Ok(server_sent(events, &app));
+    }
+    let detail = "connect a WebSocket, or accept text/event-stream";
+    Err(Problem::new(Code::UpgradeRequired, detail))
+}
+
+/// The events of a job, live or just the last one.
+enum Events {
+    Live(Subscription),
+    Ended(Option<Event>),
+}
+
+impl Events {
+    /// A job that is not live when one subscribes has a final record, or none, from then on.
+    async fn of(app: &App, id: JobId, after: Option<u64>) -> Result<Self, Problem> {
+        let live = app.jobs.subscribe(id);
+        let job = app.jobs.get(id).await?.ok_or_else(job_not_found)?;
+        Ok(match live {
+            Some(events) => Self::Live(events.after(after)),
+            None => Self::Ended(Some(job.event())),
+        })
+    }
+
+    async fn next(&mut self) -> Option<Event> {
+        match self {
+            Self::Live(events) => events.next().await,
+            Self::Ended(event) => event.take(),
+        }
+    }
+}
+
+fn server_sent(events: Events, app: &Arc<App>) -> Response {
+    let stream = stream::unfold(events, async |mut events| {
+        let event = events.next().await?;
+        let sent = sse::Event::default()
+            .event("progress")
+            .id(event.seq.to_string());
+        let sent = sent.data(serde_json::to_string(&event).unwrap_or_default());
+        Some((Ok::<_, Infallible>(sent), events))
+    });
+    let stream = stream.take_until(app.stop.clone().cancelled_owned());
+    Sse::new(stream)
+        .keep_alive(KeepAlive::new().interval(KEEP_ALIVE))
+        .into_response()
+}
+
+/// Sends events until the last one, the client's goodbye, or the stop of the service.
+async fn relay(mut socket: WebSocket, mut events: Events, app: Arc<App>) {
+    let mut quiet = tokio::time::interval(KEEP_ALIVE);
+    let code = loop {
+        let message = tokio::select! {
+            event = events.next() => match event {
+                Some(event) => Message::text(serde_json::to_string(&event).unwrap_or_default()),
+                None => break close_code::NORMAL,
+            },
+            said = socket.recv() => match said {
+                Some(Ok(Message::Close(_)) | Err(_)) | None => return,
+                Some(Ok(_)) => continue,
+            },
+            _ = quiet.tick() => Message::Ping(Vec::new().into()),
+            () = app.stop.cancelled() => break close_code::AWAY,
+        };
+        if socket.send(message).await.is_err() {
+            return;
+        }
+    };
+    let goodbye = CloseFrame {
+        code,
+        reason: "".into(),
+    };
+    if socket.send(Message::Close(Some(goodbye))).await.is_ok() {
+        let answer = async { while let Some(Ok(_)) = socket.recv().await {} };
+        let _ = tokio::time::timeout(CLOSE_TIME, answer).await;
+    }
+}

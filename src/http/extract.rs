@@ -1,0 +1,82 @@
+//! Extractors whose rejections are problems.
+
+use std::time::Duration;
+
+use axum::extract::{FromRequestParts, Path, Query};
+use axum::http::HeaderMap;
+use axum::http::request::Parts;
+use serde::de::DeserializeOwned;
+
+use super::problem::{Code, Problem};
+use crate::jobs::JobId;
+
+/// Longest time a request may wait for a job.
+pub(super) const MAX_WAIT_SECONDS: u64 = 60;
+
+/// The `{id}` of the path. What is no id is the id of no job.
+pub(super) struct PathId(pub JobId);
+
+impl<S: Send + Sync> FromRequestParts<S> for PathId {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        #[derive(serde::Deserialize)]
+        struct Named {
+            id: String,
+        }
+        let Path(named) = Path::<Named>::from_request_parts(parts, state)
+            .await
+            .map_err(|_| job_not_found())?;
+        named.id.parse().map(Self).map_err(|_| job_not_found())
+    }
+}
+
+/// The `{name}` of the path. What is no text names nothing.
+pub(super) struct PathName(pub String);
+
+impl<S: Send + Sync> FromRequestParts<S> for PathName {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        #[derive(serde::Deserialize)]
+        struct Named {
+            name: String,
+        }
+        match Path::<Named>::from_request_parts(parts, state).await {
+            Ok(Path(named)) => Ok(Self(named.name)),
+            Err(_) => Err(Problem::new(Code::NotFound, "the name is not UTF-8")),
+        }
+    }
+}
+
+/// The answer to an id that is not known.
+pub(super) fn job_not_found() -> Problem {
+    Problem::new(
+        Code::JobNotFound,
+        "it never existed, or it has been deleted",
+    )
+}
+
+/// Query parameters; unknown ones are refused where `T` does so.
+pub(super) struct Parameters<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Parameters<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        match Query::try_from_uri(&parts.uri) {
+            Ok(Query(parameters)) => Ok(Self(parameters)),
+            Err(error) => Err(Problem::new(Code::InvalidRequest, error.body_text())),
+        }
+    }
+}
+
+/// The seconds of `Prefer: wait=N`, as many as are granted.
+pub(super) fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
+    let preferences = headers.get_all("prefer").iter();
+    let seconds = preferences
+        .filter_map(|value| value.to_str().ok())
+        .flat_map(|value| value.split([',', ';']))
+        .find_map(|preference| preference.trim().strip_prefix("wait=")?.parse::<u64>().ok())?;
+    Some(Duration::from_secs(seconds.min(MAX_WAIT_SECONDS)))
+}

@@ -1,0 +1,110 @@
+//! Whether a received file is a mesh file at all: looked at before a job is accepted.
+//!
+//! This knows the outermost layer of each format and nothing of what is inside; a file that passes may still turn out
+//! to be unusable, which then is the job's failure.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use super::problem::{Code, Problem};
+
+/// How much of a text is searched for the words of its format.
+const SEARCHED_BYTES: u64 = 1 << 20;
+
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// The file name extension of the format that the file is in.
+pub(super) fn extension(path: &Path) -> Result<&'static str, Problem> {
+    let mut file = File::open(path)?;
+    let size = file.metadata()?.len();
+    let mut head = Vec::new();
+    (&mut file).take(SEARCHED_BYTES).read_to_end(&mut head)?;
+    let is_marked = head.starts_with(BYTE_ORDER_MARK);
+    let text = head[if is_marked { 3 } else { 0 }..].trim_ascii_start();
+    if head.starts_with(b"glTF") {
+        glb(&mut file, size).map(|()| "glb")
+    } else if text.starts_with(b"{") {
+        file.seek(SeekFrom::Start(if is_marked { 3 } else { 0 }))?;
+        json(BufReader::new(file)).map(|()| "gltf")
+    } else if text.starts_with(b"ply") {
+        Ok("ply")
+    } else if is_off(text) {
+        Ok("off")
+    } else if is_stl(&head, size) {
+        Ok("stl")
+    } else if is_obj(text) {
+        Ok("obj")
+    } else {
+        let detail = "neither glTF nor OBJ, OFF, PLY or STL";
+        Err(Problem::new(Code::UnknownFormat, detail))
+    }
+}
+
+fn invalid(detail: impl Into<String>) -> Problem {
+    Problem::new(Code::InvalidGltf, detail)
+}
+
+/// Header of twelve bytes, then a JSON chunk that lies within the file.
+fn glb(file: &mut File, size: u64) -> Result<(), Problem> {
+    let mut header = [0; 20];
+    file.seek(SeekFrom::Start(0))?;
+    file.read_exact(&mut header)
+        .map_err(|_| invalid("the GLB header is cut off"))?;
+    let number = |at: usize| {
+        u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]])
+    };
+    if number(4) != 2 {
+        return Err(invalid(format!("GLB version {} is not 2", number(4))));
+    }
+    let length = u64::from(number(12));
+    if &header[16..20] != b"JSON" || size < 20 + length {
+        return Err(invalid("the GLB has no complete JSON chunk"));
+    }
+    json(BufReader::new(file.take(length)))
+}
+
+/// One JSON value. It is parsed without being kept; padding of any kind may follow.
+fn json(reader: impl Read) -> Result<(), Problem> {
+    IgnoredAny::deserialize(&mut serde_json::Deserializer::from_reader(reader))
+        .map(|_| ())
+        .map_err(|error| invalid(format!("the JSON is malformed: {error}")))
+}
+
+/// `OFF`, or with letters before it for what vertices have beside positions.
+fn is_off(text: &[u8]) -> bool {
+    let word = text
+        .split(u8::is_ascii_whitespace)
+        .next()
+        .unwrap_or_default();
+    word.ends_with(b"OFF") && word.len() <= 7 && word.iter().all(u8::is_ascii_alphanumeric)
+}
+
+/// Text with facets, or 84 bytes and 50 for each of the triangles that it announces.
+fn is_stl(head: &[u8], size: u64) -> bool {
+    if head.trim_ascii_start().starts_with(b"solid") && contains(head, b"facet") {
+        return true;
+    }
+    head.get(80..84)
+        .and_then(|count| count.try_into().ok())
+        .is_some_and(|count| size == 84 + 50 * u64::from(u32::from_le_bytes(count)))
+}
+
+/// Text with a line that is a vertex.
+fn is_obj(text: &[u8]) -> bool {
+    let is_vertex = |line: &[u8]| {
+        let line = line.trim_ascii_start();
+        line.starts_with(b"v ") || line.starts_with(b"v\t")
+    };
+    !text.contains(&0)
+        && text
+            .split(|byte| matches!(byte, b'\n' | b'\r'))
+            .any(is_vertex)
+}
+
+fn contains(text: &[u8], word: &[u8]) -> bool {
+    text.windows(word.len()).any(|window| window == word)
+}

@@ -1,0 +1,267 @@
+//! Jobs: made, listed, watched, ended.
+
+use std::time::Duration;
+
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+
+use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId, job_not_found, preferred_wait};
+use super::problem::{Code, Problem};
+use super::upload;
+use super::view::{JobPage, JobView, job_path};
+use super::{App, Shared, json};
+use crate::jobs::{Ended, Job, JobId, Listing, SubmitError, Submitted, Wish};
+
+/// Longest Idempotency-Key.
+const MAX_KEY: usize = 255;
+const DEFAULT_PAGE: u32 = 50;
+const MAX_PAGE: u32 = 200;
+
+/// Make a job.
+///
+/// The mesh comes as a form (`mesh`, the files it references, `options` as JSON, `kind`) or as the body itself; options
+/// may also be query parameters. When the answer is sent, mesh and job are stored: the job will end succeeded, failed
+/// or cancelled, whatever happens to the service. What is not a mesh file, has malformed JSON or unknown options is
+/// refused at once; everything else that is wrong with a mesh fails the job.
+///
+/// With `Idempotency-Key`, a repetition within a day gets the same job instead of a second one. With `Prefer: wait=N`
+/// the answer waits up to N seconds (at most 60) and is 200 if the job has ended by then. Progress is found under
+/// `/events`, the result under `/result` and `/report`.
+#[utoipa::path(
+    post, path = "/v1/jobs", operation_id = "createJob", tag = "jobs",
+    params(
+        ("Idempotency-Key" = Option<String>, Header, description = "At most 255 characters; the client's own name for this submission"),
+        ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but not later than in N seconds"),
+        ("kind" = Option<crate::jobs::Kind>, Query, description = "What to do; `unwrap` if absent"),
+        ("filename" = Option<String>, Query, description = "Name of the file in a raw body"),
+    ),
+    responses(
+        (status = 202, description = "Accepted; the job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
+        (status = 200, description = "Ended while the request waited; the job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
+        (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
+        (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "`unknown_format`, `invalid_gltf`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "`queue_full`, `stopping`: try again later", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn create_job(
+    State(app): Shared,
+    headers: HeaderMap,
+    request: Request,
+) -> Result<Response, Problem> {
+    let key = idempotency_key(&headers)?;
+    let received = upload::receive(&app, None, request).await?;
+    let (submission, _folder) = received.into_submission(key, false);
+    let job = match app.jobs.submit(submission).await? {
+        Submitted::New(job) | Submitted::Replay(job) => job,
+    };
+    let Some(wait) = preferred_wait(&headers) else {
+        return Ok(located(StatusCode::ACCEPTED, &job));
+    };
+    let mut response = match wait_for(&app, job.id, wait).await? {
+        Ended::Yes(job) => located(StatusCode::OK, &job),
+        Ended::NotYet(job) => located(StatusCode::ACCEPTED, &job),
+    };
+    let applied = format!("wait={}", wait.as_secs());
+    if let Ok(applied) = HeaderValue::from_str(&applied) {
+        response.headers_mut().insert("preference-applied", applied);
+    }
+    Ok(response)
+}
+
+impl From<SubmitError> for Problem {
+    fn from(error: SubmitError) -> Self {
+        match error {
+            SubmitError::QueueFull => Self::new(Code::QueueFull, "try again later"),
+            SubmitError::KeyReused => Self::new(
+                Code::IdempotencyKeyReused,
+                "mesh, kind or options differ from the first time",
+            ),
+            SubmitError::Store(error) => error.into(),
+        }
+    }
+}
+
+fn idempotency_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
+    let Some(value) = headers.get("idempotency-key") else {
+        return Ok(None);
+    };
+    match value.to_str() {
+        Ok(key) if (1..=MAX_KEY).contains(&key.len()) => Ok(Some(key.to_owned())),
+        _ => Err(Problem::new(
+            Code::InvalidRequest,
+            format!("Idempotency-Key has 1 to {MAX_KEY} visible characters"),
+        )),
+    }
+}
+
+fn located(status: StatusCode, job: &Job) -> Response {
+    let mut response = json(status, &JobView::from(job));
+    if let Ok(path) = HeaderValue::from_str(&job_path(job)) {
+        response.headers_mut().insert(header::LOCATION, path);
+    }
+    response
+}
+
+/// Waits for the end of a job, or for the stop of the service.
+pub(super) async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Ended, Problem> {
+    let ended = tokio::select! {
+        ended = app.jobs.wait(id, wait) => ended?,
+        () = app.stop.cancelled() => app.jobs.get(id).await?.map(Ended::NotYet),
+    };
+    ended.ok_or_else(job_not_found)
+}
+
+/// What to list.
+#[derive(Deserialize, utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ListQuery {
+    /// Only jobs in this state.
+    state: Option<crate::jobs::State>,
+    /// At most so many; 50 if absent.
+    #[param(minimum = 1, maximum = 200)]
+    limit: Option<u32>,
+    /// `next` of the page before.
+    #[param(format = "uuid")]
+    cursor: Option<String>,
+}
+
+/// List jobs, the newest first.
+#[utoipa::path(
+    get, path = "/v1/jobs", operation_id = "listJobs", tag = "jobs", params(ListQuery),
+    responses(
+        (status = 200, description = "A page of jobs", body = JobPage),
+        (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn list_jobs(
+    State(app): Shared,
+    Parameters(query): Parameters<ListQuery>,
+) -> Result<Response, Problem> {
+    let invalid = |detail: String| Problem::new(Code::InvalidRequest, detail);
+    let limit = query.limit.unwrap_or(DEFAULT_PAGE);
+    if !(1..=MAX_PAGE).contains(&limit) {
+        return Err(invalid(format!("limit is between 1 and {MAX_PAGE}")));
+    }
+    let before = query.cursor.map(|cursor| cursor.parse());
+    let before = before
+        .transpose()
+        .map_err(|_| invalid("cursor is not one".to_owned()))?;
+    let listing = Listing {
+        state: query.state,
+        before,
+        limit: limit + 1,
+    };
+    let mut jobs = app.jobs.list(listing).await?;
+    let is_last = jobs.len() <= limit as usize;
+    jobs.truncate(limit as usize);
+    let next = jobs
+        .last()
+        .filter(|_| !is_last)
+        .map(|job| job.id.to_string());
+    let jobs = jobs.iter().map(JobView::from).collect();
+    Ok(json(StatusCode::OK, &JobPage { jobs, next }))
+}
+
+/// How to look at a job.
+#[derive(Deserialize, utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GetQuery {
+    /// Answer when the job has ended, but not later than in so many seconds.
+    #[param(minimum = 0, maximum = 60)]
+    wait: Option<u64>,
+}
+
+/// Get a job: its state, its progress, and where its files are.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}", operation_id = "getJob", tag = "jobs",
+    params(("id" = String, Path, format = "uuid", description = "The job"), GetQuery),
+    responses(
+        (status = 200, description = "The job", body = JobView),
+        (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn get_job(
+    State(app): Shared,
+    PathId(id): PathId,
+    Parameters(query): Parameters<GetQuery>,
+) -> Result<Response, Problem> {
+    let wait = query.wait.unwrap_or(0);
+    if MAX_WAIT_SECONDS < wait {
+        let detail = format!("wait is between 0 and {MAX_WAIT_SECONDS}");
+        return Err(Problem::new(Code::InvalidRequest, detail));
+    }
+    let job = if wait == 0 {
+        app.jobs.get(id).await?.ok_or_else(job_not_found)?
+    } else {
+        match wait_for(&app, id, Duration::from_secs(wait)).await? {
+            Ended::Yes(job) | Ended::NotYet(job) => job,
+        }
+    };
+    Ok(json(StatusCode::OK, &JobView::from(&job)))
+}
+
+/// Cancel a live job, or delete one that has ended.
+///
+/// A live job is cancelled: its computation ends at once, its record stays, and nothing else is kept. A job that has
+/// ended is removed with all its files.
+#[utoipa::path(
+    delete, path = "/v1/jobs/{id}", operation_id = "deleteJob", tag = "jobs",
+    params(("id" = String, Path, format = "uuid", description = "The job")),
+    responses(
+        (status = 202, description = "It was live and is being cancelled; the job", body = JobView),
+        (status = 204, description = "It had ended and is removed"),
+        (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn delete_job(
+    State(app): Shared,
+    PathId(id): PathId,
+) -> Result<Response, Problem> {
+    let job = app.jobs.get(id).await?.ok_or_else(job_not_found)?;
+    if job.state.is_final() {
+        app.jobs.remove(id).await?;
+        return Ok(StatusCode::NO_CONTENT.into_response());
+    }
+    let job = app
+        .jobs
+        .wish(id, Wish::Cancel)
+        .await?
+        .ok_or_else(job_not_found)?;
+    Ok(json(StatusCode::ACCEPTED, &JobView::from(&job)))
+}
+
+/// Finish a live job early.
+///
+/// It stops improving the map and writes, judges and reports the present one, which is valid like every map on the
+/// way. A queued job will do so as soon as it starts.
+#[utoipa::path(
+    post, path = "/v1/jobs/{id}/finish", operation_id = "finishJob", tag = "jobs",
+    params(("id" = String, Path, format = "uuid", description = "The job")),
+    responses(
+        (status = 202, description = "It is finishing; the job", body = JobView),
+        (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "`already_finished`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn finish_job(
+    State(app): Shared,
+    PathId(id): PathId,
+) -> Result<Response, Problem> {
+    let job = app
+        .jobs
+        .wish(id, Wish::FinishEarly)
+        .await?
+        .ok_or_else(job_not_found)?;
+    if job.state.is_final() {
+        let detail = format!("the job has {} already", job.state.word());
+        return Err(Problem::new(Code::AlreadyFinished, detail));
+    }
+    Ok(json(StatusCode::ACCEPTED, &JobView::from(&job)))
+}

@@ -1,0 +1,198 @@
+// Uploads a mesh, shows how its job goes, and what came of it. The options are read from the service's own description.
+
+const byId = (id) => document.getElementById(id);
+const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
+const SHOWN = ["energy", "cut", "group_by", "resolution", "padding", "texcoord", "overwrite", "heatmap_measure", "format", "time_budget"];
+
+let job = null;
+
+function element(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+function show(id, visible = true) {
+  byId(id).hidden = !visible;
+}
+
+function showProblem(text) {
+  byId("problem").textContent = text;
+  show("problem", Boolean(text));
+}
+
+async function call(path, request = {}) {
+  const answer = await fetch(path, request);
+  if (answer.status === 204) return null;
+  const body = await answer.json();
+  if (!answer.ok) throw new Error(`${body.title}: ${body.detail}`);
+  return body;
+}
+
+// ---- options
+
+function choices(schema, schemas) {
+  const parts = [schema, ...(schema.oneOf ?? []), ...(schema.allOf ?? [])];
+  for (const part of parts) {
+    const target = part.$ref ? schemas[part.$ref.split("/").pop()] : part;
+    if (target?.enum) return target.enum;
+    if (target?.oneOf?.every((one) => one.enum)) return target.oneOf.flatMap((one) => one.enum);
+  }
+  return null;
+}
+
+function input(schema, schemas) {
+  const words = choices(schema, schemas);
+  if (words) return element("select", {}, element("option", { value: "", textContent: "default" }), ...words.map((word) => element("option", { textContent: word })));
+  if (schema.type === "boolean") return element("input", { type: "checkbox", value: "true" });
+  return element("input", { type: "number", min: 0, step: "any", placeholder: schema.default ?? "default" });
+}
+
+async function buildOptions() {
+  const description = await call("/openapi.json");
+  const parameters = description.paths["/v1/unwrap"].post.parameters;
+  for (const name of SHOWN) {
+    const parameter = parameters.find((one) => one.name === name);
+    if (!parameter) continue;
+    const field = input(parameter.schema, description.components.schemas);
+    field.name = name;
+    const label = element("label", { title: parameter.description ?? "" }, name.replaceAll("_", " "), field);
+    byId("options").append(label);
+  }
+}
+
+// ---- upload
+
+function extension(file) {
+  return file.name.split(".").pop().toLowerCase();
+}
+
+function form(files) {
+  const data = new FormData();
+  const query = new URLSearchParams();
+  for (const [name, value] of new FormData(byId("form"))) {
+    if (value !== "") query.set(name, value);
+  }
+  const mesh = files.find((file) => MESHES.includes(extension(file))) ?? files[0];
+  data.append("mesh", mesh, mesh.name);
+  for (const file of files) {
+    if (file !== mesh) data.append("resource", file, file.webkitRelativePath || file.name);
+  }
+  return { data, query };
+}
+
+async function submit(event) {
+  event.preventDefault();
+  showProblem("");
+  show("result", false);
+  const submitButton = byId("form").querySelector("button[type=submit]");
+  submitButton.disabled = true;
+  try {
+    const { data, query } = form([...byId("files").files]);
+    job = await call(`/v1/jobs?${query}`, { method: "POST", body: data });
+    byId("job-title").textContent = job.filename;
+    show("job");
+    showEvent(job);
+    watch(job);
+  } catch (error) {
+    showProblem(error.message);
+  } finally {
+    submitButton.disabled = false;
+  }
+}
+
+// ---- progress
+
+function isFinal(state) {
+  return ["succeeded", "failed", "cancelled"].includes(state);
+}
+
+function watch(watched, after = 0) {
+  const address = new URL(`${watched.links.events}?after=${after}`, location.href);
+  address.protocol = address.protocol.replace("http", "ws");
+  let last = after;
+  let over = false;
+  const socket = new WebSocket(address);
+  socket.onmessage = async (message) => {
+    const event = JSON.parse(message.data);
+    last = event.seq;
+    if (watched.id !== job?.id) return socket.close();
+    showEvent(event);
+    if (isFinal(event.state)) {
+      over = true;
+      showEnd(await call(watched.links.self));
+    }
+  };
+  socket.onclose = () => {
+    if (!over && watched.id === job?.id) setTimeout(() => watch(watched, last), 1000);
+  };
+}
+
+function pairs(list, entries) {
+  list.replaceChildren(...entries.map(([name, value]) => element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }))));
+}
+
+function short(number) {
+  return number == null ? "–" : Number(number.toPrecision(4)).toString();
+}
+
+function showEvent(event) {
+  byId("state").textContent = event.stage ? `${event.state}: ${event.stage}` : event.state;
+  byId("fraction").value = event.fraction;
+  pairs(byId("numbers"), [
+    ["charts", `${event.chart} of ${event.charts}`],
+    ["iteration", event.iteration],
+    ["energy", short(event.energy)],
+    ["smallest face", short(event.smallest)],
+    ["seconds", (event.elapsed_ms / 1000).toFixed(1)],
+  ]);
+  byId("finish").disabled = byId("cancel").disabled = isFinal(event.state);
+}
+
+// ---- result
+
+async function showEnd(ended) {
+  if (ended.error) showProblem(`${ended.error.title}: ${ended.error.detail}`);
+  if (ended.state !== "succeeded") return;
+  const links = ended.links.files.map((file, index) => element("a", { href: file.href, download: file.name, textContent: file.name, className: index ? "" : "main" }));
+  byId("downloads").replaceChildren(...links);
+  byId("layout").src = `${ended.links.self}/layout.png`;
+  byId("heatmap").src = `${ended.links.self}/heatmap.png`;
+  const report = await call(`${ended.links.self}/report`);
+  pairs(byId("report"), summary(report));
+  show("result");
+}
+
+function summary(report) {
+  const groups = report.groups ?? [];
+  const entries = [["certified", report.certified ? "yes" : "no"]];
+  for (const group of groups.slice(0, 4)) {
+    const measures = group.measures ?? group;
+    entries.push(...["faces", "charts", "flipped", "overlapping_pairs"].filter((key) => key in measures).map((key) => [`${group.name} ${key.replaceAll("_", " ")}`, measures[key] ?? "–"]));
+  }
+  return entries;
+}
+
+// ---- wiring
+
+function announceFiles() {
+  byId("chosen").textContent = [...byId("files").files].map((file) => file.name).join(", ");
+}
+
+const drop = byId("drop");
+for (const kind of ["dragenter", "dragover"]) {
+  drop.addEventListener(kind, (event) => { event.preventDefault(); drop.classList.add("over"); });
+}
+for (const kind of ["dragleave", "drop"]) {
+  drop.addEventListener(kind, () => drop.classList.remove("over"));
+}
+drop.addEventListener("drop", (event) => {
+  event.preventDefault();
+  byId("files").files = event.dataTransfer.files;
+  announceFiles();
+});
+byId("files").addEventListener("change", announceFiles);
+byId("form").addEventListener("submit", submit);
+byId("cancel").addEventListener("click", () => call(job.links.self, { method: "DELETE" }).catch((error) => showProblem(error.message)));
+byId("finish").addEventListener("click", () => call(`${job.links.self}/finish`, { method: "POST" }).catch((error) => showProblem(error.message)));
+buildOptions().catch((error) => showProblem(error.message));

@@ -1,0 +1,223 @@
+//! Errors as RFC 9457 problems with stable codes.
+
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+
+use crate::jobs::{Failure, StoreError};
+
+/// What went wrong (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
+#[derive(Clone, Debug, Serialize, utoipa::ToSchema)]
+pub(super) struct Problem {
+    /// Where the code is explained.
+    #[serde(rename = "type")]
+    #[schema(format = "uri-reference")]
+    kind: String,
+    /// The code in words.
+    title: String,
+    /// The HTTP status.
+    status: u16,
+    /// What it is in this case, in one line.
+    detail: String,
+    /// Stable snake_case word.
+    code: String,
+    /// The limit that was exceeded, if one was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit: Option<u64>,
+}
+
+/// Codes of the service itself. Those of meshes that cannot be used come from the pipeline and have status 422.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Code {
+    InvalidRequest,
+    InvalidOptions,
+    MissingMesh,
+    NotFound,
+    JobNotFound,
+    NoSuchFile,
+    MethodNotAllowed,
+    NotFinished,
+    AlreadyFinished,
+    NoResult,
+    UploadTooLarge,
+    UnsupportedMediaType,
+    RangeNotSatisfiable,
+    UnknownFormat,
+    InvalidGltf,
+    IdempotencyKeyReused,
+    UpgradeRequired,
+    OutOfMemory,
+    InternalError,
+    Crashed,
+    QueueFull,
+    Stopping,
+    WorkerLost,
+    TimedOut,
+}
+
+impl Code {
+    pub const ALL: [Self; 24] = [
+        Self::InvalidRequest,
+        Self::InvalidOptions,
+        Self::MissingMesh,
+        Self::NotFound,
+        Self::JobNotFound,
+        Self::NoSuchFile,
+        Self::MethodNotAllowed,
+        Self::NotFinished,
+        Self::AlreadyFinished,
+        Self::NoResult,
+        Self::UploadTooLarge,
+        Self::UnsupportedMediaType,
+        Self::RangeNotSatisfiable,
+        Self::UnknownFormat,
+        Self::InvalidGltf,
+        Self::IdempotencyKeyReused,
+        Self::UpgradeRequired,
+        Self::OutOfMemory,
+        Self::InternalError,
+        Self::Crashed,
+        Self::QueueFull,
+        Self::Stopping,
+        Self::WorkerLost,
+        Self::TimedOut,
+    ];
+
+    /// Its word, its status, and what it says.
+    pub fn row(self) -> (&'static str, u16, &'static str) {
+        match self {
+            Self::InvalidRequest => (
+                "invalid_request",
+                400,
+                "A parameter, header or body is malformed",
+            ),
+            Self::InvalidOptions => (
+                "invalid_options",
+                400,
+                "An option is unknown or has no such value",
+            ),
+            Self::MissingMesh => ("missing_mesh", 400, "The upload has no part named mesh"),
+            Self::NotFound => ("not_found", 404, "No such path"),
+            Self::JobNotFound => ("job_not_found", 404, "No job has this id"),
+            Self::NoSuchFile => ("no_such_file", 404, "The job makes no such file"),
+            Self::MethodNotAllowed => ("method_not_allowed", 405, "The path has no such method"),
+            Self::NotFinished => ("not_finished", 409, "The job is not finished"),
+            Self::AlreadyFinished => ("already_finished", 409, "The job has ended already"),
+            Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
+            Self::UploadTooLarge => ("upload_too_large", 413, "The upload has too many bytes"),
+            Self::UnsupportedMediaType => (
+                "unsupported_media_type",
+                415,
+                "The content type is not one of a mesh file",
+            ),
+            Self::RangeNotSatisfiable => (
+                "range_not_satisfiable",
+                416,
+                "The file has no bytes in this range",
+            ),
+            Self::UnknownFormat => ("unknown_format", 422, "The file is not a mesh file"),
+            Self::InvalidGltf => ("invalid_gltf", 422, "The file is not valid glTF 2.0"),
+            Self::IdempotencyKeyReused => (
+                "idempotency_key_reused",
+                422,
+                "The Idempotency-Key was used for another submission",
+            ),
+            Self::UpgradeRequired => (
+                "upgrade_required",
+                426,
+                "Events need a WebSocket, or Accept: text/event-stream",
+            ),
+            Self::OutOfMemory => (
+                "out_of_memory",
+                422,
+                "The mesh needs more memory than a job may use",
+            ),
+            Self::InternalError => ("internal_error", 500, "The service failed"),
+            Self::Crashed => (
+                "crashed",
+                500,
+                "The computation ended by a bug of the service",
+            ),
+            Self::QueueFull => ("queue_full", 503, "As many jobs wait as may wait"),
+            Self::Stopping => ("stopping", 503, "The service is about to stop"),
+            Self::WorkerLost => ("worker_lost", 503, "The computation was ended from outside"),
+            Self::TimedOut => ("timed_out", 504, "The computation took too long"),
+        }
+    }
+}
+
+impl Problem {
+    /// A problem of the service.
+    pub fn new(code: Code, detail: impl Into<String>) -> Self {
+        let (word, status, title) = code.row();
+        Self {
+            kind: format!("/docs#{word}"),
+            title: title.to_owned(),
+            status,
+            detail: detail.into(),
+            code: word.to_owned(),
+            limit: None,
+        }
+    }
+
+    /// Names the limit that was exceeded.
+    pub fn with_limit(mut self, limit: u64) -> Self {
+        self.limit = Some(limit);
+        self
+    }
+
+    /// Something that should not happen: clients get no details, the log does.
+    pub fn internal(error: &dyn std::fmt::Display) -> Self {
+        tracing::error!(%error, "internal error");
+        Self::new(Code::InternalError, "see the log of the service")
+    }
+
+    /// Why a job failed. A code that is not in the table belongs to the mesh.
+    pub fn of_failure(failure: &Failure) -> Self {
+        let known = Code::ALL.into_iter().find(|c| c.row().0 == failure.code);
+        let (status, title) = known.map_or((422, "The mesh cannot be used"), |code| {
+            (code.row().1, code.row().2)
+        });
+        Self {
+            kind: format!("/docs#{}", failure.code),
+            title: title.to_owned(),
+            status,
+            detail: failure.detail.clone(),
+            code: failure.code.clone(),
+            limit: None,
+        }
+    }
+}
+
+impl From<StoreError> for Problem {
+    fn from(error: StoreError) -> Self {
+        Self::internal(&error)
+    }
+}
+
+impl From<std::io::Error> for Problem {
+    fn from(error: std::io::Error) -> Self {
+        Self::internal(&error)
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let mut response = (status, serde_json::to_vec(&self).unwrap_or_default()).into_response();
+        let headers = response.headers_mut();
+        let mut set = |name, value| headers.insert(name, HeaderValue::from_static(value));
+        set(header::CONTENT_TYPE, "application/problem+json");
+        match status {
+            StatusCode::SERVICE_UNAVAILABLE => {
+                set(header::RETRY_AFTER, "5");
+            }
+            StatusCode::UPGRADE_REQUIRED => {
+                set(header::UPGRADE, "websocket");
+                set(header::CONNECTION, "upgrade");
+            }
+            _ => {}
+        }
+        response
+    }
+}

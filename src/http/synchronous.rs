@@ -1,0 +1,111 @@
+//! Small meshes in one call.
+
+use std::sync::Arc;
+
+use axum::extract::{Request, State};
+use axum::http::HeaderMap;
+use axum::response::Response;
+
+use super::jobs::wait_for;
+use super::problem::{Code, Problem};
+use super::upload;
+use super::{App, Shared, results};
+use crate::jobs::{Ended, Job, JobId, Jobs, Kind, State as JobState, Submitted};
+
+/// Unwrap a mesh and get it back.
+///
+/// For meshes that take seconds; it stands in the same queue as jobs do, and nothing is kept. The answer is the file in
+/// the format that `format` names; `gltf` has two files and needs a job. Report and pictures need a job as well.
+/// Closing the connection cancels.
+#[utoipa::path(
+    post, path = "/v1/unwrap", operation_id = "unwrap", tag = "synchronous",
+    params(("filename" = Option<String>, Query, description = "Name of the file in a raw body")),
+    responses(
+        (status = 200, description = "The mesh with its new UVs", content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/obj"))),
+        (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
+        (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The mesh cannot be used; the code says why", body = Problem, content_type = "application/problem+json"),
+        (status = 500, description = "`crashed`, `internal_error`", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "`queue_full`, `stopping`, `worker_lost`", body = Problem, content_type = "application/problem+json"),
+        (status = 504, description = "`timed_out`: make it a job", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn unwrap(State(app): Shared, request: Request) -> Result<Response, Problem> {
+    run(&app, Kind::Unwrap, request).await
+}
+
+/// Measure the UVs that a mesh has and get the report.
+///
+/// For meshes that take seconds; nothing is kept. Closing the connection cancels.
+#[utoipa::path(
+    post, path = "/v1/measure", operation_id = "measure", tag = "synchronous",
+    params(("filename" = Option<String>, Query, description = "Name of the file in a raw body")),
+    responses(
+        (status = 200, description = "The report", body = crate::pipeline::Report),
+        (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
+        (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The mesh cannot be used, or has no UVs; the code says why", body = Problem, content_type = "application/problem+json"),
+        (status = 500, description = "`crashed`, `internal_error`", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "`queue_full`, `stopping`, `worker_lost`", body = Problem, content_type = "application/problem+json"),
+        (status = 504, description = "`timed_out`: make it a job", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn measure(State(app): Shared, request: Request) -> Result<Response, Problem> {
+    run(&app, Kind::Measure, request).await
+}
+
+async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, Problem> {
+    let received = upload::receive(app, Some(kind), request).await?;
+    if received
+        .options()
+        .get("format")
+        .is_some_and(|format| format == "gltf")
+    {
+        let detail = "format gltf has several files: make it a job with POST /v1/jobs";
+        return Err(Problem::new(Code::InvalidOptions, detail));
+    }
+    let (submission, _folder) = received.into_submission(None, true);
+    let (Submitted::New(job) | Submitted::Replay(job)) = app.jobs.submit(submission).await?;
+    let _guest = Guest {
+        jobs: &app.jobs,
+        id: job.id,
+    };
+    match wait_for(app, job.id, app.settings.synchronous_time).await? {
+        Ended::Yes(job) => answer(app, &job).await,
+        Ended::NotYet(_) if app.stop.is_cancelled() => {
+            Err(Problem::new(Code::Stopping, "try again, or elsewhere"))
+        }
+        Ended::NotYet(_) => {
+            let seconds = app.settings.synchronous_time.as_secs();
+            let detail = format!("not done within {seconds} s: make it a job with POST /v1/jobs");
+            Err(Problem::new(Code::TimedOut, detail).with_limit(seconds))
+        }
+    }
+}
+
+async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
+    match (&job.failure, job.state, job.output.first()) {
+        (Some(failure), _, _) => Err(Problem::of_failure(failure)),
+        (None, JobState::Succeeded, Some(file)) => {
+            results::answer(app, job, file, &HeaderMap::new()).await
+        }
+        _ => Err(Problem::new(
+            Code::WorkerLost,
+            "the computation was cancelled",
+        )),
+    }
+}
+
+/// A job that goes with its caller, answered or not.
+struct Guest<'a> {
+    jobs: &'a Arc<Jobs>,
+    id: JobId,
+}
+
+impl Drop for Guest<'_> {
+    fn drop(&mut self) {
+        self.jobs.dismiss(self.id);
+    }
+}

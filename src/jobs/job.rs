@@ -1,0 +1,200 @@
+//! The record of a job.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize, Serializer};
+use uuid::Uuid;
+
+use super::progress::{Event, Progress};
+use super::timestamp::Timestamp;
+
+/// Names a job; ids sort by the time of their making (UUID version 7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct JobId(Uuid);
+
+impl JobId {
+    /// A fresh id, later than every id this process made before.
+    pub fn fresh() -> Self {
+        Self(Uuid::now_v7())
+    }
+}
+
+impl fmt::Display for JobId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for JobId {
+    type Err = uuid::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        text.parse().map(Self)
+    }
+}
+
+impl Serialize for JobId {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// What a job does with its mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Makes a UV map and writes the file with it.
+    #[default]
+    Unwrap,
+    /// Measures the UV map that the file already has.
+    Measure,
+}
+
+impl Kind {
+    /// The word used in JSON and in the store.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Unwrap => "unwrap",
+            Self::Measure => "measure",
+        }
+    }
+}
+
+/// Where a job stands. The last three are final.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum State {
+    /// Stored and waiting for its turn.
+    Queued,
+    /// A compute child is working on it.
+    Running,
+    /// Done; result and report can be fetched.
+    Succeeded,
+    /// Ended with a cause, found in `error`.
+    Failed,
+    /// Ended by request.
+    Cancelled,
+}
+
+impl State {
+    /// All states, in the order of a job's life.
+    pub const ALL: [Self; 5] = [
+        Self::Queued,
+        Self::Running,
+        Self::Succeeded,
+        Self::Failed,
+        Self::Cancelled,
+    ];
+
+    /// Whether the job will never change again.
+    pub fn is_final(self) -> bool {
+        matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
+    }
+
+    /// The word used in JSON and in the store.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Queued => "queued",
+            Self::Running => "running",
+            Self::Succeeded => "succeeded",
+            Self::Failed => "failed",
+            Self::Cancelled => "cancelled",
+        }
+    }
+}
+
+/// Why a job failed: a stable code and one sentence for people.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Failure {
+    /// Stable snake_case word: a code of the pipeline, or `worker_lost`, `crashed`, `out_of_memory`, `timed_out`.
+    pub code: String,
+    /// One line.
+    pub detail: String,
+}
+
+impl Failure {
+    /// A failure with its code and its sentence.
+    pub fn new(code: &str, detail: impl Into<String>) -> Self {
+        Self {
+            code: code.to_owned(),
+            detail: detail.into(),
+        }
+    }
+}
+
+/// One file of the input: the name it is referenced by and its size.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct InputFile {
+    /// File name of the mesh, or the relative path by which the mesh names a buffer or an image.
+    pub name: String,
+    /// Size in bytes.
+    pub bytes: u64,
+}
+
+/// One file that a job made.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OutputFile {
+    /// Where it is found: `result`, `report`, `layout.png`, `heatmap.png`, or `files/NAME` for what belongs to the result.
+    pub role: String,
+    /// Name under which it should be saved.
+    pub name: String,
+    /// Size in bytes.
+    pub bytes: u64,
+}
+
+/// Everything that is known of a job.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// Names it.
+    pub id: JobId,
+    /// What it does.
+    pub kind: Kind,
+    /// Where it stands.
+    pub state: State,
+    /// Options of its kind, complete with defaults.
+    pub options: serde_json::Value,
+    /// The mesh, then the files it references.
+    pub input: Vec<InputFile>,
+    /// What it made; empty until it succeeded. The main result is first.
+    pub output: Vec<OutputFile>,
+    /// How often it was started; fences off what outdated attempts report.
+    pub attempt: u32,
+    /// How many attempts ended because the server was lost.
+    pub lost: u32,
+    /// Whether it shall end early with the map it has.
+    pub finish_early: bool,
+    /// Whether it belongs to a waiting call and is of no use without it.
+    pub ephemeral: bool,
+    /// Number of its latest event.
+    pub seq: u64,
+    /// How far it is.
+    pub progress: Progress,
+    /// Why it failed.
+    pub failure: Option<Failure>,
+    /// When it was accepted.
+    pub created: Timestamp,
+    /// When its present or last attempt started.
+    pub started: Option<Timestamp>,
+    /// When it reached its final state.
+    pub finished: Option<Timestamp>,
+}
+
+impl Job {
+    /// Its present state as an event.
+    pub fn event(&self) -> Event {
+        let until = self.finished.unwrap_or_else(Timestamp::now);
+        let elapsed = self.started.map_or(0, |started| until.0 - started.0);
+        Event {
+            seq: self.seq,
+            state: self.state,
+            progress: self.progress.clone(),
+            elapsed_ms: elapsed.max(0) as u64,
+        }
+    }
+
+    /// The output found under a role.
+    pub fn output(&self, role: &str) -> Option<&OutputFile> {
+        self.output.iter().find(|file| file.role == role)
+    }
+}

@@ -1,0 +1,267 @@
+//! The queue: takes jobs in, starts attempts, lets clients watch, cancel and remove.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use tokio::sync::{Notify, Semaphore};
+use tokio_util::sync::CancellationToken;
+use tokio_util::task::TaskTracker;
+
+use super::attempt;
+use super::events::Subscription;
+use super::job::{Failure, Job, JobId, OutputFile, State};
+use super::settings::Settings;
+use super::storage::{Blobs, Events, JobStore, Listing, StoreResult, Wish};
+use super::timestamp::Timestamp;
+
+/// After so many losses of the server while it ran, a job is taken for the cause.
+const MAX_LOST: u32 = 3;
+/// Between two tries of a store that fails.
+const STORE_RETRY: Duration = Duration::from_secs(1);
+
+/// For a job that nobody waits for to end.
+const DISMISSAL_TIME: Duration = Duration::from_mins(1);
+
+/// The queue and all that belongs to it.
+pub struct Jobs {
+    pub(super) store: Arc<dyn JobStore>,
+    pub(super) blobs: Arc<dyn Blobs>,
+    pub(super) events: Arc<dyn Events>,
+    pub(super) settings: Settings,
+    pub(super) wake: Notify,
+    controls: Mutex<HashMap<JobId, Control>>,
+    tasks: TaskTracker,
+}
+
+/// How a live job is told what clients want of it.
+#[derive(Clone, Default)]
+pub(super) struct Control {
+    pub cancel: CancellationToken,
+    pub finish: CancellationToken,
+}
+
+/// Whether a wait saw the end of the job.
+#[derive(Debug)]
+pub enum Ended {
+    /// It is in a final state.
+    Yes(Job),
+    /// Time was over first.
+    NotYet(Job),
+}
+
+impl Jobs {
+    /// A queue on these stores. Nothing runs before [`Jobs::recover`] and [`Jobs::run`].
+    pub fn new(
+        settings: Settings,
+        store: Arc<dyn JobStore>,
+        blobs: Arc<dyn Blobs>,
+        events: Arc<dyn Events>,
+    ) -> Self {
+        Self {
+            store,
+            blobs,
+            events,
+            settings,
+            wake: Notify::new(),
+            controls: Mutex::default(),
+            tasks: TaskTracker::new(),
+        }
+    }
+
+    /// The limits of this queue.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Puts the house in order after a start: scratch is emptied, jobs that ran when the server was lost are queued
+    /// again (or failed, when that happened too often), calls that nobody waits for any more are forgotten.
+    pub async fn recover(&self) -> StoreResult<()> {
+        let scratch = &self.settings.scratch;
+        if tokio::fs::try_exists(scratch).await? {
+            tokio::fs::remove_dir_all(scratch).await?;
+        }
+        tokio::fs::create_dir_all(scratch).await?;
+        for mut job in self.store.recover().await? {
+            if job.ephemeral {
+                self.store.delete(job.id).await?;
+                self.blobs.remove(job.id).await?;
+            } else if job.lost >= MAX_LOST {
+                let detail = format!("the server was lost {MAX_LOST} times while it ran");
+                job.state = State::Failed;
+                job.failure = Some(Failure::new("worker_lost", detail));
+                job.finished = Some(Timestamp::now());
+                self.store.update(&job).await?;
+            } else {
+                self.make_live(&job);
+            }
+        }
+        Ok(())
+    }
+
+    /// Starts attempts as jobs come and slots are free. When told to stop, ends the running attempts, puts their jobs
+    /// back in the queue and returns.
+    pub async fn run(self: Arc<Self>, stop: CancellationToken) {
+        let slots = Arc::new(Semaphore::new(self.settings.concurrency));
+        while let Some((slot, job)) = self.next(&slots, &stop).await {
+            let (jobs, stop) = (Arc::clone(&self), stop.clone());
+            self.tasks.spawn(async move {
+                let control = jobs.control(job.id).unwrap_or_default();
+                attempt::run(&jobs, job, &control, &stop).await;
+                drop(slot);
+            });
+        }
+        self.tasks.close();
+        self.tasks.wait().await;
+    }
+
+    async fn next(
+        &self,
+        slots: &Arc<Semaphore>,
+        stop: &CancellationToken,
+    ) -> Option<(tokio::sync::OwnedSemaphorePermit, Job)> {
+        let slot = tokio::select! {
+            slot = Arc::clone(slots).acquire_owned() => slot.ok()?,
+            () = stop.cancelled() => return None,
+        };
+        while !stop.is_cancelled() {
+            match self.store.claim().await {
+                Ok(Some(job)) => return Some((slot, job)),
+                Ok(None) => tokio::select! {
+                    () = self.wake.notified() => {}
+                    () = stop.cancelled() => return None,
+                },
+                Err(error) => {
+                    tracing::error!(%error, "no job could be claimed");
+                    tokio::select! {
+                        () = tokio::time::sleep(STORE_RETRY) => {}
+                        () = stop.cancelled() => return None,
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// The job as it is now, its progress included.
+    pub async fn get(&self, id: JobId) -> StoreResult<Option<Job>> {
+        let live = self.events.subscribe(id);
+        let mut job = self.store.get(id).await?;
+        if let (Some(job), Some(live)) = (&mut job, live) {
+            let event = live.latest();
+            if job.state == State::Running && job.seq < event.seq {
+                job.seq = event.seq;
+                job.progress = event.progress;
+            }
+        }
+        Ok(job)
+    }
+
+    /// A page of jobs, the newest first.
+    pub async fn list(&self, listing: Listing) -> StoreResult<Vec<Job>> {
+        self.store.list(listing).await
+    }
+
+    /// How many jobs there are in each state.
+    pub async fn counts(&self) -> StoreResult<Vec<(State, u64)>> {
+        self.store.counts().await
+    }
+
+    /// Watches a live job. `None`: its record is final, or there is none.
+    pub fn subscribe(&self, id: JobId) -> Option<Subscription> {
+        self.events.subscribe(id)
+    }
+
+    /// Waits for the end of a job, but not longer than this.
+    pub async fn wait(&self, id: JobId, at_most: Duration) -> StoreResult<Option<Ended>> {
+        if let Some(mut events) = self.events.subscribe(id) {
+            let end = async { while events.next().await.is_some() {} };
+            let _ = tokio::time::timeout(at_most, end).await;
+        }
+        let job = self.get(id).await?;
+        Ok(job.map(|job| {
+            if job.state.is_final() {
+                Ended::Yes(job)
+            } else {
+                Ended::NotYet(job)
+            }
+        }))
+    }
+
+    /// Cancels a job, or has it end early with the map it has. Returns the job after that; its state says whether it
+    /// was too late.
+    pub async fn wish(&self, id: JobId, wish: Wish) -> StoreResult<Option<Job>> {
+        let Some(job) = self.store.wish(id, wish).await? else {
+            return Ok(None);
+        };
+        if job.state.is_final() {
+            self.end_live(&job);
+        } else if let Some(control) = self.control(id) {
+            match wish {
+                Wish::Cancel => control.cancel.cancel(),
+                Wish::FinishEarly => control.finish.cancel(),
+            }
+        }
+        Ok(Some(job))
+    }
+
+    /// Removes a job in a final state, with its files.
+    pub async fn remove(&self, id: JobId) -> StoreResult<()> {
+        self.store.delete(id).await?;
+        self.blobs.remove(id).await
+    }
+
+    /// Ends a job and removes it, in the background: nobody waits for it any more.
+    pub fn dismiss(self: &Arc<Self>, id: JobId) {
+        let jobs = Arc::clone(self);
+        self.tasks.spawn(async move {
+            let dismissed = async {
+                jobs.wish(id, Wish::Cancel).await?;
+                jobs.wait(id, DISMISSAL_TIME).await?;
+                jobs.remove(id).await
+            };
+            if let Err(error) = dismissed.await {
+                tracing::error!(job = %id, %error, "not removed");
+            }
+        });
+    }
+
+    /// Opens a file that a job made.
+    pub async fn open(&self, job: &Job, file: &OutputFile) -> StoreResult<tokio::fs::File> {
+        let index = job.output.iter().position(|other| other == file);
+        self.blobs
+            .open(&output_key(job.id, index.unwrap_or_default()))
+            .await
+    }
+
+    pub(super) fn make_live(&self, job: &Job) {
+        self.controls().insert(job.id, Control::default());
+        self.events.announce(job.id, job.event());
+    }
+
+    pub(super) fn end_live(&self, job: &Job) {
+        self.controls().remove(&job.id);
+        self.events.publish(job.id, job.event());
+    }
+
+    pub(super) fn forget_live(&self, id: JobId) {
+        self.controls().remove(&id);
+        self.events.forget(id);
+    }
+
+    fn control(&self, id: JobId) -> Option<Control> {
+        self.controls().get(&id).cloned()
+    }
+
+    fn controls(&self) -> MutexGuard<'_, HashMap<JobId, Control>> {
+        self.controls.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+pub(super) fn input_key(id: JobId, index: usize) -> String {
+    format!("{id}/input/{index}")
+}
+
+pub(super) fn output_key(id: JobId, index: usize) -> String {
+    format!("{id}/output/{index}")
+}

@@ -1,0 +1,25 @@
+//! What a job may use.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Limits of the queue and of each job.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Folder for what is in the making: uploads being received and the folders of attempts. Emptied at the start.
+    pub scratch: PathBuf,
+    /// The binary that is started as compute child.
+    pub program: PathBuf,
+    /// Jobs computed at the same time.
+    pub concurrency: usize,
+    /// Threads of each job.
+    pub threads: usize,
+    /// Jobs that may wait.
+    pub queue_depth: u32,
+    /// Wall-clock time of an attempt.
+    pub time: Duration,
+    /// Memory of a job, in bytes.
+    pub memory: u64,
+    /// Triangles of a mesh.
+    pub triangles: u64,
+}

@@ -1,0 +1,103 @@
+//! From received files to a queued job.
+
+use std::path::PathBuf;
+
+use super::job::{InputFile, Job, JobId, Kind, State};
+use super::progress::Progress;
+use super::queue::{Jobs, input_key};
+use super::storage::{Enqueued, IdempotencyKey, StoreError};
+use super::timestamp::Timestamp;
+
+/// A wish for a job, checked as far as that is possible without computing.
+pub struct Submission {
+    /// What to do.
+    pub kind: Kind,
+    /// Options of its kind, complete with defaults.
+    pub options: serde_json::Value,
+    /// The mesh, then the files it references, each with the place where it lies now. They are moved away.
+    pub files: Vec<(InputFile, PathBuf)>,
+    /// Makes a repetition harmless.
+    pub key: Option<IdempotencyKey>,
+    /// Whether it is of no use without the call that waits for it.
+    pub ephemeral: bool,
+}
+
+/// An accepted submission.
+#[derive(Debug)]
+pub enum Submitted {
+    /// A new job.
+    New(Job),
+    /// The job that the same key made before.
+    Replay(Job),
+}
+
+/// Why a submission was not accepted.
+#[derive(Debug, thiserror::Error)]
+pub enum SubmitError {
+    /// As many jobs wait as may wait.
+    #[error("as many jobs wait as may wait")]
+    QueueFull,
+    /// The key belongs to another submission.
+    #[error("the Idempotency-Key was used for another submission")]
+    KeyReused,
+    /// Files or record could not be stored.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl Jobs {
+    /// Stores the files, then the record, and wakes the queue. When this returns, the job is not lost any more.
+    pub async fn submit(&self, submission: Submission) -> Result<Submitted, SubmitError> {
+        let id = JobId::fresh();
+        let outcome = self.store_submission(id, submission).await;
+        if !matches!(outcome, Ok(Submitted::New(_))) {
+            self.forget_live(id);
+            self.blobs.remove(id).await?;
+        }
+        outcome
+    }
+
+    async fn store_submission(
+        &self,
+        id: JobId,
+        submission: Submission,
+    ) -> Result<Submitted, SubmitError> {
+        for (index, (_, path)) in submission.files.iter().enumerate() {
+            self.blobs.put(&input_key(id, index), path).await?;
+        }
+        let input = submission.files.into_iter().map(|(file, _)| file).collect();
+        let job = Job {
+            id,
+            kind: submission.kind,
+            state: State::Queued,
+            options: submission.options,
+            input,
+            output: Vec::new(),
+            attempt: 0,
+            lost: 0,
+            finish_early: false,
+            ephemeral: submission.ephemeral,
+            seq: 1,
+            progress: Progress::default(),
+            failure: None,
+            created: Timestamp::now(),
+            started: None,
+            finished: None,
+        };
+        self.make_live(&job);
+        let depth = self.settings.queue_depth;
+        match self
+            .store
+            .enqueue(&job, submission.key.as_ref(), depth)
+            .await?
+        {
+            Enqueued::New => {
+                self.wake.notify_one();
+                Ok(Submitted::New(job))
+            }
+            Enqueued::Replay(earlier) => Ok(Submitted::Replay(*earlier)),
+            Enqueued::KeyReused => Err(SubmitError::KeyReused),
+            Enqueued::Full => Err(SubmitError::QueueFull),
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! What the server and its compute child write for each other.
+//!
+//! The server writes `job.json` ([`Task`]) and the input files into the attempt's folder. The child answers with one
+//! JSON line per [`Message`] on standard output, and leaves either `outcome.json` ([`Outcome`]), written last and
+//! renamed into place, with the files that it lists, or `error.json` ([`super::Failure`]).
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use super::job::{Kind, OutputFile};
+use super::progress::Progress;
+
+pub(super) const TASK: &str = "job.json";
+pub(super) const OUTCOME: &str = "outcome.json";
+pub(super) const ERROR: &str = "error.json";
+
+/// Name of the n-th input file in the attempt's folder.
+pub(super) fn input_file(index: usize) -> String {
+    format!("input-{index}")
+}
+
+/// Name of the n-th output file in the attempt's folder.
+pub(super) fn output_file(index: usize) -> String {
+    format!("output-{index}")
+}
+
+/// What a child has to do and what it may use.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Task {
+    pub kind: Kind,
+    /// Names of the input files, the mesh first; the n-th lies in [`input_file`]`(n)`.
+    pub input: Vec<String>,
+    pub options: serde_json::Value,
+    pub threads: usize,
+    pub triangles: u64,
+    pub memory: u64,
+    pub seconds: f64,
+}
+
+/// One line of a child's standard output.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Message {
+    /// Signals are understood from now on.
+    Ready,
+    /// How far it is.
+    Progress(Progress),
+}
+
+/// What a child made; the n-th file lies in [`output_file`]`(n)`.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Outcome {
+    pub output: Vec<OutputFile>,
+}
+
+/// Writes JSON so that a reader sees all of it or nothing.
+pub(super) fn write_json<T: Serialize>(
+    folder: &Path,
+    name: &str,
+    value: &T,
+) -> std::io::Result<()> {
+    let partial = folder.join(format!("{name}.partial"));
+    std::fs::write(&partial, serde_json::to_vec(value)?)?;
+    std::fs::rename(&partial, folder.join(name))
+}
+
+/// Reads what [`write_json`] wrote.
+pub(super) fn read_json<T: DeserializeOwned>(folder: &Path, name: &str) -> std::io::Result<T> {
+    Ok(serde_json::from_slice(&std::fs::read(folder.join(name))?)?)
+}

@@ -1,0 +1,334 @@
+//! Records of jobs in SQLite.
+
+use std::path::Path;
+use std::time::Duration;
+
+use futures_util::FutureExt;
+use futures_util::future::BoxFuture;
+use sqlx::sqlite::{
+    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteRow,
+    SqliteSynchronous,
+};
+use sqlx::{Row, Sqlite, Transaction};
+
+use super::rows;
+use crate::jobs::{
+    Enqueued, IdempotencyKey, Job, JobId, JobStore, Listing, State, StoreError, StoreResult,
+    Timestamp, Wish, next_attempt_seq,
+};
+
+const SCHEMA: &str = include_str!("schema.sql");
+const SCHEMA_VERSION: i64 = 1;
+/// How long a statement waits for another one's lock.
+const BUSY: Duration = Duration::from_secs(5);
+/// How long an idempotency key is remembered: one day.
+const KEY_LIFE_MS: i64 = 86_400_000;
+
+/// A database file. Every method is one transaction, durable when it returns.
+pub struct SqliteStore {
+    pool: SqlitePool,
+}
+
+impl From<sqlx::Error> for StoreError {
+    fn from(error: sqlx::Error) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl SqliteStore {
+    /// Opens the database, and makes it if need be.
+    pub async fn open(file: &Path) -> StoreResult<Self> {
+        let options = SqliteConnectOptions::new()
+            .filename(file)
+            .create_if_missing(true)
+            .journal_mode(SqliteJournalMode::Wal)
+            .synchronous(SqliteSynchronous::Full)
+            .foreign_keys(true)
+            .busy_timeout(BUSY);
+        let pool = SqlitePoolOptions::new()
+            .max_connections(4)
+            .connect_with(options)
+            .await?;
+        let store = Self { pool };
+        let version: i64 = sqlx::query("PRAGMA user_version")
+            .fetch_one(&store.pool)
+            .await?
+            .try_get(0)?;
+        match version {
+            0 => {
+                let mut transaction = store.begin().await?;
+                sqlx::raw_sql(SCHEMA).execute(&mut *transaction).await?;
+                transaction.commit().await?;
+            }
+            SCHEMA_VERSION => {}
+            newer => {
+                let file = file.display();
+                return Err(StoreError(format!(
+                    "{file} has schema version {newer}; this program knows {SCHEMA_VERSION}"
+                )));
+            }
+        }
+        Ok(store)
+    }
+
+    /// Takes the write lock at once: a transaction that reads first could not get it later.
+    async fn begin(&self) -> sqlx::Result<Transaction<'_, Sqlite>> {
+        self.pool.begin_with("BEGIN IMMEDIATE").await
+    }
+
+    async fn insert(
+        &self,
+        job: &Job,
+        transaction: &mut Transaction<'_, Sqlite>,
+    ) -> StoreResult<()> {
+        sqlx::query(
+            "INSERT INTO job (id, kind, state, options, input, output, attempt, lost, finish_early,
+                              ephemeral, seq, progress, failure, created, started, finished)
+             VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?, NULL, NULL)",
+        )
+        .bind(job.id.to_string())
+        .bind(job.kind.word())
+        .bind(job.state.word())
+        .bind(rows::json(&job.options)?)
+        .bind(rows::json(&job.input)?)
+        .bind(rows::json(&job.output)?)
+        .bind(i64::from(job.attempt))
+        .bind(i64::from(job.lost))
+        .bind(job.finish_early)
+        .bind(job.ephemeral)
+        .bind(job.seq as i64)
+        .bind(rows::json(&job.progress)?)
+        .bind(job.created.0)
+        .execute(&mut **transaction)
+        .await?;
+        Ok(())
+    }
+}
+
+impl JobStore for SqliteStore {
+    fn enqueue<'a>(
+        &'a self,
+        job: &'a Job,
+        key: Option<&'a IdempotencyKey>,
+        depth: u32,
+    ) -> BoxFuture<'a, StoreResult<Enqueued>> {
+        async move {
+            let mut transaction = self.begin().await?;
+            if let Some(key) = key {
+                sqlx::query("DELETE FROM idempotency WHERE created < ?")
+                    .bind(job.created.0 - KEY_LIFE_MS)
+                    .execute(&mut *transaction)
+                    .await?;
+                if let Some(earlier) = key_use(&mut transaction, key).await? {
+                    return Ok(earlier);
+                }
+            }
+            let queued: i64 = sqlx::query("SELECT count(*) FROM job WHERE state = 'queued'")
+                .fetch_one(&mut *transaction)
+                .await?
+                .try_get(0)?;
+            if i64::from(depth) <= queued {
+                return Ok(Enqueued::Full);
+            }
+            self.insert(job, &mut transaction).await?;
+            if let Some(key) = key {
+                sqlx::query("INSERT INTO idempotency VALUES (?, ?, ?, ?)")
+                    .bind(&key.key)
+                    .bind(&key.fingerprint)
+                    .bind(job.id.to_string())
+                    .bind(job.created.0)
+                    .execute(&mut *transaction)
+                    .await?;
+            }
+            transaction.commit().await?;
+            Ok(Enqueued::New)
+        }
+        .boxed()
+    }
+
+    fn get(&self, id: JobId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
+        async move {
+            let row = sqlx::query("SELECT * FROM job WHERE id = ?")
+                .bind(id.to_string())
+                .fetch_optional(&self.pool)
+                .await?;
+            row.as_ref().map(rows::job).transpose()
+        }
+        .boxed()
+    }
+
+    fn list(&self, listing: Listing) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
+        async move {
+            let found = sqlx::query(
+                "SELECT * FROM job
+                 WHERE NOT ephemeral AND (?1 IS NULL OR state = ?1) AND (?2 IS NULL OR id < ?2)
+                 ORDER BY id DESC LIMIT ?3",
+            )
+            .bind(listing.state.map(State::word))
+            .bind(listing.before.map(|id| id.to_string()))
+            .bind(i64::from(listing.limit))
+            .fetch_all(&self.pool)
+            .await?;
+            jobs(&found)
+        }
+        .boxed()
+    }
+
+    fn claim(&self) -> BoxFuture<'_, StoreResult<Option<Job>>> {
+        async move {
+            let mut transaction = self.begin().await?;
+            let oldest = "SELECT * FROM job WHERE state = 'queued' ORDER BY id LIMIT 1";
+            let Some(row) = sqlx::query(oldest)
+                .fetch_optional(&mut *transaction)
+                .await?
+            else {
+                return Ok(None);
+            };
+            let mut job = rows::job(&row)?;
+            job.state = State::Running;
+            job.attempt += 1;
+            job.seq = next_attempt_seq(job.seq);
+            job.started = Some(Timestamp::now());
+            sqlx::query(
+                "UPDATE job SET state = 'running', attempt = ?, seq = ?, started = ? WHERE id = ?",
+            )
+            .bind(i64::from(job.attempt))
+            .bind(job.seq as i64)
+            .bind(job.started.map(|time| time.0))
+            .bind(job.id.to_string())
+            .execute(&mut *transaction)
+            .await?;
+            transaction.commit().await?;
+            Ok(Some(job))
+        }
+        .boxed()
+    }
+
+    fn update<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<bool>> {
+        async move {
+            let failure = job.failure.as_ref().map(rows::json).transpose()?;
+            let changed = sqlx::query(
+                "UPDATE job SET state = ?, output = ?, seq = ?, progress = ?, failure = ?, finished = ?
+                 WHERE id = ? AND attempt = ? AND state IN ('queued', 'running')",
+            )
+            .bind(job.state.word())
+            .bind(rows::json(&job.output)?)
+            .bind(job.seq as i64)
+            .bind(rows::json(&job.progress)?)
+            .bind(failure)
+            .bind(job.finished.map(|time| time.0))
+            .bind(job.id.to_string())
+            .bind(i64::from(job.attempt))
+            .execute(&self.pool)
+            .await?;
+            Ok(changed.rows_affected() == 1)
+        }
+        .boxed()
+    }
+
+    fn wish(&self, id: JobId, wish: Wish) -> BoxFuture<'_, StoreResult<Option<Job>>> {
+        async move {
+            let mut transaction = self.begin().await?;
+            let recorded = match wish {
+                Wish::Cancel => {
+                    "UPDATE job SET cancel = 1, seq = seq + (state = 'queued'),
+                                    finished = iif(state = 'queued', ?2, NULL),
+                                    state = iif(state = 'queued', 'cancelled', state)
+                     WHERE id = ?1 AND state IN ('queued', 'running')"
+                }
+                Wish::FinishEarly => {
+                    "UPDATE job SET finish_early = 1
+                     WHERE id = ?1 AND state IN ('queued', 'running') AND ?2 IS NOT NULL"
+                }
+            };
+            sqlx::query(recorded)
+                .bind(id.to_string())
+                .bind(Timestamp::now().0)
+                .execute(&mut *transaction)
+                .await?;
+            let row = sqlx::query("SELECT * FROM job WHERE id = ?")
+                .bind(id.to_string())
+                .fetch_optional(&mut *transaction)
+                .await?;
+            transaction.commit().await?;
+            row.as_ref().map(rows::job).transpose()
+        }
+        .boxed()
+    }
+
+    fn recover(&self) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
+        async move {
+            let mut transaction = self.begin().await?;
+            sqlx::query(
+                "UPDATE job SET state = 'cancelled', seq = seq + 1, finished = ?
+                 WHERE state IN ('queued', 'running') AND cancel",
+            )
+            .bind(Timestamp::now().0)
+            .execute(&mut *transaction)
+            .await?;
+            sqlx::query("UPDATE job SET state = 'queued', lost = lost + 1 WHERE state = 'running'")
+                .execute(&mut *transaction)
+                .await?;
+            let found = sqlx::query("SELECT * FROM job WHERE state = 'queued' OR ephemeral")
+                .fetch_all(&mut *transaction)
+                .await?;
+            transaction.commit().await?;
+            jobs(&found)
+        }
+        .boxed()
+    }
+
+    fn delete(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>> {
+        async move {
+            sqlx::query("DELETE FROM job WHERE id = ?")
+                .bind(id.to_string())
+                .execute(&self.pool)
+                .await?;
+            Ok(())
+        }
+        .boxed()
+    }
+
+    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>> {
+        async move {
+            let found = sqlx::query("SELECT state, count(*) FROM job GROUP BY state")
+                .fetch_all(&self.pool)
+                .await?;
+            let mut counts = State::ALL.map(|state| (state, 0)).to_vec();
+            for row in found {
+                let state: State = rows::word(&row.try_get::<String, _>(0)?)?;
+                let count: i64 = row.try_get(1)?;
+                counts
+                    .iter_mut()
+                    .filter(|(s, _)| *s == state)
+                    .for_each(|c| c.1 = count as u64);
+            }
+            Ok(counts)
+        }
+        .boxed()
+    }
+}
+
+fn jobs(found: &[SqliteRow]) -> StoreResult<Vec<Job>> {
+    found.iter().map(rows::job).collect()
+}
+
+/// What an idempotency key was used for before, if it was.
+async fn key_use(
+    transaction: &mut Transaction<'_, Sqlite>,
+    key: &IdempotencyKey,
+) -> StoreResult<Option<Enqueued>> {
+    let row = sqlx::query(
+        "SELECT job.*, fingerprint FROM idempotency JOIN job ON job.id = idempotency.job WHERE key = ?",
+    )
+    .bind(&key.key)
+    .fetch_optional(&mut **transaction)
+    .await?;
+    let Some(row) = row else {
+        return Ok(None);
+    };
+    if row.try_get::<String, _>("fingerprint")? != key.fingerprint {
+        return Ok(Some(Enqueued::KeyReused));
+    }
+    Ok(Some(Enqueued::Replay(Box::new(rows::job(&row)?))))
+}

@@ -1,0 +1,252 @@
+//! Requests that are refused, and those that are repeated.
+
+use reqwest::RequestBuilder;
+use reqwest::multipart::{Form, Part};
+
+use crate::meshes;
+use crate::server::{Server, assert_problem, json};
+
+fn raw(
+    server: &Server,
+    query: &str,
+    content_type: &str,
+    body: impl Into<reqwest::Body>,
+) -> RequestBuilder {
+    server
+        .post(&format!("/v1/jobs?{query}"))
+        .header("content-type", content_type)
+        .body(body)
+}
+
+#[tokio::test]
+async fn what_is_not_a_mesh_is_refused_before_202() {
+    let server = Server::start();
+    let bytes = "application/octet-stream";
+    let cases: [(&str, &str, Vec<u8>, u16, &str); 13] = [
+        ("", bytes, b"hello, world".to_vec(), 422, "unknown_format"),
+        ("", bytes, Vec::new(), 422, "unknown_format"),
+        (
+            "",
+            bytes,
+            b"\x89PNG\r\n\x1a\n".to_vec(),
+            422,
+            "unknown_format",
+        ),
+        (
+            "",
+            "model/gltf-binary",
+            b"glTF\x01\0\0\0".to_vec(),
+            422,
+            "invalid_gltf",
+        ),
+        (
+            "",
+            "model/gltf-binary",
+            meshes::small()[..40].to_vec(),
+            422,
+            "invalid_gltf",
+        ),
+        (
+            "",
+            "model/gltf+json",
+            br#"{"asset": "#.to_vec(),
+            422,
+            "invalid_gltf",
+        ),
+        (
+            "",
+            "image/png",
+            meshes::small(),
+            415,
+            "unsupported_media_type",
+        ),
+        ("colour=red", bytes, meshes::small(), 400, "invalid_options"),
+        (
+            "energy=warp",
+            bytes,
+            meshes::small(),
+            400,
+            "invalid_options",
+        ),
+        (
+            "resolution=0",
+            bytes,
+            meshes::small(),
+            400,
+            "invalid_options",
+        ),
+        ("kind=fold", bytes, meshes::small(), 400, "invalid_request"),
+        (
+            "cut=disk&cut=auto",
+            bytes,
+            meshes::small(),
+            400,
+            "invalid_request",
+        ),
+        (
+            "kind=measure&energy=arap",
+            bytes,
+            meshes::small(),
+            400,
+            "invalid_options",
+        ),
+    ];
+    for (query, content_type, body, status, code) in cases {
+        let answer = raw(&server, query, content_type, body)
+            .send()
+            .await
+            .expect("an answer");
+        assert_problem(answer, status, code).await;
+    }
+    let jobs = json(server.get("/v1/jobs").send().await.expect("an answer")).await;
+    assert_eq!(jobs["jobs"], serde_json::json!([]));
+}
+
+#[tokio::test]
+async fn malformed_forms_are_refused() {
+    let server = Server::start();
+    let mesh = || Part::text(meshes::TRIANGLE).file_name("a.obj");
+    let cases = [
+        (Form::new().text("options", "{}"), "missing_mesh"),
+        (
+            Form::new().part("mesh", mesh()).part("mesh", mesh()),
+            "invalid_request",
+        ),
+        (
+            Form::new().part("mesh", mesh()).text("options", "[]"),
+            "invalid_options",
+        ),
+        (
+            Form::new()
+                .part("mesh", mesh())
+                .text("options", r#"{"cut": 3}"#),
+            "invalid_options",
+        ),
+        (
+            Form::new().part("mesh", mesh()).text("stray", "text"),
+            "invalid_request",
+        ),
+    ];
+    for (form, code) in cases {
+        let answer = server
+            .post("/v1/jobs")
+            .multipart(form)
+            .send()
+            .await
+            .expect("an answer");
+        assert_problem(answer, 400, code).await;
+    }
+    let cut_off = raw(
+        &server,
+        "",
+        "multipart/form-data; boundary=x",
+        "--x\r\nContent-Disp",
+    );
+    assert_problem(
+        cut_off.send().await.expect("an answer"),
+        400,
+        "invalid_request",
+    )
+    .await;
+    let no_boundary = raw(&server, "", "multipart/form-data", "--x");
+    assert_problem(
+        no_boundary.send().await.expect("an answer"),
+        400,
+        "invalid_request",
+    )
+    .await;
+}
+
+#[tokio::test]
+async fn uploads_and_queue_have_limits() {
+    let server = Server::with(&[
+        ("UNWRAPD_MAX_UPLOAD_MIB", "1"),
+        ("UNWRAPD_QUEUE_DEPTH", "0"),
+    ]);
+    let answer = raw(&server, "", "model/gltf-binary", meshes::hills(300))
+        .send()
+        .await;
+    let problem = assert_problem(answer.expect("an answer"), 413, "upload_too_large").await;
+    assert_eq!(problem["limit"], 1 << 20);
+    let answer = raw(&server, "", "model/gltf-binary", meshes::small())
+        .send()
+        .await
+        .expect("an answer");
+    assert_eq!(answer.headers()["retry-after"], "5");
+    assert_problem(answer, 503, "queue_full").await;
+}
+
+#[tokio::test]
+async fn paths_and_methods_that_do_not_exist_are_problems() {
+    let server = Server::start();
+    let nothing = server.get("/v2").send().await.expect("an answer");
+    assert_problem(nothing, 404, "not_found").await;
+    let method = server
+        .request("PUT", "/v1/jobs")
+        .send()
+        .await
+        .expect("an answer");
+    assert!(
+        method.headers()["allow"]
+            .to_str()
+            .expect("text")
+            .contains("POST")
+    );
+    assert_problem(method, 405, "method_not_allowed").await;
+    for id in ["x", "00000000-0000-7000-8000-000000000000"] {
+        let job = server
+            .get(&format!("/v1/jobs/{id}"))
+            .send()
+            .await
+            .expect("an answer");
+        assert_problem(job, 404, "job_not_found").await;
+    }
+    let query = server
+        .get("/v1/jobs?limit=many")
+        .send()
+        .await
+        .expect("an answer");
+    assert_problem(query, 400, "invalid_request").await;
+}
+
+#[tokio::test]
+async fn a_key_makes_repetitions_harmless() {
+    let server = Server::start();
+    let send = async |query: &str, mesh: Vec<u8>| {
+        let request = raw(&server, query, "model/gltf-binary", mesh);
+        request
+            .header("idempotency-key", "one")
+            .send()
+            .await
+            .expect("an answer")
+    };
+    let first = json(send("padding=3", meshes::small()).await).await;
+    let second = send("padding=3", meshes::small()).await;
+    assert_eq!(second.status(), 202);
+    assert_eq!(json(second).await["id"], first["id"]);
+    assert_problem(
+        send("padding=4", meshes::small()).await,
+        422,
+        "idempotency_key_reused",
+    )
+    .await;
+    assert_problem(
+        send("padding=3", meshes::hills(3)).await,
+        422,
+        "idempotency_key_reused",
+    )
+    .await;
+    let jobs = json(server.get("/v1/jobs").send().await.expect("an answer")).await;
+    assert_eq!(jobs["jobs"].as_array().map(Vec::len), Some(1));
+}
+
+#[tokio::test]
+async fn a_preferred_wait_is_answered_with_the_end() {
+    let server = Server::start();
+    let request = raw(&server, "", "model/obj", meshes::TRIANGLE).header("prefer", "wait=60");
+    let answer = request.send().await.expect("an answer");
+    assert_eq!(answer.status(), 200);
+    assert_eq!(answer.headers()["preference-applied"], "wait=60");
+    assert!(answer.headers().contains_key("location"));
+    assert_eq!(json(answer).await["state"], "succeeded");
+}

@@ -1,0 +1,116 @@
+//! Ranges, versions and the pages.
+
+use crate::meshes;
+use crate::server::{Server, assert_problem};
+
+#[tokio::test]
+async fn results_have_ranges_and_versions() {
+    let server = Server::start();
+    let job = server.submit(meshes::small(), "").await;
+    server.ended(&job).await;
+    let path = format!("{}/result", job["links"]["self"].as_str().expect("a link"));
+    let whole = server.get(&path).send().await.expect("an answer");
+    assert_eq!(
+        (whole.status().as_u16(), &whole.headers()["accept-ranges"]),
+        (200, &"bytes".parse().expect("text"))
+    );
+    let tag = whole.headers()["etag"].clone();
+    let bytes = whole.bytes().await.expect("bytes");
+    let size = bytes.len();
+
+    let cases = [
+        ("bytes=4-7".to_owned(), 4..8),
+        (format!("bytes={}-", size - 3), size - 3..size),
+        ("bytes=-5".to_owned(), size - 5..size),
+        (format!("bytes=10-{}", size * 2), 10..size),
+    ];
+    for (range, expected) in cases {
+        let part = server
+            .get(&path)
+            .header("range", range)
+            .send()
+            .await
+            .expect("an answer");
+        assert_eq!(part.status(), 206);
+        let content_range = format!("bytes {}-{}/{size}", expected.start, expected.end - 1);
+        assert_eq!(part.headers()["content-range"], content_range.as_str());
+        assert_eq!(part.bytes().await.expect("bytes"), bytes[expected]);
+    }
+    let beyond = server
+        .get(&path)
+        .header("range", format!("bytes={size}-"))
+        .send()
+        .await;
+    let beyond = beyond.expect("an answer");
+    assert_eq!(
+        beyond.headers()["content-range"],
+        format!("bytes */{size}").as_str()
+    );
+    assert_problem(beyond, 416, "range_not_satisfiable").await;
+
+    let ask = |name: &'static str, value: &str| server.get(&path).header(name, value.to_owned());
+    let tag = tag.to_str().expect("text");
+    let same = ask("if-none-match", tag).send().await.expect("an answer");
+    assert_eq!(same.status(), 304);
+    let other = ask("if-range", "\"other\"")
+        .header("range", "bytes=0-3")
+        .send()
+        .await
+        .expect("an answer");
+    assert_eq!(
+        (
+            other.status().as_u16(),
+            other.bytes().await.expect("bytes").len()
+        ),
+        (200, size)
+    );
+    let head = server
+        .request("HEAD", &path)
+        .send()
+        .await
+        .expect("an answer");
+    assert_eq!(head.headers()["content-length"], size.to_string().as_str());
+}
+
+#[tokio::test]
+async fn pages_load_nothing_from_elsewhere() {
+    let server = Server::start();
+    for path in [
+        "/",
+        "/docs",
+        "/assets/page.css",
+        "/assets/index.js",
+        "/assets/docs.js",
+    ] {
+        let answer = server.get(path).send().await.expect("an answer");
+        assert_eq!(answer.status(), 200, "{path}");
+        let policy = answer.headers()["content-security-policy"]
+            .to_str()
+            .expect("text")
+            .to_owned();
+        assert!(policy.contains("default-src 'none'") && !policy.contains("unsafe"));
+        let text = answer.text().await.expect("text");
+        assert!(
+            !text.contains("http://") && !text.contains("https://"),
+            "{path}"
+        );
+    }
+    for path in ["/healthz", "/readyz"] {
+        assert_eq!(
+            server.get(path).send().await.expect("an answer").status(),
+            200
+        );
+    }
+    let metrics = server
+        .get("/metrics")
+        .send()
+        .await
+        .expect("an answer")
+        .text()
+        .await
+        .expect("text");
+    assert!(
+        metrics.contains("unwrapd_jobs{state=\"queued\"} 0"),
+        "{metrics}"
+    );
+}

@@ -1,0 +1,57 @@
+//! Small meshes in one call.
+
+use crate::meshes;
+use crate::server::{Server, assert_problem, json};
+
+#[tokio::test]
+async fn one_call_unwraps_and_one_measures() {
+    let server = Server::start();
+    let request = server
+        .post("/v1/unwrap?filename=sheet.glb")
+        .body(meshes::small());
+    let answer = request.send().await.expect("an answer");
+    assert_eq!(
+        (answer.status().as_u16(), &answer.headers()["content-type"]),
+        (200, &"model/gltf-binary".parse().expect("text"))
+    );
+    let glb = answer.bytes().await.expect("bytes");
+    let report = server
+        .post("/v1/measure")
+        .body(glb)
+        .send()
+        .await
+        .expect("an answer");
+    let report = json(report).await;
+    assert_eq!(report["groups"][0]["certificate"]["flipped"], 0, "{report}");
+    let jobs = json(server.get("/v1/jobs").send().await.expect("an answer")).await;
+    assert_eq!(jobs["jobs"], serde_json::json!([]));
+}
+
+#[tokio::test]
+async fn unusable_meshes_are_problems() {
+    let server = Server::start();
+    let send = async |path: &str, body: &'static str| {
+        server
+            .post(path)
+            .header("content-type", "model/obj")
+            .body(body)
+            .send()
+            .await
+            .expect("an answer")
+    };
+    let points = send("/v1/unwrap", "v 0 0 0\nv 1 0 0\n").await;
+    assert_problem(points, 422, "no_triangles").await;
+    let no_uvs = send("/v1/measure", meshes::TRIANGLE).await;
+    assert_problem(no_uvs, 422, "no_uvs").await;
+    let two_files = send("/v1/unwrap?format=gltf", meshes::TRIANGLE).await;
+    assert_problem(two_files, 400, "invalid_options").await;
+}
+
+#[tokio::test]
+async fn what_takes_longer_than_a_call_may_is_ended() {
+    let server = Server::with(&[("UNWRAPD_SYNCHRONOUS_SECONDS", "0.05")]);
+    let request = server.post("/v1/unwrap?cut=disk").body(meshes::large());
+    assert_problem(request.send().await.expect("an answer"), 504, "timed_out").await;
+    let job = server.submit(meshes::small(), "").await;
+    assert_eq!(server.ended(&job).await["state"], "succeeded");
+}
