@@ -12,6 +12,7 @@ mod serve;
 mod unwrap;
 mod words;
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -56,10 +57,8 @@ pub fn run() -> ExitCode {
         Command::Measure(args) => measure::measure(&args),
         Command::Verify(args) => measure::verify(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
-        Command::Openapi => {
-            println!("{}", crate::http::openapi());
-            Ok(())
-        }
+        Command::Openapi => writeln!(std::io::stdout(), "{}", crate::http::openapi())
+            .map_err(|error| Failure::other(error.to_string())),
         Command::Health(args) => health::run(&args).map_err(Failure::other),
         Command::Compute { folder } => return crate::jobs::compute::run(&folder),
     };

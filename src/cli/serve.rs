@@ -1,7 +1,7 @@
 //! `unwrapd serve`: settings, start and graceful stop of the service.
 
 use std::fs::File;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -188,7 +188,8 @@ async fn serve(args: &Args) -> Result<(), String> {
         .await
         .map_err(|error| format!("cannot listen on {}: {error}", args.listen))?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
-    println!("listening on http://{address}");
+    // Whoever does not want to read it may close the pipe.
+    let _ = writeln!(std::io::stdout(), "listening on http://{address}");
 
     let stop = CancellationToken::new();
     stop_on_signals(&stop).map_err(|e| text(&e))?;

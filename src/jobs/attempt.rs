@@ -13,8 +13,10 @@ use super::storage::StoreResult;
 use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
 use super::timestamp::Timestamp;
 
-/// How often the child's memory is looked at and its progress is recorded.
+/// How often the child's memory is looked at.
 const WATCH_INTERVAL: Duration = Duration::from_millis(250);
+/// How often its progress is recorded.
+const RECORD_INTERVAL: Duration = Duration::from_secs(1);
 /// The share of its time after which a job is asked to finish with the map it has, rather than be ended without one.
 const BUDGET_SHARE: f64 = 0.8;
 
@@ -109,11 +111,13 @@ async fn watch(
     let deadline = Instant::now() + limits.time;
     let mut interval = tokio::time::interval(WATCH_INTERVAL);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    // The disk may be slow: a wish must not wait for a record.
+    let mut recording = jobs.tasks.spawn(async {});
+    let mut recorded = (job.seq, Instant::now());
     if job.finish_early {
         control.finish.cancel();
     }
     let (mut is_ready, mut is_told) = (false, false);
-    let mut recorded_seq = job.seq;
     loop {
         tokio::select! {
             message = child.next_message() => match message? {
@@ -139,9 +143,15 @@ async fn watch(
                 if limits.memory < child.resident_bytes() {
                     return Some(Ending::Failed(out_of_memory(limits.memory)));
                 }
-                if recorded_seq < job.seq {
-                    recorded_seq = job.seq;
-                    record(jobs, job).await;
+                let is_due = recorded.0 < job.seq && RECORD_INTERVAL <= recorded.1.elapsed();
+                if is_due && recording.is_finished() {
+                    recorded = (job.seq, Instant::now());
+                    let record = jobs.store.record_progress(job.id, job.attempt, job.event());
+                    recording = jobs.tasks.spawn(async {
+                        if let Err(error) = record.await {
+                            tracing::warn!(%error, "progress not recorded");
+                        }
+                    });
                 }
             }
         }
@@ -178,19 +188,10 @@ async fn conclude(jobs: &Jobs, mut job: Job, ending: Ending) {
     }
     let code = job.failure.as_ref().map(|failure| failure.code.as_str());
     tracing::info!(job = %job.id, state = job.state.word(), code, "ended");
-    if record(jobs, &job).await {
-        if job.state.is_final() {
-            jobs.end_live(&job);
-        } else {
-            jobs.events.publish(job.id, job.event());
-        }
+    match jobs.store.update(&job).await {
+        Ok(true) if job.state.is_final() => jobs.end_live(&job),
+        Ok(true) => jobs.events.publish(job.id, job.event()),
+        Ok(false) => tracing::warn!(job = %job.id, attempt = job.attempt, "outdated attempt"),
+        Err(error) => tracing::error!(job = %job.id, %error, "end not recorded"),
     }
-}
-
-/// Writes the record; false if that failed or the attempt is outdated.
-async fn record(jobs: &Jobs, job: &Job) -> bool {
-    jobs.store.update(job).await.unwrap_or_else(|error| {
-        tracing::error!(job = %job.id, %error, "not recorded");
-        false
-    })
 }

@@ -66,13 +66,13 @@ impl Subscription {
 
     /// The newest event, without waiting.
     pub fn latest(&self) -> Event {
-        self.receiver.borrow().clone()
+        *self.receiver.borrow()
     }
 
     /// The next event that is newer than the last one; `None` after a final event.
     pub async fn next(&mut self) -> Option<Event> {
         loop {
-            let event = self.receiver.borrow_and_update().clone();
+            let event = *self.receiver.borrow_and_update();
             let is_newer = self.last_seq.is_none_or(|last| last < event.seq);
             if is_newer || (event.state.is_final() && self.last_seq != Some(u64::MAX)) {
                 self.last_seq = Some(if event.state.is_final() {

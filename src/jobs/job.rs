@@ -188,7 +188,7 @@ impl Job {
         Event {
             seq: self.seq,
             state: self.state,
-            progress: self.progress.clone(),
+            progress: self.progress,
             elapsed_ms: elapsed.max(0) as u64,
         }
     }

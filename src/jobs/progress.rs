@@ -6,7 +6,7 @@ use super::job::State;
 use crate::pipeline::Stage;
 
 /// Progress within a job. Numbers that a stage does not have are left as they were.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(default)]
 pub struct Progress {
     /// What is being done; null before the start.
@@ -35,7 +35,7 @@ impl Progress {
 }
 
 /// One state of a job in its sequence. Events are snapshots: one that was missed is not needed.
-#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Event {
     /// Rises with every event of a job, with gaps.
     pub seq: u64,

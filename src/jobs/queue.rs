@@ -31,7 +31,7 @@ pub struct Jobs {
     pub(super) settings: Settings,
     pub(super) wake: Notify,
     controls: Mutex<HashMap<JobId, Control>>,
-    tasks: TaskTracker,
+    pub(super) tasks: TaskTracker,
 }
 
 /// How a live job is told what clients want of it.
@@ -191,16 +191,18 @@ impl Jobs {
     /// Cancels a job, or has it end early with the map it has. Returns the job after that; its state says whether it
     /// was too late.
     pub async fn wish(&self, id: JobId, wish: Wish) -> StoreResult<Option<Job>> {
+        // The running child first, it should not wait for the disk; a queued job is ended by the store.
+        if let Some(control) = self.control(id) {
+            match wish {
+                Wish::Cancel => control.cancel.cancel(),
+                Wish::FinishEarly => control.finish.cancel(),
+            }
+        }
         let Some(job) = self.store.wish(id, wish).await? else {
             return Ok(None);
         };
         if job.state.is_final() {
             self.end_live(&job);
-        } else if let Some(control) = self.control(id) {
-            match wish {
-                Wish::Cancel => control.cancel.cancel(),
-                Wish::FinishEarly => control.finish.cancel(),
-            }
         }
         Ok(Some(job))
     }

@@ -83,7 +83,15 @@ pub trait JobStore: Send + Sync {
     /// Takes the oldest queued job, which becomes running with its next attempt.
     fn claim(&self) -> BoxFuture<'_, StoreResult<Option<Job>>>;
 
-    /// Writes what changed during or at the end of an attempt; false if this attempt is not the running one any more.
+    /// Writes how far a running attempt is, for those who look after a restart.
+    fn record_progress(
+        &self,
+        id: JobId,
+        attempt: u32,
+        event: Event,
+    ) -> BoxFuture<'static, StoreResult<()>>;
+
+    /// Writes how an attempt ended; false if it is not the present one any more.
     fn update<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<bool>>;
 
     /// Records a wish and returns the job after it. A queued job that is cancelled is so at once.

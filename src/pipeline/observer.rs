@@ -130,6 +130,7 @@ impl<'a> Tracker<'a> {
     /// Announces the charts about to be mapped: their number and their faces.
     pub(super) fn charts(&self, charts: usize, faces: usize) {
         self.update(|state| {
+            state.progress.stage = Stage::Map;
             state.progress.charts = charts;
             state.faces = faces;
             begins_at(Stage::Map)

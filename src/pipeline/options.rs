@@ -91,24 +91,31 @@ pub struct Options {
     /// Barrier that keeps every triangle from inverting; `none` is for comparison and never certified.
     pub barrier: BarrierKind,
     /// Weight β of the barrier.
+    #[cfg_attr(feature = "service", schema(minimum = 1e-9, maximum = 1e9))]
     pub barrier_strength: f64,
     /// Support s of the barrier, relative to an element's rest area.
+    #[cfg_attr(feature = "service", schema(minimum = 1e-6, maximum = 1e6))]
     pub barrier_support: f64,
     /// Where to cut: few charts, or one per component.
     pub cut: Cut,
     /// What shares one atlas.
     pub group_by: GroupBy,
     /// The UV set to write; chosen so that no texture breaks if absent.
+    #[cfg_attr(feature = "service", schema(maximum = 7))]
     pub texcoord: Option<u32>,
     /// Replace the UV set even if textures sample it.
     pub overwrite: bool,
     /// Texels along the side of the texture that `padding` is counted in.
+    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
     pub resolution: u32,
-    /// Least distance of two charts, in texels.
+    /// Least distance of two charts, in texels; at most an eighth of the resolution.
+    #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: u32,
     /// Threads to use; all that are allowed if absent. The result does not depend on it.
+    #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 1024))]
     pub threads: Option<usize>,
     /// Seconds after which the current valid map is taken as it is.
+    #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
     pub time_budget: Option<f64>,
     /// What the heat map shows.
     pub heatmap_measure: HeatmapMeasure,

@@ -13,7 +13,7 @@ use sqlx::{Row, Sqlite, Transaction};
 
 use super::rows;
 use crate::jobs::{
-    Enqueued, IdempotencyKey, Job, JobId, JobStore, Listing, State, StoreError, StoreResult,
+    Enqueued, Event, IdempotencyKey, Job, JobId, JobStore, Listing, State, StoreError, StoreResult,
     Timestamp, Wish, next_attempt_seq,
 };
 
@@ -200,6 +200,28 @@ impl JobStore for SqliteStore {
             .await?;
             transaction.commit().await?;
             Ok(Some(job))
+        }
+        .boxed()
+    }
+
+    fn record_progress(
+        &self,
+        id: JobId,
+        attempt: u32,
+        event: Event,
+    ) -> BoxFuture<'static, StoreResult<()>> {
+        let pool = self.pool.clone();
+        async move {
+            sqlx::query(
+                "UPDATE job SET seq = ?, progress = ? WHERE id = ? AND attempt = ? AND state = 'running'",
+            )
+            .bind(event.seq as i64)
+            .bind(rows::json(&event.progress)?)
+            .bind(id.to_string())
+            .bind(i64::from(attempt))
+            .execute(&pool)
+            .await?;
+            Ok(())
         }
         .boxed()
     }
