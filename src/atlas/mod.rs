@@ -124,7 +124,7 @@ const ROUNDS: usize = 6;
 /// Places every chart in the unit square, each triangle strictly positive on the grid, any two charts
 /// at least the padding apart.
 ///
-/// The charts must be strictly positive as given. The same input gives the same atlas for any number
+/// The charts must be strictly positive as given; one that has a flipped triangle is rounded without repair. The same input gives the same atlas for any number
 /// of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
     let outlines = outlines(charts)?;

@@ -3,11 +3,12 @@
 //! Rounding alone is right for all but a few triangles. Where it is not, the vertices of the
 //! triangle try the grid points around (the ring's kernel, searched exhaustively); what is left is
 //! too narrow for the grid and is opened by [`relax`] in ever larger neighbourhoods, then rounded
-//! again.
+//! again. A chart that has flipped triangles as given, as maps without a barrier have, is rounded and nothing else.
 use rayon::prelude::*;
 
 use super::relax::relax;
 use super::{ChartMap, doubled_area, outline::Outline};
+use crate::numerics::predicates::orient2d_sign;
 
 /// A chart on the grid, its bounding rectangle's lower left corner near the origin.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Sn
     };
     let all: Vec<u32> = (0..map.triangles.len() as u32).collect();
     let mut bad = snap.without_area(&all);
-    if !bad.is_empty() {
+    if !bad.is_empty() && is_positive(map) {
         snap.rings = Rings::new(map.uv.len(), map.triangles);
         snap.repair(map, outline, unit, &mut bad)?;
     }
@@ -51,6 +52,14 @@ pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Sn
             .count(),
         largest_move: (0..map.uv.len()).map(distance).fold(0.0, f64::max),
         grid: snap.grid,
+    })
+}
+
+/// Whether every triangle is positive as given.
+fn is_positive(map: &ChartMap) -> bool {
+    map.triangles.iter().all(|t| {
+        let [a, b, c] = t.map(|v| map.uv[v as usize]);
+        orient2d_sign(a, b, c) > 0
     })
 }
 

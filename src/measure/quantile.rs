@@ -9,10 +9,13 @@ pub(super) struct Weighted {
 
 impl Weighted {
     pub fn new(mut pairs: Vec<(f64, f64)>) -> Weighted {
+        // Shares are summed, not weights: where half of twelve equal weights is asked for, rounding decides between the
+        // sixth and the seventh value, and so it decides as in other programs that normalize first.
+        let total: f64 = pairs.iter().map(|pair| pair.1).sum();
         pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         let mut sum = 0.0;
         let cumulated = pairs.iter().map(|(_, weight)| {
-            sum += weight;
+            sum += weight / total;
             sum
         });
         Weighted {

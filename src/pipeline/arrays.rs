@@ -165,7 +165,7 @@ fn map_chart(chart: &Chart, settings: &Settings, tracker: &Tracker) -> Mapped {
     tracker.chart_done(faces);
     Mapped {
         embedding,
-        seconds: (tracker.elapsed() - begin).as_secs_f64(),
+        seconds: tracker.elapsed().saturating_sub(begin).as_secs_f64(),
     }
 }
 
@@ -192,13 +192,13 @@ fn assemble(
     let atlas = atlas::pack(&chart_maps, &options)?;
     let records = charts.iter().zip(maps).map(|(chart, map)| ChartRecord {
         faces: chart.disk.triangles.len(),
-        summary: map.embedding.summary.clone(),
+        summary: map.embedding.summary,
         seconds: map.seconds,
     });
     Ok(Unwrapped {
         grid: face_corners(mesh, surface, charts, &atlas),
         charts: records.collect(),
-        defects: surface.defects.clone(),
+        defects: surface.defects,
         scale: atlas.scale,
         padding_texels: atlas.padding_texels,
     })

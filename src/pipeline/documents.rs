@@ -172,7 +172,7 @@ fn stem(name: &str) -> String {
 /// Adds to each group what only unwrapping knows.
 fn add_history(groups: &mut [GroupReport], atlases: &[Unwrapped]) {
     for (group, atlas) in groups.iter_mut().zip(atlases) {
-        group.defects = Some(atlas.defects.clone());
+        group.defects = Some(atlas.defects);
         group.atlas = Some(AtlasReport::new(atlas));
     }
 }

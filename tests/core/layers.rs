@@ -21,30 +21,83 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     (
         "document",
         &["measure"],
-        &["serde_json", "draco_core", "meshopt", "bevy_mikktspace", "base64", "percent_encoding"],
+        &[
+            "serde_json",
+            "draco_core",
+            "meshopt",
+            "bevy_mikktspace",
+            "base64",
+            "percent_encoding",
+        ],
     ),
     ("picture", &["measure"], &["image", "rayon"]),
-    ("pipeline", &["charts", "atlas", "document", "picture"], &["serde_json", "rayon"]),
-    ("jobs", &["pipeline"], &["tokio", "tokio_util", "serde_json", "uuid", "tracing", "nix", "futures_util"]),
-    ("store", &["jobs"], &["sqlx", "tokio", "serde_json", "futures_util"]),
+    (
+        "pipeline",
+        &["charts", "atlas", "document", "picture"],
+        &["serde_json", "rayon"],
+    ),
+    (
+        "jobs",
+        &["pipeline"],
+        &[
+            "tokio",
+            "tokio_util",
+            "serde_json",
+            "uuid",
+            "tracing",
+            "nix",
+            "futures_util",
+        ],
+    ),
+    (
+        "store",
+        &["jobs"],
+        &["sqlx", "tokio", "serde_json", "futures_util"],
+    ),
     (
         "http",
         &["jobs"],
         &[
-            "axum", "utoipa_axum", "tokio", "tokio_util", "tower_http", "serde_json", "tracing", "futures_util",
-            "sha2", "percent_encoding",
+            "axum",
+            "utoipa_axum",
+            "tokio",
+            "tokio_util",
+            "tower_http",
+            "serde_json",
+            "tracing",
+            "futures_util",
+            "sha2",
+            "percent_encoding",
         ],
     ),
     (
         "cli",
         &["http", "store"],
-        &["clap", "indicatif", "serde_json", "tokio", "tokio_util", "tracing", "tracing_subscriber"],
+        &[
+            "clap",
+            "indicatif",
+            "serde_json",
+            "tokio",
+            "tokio_util",
+            "tracing",
+            "tracing_subscriber",
+        ],
     ),
     ("lib", &["cli"], &[]),
     ("main", &["cli"], &["clap", "tikv_jemallocator"]),
 ];
 
-const ANYWHERE: &[&str] = &["crate", "self", "super", "std", "core", "alloc", "serde", "utoipa", "thiserror"];
+const ANYWHERE: &[&str] = &[
+    "crate",
+    "self",
+    "super",
+    "std",
+    "core",
+    "alloc",
+    "serde",
+    "utoipa",
+    "thiserror",
+];
 
 #[test]
 fn nothing_is_imported_upwards() {
@@ -57,7 +110,11 @@ fn nothing_is_imported_upwards() {
             for (number, line) in text.lines().enumerate() {
                 for name in crate_paths(line).filter(|name| modules.contains(name)) {
                     if !allowed.contains(name) {
-                        faults.push(format!("{}:{}: {module} -> {name}", file.display(), number + 1));
+                        faults.push(format!(
+                            "{}:{}: {module} -> {name}",
+                            file.display(),
+                            number + 1
+                        ));
                     }
                 }
                 if let Some(name) = imported_crate(line)
@@ -65,7 +122,11 @@ fn nothing_is_imported_upwards() {
                     && !crates.contains(&name)
                     && !is_local(&text, name)
                 {
-                    faults.push(format!("{}:{}: {module} -> {name}", file.display(), number + 1));
+                    faults.push(format!(
+                        "{}:{}: {module} -> {name}",
+                        file.display(),
+                        number + 1
+                    ));
                 }
             }
         }
@@ -90,8 +151,10 @@ fn source() -> PathBuf {
 
 /// The module and everything below it.
 fn reachable(module: &str) -> BTreeSet<&'static str> {
-    let direct: BTreeMap<&str, (&'static str, &[&'static str])> =
-        LAYERS.iter().map(|(name, below, _)| (*name, (*name, *below))).collect();
+    let direct: BTreeMap<&str, (&'static str, &[&'static str])> = LAYERS
+        .iter()
+        .map(|(name, below, _)| (*name, (*name, *below)))
+        .collect();
     let mut found = BTreeSet::new();
     let mut open = vec![module];
     while let Some(name) = open.pop() {
@@ -111,7 +174,10 @@ fn files_of(module: &str) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![source().join(module)];
     while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a module is a folder").filter_map(Result::ok) {
+        for entry in fs::read_dir(folder)
+            .expect("a module is a folder")
+            .filter_map(Result::ok)
+        {
             let path = entry.path();
             if path.is_dir() {
                 folders.push(path);
@@ -127,21 +193,32 @@ fn files_of(module: &str) -> Vec<PathBuf> {
 /// Names directly after `crate::` outside of comments.
 fn crate_paths(line: &str) -> impl Iterator<Item = &str> {
     let code = line.split("//").next().unwrap_or("");
-    code.split("crate::").skip(1).filter_map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next())
+    code.split("crate::").skip(1).filter_map(|rest| {
+        rest.split(|c: char| !c.is_alphanumeric() && c != '_')
+            .next()
+    })
 }
 
 /// The crate a `use` declaration names.
 fn imported_crate(line: &str) -> Option<&str> {
-    let path = line.trim_start().trim_start_matches("pub ").strip_prefix("use ")?;
-    path.split(|c: char| !c.is_alphanumeric() && c != '_').find(|name| !name.is_empty())
+    let path = line
+        .trim_start()
+        .trim_start_matches("pub ")
+        .strip_prefix("use ")?;
+    path.split(|c: char| !c.is_alphanumeric() && c != '_')
+        .find(|name| !name.is_empty())
 }
 
 /// `use name::…` of a module or type the same file declares.
 fn is_local(text: &str, name: &str) -> bool {
     text.lines().any(|line| {
-        let line = line.trim_start().trim_start_matches("pub(super) ").trim_start_matches("pub ");
+        let line = line
+            .trim_start()
+            .trim_start_matches("pub(super) ")
+            .trim_start_matches("pub ");
         ["mod ", "enum ", "struct "].iter().any(|kind| {
-            line.strip_prefix(kind).is_some_and(|rest| rest.trim_end_matches([';', '{', ' ']) == name)
+            line.strip_prefix(kind)
+                .is_some_and(|rest| rest.trim_end_matches([';', '{', ' ']) == name)
         })
     })
 }

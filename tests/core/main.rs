@@ -9,6 +9,7 @@ mod embed;
 mod energy;
 #[cfg(feature = "files")]
 mod io;
+mod layers;
 mod measure;
 mod mesh;
 mod numerics;
@@ -16,6 +17,7 @@ mod numerics;
 mod obj_document;
 #[cfg(feature = "files")]
 mod picture;
+mod pipeline;
 mod solver;
 mod taylor;
 mod uv_meshes;

@@ -1,9 +1,11 @@
 //! Tests of the service: a real server on a free port, with its data in a folder that goes with it.
 
+mod cli;
 mod failures;
 mod jobs;
 mod meshes;
 mod openapi;
+mod page;
 mod progress;
 mod requests;
 mod restarts;

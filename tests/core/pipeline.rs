@@ -1,0 +1,189 @@
+//! The whole path on plain arrays: every mesh of the zoo, scale, threads, early ends.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use unwrapd::certificate::{Overlap, certify};
+use unwrapd::charts::Cut;
+use unwrapd::energy::EnergyKind;
+use unwrapd::pipeline::{Observer, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap};
+use unwrapd::solver::Control;
+
+use crate::zoo::{self, Mesh};
+
+fn settings(cut: Cut) -> Settings {
+    Settings {
+        cut,
+        ..Settings::default()
+    }
+}
+
+fn has_a_triangle(mesh: &Mesh) -> bool {
+    mesh.triangles.iter().any(|t| {
+        let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+        a != b && b != c && c != a
+    })
+}
+
+#[track_caller]
+fn assert_certified(mesh: &Mesh, unwrapped: &Unwrapped) {
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+    let uvs = unwrapped.corner_uvs();
+    assert_eq!(uvs.len(), mesh.triangles.len(), "{}", mesh.name);
+    let inside = |x: &f64| (0.0..=1.0).contains(x);
+    assert!(
+        uvs.as_flattened().as_flattened().iter().all(inside),
+        "{}",
+        mesh.name
+    );
+    let certificate = certify(&positions, &mesh.triangles, &uvs, Overlap::Skip);
+    assert!(certificate.is_valid(), "{}: {certificate:?}", mesh.name);
+}
+
+#[test]
+fn the_zoo_is_certified_in_both_modes() {
+    for mesh in zoo::zoo().iter().filter(|mesh| has_a_triangle(mesh)) {
+        for cut in [Cut::Auto, Cut::Disk] {
+            let unwrapped = unwrap(
+                &mesh.positions,
+                &mesh.triangles,
+                &settings(cut),
+                &Unobserved,
+            )
+            .unwrap_or_else(|error| panic!("{}: {error}", mesh.name));
+            assert_certified(mesh, &unwrapped);
+        }
+    }
+}
+
+#[test]
+fn every_energy_is_certified_on_a_torus() {
+    let mesh = zoo::torus(12, 8);
+    for energy in [
+        EnergyKind::Arap,
+        EnergyKind::Lscm,
+        EnergyKind::SymmetricDirichlet,
+    ] {
+        let settings = Settings {
+            energy,
+            ..settings(Cut::Disk)
+        };
+        let unwrapped = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved)
+            .expect("a torus is a mesh");
+        assert_certified(&mesh, &unwrapped);
+    }
+}
+
+#[test]
+fn the_number_of_threads_does_not_show() {
+    let mesh = zoo::sphere(24, 16).with(&zoo::torus(16, 12).moved([3.0, 0.0, 0.0]));
+    let with_threads = |threads| {
+        let settings = Settings {
+            threads: Some(threads),
+            ..Settings::default()
+        };
+        unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved)
+            .expect("two closed surfaces are a mesh")
+            .grid
+    };
+    let one = with_threads(1);
+    assert_eq!(one, with_threads(2));
+    assert_eq!(one, with_threads(4));
+}
+
+#[test]
+fn the_unit_of_length_does_not_matter() {
+    let mesh = zoo::sphere(16, 12);
+    for scale in [1e-9_f32, 1.0, 1e9] {
+        let mut scaled = mesh.clone();
+        for x in scaled.positions.as_flattened_mut() {
+            *x *= scale;
+        }
+        let unwrapped = unwrap(
+            &scaled.positions,
+            &scaled.triangles,
+            &Settings::default(),
+            &Unobserved,
+        )
+        .expect("a sphere is a mesh");
+        assert_certified(&scaled, &unwrapped);
+    }
+}
+
+/// Ends the work at its first iteration and records what it was told.
+struct Impatient {
+    reports: std::sync::Mutex<Vec<Progress>>,
+    ticks: AtomicUsize,
+}
+
+impl Observer for Impatient {
+    fn progress(&self, progress: &Progress) -> Control {
+        self.reports
+            .lock()
+            .expect("no reporter panics")
+            .push(progress.clone());
+        Control::Finish
+    }
+    fn elapsed(&self) -> Duration {
+        Duration::from_millis(self.ticks.fetch_add(1, Ordering::Relaxed) as u64)
+    }
+}
+
+#[test]
+fn work_ended_early_is_valid_and_its_progress_never_falls() {
+    let mesh = zoo::sphere(24, 16);
+    let observer = Impatient {
+        reports: std::sync::Mutex::default(),
+        ticks: AtomicUsize::new(0),
+    };
+    let settings = Settings {
+        threads: Some(1),
+        ..settings(Cut::Disk)
+    };
+    let unwrapped = unwrap(&mesh.positions, &mesh.triangles, &settings, &observer)
+        .expect("an early end is not an error");
+    assert_certified(&mesh, &unwrapped);
+    assert!(
+        unwrapped
+            .charts
+            .iter()
+            .all(|chart| chart.summary.iterations <= 1)
+    );
+    let reports = observer.reports.into_inner().expect("no reporter panics");
+    assert!(reports.windows(2).all(|w| w[0].fraction <= w[1].fraction));
+    assert!(reports.iter().any(|report| report.stage == Stage::Pack));
+}
+
+#[test]
+fn repeated_faces_lie_on_an_edge_of_a_neighbour() {
+    let mut mesh = zoo::grid(4, 4);
+    mesh.triangles.push([0, 0, 1]);
+    mesh.triangles.push([2, 2, 2]);
+    let unwrapped = unwrap(
+        &mesh.positions,
+        &mesh.triangles,
+        &Settings::default(),
+        &Unobserved,
+    )
+    .expect("a grid is a mesh");
+    assert_certified(&mesh, &unwrapped);
+    let corners = |vertex: u32| -> Vec<[i32; 2]> {
+        let faces = mesh
+            .triangles
+            .iter()
+            .zip(&unwrapped.grid)
+            .take(mesh.triangles.len() - 2);
+        faces
+            .flat_map(|(t, uv)| {
+                t.iter()
+                    .zip(uv)
+                    .filter(|(v, _)| **v == vertex)
+                    .map(|(_, p)| *p)
+            })
+            .collect()
+    };
+    let [a, b, c] = unwrapped.grid[mesh.triangles.len() - 2];
+    assert_eq!(a, b);
+    assert!(corners(0).contains(&a) && corners(1).contains(&c));
+    assert!(corners(2).contains(&unwrapped.grid[mesh.triangles.len() - 1][0]));
+}
