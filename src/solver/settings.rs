@@ -62,6 +62,7 @@ pub enum Projection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub enum Status {
     /// The decrement fell below the tolerance.
     Converged,
@@ -75,6 +76,7 @@ pub enum Status {
 
 /// What a minimization did.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Summary {
     /// How it ended.
     pub status: Status,

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("numerics", &[], &["faer", "robust", "rayon"]),
-    ("mesh", &["numerics"], &["ply_rs_bw", "stl_io", "tobj"]),
+    ("mesh", &["numerics"], &[]),
     ("cut", &["mesh"], &[]),
     ("energy", &["mesh"], &[]),
     ("barrier", &["energy"], &[]),
