@@ -20,8 +20,9 @@ use crate::energy::{RestShape, Term};
 use crate::mesh::Disk;
 use crate::solver::{Control, Iterate, Objective, Projection, Settings, best_scale, minimize};
 
-/// Vertices of the coarsest level, if its shape allows.
-const COARSEST: usize = 300;
+/// Vertices of the coarsest level, if shape allows: so few that Tutte's map of them is not far from the optimum even
+/// for a surface with long arms.
+const COARSEST: usize = 60;
 
 /// Vertices of the coarsest level when only topology counts: Tutte's map of a handful of vertices is exact enough.
 const FEWEST: usize = 8;
@@ -33,16 +34,18 @@ const SHARE: f64 = 0.3;
 const VIRTUAL_WEIGHT: f64 = 1e-3;
 
 /// Sweeps after the vertices of a level are back. Four halve the factorizations on the finest level against one or two.
-pub(super) const SWEEPS: usize = 4;
+const SWEEPS: usize = 4;
 
-/// Newton steps on a level in between, at most.
-const STEPS_BETWEEN: usize = 5;
+/// Newton steps times vertices on a level, at most, but never fewer than [`LEAST_STEPS`] steps: small levels have all
+/// the steps they want, large ones the few they need when the coarser ones are good.
+const STEP_BUDGET: usize = 200_000;
 
-/// A level is left when a Newton step promises less than this share of the energy.
-const STEP_GAIN: f64 = 1e-3;
+/// See [`STEP_BUDGET`].
+const LEAST_STEPS: usize = 5;
 
-/// Newton steps on the coarsest level, at most: they cost nothing there.
-const STEPS_COARSEST: usize = 100;
+/// A level is left when a Newton step promises less than this share of the energy. With 1e-3 levels in which a few
+/// stretched triangles make up the whole energy were left a millionfold above their optimum.
+const STEP_GAIN: f64 = 1e-4;
 
 /// A mesh before some of its vertices were collapsed.
 struct Level {
@@ -73,8 +76,11 @@ pub(super) fn coarse_to_fine(
     let mut uv = coarsest?;
     while let Some(level) = levels.pop() {
         reinsert(&level.collapses, &shape, &mut uv).ok()?;
-        let steps = if levels.is_empty() { 0 } else { STEPS_BETWEEN };
-        System::new(&level.triangles, closed.n_real, &shape).improve(&mut uv, steps);
+        let system = System::new(&level.triangles, closed.n_real, &shape);
+        system.sweep(&mut uv);
+        if !levels.is_empty() {
+            system.minimize(&mut uv);
+        }
     }
     Some(uv)
 }
@@ -123,7 +129,7 @@ fn coarsest_map(
         coarse.as_flattened(),
         &mut uv,
     );
-    system.improve(&mut uv, STEPS_COARSEST);
+    system.minimize(&mut uv);
     Some(uv)
 }
 
@@ -171,18 +177,18 @@ impl System {
         self.vertices.iter().map(|&v| uv[v as usize]).collect()
     }
 
-    /// Sweeps, then at most this many Newton steps. What the exact check does not confirm is not taken.
-    fn improve(self, uv: &mut [[f64; 2]], max_iterations: usize) {
+    /// What the exact check does not confirm is not taken, here as in [`minimize`](Self::minimize).
+    fn sweep(&self, uv: &mut [[f64; 2]]) {
         let mut x = self.gather(uv).into_flattened();
         let stars = Stars::new(self.vertices.len(), &self.triangles);
         sweep(&*self.term, &stars, SWEEPS, &mut x);
         keep(&self.vertices, &self.triangles, &x, uv);
-        if max_iterations == 0 {
-            return;
-        }
+    }
+
+    fn minimize(self, uv: &mut [[f64; 2]]) {
         let mut x = self.gather(uv).into_flattened();
         let settings = Settings {
-            max_iterations,
+            max_iterations: (STEP_BUDGET / self.vertices.len()).max(LEAST_STEPS),
             tolerance: STEP_GAIN,
             projection: Projection::PositiveSemidefinite,
         };

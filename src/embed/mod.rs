@@ -6,7 +6,8 @@
 //! mean triangle area of 1 first ([`rest_shapes`]), and faces without an area get a rest shape that can be mapped.
 //!
 //! The start is Tutte's: holes closed by virtual faces, the boundary on a circle. The theorem holds in exact arithmetic,
-//! so every triangle is checked with an exact predicate.
+//! so every triangle is checked with an exact predicate; where floating point breaks it, where the surface has long arms
+//! or is large, the start is found coarse to fine: vertices collapsed and put back level by level, each level optimized.
 //!
 //! Invariant: every map that leaves this module is positive in every triangle by
 //! [`orient2d_sign`](crate::numerics::predicates::orient2d_sign), unless the caller asked for no barrier. Maps may
@@ -16,6 +17,7 @@ mod closed;
 mod decimate;
 mod hierarchy;
 mod parameterize;
+mod problem;
 mod reinsert;
 mod rest;
 mod start;

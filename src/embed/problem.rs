@@ -1,0 +1,124 @@
+//! A disk, its rest shapes and the energy of its maps.
+
+use super::parameterize::{Embedding, Options};
+use super::rest::RestShapes;
+use super::start::first_bad_triangle;
+use crate::barrier::{BarrierKind, MapEnergy, epsilon, map_energy};
+use crate::energy::Term;
+use crate::mesh::Disk;
+use crate::numerics::vec2::doubled_area;
+use crate::solver::{Objective, Settings, Watch, best_scale, minimize};
+
+/// Newton steps times triangles, at most: 13 steps for 600,000 triangles, where one takes seconds. Coarse to fine, these
+/// are enough to come near the optimum.
+const STEP_BUDGET: usize = 8_000_000;
+
+/// Steps that even the largest disk may take.
+const LEAST_STEPS: usize = 10;
+
+/// What is to be minimized.
+pub(super) struct Problem<'a> {
+    pub disk: &'a Disk,
+    pub rest: RestShapes,
+    pub options: &'a Options,
+}
+
+impl Problem<'_> {
+    /// The energy with the ε that this start asks for.
+    fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
+        let smallest_rest = (self.rest.shapes.iter())
+            .map(|shape| shape.area)
+            .fold(f64::INFINITY, f64::min);
+        let smallest_start = (self.disk.triangles.iter())
+            .map(|t| signed_area(t, start))
+            .fold(f64::INFINITY, f64::min);
+        self.term_with(epsilon(smallest_rest, smallest_start))
+    }
+
+    fn term_with(&self, epsilon: f64) -> Box<dyn Term> {
+        let parameters = MapEnergy {
+            energy: self.options.energy,
+            barrier: self.options.barrier,
+            beta: self.options.beta,
+            s: self.options.s,
+            epsilon,
+        };
+        map_energy(&self.disk.triangles, &self.rest.shapes, &parameters)
+    }
+
+    /// The map at the size of lowest energy.
+    ///
+    /// Where rounding would empty a triangle, the nearest power of 2 scales it, which is exact.
+    pub fn at_best_size(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        // To a mean area of 1: the search then starts near its end, whatever unit the map was in.
+        let mean_area = total_area(&self.disk.triangles, uv) / self.rest.shapes.len() as f64;
+        let uv = scaled(uv, power_of_two(1.0 / mean_area.sqrt()));
+        // The domain grows as ε falls; for the search there is none.
+        let best = best_scale(&*self.term_with(0.0), uv.as_flattened());
+        self.positive_or_power_of_two(&uv, best)
+    }
+
+    fn positive_or_power_of_two(&self, uv: &[[f64; 2]], factor: f64) -> Vec<[f64; 2]> {
+        let exact = scaled(uv, factor);
+        if first_bad_triangle(&self.disk.triangles, &exact).is_none() {
+            exact
+        } else {
+            scaled(uv, power_of_two(factor))
+        }
+    }
+
+    /// The energy per triangle of a map.
+    pub fn mean_energy(&self, uv: &[[f64; 2]]) -> f64 {
+        self.term(uv).value(uv.as_flattened()) / self.rest.shapes.len() as f64
+    }
+
+    /// The map that minimizing from this start leads to, in the mesh's unit.
+    pub fn minimized(&self, start: Vec<[f64; 2]>, watch: &dyn Watch) -> Embedding {
+        let mut objective = Objective::new(self.disk.n_vertices, self.term(&start));
+        let affordable = (STEP_BUDGET / self.rest.shapes.len()).max(LEAST_STEPS);
+        let settings = Settings {
+            max_iterations: self.options.solver.max_iterations.min(affordable),
+            ..self.options.solver
+        };
+        let mut x: Vec<f64> = start.as_flattened().to_vec();
+        let summary = minimize(&mut objective, &mut x, &settings, watch);
+        let mut uv: Vec<[f64; 2]> = x.as_chunks().0.to_vec();
+        // The solver keeps areas above ε in floating point; the promise is about the exact sign.
+        let is_promised = self.options.barrier != BarrierKind::None;
+        if is_promised && first_bad_triangle(&self.disk.triangles, &uv).is_some() {
+            uv = start;
+        }
+        Embedding {
+            uv: self.in_mesh_unit(&uv),
+            summary,
+        }
+    }
+
+    /// The map at the size at which its area is that of the surface.
+    fn in_mesh_unit(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let wanted = if self.rest.true_area > 0.0 {
+            self.rest.true_area
+        } else {
+            self.rest.area
+        };
+        let area = total_area(&self.disk.triangles, uv).abs();
+        self.positive_or_power_of_two(uv, (wanted / area.max(f64::MIN_POSITIVE)).sqrt())
+    }
+}
+
+fn signed_area(triangle: &[u32; 3], uv: &[[f64; 2]]) -> f64 {
+    let [a, b, c] = triangle.map(|v| uv[v as usize]);
+    0.5 * doubled_area(a, b, c)
+}
+
+fn total_area(triangles: &[[u32; 3]], uv: &[[f64; 2]]) -> f64 {
+    triangles.iter().map(|t| signed_area(t, uv)).sum()
+}
+
+fn scaled(uv: &[[f64; 2]], factor: f64) -> Vec<[f64; 2]> {
+    uv.iter().map(|p| p.map(|x| x * factor)).collect()
+}
+
+fn power_of_two(factor: f64) -> f64 {
+    factor.log2().round().exp2()
+}
