@@ -23,6 +23,8 @@ pub struct Cone {
     pub cos: f64,
     /// The share of the area that may lie outside, so that noise does not shatter a scan.
     pub stray: f64,
+    /// The share of the area that the projection along the mean normal may lose.
+    pub spread: f64,
 }
 
 impl Normals {
@@ -71,7 +73,11 @@ impl Normals {
 
     /// Whether the union of two distributions fits into a cone around its mean.
     pub fn fit(&self, other: &Self, cone: Cone) -> bool {
-        let axis = unit(sum(self.sum, other.sum));
+        let (area, both) = (self.area + other.area, sum(self.sum, other.sum));
+        if area - norm(both) > cone.spread * area {
+            return false;
+        }
+        let axis = unit(both);
         let stray = |normals: &Self| -> f64 {
             normals
                 .cells
@@ -81,7 +87,7 @@ impl Normals {
                 .map(|(_, area)| area)
                 .sum()
         };
-        stray(self) + stray(other) <= cone.stray * (self.area + other.area)
+        stray(self) + stray(other) <= cone.stray * area
     }
 }
 

@@ -3,7 +3,6 @@
 use super::edges::Edges;
 use super::{CUT, UnionFind, next, origin, same_direction};
 use crate::numerics::vec3::{add_scaled, dot, sub, unit};
-use std::collections::HashMap;
 
 /// Above this many faces on one edge, faces are paired in file order instead of by angle (which looks at all pairs).
 const MOST_FACES_COMPARED: usize = 64;
@@ -39,7 +38,7 @@ impl Adjacency {
         let mut twin = vec![CUT; 3 * n_faces];
         let mut components = UnionFind::new(n_faces);
         let mut n_nonmanifold_edges = 0;
-        let ranks = copy_ranks(triangles);
+        let ranks = copy_ranks(triangles, edges);
         for edge in edges.iter() {
             for h in &edge[1..] {
                 components.unite(edge[0] / 3, h / 3);
@@ -86,18 +85,26 @@ fn glue(twin: &mut [u32], a: u32, b: u32) {
 }
 
 /// For each face how many earlier faces have the same three vertices.
-pub(super) fn copy_ranks(triangles: &[[u32; 3]]) -> Vec<u32> {
-    let mut seen = HashMap::with_capacity(triangles.len());
-    triangles
-        .iter()
-        .map(|t| {
-            let mut key = *t;
-            key.sort_unstable();
-            let count = seen.entry(key).or_insert(0u32);
-            *count += 1;
-            *count - 1
-        })
-        .collect()
+pub(super) fn copy_ranks(triangles: &[[u32; 3]], edges: &Edges) -> Vec<u32> {
+    let mut ranks = vec![0; triangles.len()];
+    let mut copies = Vec::new();
+    for edge in edges.iter().filter(|edge| edge.len() > 1) {
+        // Each face is looked at once: at the edge between its two lowest vertices.
+        let top = origin(triangles, edge[0]).max(origin(triangles, next(edge[0])));
+        copies.clear();
+        copies.extend(
+            edge.iter()
+                .map(|&h| (origin(triangles, next(next(h))), h / 3)),
+        );
+        copies.retain(|copy| copy.0 > top);
+        copies.sort_unstable();
+        for same in copies.chunk_by(|a, b| a.0 == b.0) {
+            for (rank, &(_, face)) in (0..).zip(same) {
+                ranks[face as usize] = rank;
+            }
+        }
+    }
+    ranks
 }
 
 /// Pairs the three or more faces of one edge.

@@ -45,7 +45,7 @@ impl Defects {
     ) -> Self {
         Self {
             zero_area_faces: zero_area_faces(positions, triangles),
-            duplicate_faces: copy_ranks(triangles).iter().filter(|&&r| r > 0).count(),
+            duplicate_faces: duplicate_faces(triangles, edges),
             nonmanifold_edges: adjacency.n_nonmanifold_edges,
             bowtie_vertices: bowtie_vertices(positions.len(), triangles, edges),
             inconsistent_edges: inconsistent_edges(triangles, adjacency),
@@ -85,6 +85,11 @@ fn zero_area_faces(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> usize {
         .iter()
         .filter(|t| has_zero_area(t.map(|v| positions[v as usize])))
         .count()
+}
+
+fn duplicate_faces(triangles: &[[u32; 3]], edges: &Edges) -> usize {
+    let ranks = copy_ranks(triangles, edges);
+    ranks.iter().filter(|&&rank| rank > 0).count()
 }
 
 /// Corners at one vertex are united through every edge they share there; a second set left over is a second fan.
