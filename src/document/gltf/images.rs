@@ -6,6 +6,18 @@ use crate::document::DocumentError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// The resources that images refer to.
+pub(super) fn supplied(
+    json: &Value,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<BTreeMap<String, Vec<u8>>, DocumentError> {
+    let uris = items(json, "images")?.iter().filter_map(external_uri);
+    let named = uris.filter_map(|uri| uri::member(&uri, resources));
+    Ok(named
+        .map(|(name, bytes)| (name.to_owned(), bytes.to_vec()))
+        .collect())
+}
+
 /// Takes every image that was supplied into the binary buffer, so that one file holds all. Returns the URIs of those
 /// that stay outside.
 pub(super) fn embed(
@@ -37,17 +49,20 @@ pub(super) fn embed(
     Ok(outside)
 }
 
-/// The supplied images by their names, to be written beside the document, and the URIs of those that were not supplied.
+/// Files by their names, and URIs of those that were not supplied.
+pub(super) type Beside = (Vec<(String, Vec<u8>)>, Vec<String>);
+
+/// The supplied images, to be written beside the document.
 pub(super) fn beside(
     json: &Value,
     resources: &BTreeMap<String, Vec<u8>>,
-) -> Result<(Vec<(String, Vec<u8>)>, Vec<String>), DocumentError> {
+) -> Result<Beside, DocumentError> {
     let (mut files, mut outside) = (Vec::new(), Vec::new());
     let mut names = BTreeSet::new();
     for uri in items(json, "images")?.iter().filter_map(external_uri) {
         match uri::member(&uri, resources) {
             Some((name, bytes)) if names.insert(name) => {
-                files.push((name.to_owned(), bytes.to_vec()))
+                files.push((name.to_owned(), bytes.to_vec()));
             }
             Some(_) => {}
             None => outside.push(uri),

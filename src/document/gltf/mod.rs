@@ -42,7 +42,7 @@ pub struct GltfDocument {
     body: Body,
     /// GLB chunks that are neither JSON nor the binary buffer.
     chunks: Vec<(u32, Vec<u8>)>,
-    /// Files that images may refer to.
+    /// The files of the upload that images refer to.
     resources: BTreeMap<String, Vec<u8>>,
     /// Compression extensions that reading undid.
     decompressed: Vec<String>,
@@ -96,9 +96,9 @@ impl GltfDocument {
         }
         let others = container.others.into_iter();
         Ok(Self {
-            body,
             chunks: others.map(|(kind, bytes)| (kind, bytes.to_vec())).collect(),
-            resources: upload.resources.clone(),
+            resources: images::supplied(&body.json, &upload.resources)?,
+            body,
             decompressed,
             primitives,
             used,
