@@ -34,10 +34,15 @@ pub(super) const SLACK: f64 = 1.0 / 64.0;
 const CELLS_PER_TRIANGLE: f64 = 16.0;
 /// Words the search for a scale may read: about half a second.
 const WORK: u64 = 500_000_000;
-/// Rastering one triangle costs about as much as reading this many words.
+/// What rastering a triangle, and turning and placing a chart, cost in words.
 const WORK_PER_TRIANGLE: u64 = 100;
-/// Scales tried at most once one fits, and at most while none does (each is smaller by a tenth or more).
+const WORK_PER_CHART: u64 = 10_000;
+/// Scales tried at most, and at most until one fits (each is then smaller by some per cent).
 const ATTEMPTS: [usize; 2] = [12, 400];
+/// The search ends when the best scale and one that failed are as near as this; with many charts the
+/// fill hardly depends on luck, and a first guess is nearly right.
+const NEAR: f64 = 1.002;
+const NEAR_IF_MANY: f64 = 1.015;
 /// The share of the square that the first attempt hopes to fill.
 const HOPE: f64 = 0.75;
 /// With more charts than this the square has its full width from the start, and a row where one
@@ -218,7 +223,8 @@ impl Search<'_> {
                 .collect();
             for (&i, mask) in batch.iter().zip(masks) {
                 let (mask, stretch) = mask.ok_or(placed / self.area)?;
-                *work += WORK_PER_TRIANGLE * self.outlines[i].triangles.len() as u64;
+                *work +=
+                    WORK_PER_CHART + WORK_PER_TRIANGLE * self.outlines[i].triangles.len() as u64;
                 let turned = Turned::all(&mask);
                 let (w, h) = (mask.body.width, mask.body.height);
                 let row = lowest.entry([w.min(h), w.max(h)]).or_insert(0);

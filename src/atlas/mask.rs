@@ -14,7 +14,7 @@ pub(super) struct Run {
 }
 
 /// A block of cells.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Bitmap {
     pub width: u32,
     pub height: u32,
@@ -91,7 +91,7 @@ pub(super) fn set_bits(words: &mut [u64], start: u32, end: u32) {
 }
 
 /// One chart's cells at one scale.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Mask {
     /// Cells the chart touches.
     pub body: Bitmap,

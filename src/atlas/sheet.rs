@@ -26,11 +26,15 @@ pub(super) struct Turned {
 }
 
 impl Turned {
-    /// The four quarter turns.
+    /// The quarter turns that differ: four, or one of a square.
     pub(super) fn all(mask: &Mask) -> Vec<Self> {
         let mut masks = vec![mask.clone()];
         for turns in 1..4 {
-            masks.push(masks[turns - 1].quarter_turn());
+            let turned = masks[turns - 1].quarter_turn();
+            if turned == masks[0] {
+                break;
+            }
+            masks.push(turned);
         }
         let turned = |mask: Mask| Self {
             reach: scattered(mask.reach.runs()),

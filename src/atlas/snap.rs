@@ -35,10 +35,13 @@ pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Sn
         rings: Rings::default(),
     };
     let all: Vec<u32> = (0..map.triangles.len() as u32).collect();
-    let mut bad = snap.without_area(&all);
+    let bad = snap.without_area(&all);
     if !bad.is_empty() && is_positive(map) {
         snap.rings = Rings::new(map.uv.len(), map.triangles);
-        snap.repair(map, outline, unit, &mut bad)?;
+        snap.repair(map, outline, unit, bad)?;
+        if !snap.without_area(&all).is_empty() {
+            return None;
+        }
     }
     let distance = |v: usize| {
         let [x, y] = exact(v);
@@ -79,21 +82,21 @@ impl Snap<'_> {
         map: &ChartMap,
         outline: &Outline,
         unit: f64,
-        bad: &mut Vec<u32>,
+        mut bad: Vec<u32>,
     ) -> Option<()> {
         let mut plane = map.uv.to_vec();
         for round_of in 0..=ROUNDS {
             let exact = |v: u32| outline.place(plane[v as usize]).map(|x| x * unit);
-            self.nudge(bad, exact);
+            self.nudge(&mut bad, exact);
             if bad.is_empty() {
                 return Some(());
             }
-            let patch = self.neighbourhood(bad, 1 << round_of);
+            let patch = self.neighbourhood(&bad, 1 << round_of);
             let free = relax(self.triangles, &self.rings, &patch, 1.0 / unit, &mut plane);
             for v in free {
                 self.grid[v as usize] = round(outline.place(plane[v as usize]).map(|x| x * unit));
             }
-            *bad = self.without_area(&patch);
+            bad = self.without_area(&patch);
         }
         None
     }
@@ -114,14 +117,20 @@ impl Snap<'_> {
     /// makes fewer triangles bad.
     fn nudge(&mut self, bad: &mut Vec<u32>, exact: impl Fn(u32) -> [f64; 2]) {
         loop {
-            let mut improved = false;
+            let mut touched = Vec::new();
             for &t in &*bad {
                 for v in self.triangles[t as usize] {
-                    improved |= !self.is_positive(t) && self.nudge_vertex(v, exact(v));
+                    if !self.is_positive(t) && self.nudge_vertex(v, exact(v)) {
+                        touched.push(v);
+                    }
                 }
             }
+            // A move may repair two triangles and spoil a third.
+            bad.extend(touched.iter().flat_map(|&v| self.rings.of(v)));
+            bad.sort_unstable();
+            bad.dedup();
             bad.retain(|&t| !self.is_positive(t));
-            if !improved || bad.is_empty() {
+            if touched.is_empty() || bad.is_empty() {
                 return;
             }
         }

@@ -249,7 +249,13 @@ fn a_hole_receives_a_small_chart() {
 #[test]
 fn threads_and_order_do_not_matter() {
     let charts: Vec<Chart> = (0..60)
-        .map(|i| blob(1.0 + f64::from(i * i % 61), 2 + i % 4, f64::from(i) / 200.0))
+        .map(|i| {
+            blob(
+                1.0 + f64::from(i * 37 % 60),
+                2 + i % 4,
+                f64::from(i) / 200.0,
+            )
+        })
         .collect();
     let on = |threads: usize, charts: &[Chart]| {
         let pool = rayon::ThreadPoolBuilder::new()
@@ -259,12 +265,12 @@ fn threads_and_order_do_not_matter() {
         pool.install(|| pack(&maps(charts), &AtlasOptions::default()).unwrap())
     };
     let atlas = on(1, &charts);
-    assert_eq!(atlas, on(2, &charts));
-    assert_eq!(atlas, on(4, &charts));
+    assert!(atlas == on(2, &charts));
+    assert!(atlas == on(4, &charts));
     let reversed: Vec<Chart> = charts.iter().rev().cloned().collect();
     let mut other = on(2, &reversed);
     other.placed.reverse();
-    assert_eq!(atlas, other);
+    assert!(atlas == other);
 }
 
 #[test]
