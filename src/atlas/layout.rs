@@ -39,9 +39,9 @@ const WORK_PER_TRIANGLE: u64 = 100;
 const WORK_PER_CHART: u64 = 10_000;
 /// Scales tried at most, and at most until one fits (each is then smaller by some per cent).
 const ATTEMPTS: [usize; 2] = [12, 400];
-/// The search ends when the best scale and one that failed are as near as this; with many charts the
-/// fill hardly depends on luck, and a first guess is nearly right.
-const NEAR: f64 = 1.002;
+/// The search ends when the best scale and one that failed are as near as this. With many charts the
+/// fill hardly depends on luck, and every attempt costs more.
+const NEAR: f64 = 1.003;
 const NEAR_IF_MANY: f64 = 1.015;
 /// The share of the square that the first attempt hopes to fill.
 const HOPE: f64 = 0.75;
@@ -130,52 +130,56 @@ impl Search<'_> {
 
     /// The scale (cells per mesh unit) with the best fill, and its layout.
     fn best(&self) -> Option<(f64, Attempt)> {
+        let near = if self.is_crowded() {
+            NEAR_IF_MANY
+        } else {
+            NEAR
+        };
         let mut scale = self.first_scale();
-        let mut best: Option<(f64, f64, Attempt)> = None;
+        let mut best: Option<(f64, Attempt)> = None;
         let mut failed = f64::INFINITY;
         let mut work = 0;
         for tried in 1..=ATTEMPTS[1] {
-            match self.attempt(scale, &mut work) {
+            scale *= match self.attempt(scale, &mut work) {
                 Ok(attempt) if f64::from(attempt.side) <= self.target() => {
-                    let gain = if self.is_crowded() {
-                        (self.target() / f64::from(attempt.top)).sqrt()
-                    } else {
-                        self.target() / f64::from(attempt.side)
-                    };
-                    let side = if self.is_crowded() {
-                        self.target()
-                    } else {
-                        f64::from(attempt.side)
-                    };
-                    let density = scale / side;
-                    if best.as_ref().is_none_or(|&(_, other, _)| density > other) {
-                        best = Some((scale, density, attempt));
+                    let room = self.room(&attempt);
+                    let density = |scale: f64, attempt: &Attempt| scale / f64::from(attempt.side);
+                    let new = density(scale, &attempt);
+                    if best
+                        .as_ref()
+                        .is_none_or(|(scale, best)| new > density(*scale, best))
+                    {
+                        best = Some((scale, attempt));
                     }
-                    scale *= gain.max(1.003);
+                    room.max(near)
                 }
-                Ok(attempt) => {
+                not_yet => {
                     failed = failed.min(scale);
-                    scale *= (self.target() / f64::from(attempt.side)).min(0.997);
+                    let room = not_yet.map_or_else(f64::sqrt, |attempt| self.room(&attempt));
+                    room.clamp(0.5, 1.0 / near)
                 }
-                Err(share) => {
-                    failed = failed.min(scale);
-                    scale *= share.sqrt().clamp(0.5, 0.97);
-                }
-            }
-            if let Some((good, ..)) = best {
-                if self.order.len() <= 1
-                    || tried >= ATTEMPTS[0]
-                    || work > WORK
-                    || failed < good * 1.002
-                {
+            };
+            if let Some((good, _)) = best {
+                let enough = tried >= ATTEMPTS[0] || work > WORK || failed < good * near;
+                if enough || self.order.len() <= 1 {
                     break;
                 }
                 if scale >= failed || scale <= good {
-                    scale = (good + failed.min(1.1 * good)) / 2.0;
+                    scale = f64::midpoint(good, failed.min(1.1 * good));
                 }
             }
         }
-        best.map(|(scale, _, attempt)| (scale, attempt))
+        best
+    }
+
+    /// The factor by which a layout could grow if it grew evenly. The square of many charts has its
+    /// full width from the start, so their area grows with the height alone.
+    fn room(&self, attempt: &Attempt) -> f64 {
+        if self.is_crowded() {
+            (self.target() / f64::from(attempt.top.max(1))).sqrt()
+        } else {
+            self.target() / f64::from(attempt.side.max(1))
+        }
     }
 
     fn is_crowded(&self) -> bool {

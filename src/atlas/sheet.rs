@@ -201,7 +201,7 @@ fn merge(blocked: &mut [u64], row: &[u64], first: u32, second: u32) -> bool {
     let (p, r) = ((first / 64) as usize, first % 64);
     let (q, s) = ((second / 64) as usize, second % 64);
     let n = blocked.len();
-    let (a, b) = (&row[p..p + n + 1], &row[q..q + n + 1]);
+    let (a, b) = (&row[p..=p + n], &row[q..=q + n]);
     let mut all = u64::MAX;
     for i in 0..n {
         // The double shift keeps a shift by 0 from becoming one by 64.
