@@ -22,7 +22,6 @@ use crate::energy::{
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub enum BarrierKind {
     /// [`InverseSpline`]: no element inverts.
     #[default]

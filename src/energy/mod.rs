@@ -41,7 +41,6 @@ pub use triangles::Triangles;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub enum EnergyKind {
     /// [`Arap`]: as rigid as possible.
     #[default]
