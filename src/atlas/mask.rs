@@ -38,10 +38,6 @@ impl Bitmap {
         set_bits(row, run.start, run.end);
     }
 
-    fn get(&self, x: u32, y: u32) -> bool {
-        self.bits[y as usize * self.words + (x / 64) as usize] >> (x % 64) & 1 == 1
-    }
-
     /// A quarter turn counter-clockwise: (x, y) goes to (height − 1 − y, x).
     pub(super) fn quarter_turn(&self) -> Self {
         let mut out = Self::new(self.height, self.width);
@@ -58,22 +54,32 @@ impl Bitmap {
     pub(super) fn runs(&self) -> Vec<Run> {
         let mut runs = Vec::new();
         for row in 0..self.height {
-            let mut x = 0;
-            while x < self.width {
-                let start = (x..self.width)
-                    .find(|&x| self.get(x, row))
-                    .unwrap_or(self.width);
-                let end = (start..self.width)
-                    .find(|&x| !self.get(x, row))
-                    .unwrap_or(self.width);
-                if start < end {
-                    runs.push(Run { row, start, end });
+            let words = &self.bits[row as usize * self.words..][..self.words];
+            let mut end = 0;
+            loop {
+                let start = next(words, end, 0).min(self.width);
+                end = next(words, start, u64::MAX).min(self.width);
+                if start >= end {
+                    break;
                 }
-                x = end;
+                runs.push(Run { row, start, end });
             }
         }
         runs
     }
+}
+
+/// First place from `x` on whose bit differs from those of `ground`.
+fn next(words: &[u64], x: u32, ground: u64) -> u32 {
+    let mut keep = u64::MAX << (x % 64);
+    for (i, word) in words.iter().enumerate().skip((x / 64) as usize) {
+        let differs = (word ^ ground) & keep;
+        if differs != 0 {
+            return 64 * i as u32 + differs.trailing_zeros();
+        }
+        keep = u64::MAX;
+    }
+    u32::MAX
 }
 
 /// Sets bits `start..end`.

@@ -165,32 +165,27 @@ impl Sheet {
     /// Takes the cells of a mask's body.
     pub(super) fn take(&mut self, turned: &[Turned], spot: Spot) {
         let mask = &turned[spot.turns as usize];
-        let mut last = None;
+        let x = spot.x + self.frame;
         for run in mask.body.runs() {
             let row = (spot.y + self.frame + run.row) as usize;
-            if last.is_some_and(|last| last != row) {
-                self.refresh(last.unwrap_or(row));
-            }
-            last = Some(row);
-            let x = spot.x + self.frame;
             let words = &mut self.windows[0][row * self.words..(row + 1) * self.words];
             set_bits(words, x + run.start, x + run.end);
-        }
-        if let Some(row) = last {
-            self.refresh(row);
+            self.refresh(row, x + run.start, x + run.end);
         }
         self.top = self.top.max(spot.y + mask.body.height);
         self.side = self.side.max(spot.x + mask.body.width).max(self.top);
     }
 
-    /// Derives the wider windows of a row from its cells.
-    fn refresh(&mut self, row: usize) {
+    /// Derives the wider windows of a row from its cells, where cells `start..end` were taken.
+    fn refresh(&mut self, row: usize, start: u32, end: u32) {
         let range = row * self.words..(row + 1) * self.words;
         for k in 1..self.windows.len() {
             let (narrow, wide) = self.windows.split_at_mut(k);
             let narrow = &narrow[k - 1][range.clone()];
-            for (i, word) in wide[0][range.clone()].iter_mut().enumerate() {
-                *word = narrow[i] | shifted(narrow, i, 1 << (k - 1));
+            let first = (start.saturating_sub(1 << k) / 64) as usize;
+            let last = (end / 64) as usize;
+            for (i, word) in wide[0][range.clone()][first..=last].iter_mut().enumerate() {
+                *word = narrow[first + i] | shifted(narrow, first + i, 1 << (k - 1));
             }
         }
     }

@@ -23,12 +23,16 @@ const KEEP_ALIVE: Duration = Duration::from_secs(15);
 /// For a client to answer a close frame.
 const CLOSE_TIME: Duration = Duration::from_secs(1);
 
+/// The largest integer that every JSON reader has exactly.
+const MAX_SEQ: u64 = (1 << 53) - 1;
+
 /// Where to begin.
 #[derive(Deserialize, utoipa::IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(super) struct EventsQuery {
     /// Skip events up to this `seq`; `Last-Event-ID` means the same. The final event is always sent.
+    #[param(maximum = 9_007_199_254_740_991_u64)]
     after: Option<u64>,
 }
 
@@ -59,6 +63,10 @@ pub(super) async fn watch_job(
     headers: HeaderMap,
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Result<Response, Problem> {
+    if query.after.is_some_and(|seq| MAX_SEQ < seq) {
+        let detail = format!("after is at most {MAX_SEQ}");
+        return Err(Problem::new(Code::InvalidRequest, detail));
+    }
     let resumed = headers
         .get("last-event-id")
         .and_then(|id| id.to_str().ok()?.parse().ok());

@@ -11,6 +11,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::problem::{Code, Problem};
+use crate::jobs::Failure;
 
 /// How much of a text is searched for the words of its format.
 const SEARCHED_BYTES: u64 = 1 << 20;
@@ -58,7 +59,9 @@ fn glb(file: &mut File, size: u64) -> Result<(), Problem> {
         u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]])
     };
     if number(4) != 2 {
-        return Err(invalid(format!("GLB version {} is not 2", number(4))));
+        let detail = format!("GLB version {} is not 2", number(4));
+        let failure = Failure::new("unsupported_version", detail);
+        return Err(Problem::of_failure(&failure));
     }
     let length = u64::from(number(12));
     if &header[16..20] != b"JSON" || size < 20 + length {

@@ -32,7 +32,7 @@ const MAX_PAGE: u32 = 200;
 #[utoipa::path(
     post, path = "/v1/jobs", operation_id = "createJob", tag = "jobs",
     params(
-        ("Idempotency-Key" = Option<String>, Header, description = "At most 255 characters; the client's own name for this submission"),
+        ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255, description = "At most 255 characters; the client's own name for this submission"),
         ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but not later than in N seconds"),
         ("kind" = Option<crate::jobs::Kind>, Query, description = "What to do; `unwrap` if absent"),
         ("filename" = Option<String>, Query, description = "Name of the file in a raw body"),

@@ -13,6 +13,7 @@ mod options;
 mod page;
 mod probes;
 mod problem;
+mod receiver;
 mod results;
 mod settings;
 mod synchronous;

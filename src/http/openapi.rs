@@ -65,6 +65,9 @@ pub(super) fn document(mut api: OpenApi) -> String {
     );
     paths["/v1/jobs"]["post"]["requestBody"]["content"]["multipart/form-data"]["schema"]["properties"]
         ["kind"] = reference("Kind");
+    for status in ["200", "202"] {
+        paths["/v1/jobs"]["post"]["responses"][status]["links"] = links();
+    }
     for operations in members(paths) {
         members(operations).for_each(complete);
     }
@@ -117,6 +120,25 @@ fn complete(operation: &mut Value) {
             choices.retain(|choice| choice["type"] != "null");
         }
     }
+}
+
+/// Where a job leads.
+fn links() -> Value {
+    let operations = [
+        "getJob",
+        "watchJob",
+        "finishJob",
+        "getResult",
+        "getReport",
+        "getLayout",
+        "getHeatmap",
+        "deleteJob",
+    ];
+    let link = |name: &str| {
+        let to_job = json!({ "operationId": name, "parameters": { "id": "$response.body#/id" } });
+        (name.to_owned(), to_job)
+    };
+    Value::Object(operations.into_iter().map(link).collect())
 }
 
 fn bytes() -> Value {

@@ -2,10 +2,38 @@
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
+use sqlx::{Row, Sqlite, Transaction};
 
 use crate::jobs::{Job, StoreError, StoreResult, Timestamp};
+
+/// Adds a job that has not been started.
+pub(super) async fn insert(
+    job: &Job,
+    transaction: &mut Transaction<'_, Sqlite>,
+) -> StoreResult<()> {
+    sqlx::query(
+        "INSERT INTO job (id, kind, state, options, input, output, attempt, lost, finish_early,
+                          ephemeral, seq, progress, failure, created, started, finished)
+         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?, NULL, NULL)",
+    )
+    .bind(job.id.to_string())
+    .bind(job.kind.word())
+    .bind(job.state.word())
+    .bind(json(&job.options)?)
+    .bind(json(&job.input)?)
+    .bind(json(&job.output)?)
+    .bind(i64::from(job.attempt))
+    .bind(i64::from(job.lost))
+    .bind(job.finish_early)
+    .bind(job.ephemeral)
+    .bind(job.seq as i64)
+    .bind(json(&job.progress)?)
+    .bind(job.created.0)
+    .execute(&mut **transaction)
+    .await?;
+    Ok(())
+}
 
 /// JSON text of a value, for a column.
 pub(super) fn json<T: Serialize>(value: &T) -> StoreResult<String> {

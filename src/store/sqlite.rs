@@ -75,34 +75,6 @@ impl SqliteStore {
     async fn begin(&self) -> sqlx::Result<Transaction<'_, Sqlite>> {
         self.pool.begin_with("BEGIN IMMEDIATE").await
     }
-
-    async fn insert(
-        &self,
-        job: &Job,
-        transaction: &mut Transaction<'_, Sqlite>,
-    ) -> StoreResult<()> {
-        sqlx::query(
-            "INSERT INTO job (id, kind, state, options, input, output, attempt, lost, finish_early,
-                              ephemeral, seq, progress, failure, created, started, finished)
-             VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?, NULL, NULL)",
-        )
-        .bind(job.id.to_string())
-        .bind(job.kind.word())
-        .bind(job.state.word())
-        .bind(rows::json(&job.options)?)
-        .bind(rows::json(&job.input)?)
-        .bind(rows::json(&job.output)?)
-        .bind(i64::from(job.attempt))
-        .bind(i64::from(job.lost))
-        .bind(job.finish_early)
-        .bind(job.ephemeral)
-        .bind(job.seq as i64)
-        .bind(rows::json(&job.progress)?)
-        .bind(job.created.0)
-        .execute(&mut **transaction)
-        .await?;
-        Ok(())
-    }
 }
 
 impl JobStore for SqliteStore {
@@ -130,7 +102,7 @@ impl JobStore for SqliteStore {
             if i64::from(depth) <= queued {
                 return Ok(Enqueued::Full);
             }
-            self.insert(job, &mut transaction).await?;
+            rows::insert(job, &mut transaction).await?;
             if let Some(key) = key {
                 sqlx::query("INSERT INTO idempotency VALUES (?, ?, ?, ?)")
                     .bind(&key.key)

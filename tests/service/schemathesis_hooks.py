@@ -1,6 +1,4 @@
 """Bodies that schemathesis cannot make up: mesh files, some of them usable."""
-import random
-
 import schemathesis
 from hypothesis import strategies as st
 
@@ -21,10 +19,6 @@ for media_type in MEDIA_TYPES:
 
 
 @schemathesis.serializer(*MEDIA_TYPES)
-class Raw:
+def raw(ctx, value):
     """Sends bytes as they are."""
-
-    def as_requests(self, ctx, value):
-        return {"data": value if isinstance(value, bytes) else str(value).encode()}
-
-    as_werkzeug = as_requests
+    return value if isinstance(value, bytes) else str(value).encode()
