@@ -8,7 +8,7 @@ const TIMEOUT: Duration = Duration::from_secs(3);
 
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Address of the service; 0.0.0.0 and [::] mean this machine
+    /// Address of the service; `0.0.0.0` and `[::]` mean this machine
     #[arg(
         long,
         value_name = "ADDRESS",

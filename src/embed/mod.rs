@@ -1,7 +1,7 @@
 //! A valid start for every disk, and the way from it to the optimum.
 //!
-//! A map of a disk is locally injective when no triangle is flipped or empty. [`parameterize`] finds such a start
-//! ([`start`]), scales it to its best size and minimizes an energy with a barrier from there; the solver never leaves
+//! A map of a disk is locally injective when no triangle is flipped or empty. [`parameterize()`] finds such a start
+//! ([`start()`]), scales it to its best size and minimizes an energy with a barrier from there; the solver never leaves
 //! the maps without flips, so the result is one too. Sizes mean the same everywhere because every chart is brought to a
 //! mean triangle area of 1 first ([`rest_shapes`]), and faces without an area get a rest shape that can be mapped.
 //!

@@ -105,9 +105,7 @@ async fn a_form_brings_the_files_that_a_gltf_references() {
     let job = server.ended(&json(job).await).await;
     assert_eq!(job["state"], "succeeded", "{job}");
     let files = job["links"]["files"].as_array().expect("links");
-    let bin = files
-        .iter()
-        .find(|file| file["name"].as_str().is_some_and(|n| n.ends_with(".bin")));
+    let bin = files.iter().find(|file| file["name"] == "scene.bin");
     let href = bin.expect("a buffer")["href"].as_str().expect("a link");
     assert_eq!(
         server.get(href).send().await.expect("an answer").status(),

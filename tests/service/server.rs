@@ -12,12 +12,13 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 /// For what must happen soon, on however busy a machine.
-pub const SOON: Duration = Duration::from_secs(60);
+pub const SOON: Duration = Duration::from_mins(1);
 
 /// A running server; it ends and its data go when this is dropped.
 pub struct Server {
     process: Child,
-    _stdout: BufReader<ChildStdout>,
+    /// Kept open: a server that cannot print ends.
+    stdout: BufReader<ChildStdout>,
     settings: Vec<(&'static str, &'static str)>,
     data: TempDir,
     address: String,
@@ -35,7 +36,7 @@ impl Server {
         let (process, stdout, address) = spawn(data.path(), settings);
         Self {
             process,
-            _stdout: stdout,
+            stdout,
             settings: settings.to_vec(),
             data,
             address,
@@ -60,7 +61,7 @@ impl Server {
 
     /// Starts it again on the same data.
     pub fn restart(&mut self) {
-        (self.process, self._stdout, self.address) = spawn(self.data.path(), &self.settings);
+        (self.process, self.stdout, self.address) = spawn(self.data.path(), &self.settings);
     }
 
     /// Process ids of the compute children of this server.
