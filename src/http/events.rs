@@ -46,7 +46,7 @@ pub(super) struct EventsQuery {
     get, path = "/v1/jobs/{id}/events", operation_id = "watchJob", tag = "jobs",
     params(
         ("id" = String, Path, format = "uuid", description = "The job"), EventsQuery,
-        ("Last-Event-ID" = Option<u64>, Header, description = "`seq` of the last event seen"),
+        ("Last-Event-ID" = Option<String>, Header, description = "`seq` of the last event seen; anything else begins at the beginning"),
     ),
     responses(
         (status = 101, description = "The WebSocket; each text message is an Event"),

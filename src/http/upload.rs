@@ -35,7 +35,7 @@ pub(super) const MEDIA_TYPES: [(&str, &str); 11] = [
 /// Receives an upload to disk and checks what can be checked without computing: size, framing, options. `kind` is
 /// given where the path already says it.
 ///
-/// What is left of the body of a refused upload is read and forgotten, within bounds: a client that is still sending
+/// What is left of the body of a refused upload is read and forgotten, for a while: a client that is still sending
 /// when the connection closes may never see the answer.
 pub(super) async fn receive(
     app: &Arc<App>,
@@ -63,14 +63,7 @@ pub(super) async fn receive(
     )
     .await;
     if received.is_err() {
-        let mut left = app.settings.upload_bytes;
-        let drained = async {
-            while let Some(Ok(chunk)) = rest.next().await
-                && let Some(less) = left.checked_sub(chunk.len() as u64)
-            {
-                left = less;
-            }
-        };
+        let drained = async { while let Some(Ok(_)) = rest.next().await {} };
         let _ = tokio::time::timeout(DRAIN_TIME, drained).await;
     }
     received

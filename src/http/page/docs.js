@@ -48,8 +48,10 @@ function operation(method, path, described) {
 const api = await (await fetch("/openapi.json")).json();
 byId("version").textContent = `version ${api.info.version}`;
 byId("description").replaceChildren(...prose(api.info.description));
-for (const [path, methods] of Object.entries(api.paths)) {
-  for (const [method, described] of Object.entries(methods)) {
+const operations = Object.entries(api.paths).flatMap(([path, methods]) => Object.entries(methods).map(([method, described]) => ({ path, method, described })));
+for (const tag of ["synchronous", "jobs", "results", "service"]) {
+  byId("operations").append(element("h2", { textContent: tag }));
+  for (const { path, method, described } of operations.filter((one) => one.described.tags.includes(tag))) {
     byId("operations").append(operation(method, path, described));
   }
 }
