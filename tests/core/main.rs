@@ -5,6 +5,8 @@ mod certificate;
 mod charts;
 mod cut;
 mod disk;
+#[cfg(feature = "files")]
+mod document;
 mod embed;
 mod energy;
 #[cfg(feature = "files")]

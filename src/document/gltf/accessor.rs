@@ -12,6 +12,8 @@ const MAX_UNBACKED: usize = 1 << 26;
 /// A checked accessor: every element lies within the data.
 pub(super) struct Accessor<'a> {
     pub component: Component,
+    /// Components per element.
+    pub width: usize,
     /// Bytes per element, the padding of matrix columns included.
     pub element_size: usize,
     pub count: usize,
@@ -69,6 +71,7 @@ impl<'a> Accessor<'a> {
             .transpose()?;
         Ok(Self {
             component,
+            width: columns * rows,
             element_size,
             count,
             normalized: object.get("normalized") == Some(&Value::Bool(true)),

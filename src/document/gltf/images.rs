@@ -6,6 +6,18 @@ use crate::document::DocumentError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// The resources that images refer to.
+pub(super) fn supplied(
+    json: &Value,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<BTreeMap<String, Vec<u8>>, DocumentError> {
+    let uris = items(json, "images")?.iter().filter_map(external_uri);
+    let named = uris.filter_map(|uri| uri::member(&uri, resources));
+    Ok(named
+        .map(|(name, bytes)| (name.to_owned(), bytes.to_vec()))
+        .collect())
+}
+
 /// Takes every image that was supplied into the binary buffer, so that one file holds all. Returns the URIs of those
 /// that stay outside.
 pub(super) fn embed(

@@ -16,6 +16,7 @@ mod glb;
 mod images;
 mod json;
 mod meshopt;
+mod positions;
 mod primitives;
 mod references;
 mod rewrite;
@@ -24,6 +25,7 @@ mod tangents;
 mod texcoord_set;
 mod textures;
 mod uri;
+mod vertices;
 mod write;
 
 use super::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
@@ -40,11 +42,13 @@ pub struct GltfDocument {
     body: Body,
     /// GLB chunks that are neither JSON nor the binary buffer.
     chunks: Vec<(u32, Vec<u8>)>,
-    /// Files that images may refer to.
+    /// The files of the upload that images refer to.
     resources: BTreeMap<String, Vec<u8>>,
     /// Compression extensions that reading undid.
     decompressed: Vec<String>,
     primitives: Vec<Primitive>,
+    /// For primitives that use a part of shared accessors, the elements that are their vertices, ascending.
+    used: Vec<Option<Vec<u32>>>,
 }
 
 /// Whether the content, or else the name, says that this is glTF.
@@ -83,7 +87,7 @@ impl GltfDocument {
         draco::decompress(&mut body)?;
         let compression = [draco::NAME, meshopt::NAMES[0], meshopt::NAMES[1]];
         let decompressed = extensions::prune(&mut body.json, &compression)?;
-        let primitives = primitives::collect(&body)?;
+        let (primitives, used) = primitives::collect(&body)?;
         if primitives
             .iter()
             .all(|primitive| primitive.triangles.is_empty())
@@ -92,11 +96,12 @@ impl GltfDocument {
         }
         let others = container.others.into_iter();
         Ok(Self {
-            body,
             chunks: others.map(|(kind, bytes)| (kind, bytes.to_vec())).collect(),
-            resources: upload.resources.clone(),
+            resources: images::supplied(&body.json, &upload.resources)?,
+            body,
             decompressed,
             primitives,
+            used,
         })
     }
 
@@ -111,10 +116,10 @@ impl GltfDocument {
         primitive: usize,
         set: u32,
     ) -> Result<Option<Vec<CornerUvs>>, DocumentError> {
-        let Some(primitive) = self.primitives.get(primitive) else {
+        let Some(triangles) = self.primitives.get(primitive) else {
             return Ok(None);
         };
-        let attributes = &self.object(primitive)?["attributes"];
+        let attributes = &self.object(triangles)?["attributes"];
         let Some(index) = unsigned(attributes, &format!("TEXCOORD_{set}"))? else {
             return Ok(None);
         };
@@ -123,8 +128,12 @@ impl GltfDocument {
             return Err(invalid(format!("TEXCOORD_{set} is not of type VEC2")));
         }
         let values = accessor.values()?;
-        let uv = |vertex: u32| [values[2 * vertex as usize], values[2 * vertex as usize + 1]];
-        let faces = primitive.triangles.iter();
+        let used = self.used[primitive].as_deref();
+        let uv = |vertex: u32| {
+            let element = used.map_or(vertex, |used| used[vertex as usize]) as usize;
+            [values[2 * element], values[2 * element + 1]]
+        };
+        let faces = triangles.triangles.iter();
         Ok(Some(faces.map(|face| face.map(uv)).collect()))
     }
 

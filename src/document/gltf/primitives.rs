@@ -3,8 +3,10 @@ use super::accessor::Accessor;
 use super::body::Body;
 use super::component::Component;
 use super::json::{invalid, items, unsigned};
+use super::positions::{Positions, compact};
 use crate::document::{DocumentError, Primitive};
 use serde_json::Value;
+use std::rc::Rc;
 
 /// Largest number of vertices, and of faces, over all primitives. Primitives may share accessors, so that the size of
 /// a file does not bound their sum.
@@ -32,18 +34,25 @@ pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
     })
 }
 
-/// Every primitive that has triangles and positions, in file order.
-pub(super) fn collect(body: &Body) -> Result<Vec<Primitive>, DocumentError> {
+/// Every primitive that has triangles and positions, in file order, and what of its accessors it uses.
+///
+/// Where several primitives share their accessors, each has only the vertices that it uses: exporters like to put a
+/// whole scene into one array, and the vertices of others are none of its business.
+pub(super) fn collect(
+    body: &Body,
+) -> Result<(Vec<Primitive>, Vec<Option<Vec<u32>>>), DocumentError> {
     let mut primitives = Vec::new();
+    let mut used = Vec::new();
+    let mut positions = Positions::new(body)?;
     let (mut n_vertices, mut n_faces) = (0, 0);
     for (mesh, object) in items(&body.json, "meshes")?.iter().enumerate() {
         for (index, object) in items(object, "primitives")?.iter().enumerate() {
-            let read = read(body, object).map_err(|error| located(error, mesh, index))?;
-            let Some((positions, triangles)) = read else {
+            let read = read(body, object, &mut positions).map_err(|e| located(e, mesh, index))?;
+            let Some(read) = read else {
                 continue;
             };
-            n_vertices += positions.len();
-            n_faces += triangles.len();
+            n_vertices += read.positions.len();
+            n_faces += read.triangles.len();
             if n_vertices.max(n_faces) > MAX_ELEMENTS {
                 return Err(DocumentError::LimitExceeded(
                     "the file has too many vertices or faces".to_owned(),
@@ -53,12 +62,13 @@ pub(super) fn collect(body: &Body) -> Result<Vec<Primitive>, DocumentError> {
                 mesh,
                 primitive: index,
                 material: unsigned(object, "material")?,
-                positions,
-                triangles,
+                positions: read.positions,
+                triangles: read.triangles,
             });
+            used.push(read.used);
         }
     }
-    Ok(primitives)
+    Ok((primitives, used))
 }
 
 /// Says in which primitive an error is.
@@ -72,37 +82,60 @@ pub(super) fn located(error: DocumentError, mesh: usize, primitive: usize) -> Do
     }
 }
 
-type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
-
-fn read(body: &Body, primitive: &Value) -> Result<Option<Triangles>, DocumentError> {
-    let Some(mode) = mode(primitive)? else {
+/// The POSITION of a primitive with faces.
+pub(super) fn position_accessor(primitive: &Value) -> Result<Option<usize>, DocumentError> {
+    if mode(primitive)?.is_none() {
         return Ok(None);
-    };
-    let attributes = primitive
-        .get("attributes")
-        .filter(|attributes| attributes.is_object())
-        .ok_or_else(|| invalid("it has no `attributes`"))?;
-    let Some(position) = unsigned(attributes, "POSITION")? else {
-        return Ok(None);
-    };
-    let accessor = Accessor::open(body, position)?;
-    if !accessor.is("VEC3") {
-        return Err(invalid("POSITION is not of type VEC3"));
     }
-    check_backed(&accessor)?;
-    check_attributes(body, primitive, attributes, accessor.count)?;
-    let positions: Vec<[f32; 3]> = accessor.vectors()?;
+    match primitive.get("attributes") {
+        None => Ok(None),
+        Some(attributes) if attributes.is_object() => unsigned(attributes, "POSITION"),
+        Some(_) => Err(invalid("`attributes` is not an object")),
+    }
+}
+
+struct Triangles {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    used: Option<Vec<u32>>,
+}
+
+fn read(
+    body: &Body,
+    primitive: &Value,
+    positions: &mut Positions,
+) -> Result<Option<Triangles>, DocumentError> {
+    let (Some(mode), Some(accessor)) = (mode(primitive)?, position_accessor(primitive)?) else {
+        return Ok(None);
+    };
+    let is_shared = positions.is_shared(accessor);
+    let mut positions = positions.read(body, accessor)?;
+    check_attributes(body, primitive, positions.len())?;
+    let mut indices = indices(body, primitive, positions.len())?;
+    let used = is_shared
+        .then(|| compact(&mut indices, &positions))
+        .flatten();
+    if let Some(used) = &used {
+        positions = Rc::new(
+            used.iter()
+                .map(|vertex| positions[*vertex as usize])
+                .collect(),
+        );
+    }
     if let Some(vertex) = positions
         .iter()
         .position(|p| !p.iter().all(|x| x.is_finite()))
     {
         return Err(DocumentError::NonFinitePosition(format!("vertex {vertex}")));
     }
-    let indices = indices(body, primitive, positions.len())?;
-    Ok(Some((positions, faces(&indices, mode))))
+    Ok(Some(Triangles {
+        positions: Rc::unwrap_or_clone(positions),
+        triangles: faces(&indices, mode),
+        used,
+    }))
 }
 
-fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
+pub(super) fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
     if accessor.is_backed() || accessor.count <= MAX_UNBACKED {
         return Ok(());
     }
@@ -116,9 +149,9 @@ fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
 fn check_attributes(
     body: &Body,
     primitive: &Value,
-    attributes: &Value,
     n_vertices: usize,
 ) -> Result<(), DocumentError> {
+    let attributes = &primitive["attributes"];
     for set in std::iter::once(attributes).chain(items(primitive, "targets")?) {
         let Some(set) = set.as_object() else {
             return Err(invalid("a morph target is not an object"));

@@ -1,18 +1,13 @@
 //! One primitive with its new UV set.
 use super::GltfDocument;
-use super::accessor::Accessor;
-use super::body::{Body, Target};
-use super::component::Component;
-use super::json::{
-    as_unsigned, invalid, item, object_mut, primitive_mut, remove, required, unsigned,
-};
-use super::primitives::{self, Mode};
-use super::split::{Split, split};
+use super::body::Body;
+use super::json::{object_mut, primitive_mut, remove};
+use super::split::split;
 use super::tangents::{CornerTangents, corner_tangents};
 use super::texcoord_set::Choice;
-use crate::document::{DocumentError, Primitive, PrimitiveNote, TangentsNote};
+use super::vertices::{NewIndices, gather_vertices, push_floats, write_indices};
+use crate::document::{DocumentError, PrimitiveNote, TangentsNote};
 use serde_json::{Value, json};
-use std::collections::HashMap;
 
 /// What must agree for corners to share a vertex: grid coordinates, and the bits of the tangent where it is new.
 type Key = ([i32; 2], [u32; 4]);
@@ -36,22 +31,22 @@ impl PrimitiveUvs<'_> {
     }
 }
 
-/// Writes the UVs of `primitive` into `body`, a copy of the document's.
+/// Writes the UVs of primitive `index` into `body`, a copy of the document's.
 pub(super) fn rewrite(
     document: &GltfDocument,
     body: &mut Body,
-    primitive: &Primitive,
+    index: usize,
     uvs: PrimitiveUvs,
     choice: &Choice,
 ) -> Result<PrimitiveNote, DocumentError> {
-    let object = document.object(primitive)?;
-    let (tangents, tangents_note) = new_tangents(document, primitive, uvs, choice)?;
+    let primitive = &document.primitives[index];
+    let (tangents, tangents_note) = new_tangents(document, index, uvs, choice)?;
     let split = split(
         primitive.positions.len(),
         &primitive.triangles,
         &keys(uvs.corners, tangents.as_deref()),
     );
-    let mut changed = object.clone();
+    let mut changed = document.object(primitive)?.clone();
     drop_stale(&mut changed, choice, tangents_note)?;
     let mut note = PrimitiveNote {
         mesh: primitive.mesh,
@@ -64,9 +59,21 @@ pub(super) fn rewrite(
         converted_to_triangles: false,
         tangents: tangents_note,
     };
-    if !split.copies.is_empty() {
-        copy_vertices(document, body, &mut changed, &split.copies)?;
-        write_indices(document, body, &mut changed, &split, &mut note)?;
+    let used = document.used[index].as_deref();
+    let is_split = !split.copies.is_empty();
+    if is_split || used.is_some() {
+        let indices = NewIndices {
+            is_split,
+            triangles: &split.triangles,
+            used,
+        };
+        write_indices(document, body, &mut changed, &indices, &mut note)?;
+        let own = 0..primitive.positions.len() as u32;
+        let gather: Vec<u32> = own
+            .chain(split.copies)
+            .map(|vertex| used.map_or(vertex, |used| used[vertex as usize]))
+            .collect();
+        gather_vertices(document, body, &mut changed, &gather)?;
     }
     let texcoords = split.keys.iter().flat_map(|key| match key {
         Some((uv, _)) => uvs.texcoord(*uv),
@@ -93,13 +100,13 @@ pub(super) fn rewrite(
 /// Tangents where the old ones belonged to a set that is replaced.
 fn new_tangents(
     document: &GltfDocument,
-    primitive: &Primitive,
+    index: usize,
     uvs: PrimitiveUvs,
     choice: &Choice,
 ) -> Result<(Option<Vec<CornerTangents>>, TangentsNote), DocumentError> {
-    let object = document.object(primitive)?;
+    let object = document.object(&document.primitives[index])?;
     let has_tangents = object["attributes"].get("TANGENT").is_some();
-    if !has_tangents || !choice.replaced.iter().any(|texture| texture.is_normal_map) {
+    if !has_tangents || !choice.had_normal_map {
         return Ok((None, TangentsNote::Untouched));
     }
     let upward: Vec<[[f32; 2]; 3]> = uvs
@@ -107,7 +114,7 @@ fn new_tangents(
         .iter()
         .map(|corners| corners.map(|uv| uv.map(|coordinate| uvs.stored(coordinate))))
         .collect();
-    let tangents = corner_tangents(&document.body, primitive, object, &upward)?;
+    let tangents = corner_tangents(document, index, &upward)?;
     let note = match tangents {
         Some(_) => TangentsNote::Recomputed,
         None => TangentsNote::Dropped,
@@ -149,122 +156,4 @@ fn drop_stale(
         }
     }
     Ok(())
-}
-
-/// Appends copies of split vertices to every attribute and morph target, in new accessors.
-fn copy_vertices(
-    document: &GltfDocument,
-    body: &mut Body,
-    primitive: &mut Value,
-    copies: &[u32],
-) -> Result<(), DocumentError> {
-    let mut done: HashMap<usize, usize> = HashMap::new();
-    let mut sets = vec![primitive["attributes"].take()];
-    if let Some(Value::Array(targets)) = primitive.get_mut("targets") {
-        sets.append(targets);
-    }
-    for index in sets
-        .iter_mut()
-        .filter_map(Value::as_object_mut)
-        .flat_map(|set| set.values_mut())
-    {
-        let old = as_unsigned(index).ok_or_else(|| invalid("an attribute is no index"))?;
-        let new = match done.get(&old) {
-            Some(new) => *new,
-            None => extend(&document.body, body, old, copies)?,
-        };
-        done.insert(old, new);
-        *index = json!(new);
-    }
-    let mut sets = sets.into_iter();
-    primitive["attributes"] = sets.next().unwrap_or_default();
-    if let Some(Value::Array(targets)) = primitive.get_mut("targets") {
-        targets.extend(sets);
-    }
-    Ok(())
-}
-
-/// A new accessor with the elements of accessor `index` and those of `copies`, byte for byte. `min` and `max` stay true.
-fn extend(
-    source: &Body,
-    body: &mut Body,
-    index: usize,
-    copies: &[u32],
-) -> Result<usize, DocumentError> {
-    let accessor = Accessor::open(source, index)?;
-    let size = accessor.element_size;
-    let mut packed = accessor.packed()?;
-    for &vertex in copies {
-        let start = vertex as usize * size;
-        packed.extend_from_within(start..start + size);
-    }
-    let mut object = item(&source.json, "accessors", index)?.clone();
-    for member in ["byteOffset", "sparse"] {
-        remove(&mut object, member);
-    }
-    object["bufferView"] = json!(body.push_vertices(&packed, size)?);
-    object["count"] = json!(accessor.count + copies.len());
-    body.push_accessor(object)
-}
-
-/// Replaces the indices of a primitive by those of the split faces, as a triangle list.
-fn write_indices(
-    document: &GltfDocument,
-    body: &mut Body,
-    primitive: &mut Value,
-    split: &Split<Key>,
-    note: &mut PrimitiveNote,
-) -> Result<(), DocumentError> {
-    let n_vertices = split.keys.len();
-    let needed = Component::for_indices(n_vertices);
-    let old = unsigned(primitive, "indices")?;
-    let (mut object, component) = match old {
-        Some(old) => {
-            let object = item(&document.body.json, "accessors", old)?.clone();
-            let stated = Component::from_code(required(&object, "componentType")?);
-            let component = stated.filter(|stated| stated.size() >= needed.size());
-            note.indices_widened = component.is_none();
-            (object, component.unwrap_or(needed))
-        }
-        None => (json!({}), needed),
-    };
-    let mut indices: Vec<u32> = split.triangles.iter().flatten().copied().collect();
-    if primitives::mode(primitive)? == Some(Mode::Triangles) {
-        // Indices beyond the last whole face.
-        let all = primitives::indices(&document.body, primitive, note.vertices_before)?;
-        indices.extend(all.get(indices.len()..).unwrap_or_default());
-    } else {
-        primitive["mode"] = json!(4);
-        note.converted_to_triangles = true;
-    }
-    let mut packed = Vec::with_capacity(indices.len() * component.size());
-    for index in &indices {
-        component.push(f64::from(*index), &mut packed);
-    }
-    for member in ["byteOffset", "sparse", "min", "max"] {
-        remove(&mut object, member);
-    }
-    object["bufferView"] = json!(body.push_view(&packed, None, Target::Indices)?);
-    object["componentType"] = json!(component.code());
-    object["count"] = json!(indices.len());
-    object["type"] = json!("SCALAR");
-    primitive["indices"] = json!(body.push_accessor(object)?);
-    Ok(())
-}
-
-/// A new accessor of f32 vectors.
-fn push_floats(
-    body: &mut Body,
-    values: impl Iterator<Item = f32>,
-    count: usize,
-    kind: &str,
-) -> Result<usize, DocumentError> {
-    let packed: Vec<u8> = values.flat_map(f32::to_le_bytes).collect();
-    let view = body.push_view(&packed, None, Target::Vertices)?;
-    body.push_accessor(json!({
-        "bufferView": view,
-        "componentType": Component::F32.code(),
-        "count": count,
-        "type": kind,
-    }))
 }

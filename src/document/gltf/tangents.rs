@@ -1,29 +1,35 @@
 //! Tangents for a replaced UV set, as MikkTSpace defines them.
+use super::GltfDocument;
 use super::accessor::Accessor;
-use super::body::Body;
 use super::json::unsigned;
 use crate::document::{DocumentError, Primitive};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
-use serde_json::Value;
 
 /// Tangent and sign of the three corners of a face.
 pub(super) type CornerTangents = [[f32; 4]; 3];
 
 /// The tangents of every corner for UVs with v up; `None` where the primitive has no usable normals.
 pub(super) fn corner_tangents(
-    body: &Body,
-    primitive: &Primitive,
-    object: &Value,
+    document: &GltfDocument,
+    index: usize,
     uvs: &[[[f32; 2]; 3]],
 ) -> Result<Option<Vec<CornerTangents>>, DocumentError> {
-    let Some(index) = unsigned(&object["attributes"], "NORMAL")? else {
+    let primitive = &document.primitives[index];
+    let attributes = &document.object(primitive)?["attributes"];
+    let Some(normal) = unsigned(attributes, "NORMAL")? else {
         return Ok(None);
     };
-    let accessor = Accessor::open(body, index)?;
+    let accessor = Accessor::open(&document.body, normal)?;
     if !accessor.is("VEC3") {
         return Ok(None);
     }
-    let normals: Vec<[f32; 3]> = accessor.vectors()?;
+    let mut normals: Vec<[f32; 3]> = accessor.vectors()?;
+    if let Some(used) = &document.used[index] {
+        normals = used
+            .iter()
+            .map(|vertex| normals[*vertex as usize])
+            .collect();
+    }
     if !normals.iter().flatten().all(|x| x.is_finite()) {
         return Ok(None);
     }

@@ -1,7 +1,8 @@
 //! Which `TEXCOORD_n` the new UVs go to.
 use super::GltfDocument;
-use super::textures::{TextureUse, TextureUses};
+use super::textures::{MaterialTextures, SetMask, materials};
 use crate::document::{DocumentError, NewUvs, WriteOptions};
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 /// The largest n that may be asked for: sets have to be contiguous, so that lower ones are filled.
@@ -12,26 +13,27 @@ pub(super) struct Choice {
     pub set: u32,
     /// Lower sets that the primitive lacks and that must exist.
     pub missing: Vec<u32>,
-    /// Textures that sampled the set as it was.
-    pub replaced: Vec<TextureUse>,
     /// Whether the primitive had the set.
     pub had_set: bool,
+    /// Whether a normal map sampled the set as it was.
+    pub had_normal_map: bool,
+    /// The materials of the primitive.
+    pub materials: Vec<usize>,
+    /// Textures of the primitive itself.
+    pub own: MaterialTextures,
 }
+
+/// The textures of all materials in use, each searched once.
+pub(super) type Textures = BTreeMap<usize, MaterialTextures>;
 
 /// What matters of a primitive here.
 struct Candidate {
-    present: Vec<u32>,
-    textures: Vec<TextureUse>,
-}
-
-impl Candidate {
-    fn is_sampled(&self, set: u32) -> bool {
-        self.textures.iter().any(|texture| texture.set == set)
-    }
-
-    fn has(&self, set: u32) -> bool {
-        self.present.contains(&set)
-    }
+    index: usize,
+    present: SetMask,
+    sampled: SetMask,
+    normal_mapped: SetMask,
+    materials: Vec<usize>,
+    own: MaterialTextures,
 }
 
 /// One choice per primitive that gets UVs. All primitives of a mesh get the same set, so that its atlas has one name:
@@ -40,64 +42,86 @@ pub(super) fn choose(
     document: &GltfDocument,
     uvs: &NewUvs,
     options: &WriteOptions,
-) -> Result<Vec<Option<Choice>>, DocumentError> {
-    let mut cache = TextureUses::default();
-    let mut meshes: BTreeMap<usize, Vec<(usize, Candidate)>> = BTreeMap::new();
+) -> Result<(Vec<Option<Choice>>, Textures), DocumentError> {
+    let mut textures = Textures::new();
+    let mut meshes: BTreeMap<usize, Vec<Candidate>> = BTreeMap::new();
     for (index, primitive) in document.primitives.iter().enumerate() {
-        if uvs.corners[index].is_none() {
-            continue;
+        if uvs.corners[index].is_some() {
+            let candidate = candidate(document, index, &mut textures)?;
+            meshes.entry(primitive.mesh).or_default().push(candidate);
         }
-        let object = document.object(primitive)?;
-        let candidate = Candidate {
-            present: present_sets(object),
-            textures: cache.of(&document.body.json, primitive, object)?,
-        };
-        meshes
-            .entry(primitive.mesh)
-            .or_default()
-            .push((index, candidate));
     }
     let mut choices: Vec<Option<Choice>> = document.primitives.iter().map(|_| None).collect();
     for candidates in meshes.into_values() {
         let set = set_for(&candidates, options)?;
-        for (index, candidate) in candidates {
-            choices[index] = Some(Choice {
+        for candidate in candidates {
+            let had_set = has(candidate.present, set);
+            choices[candidate.index] = Some(Choice {
                 set,
-                missing: (0..set).filter(|lower| !candidate.has(*lower)).collect(),
-                had_set: candidate.has(set),
-                replaced: candidate
-                    .textures
-                    .into_iter()
-                    .filter(|texture| texture.set == set && candidate.present.contains(&set))
+                missing: (0..set)
+                    .filter(|lower| !has(candidate.present, *lower))
                     .collect(),
+                had_set,
+                had_normal_map: had_set && has(candidate.normal_mapped, set),
+                materials: candidate.materials,
+                own: candidate.own,
             });
         }
     }
-    Ok(choices)
+    Ok((choices, textures))
 }
 
-fn set_for(
-    candidates: &[(usize, Candidate)],
-    options: &WriteOptions,
-) -> Result<u32, DocumentError> {
-    let all = |test: &dyn Fn(&Candidate) -> bool| candidates.iter().all(|(_, c)| test(c));
-    let asked = options.texcoord.or(options.overwrite.then_some(0));
-    match asked {
+fn candidate(
+    document: &GltfDocument,
+    index: usize,
+    textures: &mut Textures,
+) -> Result<Candidate, DocumentError> {
+    let primitive = &document.primitives[index];
+    let object = document.object(primitive)?;
+    let own = MaterialTextures::of_primitive(primitive, object);
+    let mut candidate = Candidate {
+        index,
+        present: present_sets(object),
+        sampled: own.sampled,
+        normal_mapped: own.normal_mapped,
+        materials: materials(primitive, object)?,
+        own,
+    };
+    for &material in &candidate.materials {
+        let found = textures
+            .entry(material)
+            .or_insert_with(|| MaterialTextures::of_material(&document.body.json, material));
+        candidate.sampled |= found.sampled;
+        candidate.normal_mapped |= found.normal_mapped;
+    }
+    Ok(candidate)
+}
+
+fn set_for(candidates: &[Candidate], options: &WriteOptions) -> Result<u32, DocumentError> {
+    let present = candidates.iter().fold(0, |mask, c| mask | c.present);
+    let in_use = candidates
+        .iter()
+        .fold(0, |mask, c| mask | (c.present & c.sampled));
+    match options.texcoord.or(options.overwrite.then_some(0)) {
         Some(set) if set > MAX_SET => Err(DocumentError::LimitExceeded(format!(
             "TEXCOORD_{set}: sets go up to {MAX_SET}"
         ))),
-        Some(set) if options.overwrite || all(&|c| !c.has(set) || !c.is_sampled(set)) => Ok(set),
+        Some(set) if options.overwrite || !has(in_use, set) => Ok(set),
         Some(set) => Err(DocumentError::TexcoordInUse(set)),
-        None => (0..=MAX_SET)
-            .find(|&set| all(&|c| !c.has(set) || set == 0 && !c.is_sampled(0)))
+        None if !has(in_use, 0) => Ok(0),
+        None => (1..=MAX_SET)
+            .find(|set| !has(present, *set))
             .ok_or_else(|| DocumentError::LimitExceeded("no UV set is free".to_owned())),
     }
 }
 
-fn present_sets(primitive: &serde_json::Value) -> Vec<u32> {
+fn has(mask: SetMask, set: u32) -> bool {
+    mask.checked_shr(set).unwrap_or(0) & 1 == 1
+}
+
+fn present_sets(primitive: &Value) -> SetMask {
     let attributes = primitive["attributes"].as_object();
-    let names = attributes.into_iter().flat_map(serde_json::Map::keys);
-    names
-        .filter_map(|name| name.strip_prefix("TEXCOORD_")?.parse().ok())
-        .collect()
+    let names = attributes.into_iter().flat_map(Map::keys);
+    let sets = names.filter_map(|name| name.strip_prefix("TEXCOORD_")?.parse().ok());
+    sets.fold(0, |mask, set| mask | 1u32.checked_shl(set).unwrap_or(0))
 }

@@ -1,8 +1,7 @@
 //! Which textures sample which UV set.
-use super::json::{as_unsigned, item, items, remove, remove_extension, unsigned};
+use super::json::{as_unsigned, extension, item, items, remove, remove_extension, unsigned};
 use crate::document::{AffectedTexture, DocumentError, Primitive};
 use serde_json::{Value, json};
-use std::collections::HashMap;
 
 const TRANSFORM: &str = "KHR_texture_transform";
 
@@ -22,38 +21,45 @@ pub(super) struct TextureUse {
     pub is_normal_map: bool,
 }
 
-/// The texture uses of every primitive; materials are searched once.
+/// UV sets below 32, one bit each.
+pub(super) type SetMask = u32;
+
+/// What one material samples.
 #[derive(Default)]
-pub(super) struct TextureUses {
-    materials: HashMap<usize, Vec<TextureUse>>,
+pub(super) struct MaterialTextures {
+    pub uses: Vec<TextureUse>,
+    pub sampled: SetMask,
+    pub normal_mapped: SetMask,
 }
 
-impl TextureUses {
-    /// What the materials of a primitive, variants included, and its own extensions sample.
-    pub fn of(
-        &mut self,
-        json: &Value,
-        primitive: &Primitive,
-        object: &Value,
-    ) -> Result<Vec<TextureUse>, DocumentError> {
-        let mut uses = Vec::new();
-        for material in materials(primitive, object)? {
-            let found = match self.materials.get(&material) {
-                Some(found) => found,
-                None => {
-                    let mut found = Vec::new();
-                    if let Ok(object) = item(json, "materials", material) {
-                        let place = Place {
-                            material: Some(material),
-                            pointer: format!("/materials/{material}"),
-                        };
-                        place.search(object, "", &mut found);
-                    }
-                    self.materials.entry(material).or_insert(found)
-                }
-            };
-            uses.extend_from_slice(found);
+impl MaterialTextures {
+    fn new(uses: Vec<TextureUse>) -> Self {
+        let mask = |uses: &mut dyn Iterator<Item = &TextureUse>| {
+            uses.fold(0, |mask, texture| {
+                mask | 1u32.checked_shl(texture.set).unwrap_or(0)
+            })
+        };
+        Self {
+            sampled: mask(&mut uses.iter()),
+            normal_mapped: mask(&mut uses.iter().filter(|texture| texture.is_normal_map)),
+            uses,
         }
+    }
+
+    /// The textures of material `material`; none where there is no such material.
+    pub fn of_material(json: &Value, material: usize) -> Self {
+        let mut uses = Vec::new();
+        if let Ok(object) = item(json, "materials", material) {
+            let pointer = format!("/materials/{material}");
+            let material = Some(material);
+            Place { material, pointer }.search(object, "", &mut uses);
+        }
+        Self::new(uses)
+    }
+
+    /// The textures that a primitive names itself, such as those of feature ids.
+    pub fn of_primitive(primitive: &Primitive, object: &Value) -> Self {
+        let mut uses = Vec::new();
         if let Some(extensions) = object.get("extensions") {
             let (mesh, primitive) = (primitive.mesh, primitive.primitive);
             let place = Place {
@@ -62,14 +68,17 @@ impl TextureUses {
             };
             place.search(extensions, "", &mut uses);
         }
-        Ok(uses)
+        Self::new(uses)
     }
 }
 
 /// The material of a primitive and those of its variants.
-fn materials(primitive: &Primitive, object: &Value) -> Result<Vec<usize>, DocumentError> {
+pub(super) fn materials(
+    primitive: &Primitive,
+    object: &Value,
+) -> Result<Vec<usize>, DocumentError> {
     let mut materials: Vec<usize> = primitive.material.into_iter().collect();
-    if let Some(variants) = super::json::extension(object, "KHR_materials_variants") {
+    if let Some(variants) = extension(object, "KHR_materials_variants") {
         for mapping in items(variants, "mappings")? {
             materials.extend(unsigned(mapping, "material")?);
         }
@@ -127,7 +136,7 @@ impl Place {
 /// The set that a texture info samples: its transform's, else its own, else 0.
 fn set_in_effect(info: &Value) -> u32 {
     let set = |object: Option<&Value>| as_unsigned(object?.get("texCoord")?);
-    set(super::json::extension(info, TRANSFORM))
+    set(extension(info, TRANSFORM))
         .or_else(|| set(Some(info)))
         .and_then(|set| u32::try_from(set).ok())
         .unwrap_or(0)

@@ -2,8 +2,9 @@
 use super::body::Body;
 use super::json::{item_mut, remove_extension};
 use super::rewrite::{PrimitiveUvs, rewrite};
-use super::texcoord_set::{self, Choice};
-use super::{GltfDocument, extensions, glb, images, primitives, textures, uri};
+use super::texcoord_set::{self, Choice, Textures};
+use super::textures::{affected, remove_transform};
+use super::{GltfDocument, extensions, glb, images, primitives, uri};
 use crate::document::{DocumentError, NewUvs, OutputFormat, WriteNotes, WriteOptions, Written};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -17,7 +18,7 @@ pub(super) fn write(
     uvs: &NewUvs,
     options: &WriteOptions,
 ) -> Result<Written, DocumentError> {
-    let choices = texcoord_set::choose(document, uvs, options)?;
+    let (choices, textures) = texcoord_set::choose(document, uvs, options)?;
     let mut body = document.body.clone();
     let mut notes = WriteNotes {
         extensions_dropped: document.decompressed.clone(),
@@ -32,7 +33,7 @@ pub(super) fn write(
             grid_bits: uvs.grid_bits,
             corners,
         };
-        let note = rewrite(document, &mut body, primitive, uvs, choice)
+        let note = rewrite(document, &mut body, index, uvs, choice)
             .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
         notes.primitives.push(note);
         if !choice.missing.is_empty() {
@@ -42,7 +43,7 @@ pub(super) fn write(
             ));
         }
     }
-    release_textures(&mut body.json, &choices, &mut notes);
+    release_textures(&mut body.json, &choices, &textures, &mut notes);
     drop_manifold(&mut body.json, &mut notes)?;
     let gone = ["KHR_texture_transform", MANIFOLD];
     let gone: Vec<&str> = gone
@@ -67,15 +68,43 @@ fn is_dropped(name: &str, notes: &WriteNotes) -> bool {
 }
 
 /// Lists the textures that sampled a replaced set and takes off the transforms that were made for it.
-fn release_textures(json: &mut Value, choices: &[Option<Choice>], notes: &mut WriteNotes) {
-    let mut affected = BTreeSet::new();
-    for texture in choices.iter().flatten().flat_map(|choice| &choice.replaced) {
-        affected.insert(textures::affected(json, texture));
-        if textures::remove_transform(json, texture) {
+fn release_textures(
+    json: &mut Value,
+    choices: &[Option<Choice>],
+    textures: &Textures,
+    notes: &mut WriteNotes,
+) {
+    let replaced = choices.iter().flatten().filter(|choice| choice.had_set);
+    let mut released = Vec::new();
+    let mut sets = BTreeSet::new();
+    for choice in replaced {
+        released.extend(
+            choice
+                .own
+                .uses
+                .iter()
+                .filter(|texture| texture.set == choice.set),
+        );
+        sets.extend(
+            choice
+                .materials
+                .iter()
+                .map(|material| (*material, choice.set)),
+        );
+    }
+    for (material, set) in sets {
+        let uses = textures
+            .get(&material)
+            .map_or(&[][..], |textures| &textures.uses);
+        released.extend(uses.iter().filter(|texture| texture.set == set));
+    }
+    for texture in released {
+        notes.textures_affected.push(affected(json, texture));
+        if remove_transform(json, texture) {
             notes.transforms_removed.push(texture.pointer.clone());
         }
     }
-    notes.textures_affected = affected.into_iter().collect();
+    notes.textures_affected.sort();
 }
 
 /// Takes the manifold indices off meshes whose vertices were split.

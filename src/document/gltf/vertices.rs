@@ -1,0 +1,169 @@
+//! Vertex data and indices of a primitive whose vertices change.
+use super::GltfDocument;
+use super::accessor::Accessor;
+use super::body::{Body, Target};
+use super::bounds;
+use super::component::Component;
+use super::json::{as_unsigned, invalid, item, remove, required, unsigned};
+use super::primitives::{self, Mode};
+use crate::document::{DocumentError, PrimitiveNote};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+
+/// Lets every attribute and morph target have the vertices `gather`, in new accessors.
+pub(super) fn gather_vertices(
+    document: &GltfDocument,
+    body: &mut Body,
+    primitive: &mut Value,
+    gather: &[u32],
+) -> Result<(), DocumentError> {
+    let mut done: HashMap<usize, usize> = HashMap::new();
+    let mut sets = vec![primitive["attributes"].take()];
+    if let Some(Value::Array(targets)) = primitive.get_mut("targets") {
+        sets.append(targets);
+    }
+    let members = sets.iter_mut().filter_map(Value::as_object_mut);
+    for index in members.flat_map(|set| set.values_mut()) {
+        let old = as_unsigned(index).ok_or_else(|| invalid("an attribute is no index"))?;
+        let new = match done.get(&old) {
+            Some(new) => *new,
+            None => gathered(&document.body, body, old, gather)?,
+        };
+        done.insert(old, new);
+        *index = json!(new);
+    }
+    let mut sets = sets.into_iter();
+    primitive["attributes"] = sets.next().unwrap_or_default();
+    if let Some(Value::Array(targets)) = primitive.get_mut("targets") {
+        targets.extend(sets);
+    }
+    Ok(())
+}
+
+/// A new accessor with the elements `gather` of accessor `index`, byte for byte. Where all of them are among these,
+/// `min` and `max` stay true; else, and where there was no data to be true of, they are computed.
+fn gathered(
+    source: &Body,
+    body: &mut Body,
+    index: usize,
+    gather: &[u32],
+) -> Result<usize, DocumentError> {
+    let accessor = Accessor::open(source, index)?;
+    let size = accessor.element_size;
+    let all = accessor.packed()?;
+    let mut packed = Vec::with_capacity(gather.len() * size);
+    for &vertex in gather {
+        let start = vertex as usize * size;
+        let element = all.get(start..start + size);
+        packed.extend_from_slice(element.ok_or_else(|| invalid("a vertex has no element"))?);
+    }
+    let mut object = item(&source.json, "accessors", index)?.clone();
+    for member in ["byteOffset", "sparse"] {
+        remove(&mut object, member);
+    }
+    let is_changed = !accessor.is_backed() || !covers(gather, accessor.count);
+    if object.get("min").is_some() && is_changed {
+        bounds::set(&mut object, &packed, accessor.component, accessor.width);
+    }
+    object["bufferView"] = json!(body.push_vertices(&packed, size)?);
+    object["count"] = json!(gather.len());
+    body.push_accessor(object)
+}
+
+/// Whether every vertex is among `gather`.
+fn covers(gather: &[u32], n_vertices: usize) -> bool {
+    let mut seen = vec![false; n_vertices];
+    for &vertex in gather {
+        seen[vertex as usize] = true;
+    }
+    seen.into_iter().all(|seen| seen)
+}
+
+/// New indices of a primitive.
+pub(super) struct NewIndices<'a> {
+    /// Whether faces got vertices of their own, so that strips and fans have to become lists.
+    pub is_split: bool,
+    pub triangles: &'a [[u32; 3]],
+    /// The vertices of the accessors that the primitive's vertices were, where it uses some of them only.
+    pub used: Option<&'a [u32]>,
+}
+
+/// Writes new indices, as wide as the vertices need and as the old ones were.
+pub(super) fn write_indices(
+    document: &GltfDocument,
+    body: &mut Body,
+    primitive: &mut Value,
+    new: &NewIndices,
+    note: &mut PrimitiveNote,
+) -> Result<(), DocumentError> {
+    let mut indices = old_indices(document, primitive, new.used)?;
+    if new.is_split {
+        let is_list = primitives::mode(primitive)? == Some(Mode::Triangles);
+        // Lists keep the indices behind their last whole face.
+        let rest = if is_list { indices.len() % 3 } else { 0 };
+        indices.drain(..indices.len() - rest);
+        indices.splice(..0, new.triangles.iter().flatten().copied());
+        if !is_list {
+            primitive["mode"] = json!(4);
+            note.converted_to_triangles = true;
+        }
+    }
+    let needed = Component::for_indices(note.vertices_after);
+    let (mut object, component) = match unsigned(primitive, "indices")? {
+        Some(old) => {
+            let object = item(&document.body.json, "accessors", old)?.clone();
+            let stated = Component::from_code(required(&object, "componentType")?);
+            let component = stated.filter(|stated| stated.size() >= needed.size());
+            note.indices_widened = component.is_none();
+            (object, component.unwrap_or(needed))
+        }
+        None => (json!({}), needed),
+    };
+    let mut packed = Vec::with_capacity(indices.len() * component.size());
+    for index in &indices {
+        component.push(f64::from(*index), &mut packed);
+    }
+    for member in ["byteOffset", "sparse", "min", "max"] {
+        remove(&mut object, member);
+    }
+    object["bufferView"] = json!(body.push_view(&packed, None, Target::Indices)?);
+    object["componentType"] = json!(component.code());
+    object["count"] = json!(indices.len());
+    object["type"] = json!("SCALAR");
+    primitive["indices"] = json!(body.push_accessor(object)?);
+    Ok(())
+}
+
+/// The indices as they are, in terms of the primitive's own vertices.
+fn old_indices(
+    document: &GltfDocument,
+    primitive: &Value,
+    used: Option<&[u32]>,
+) -> Result<Vec<u32>, DocumentError> {
+    let position = required(&primitive["attributes"], "POSITION")?;
+    let n_vertices = Accessor::open(&document.body, position)?.count;
+    let mut indices = primitives::indices(&document.body, primitive, n_vertices)?;
+    if let Some(used) = used {
+        for index in &mut indices {
+            *index = used.partition_point(|vertex| vertex < index) as u32;
+        }
+    }
+    Ok(indices)
+}
+
+/// A new accessor of f32 vectors.
+pub(super) fn push_floats(
+    body: &mut Body,
+    values: impl Iterator<Item = f32>,
+    count: usize,
+    kind: &str,
+) -> Result<usize, DocumentError> {
+    let packed: Vec<u8> = values.flat_map(f32::to_le_bytes).collect();
+    let view = body.push_view(&packed, None, Target::Vertices)?;
+    body.push_accessor(json!({
+        "bufferView": view,
+        "componentType": Component::F32.code(),
+        "count": count,
+        "type": kind,
+    }))
+}

@@ -1,0 +1,103 @@
+//! glTF read and written.
+mod build;
+mod invalid;
+mod roundtrip;
+mod survive;
+mod texcoord;
+mod validator;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use unwrapd::document::{Document, NewUvs, OutputFormat, Upload, WriteOptions, Written};
+
+/// The folder of shared meshes; `None`, with the reason printed, where it is not there.
+pub fn shared(folder: &str) -> Option<PathBuf> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(folder);
+    if path.is_dir() {
+        return Some(path);
+    }
+    println!("skipped: {} is not there", path.display());
+    None
+}
+
+/// Every file below a folder, sorted.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// A file with everything beside and below it.
+pub fn upload(path: &Path) -> Upload {
+    let folder = path.parent().unwrap();
+    let mut resources = BTreeMap::new();
+    let alone = path.extension().is_some_and(|e| e == "glb");
+    for file in if alone { Vec::new() } else { files(folder) } {
+        let name = file.strip_prefix(folder).unwrap().to_str().unwrap();
+        if std::fs::metadata(&file).unwrap().len() < 8 << 20 {
+            resources.insert(name.to_owned(), std::fs::read(&file).unwrap());
+        }
+    }
+    Upload {
+        name: path.file_name().unwrap().to_str().unwrap().to_owned(),
+        bytes: std::fs::read(path).unwrap(),
+        resources,
+    }
+}
+
+/// Written files as an upload.
+pub fn reread(written: &Written) -> Document {
+    let (name, bytes) = written.files[0].clone();
+    let resources = written.files[1..].iter().cloned().collect();
+    let upload = Upload {
+        name,
+        bytes,
+        resources,
+    };
+    Document::read(&upload).unwrap()
+}
+
+/// Grid UVs that differ wherever `seams` says so: every corner of every `period`-th face has UVs of its own, other
+/// corners those of their vertex.
+pub fn grid_uvs(document: &Document, bits: u32, period: usize) -> Vec<Vec<[[i32; 2]; 3]>> {
+    let side = 1usize << bits;
+    let point = |n: usize| [(n * 7 % side) as i32, (n * 13 % (side + 1)) as i32];
+    let faces = |triangles: &[[u32; 3]]| {
+        let face = |(f, face): (usize, &[u32; 3])| {
+            std::array::from_fn(|c| {
+                if f % period == 0 {
+                    point(3 * f + c + 1)
+                } else {
+                    point(face[c] as usize)
+                }
+            })
+        };
+        triangles.iter().enumerate().map(face).collect()
+    };
+    let primitives = document.primitives().iter();
+    primitives.map(|p| faces(&p.triangles)).collect()
+}
+
+pub fn new_uvs(grid: &[Vec<[[i32; 2]; 3]>], bits: u32) -> NewUvs<'_> {
+    NewUvs {
+        grid_bits: bits,
+        corners: grid.iter().map(|faces| Some(faces.as_slice())).collect(),
+    }
+}
+
+pub fn options(format: OutputFormat) -> WriteOptions {
+    WriteOptions {
+        format,
+        stem: "out put".to_owned(),
+        texcoord: None,
+        overwrite: false,
+    }
+}
