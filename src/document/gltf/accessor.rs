@@ -91,6 +91,11 @@ impl<'a> Accessor<'a> {
         self.base.is_some()
     }
 
+    /// Whether there is any data; without, all elements are zero.
+    pub fn has_data(&self) -> bool {
+        self.base.is_some() || self.sparse.is_some()
+    }
+
     /// The raw bytes of all elements without gaps, sparse replacements applied.
     pub fn packed(&self) -> Result<Vec<u8>, DocumentError> {
         if self.base.is_none() && self.count > MAX_UNBACKED {

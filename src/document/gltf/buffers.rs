@@ -3,13 +3,16 @@ use super::body::Body;
 use super::json::{
     array_mut, invalid, items, object_mut, remove, remove_extension, required, unsigned,
 };
-use super::{meshopt, uri};
+use super::{glb, meshopt, uri};
 use crate::document::{DocumentError, Upload};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
 /// Ceiling on what all meshopt views of a file may decode to.
 const MAX_DECODED: usize = 1 << 31;
+
+/// Ceiling on the zeros that stand for buffers without content, which glTF allows.
+const MAX_UNDEFINED: usize = 1 << 20;
 
 /// The bytes of a buffer; `None` where the document leaves them undefined.
 type Buffer<'a> = Option<Cow<'a, [u8]>>;
@@ -87,6 +90,7 @@ fn load<'a>(
     upload: &'a Upload,
 ) -> Result<Vec<Buffer<'a>>, DocumentError> {
     let mut buffers = Vec::new();
+    let mut undefined = MAX_UNDEFINED;
     for (index, buffer) in items(json, "buffers")?.iter().enumerate() {
         let length = required(buffer, "byteLength")?;
         let bytes = match buffer.get("uri") {
@@ -95,8 +99,12 @@ fn load<'a>(
                 resolved => Some(resolved?),
             },
             Some(_) => return Err(invalid("a buffer's `uri` is not a string")),
-            None if index == 0 => bin.map(Cow::Borrowed),
-            None => None,
+            None if index == 0 && glb::is_glb(&upload.bytes) => bin.map(Cow::Borrowed),
+            None if meshopt::is_fallback(buffer) || length > undefined => None,
+            None => {
+                undefined -= length;
+                Some(Cow::Owned(vec![0; length]))
+            }
         };
         let short = || invalid(format!("buffers[{index}] is shorter than its `byteLength`"));
         buffers.push(match bytes {

@@ -34,14 +34,13 @@ pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
     })
 }
 
-/// Primitives, and for each the vertices of its accessors that it uses; `None` is all.
-pub(super) type Collected = (Vec<Primitive>, Vec<Option<Vec<u32>>>);
-
 /// Every primitive that has triangles and positions, in file order, and what of its accessors it uses.
 ///
 /// Where several primitives share their accessors, each has only the vertices that it uses: exporters like to put a
 /// whole scene into one array, and the vertices of others are none of its business.
-pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
+pub(super) fn collect(
+    body: &Body,
+) -> Result<(Vec<Primitive>, Vec<Option<Vec<u32>>>), DocumentError> {
     let mut primitives = Vec::new();
     let mut used = Vec::new();
     let mut positions = Positions::new(body)?;
@@ -88,14 +87,14 @@ pub(super) fn position_accessor(primitive: &Value) -> Result<Option<usize>, Docu
     if mode(primitive)?.is_none() {
         return Ok(None);
     }
-    let attributes = primitive
-        .get("attributes")
-        .filter(|attributes| attributes.is_object())
-        .ok_or_else(|| invalid("a primitive has no `attributes`"))?;
-    unsigned(attributes, "POSITION")
+    match primitive.get("attributes") {
+        None => Ok(None),
+        Some(attributes) if attributes.is_object() => unsigned(attributes, "POSITION"),
+        Some(_) => Err(invalid("`attributes` is not an object")),
+    }
 }
 
-struct Read {
+struct Triangles {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     used: Option<Vec<u32>>,
@@ -105,7 +104,7 @@ fn read(
     body: &Body,
     primitive: &Value,
     positions: &mut Positions,
-) -> Result<Option<Read>, DocumentError> {
+) -> Result<Option<Triangles>, DocumentError> {
     let (Some(mode), Some(accessor)) = (mode(primitive)?, position_accessor(primitive)?) else {
         return Ok(None);
     };
@@ -129,7 +128,7 @@ fn read(
     {
         return Err(DocumentError::NonFinitePosition(format!("vertex {vertex}")));
     }
-    Ok(Some(Read {
+    Ok(Some(Triangles {
         positions: Rc::unwrap_or_clone(positions),
         triangles: faces(&indices, mode),
         used,

@@ -41,7 +41,7 @@ pub(super) fn gather_vertices(
 }
 
 /// A new accessor with the elements `gather` of accessor `index`, byte for byte. Where all of them are among these,
-/// `min` and `max` stay true; else they are computed.
+/// `min` and `max` stay true; else they are computed. An accessor without data stays so.
 fn gathered(
     source: &Body,
     body: &mut Body,
@@ -49,6 +49,11 @@ fn gathered(
     gather: &[u32],
 ) -> Result<usize, DocumentError> {
     let accessor = Accessor::open(source, index)?;
+    let mut object = item(&source.json, "accessors", index)?.clone();
+    object["count"] = json!(gather.len());
+    if !accessor.has_data() {
+        return body.push_accessor(object);
+    }
     let size = accessor.element_size;
     let all = accessor.packed()?;
     let mut packed = Vec::with_capacity(gather.len() * size);
@@ -57,7 +62,6 @@ fn gathered(
         let element = all.get(start..start + size);
         packed.extend_from_slice(element.ok_or_else(|| invalid("a vertex has no element"))?);
     }
-    let mut object = item(&source.json, "accessors", index)?.clone();
     for member in ["byteOffset", "sparse"] {
         remove(&mut object, member);
     }
@@ -65,7 +69,6 @@ fn gathered(
         bounds::set(&mut object, &packed, accessor.component, accessor.width);
     }
     object["bufferView"] = json!(body.push_vertices(&packed, size)?);
-    object["count"] = json!(gather.len());
     body.push_accessor(object)
 }
 

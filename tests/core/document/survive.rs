@@ -237,3 +237,44 @@ fn images_follow_the_document() {
     assert_eq!(json["buffers"][0]["uri"], "out%20put.bin");
     assert_eq!(json["images"][0]["uri"], "tex/a%20b.png");
 }
+
+/// Two triangles over one array of positions: each gets the three vertices that it uses.
+#[test]
+fn shared_accessors_are_shared_out() {
+    let mut builder = Builder::square();
+    let first = builder.accessor("SCALAR", 5123, 3, &[0, 0, 1, 0, 2, 0]);
+    let second = builder.accessor("SCALAR", 5123, 3, &[3, 0, 0, 0, 2, 0]);
+    builder.json["accessors"][0]["min"] = json!([0, 0, 0]);
+    builder.json["accessors"][0]["max"] = json!([1, 1, 0]);
+    let primitive = |indices| json!({"attributes": {"POSITION": 0}, "indices": indices, "mode": 5});
+    builder.json["meshes"] = json!([{"primitives": [primitive(first), primitive(second)]}]);
+    let document = builder.document();
+    let primitives = document.primitives();
+    assert_eq!(primitives[1].triangles, [[2, 0, 1]]);
+    assert_eq!(
+        primitives[1].positions,
+        [[0., 0., 0.], [1., 1., 0.], [0., 1., 0.]]
+    );
+    let grid = vec![
+        vec![[[0, 0], [9, 0], [0, 9]]],
+        vec![[[8, 8], [4, 8], [8, 4]]],
+    ];
+    let written = document
+        .write(&new_uvs(&grid, 5), &options(OutputFormat::Glb))
+        .unwrap();
+    let back = super::reread(&written);
+    assert_eq!(back.primitives(), primitives);
+    assert_eq!(
+        back.corner_uvs(1, 0).unwrap().unwrap(),
+        [[[0.25, 0.75], [0.125, 0.75], [0.25, 0.875]]]
+    );
+    let (json, _) = parts(&written.files[0].1);
+    let second = &json["meshes"][0]["primitives"][1];
+    assert_eq!(second["mode"], 5);
+    let position = &json["accessors"][second["attributes"]["POSITION"].as_u64().unwrap() as usize];
+    assert_eq!(
+        (&position["count"], &position["min"], &position["max"]),
+        (&json!(3), &json!([0.0, 0.0, 0.0]), &json!([1.0, 1.0, 0.0]))
+    );
+    assert_eq!(json["accessors"][0], builder.json["accessors"][0]);
+}
