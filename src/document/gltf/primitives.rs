@@ -34,13 +34,14 @@ pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
     })
 }
 
+/// Primitives, and for each the vertices of its accessors that it uses; `None` is all.
+pub(super) type Collected = (Vec<Primitive>, Vec<Option<Vec<u32>>>);
+
 /// Every primitive that has triangles and positions, in file order, and what of its accessors it uses.
 ///
 /// Where several primitives share their accessors, each has only the vertices that it uses: exporters like to put a
 /// whole scene into one array, and the vertices of others are none of its business.
-pub(super) fn collect(
-    body: &Body,
-) -> Result<(Vec<Primitive>, Vec<Option<Vec<u32>>>), DocumentError> {
+pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
     let mut primitives = Vec::new();
     let mut used = Vec::new();
     let mut positions = Positions::new(body)?;
@@ -94,7 +95,7 @@ pub(super) fn position_accessor(primitive: &Value) -> Result<Option<usize>, Docu
     }
 }
 
-struct Triangles {
+struct Read {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     used: Option<Vec<u32>>,
@@ -104,7 +105,7 @@ fn read(
     body: &Body,
     primitive: &Value,
     positions: &mut Positions,
-) -> Result<Option<Triangles>, DocumentError> {
+) -> Result<Option<Read>, DocumentError> {
     let (Some(mode), Some(accessor)) = (mode(primitive)?, position_accessor(primitive)?) else {
         return Ok(None);
     };
@@ -128,7 +129,7 @@ fn read(
     {
         return Err(DocumentError::NonFinitePosition(format!("vertex {vertex}")));
     }
-    Ok(Some(Triangles {
+    Ok(Some(Read {
         positions: Rc::unwrap_or_clone(positions),
         triangles: faces(&indices, mode),
         used,

@@ -63,7 +63,7 @@ impl Builder {
         self.accessor(kind, 5126, values.len() / width, &bytes)
     }
 
-    pub fn primitive(&mut self, primitive: Value) {
+    pub fn primitive(&mut self, primitive: &Value) {
         let meshes = self.json["meshes"].as_array_mut().unwrap();
         meshes.push(json!({"primitives": [primitive]}));
     }
@@ -72,7 +72,7 @@ impl Builder {
     pub fn triangle() -> Self {
         let mut builder = Self::new();
         let position = builder.floats("VEC3", 3, &[0., 0., 0., 1., 0., 0., 0., 1., 0.]);
-        builder.primitive(json!({"attributes": {"POSITION": position}}));
+        builder.primitive(&json!({"attributes": {"POSITION": position}}));
         builder
     }
 
@@ -91,7 +91,7 @@ impl Builder {
             .flat_map(|i| i.to_le_bytes())
             .collect();
         let indices = self.accessor("SCALAR", 5123, 6, &bytes);
-        self.primitive(json!({"attributes": {"POSITION": position}, "indices": indices}));
+        self.primitive(&json!({"attributes": {"POSITION": position}, "indices": indices}));
     }
 
     /// A square with every kind of attribute, morph targets, a skin, an animation, extras and unknown extensions.

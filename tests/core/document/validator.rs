@@ -14,15 +14,11 @@ fn errors(folder: &Path, paths: &[PathBuf]) -> Vec<Vec<String>> {
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
-    let list: String = paths
-        .iter()
-        .map(|path| format!("{}\n", path.display()))
-        .collect();
-    node.stdin
-        .take()
-        .unwrap()
-        .write_all(list.as_bytes())
-        .unwrap();
+    let mut list = node.stdin.take().unwrap();
+    for path in paths {
+        writeln!(list, "{}", path.display()).unwrap();
+    }
+    drop(list);
     let output = node.wait_with_output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     let errors: Vec<Vec<String>> = text
