@@ -97,6 +97,12 @@
 //! - Indices are plain `u32` in plain arrays, not typed ids: researchers hand in and take out their own arrays, and a
 //!   conversion at every border would be most of the code.
 //! - GLB framing is our own 60 lines: the `gltf` crate's typed round trip loses members and its validation panics.
+//! - The readers of OBJ, OFF, PLY and STL are our own: the crates that were tried lose what writing back needs, refuse
+//!   files that occur, or never return on crafted ones (the docs of `mesh::io` say which).
+//! - What UVs are worth has a module of its own, [`measure`], apart from the certificate that says whether they hold.
+//! - An OBJ file has one UV space: written as OBJ, a document is one group whatever `group-by` says.
+//! - Charts too small for the grid (fewer than 16 cells per triangle) are enlarged and counted: the one exception to uniform
+//!   texel density.
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
 //!
 //! # Invariants
