@@ -10,11 +10,17 @@ use crate::numerics::predicates::orient2d_sign;
 /// A locally injective map of the disk: counter-clockwise and positive in every triangle, exactly.
 ///
 /// Tutte's map if floating point allows, else by way of the hierarchy. Holes are closed first. Size and distortion are
-/// arbitrary.
+/// arbitrary. Should both fail, which no known disk does, Tutte's map as floating point left it: whoever promises more
+/// than a map checks it again.
 pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
     tutte_start(disk, positions)
         .or_else(|| hierarchical_start(disk, positions))
-        .unwrap_or_default()
+        .unwrap_or_else(|| {
+            let closed = ClosedDisk::new(disk, positions);
+            let mut uv = tutte_embedding(&closed, Boundary::ArcLength);
+            uv.truncate(disk.n_vertices);
+            uv
+        })
 }
 
 /// Tutte's map, if floating point left every triangle positive, those that close the holes included.

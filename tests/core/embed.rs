@@ -75,6 +75,33 @@ fn cone(n: u32, height: f64) -> Mesh {
     )
 }
 
+/// A tube of `length` rings of `around` vertices, closed at one end; its only boundary is the first ring.
+fn tube(around: u32, length: u32) -> Mesh {
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    for ring in 0..length {
+        for i in 0..around {
+            let turn = (f64::from(i) + 0.5 * f64::from(ring % 2)) / f64::from(around);
+            let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
+            positions.push([cos, sin, -f64::from(ring)]);
+            let (a, b) = (ring * around + i, ring * around + (i + 1) % around);
+            let (c, d) = (a + around, b + around);
+            if ring + 1 == length {
+                triangles.push([a, length * around, b]);
+            } else if ring % 2 == 0 {
+                triangles.extend([[a, c, b], [b, c, d]]);
+            } else {
+                triangles.extend([[a, d, b], [a, c, d]]);
+            }
+        }
+    }
+    positions.push([0.0, 0.0, -f64::from(length)]);
+    (
+        Disk::new(positions.len(), triangles).expect("a disk"),
+        positions,
+    )
+}
+
 /// Maps with every energy and checks what is promised of every map.
 fn check(name: &str, (disk, positions): &Mesh) {
     assert_eq!(n_bad(disk, &start(disk, positions)), 0, "{name}: start");
@@ -117,6 +144,8 @@ fn nasty_disks_are_mapped_without_a_flip() {
     check("one triangle", &cone_slice());
     check("cone", &cone(12, 3.0));
     check("needle cone", &cone(40, 1e4));
+    check("tube behind three vertices", &tube(3, 60));
+    check("longer tube", &tube(8, 40));
     let plane = |x: usize, y: usize| [x as f64, y as f64, 0.0];
     check("plane", &grid(9, NO_HOLE, plane));
     check(
