@@ -11,6 +11,12 @@ pub(crate) enum Visit {
     Truncated,
 }
 
+/// How many box comparisons a search over `n` boxes may take: a few seconds' worth when every pair has to be looked at.
+/// Boxes that hardly overlap, however unequal, need some 20 each; only faces that lie in heaps come near it.
+pub(crate) fn search_budget(n: usize) -> u64 {
+    50_000_000 + 100 * n as u64
+}
+
 /// Boxes per leaf: testing a handful outright is cheaper than descending further.
 const LEAF: usize = 4;
 
@@ -61,10 +67,7 @@ impl BoxTree {
                 left -= 1;
             } else if a < leaves {
                 left -= 1;
-                stack.extend([(2 * a, 2 * b), (2 * a, 2 * b + 1), (2 * a + 1, 2 * b + 1)]);
-                if a != b {
-                    stack.push((2 * a + 1, 2 * b));
-                }
+                stack.extend(children(a, b));
             } else {
                 left -= (LEAF * LEAF) as u64;
                 self.leaf_pairs(a - leaves, b - leaves, &mut visit);
@@ -99,45 +102,47 @@ impl BoxTree {
     ) -> (f64, Visit) {
         let leaves = self.nodes.len() / 2;
         let group_of = self.groups_of_nodes(groups);
-        let same = |a: usize, b: usize| group_of[a].is_some() && group_of[a] == group_of[b];
         let mut best = f64::INFINITY;
-        let mut left = budget;
         let mut stack = vec![(0.0, 1, 1)];
-        while let Some((bound, a, b)) = stack.pop() {
-            if left == 0 {
-                return (best, Visit::Truncated);
-            }
-            left -= 1;
-            if bound >= best || same(a, b) {
+        for _ in 0..budget {
+            let Some((bound, a, b)) = stack.pop() else {
+                return (best, Visit::Complete);
+            };
+            if bound >= best || (group_of[a].is_some() && group_of[a] == group_of[b]) {
                 continue;
             }
             if a >= leaves {
-                for (i, j) in self
-                    .leaf(a - leaves)
-                    .flat_map(|i| self.leaf(b - leaves).map(move |j| (i, j)))
-                {
-                    let (p, q) = (self.items[i], self.items[j]);
-                    if groups[p as usize] != groups[q as usize]
-                        && box_distance(&self.boxes[i], &self.boxes[j]) < best
-                    {
-                        best = best.min(distance(p, q));
-                    }
-                }
+                best =
+                    self.closest_in_leaves([a - leaves, b - leaves], groups, best, &mut distance);
                 continue;
-            }
-            let mut children = vec![(2 * a, 2 * b), (2 * a, 2 * b + 1), (2 * a + 1, 2 * b + 1)];
-            if a != b {
-                children.push((2 * a + 1, 2 * b));
             }
             let from = stack.len();
             stack.extend(
-                children
-                    .iter()
-                    .map(|&(a, b)| (box_distance(&self.nodes[a], &self.nodes[b]), a, b)),
+                children(a, b).map(|(a, b)| (box_distance(&self.nodes[a], &self.nodes[b]), a, b)),
             );
             stack[from..].sort_by(|x, y| y.0.total_cmp(&x.0)); // the nearest is taken first
         }
-        (best, Visit::Complete)
+        (best, Visit::Truncated)
+    }
+
+    /// The smaller of `best` and the smallest distance between items of two leaves that differ in group.
+    fn closest_in_leaves(
+        &self,
+        [a, b]: [usize; 2],
+        groups: &[u32],
+        mut best: f64,
+        distance: &mut impl FnMut(u32, u32) -> f64,
+    ) -> f64 {
+        for i in self.leaf(a) {
+            for j in self.leaf(b) {
+                let (p, q) = (self.items[i], self.items[j]);
+                let apart = groups[p as usize] != groups[q as usize];
+                if apart && box_distance(&self.boxes[i], &self.boxes[j]) < best {
+                    best = best.min(distance(p, q));
+                }
+            }
+        }
+        best
     }
 
     /// The group all items below a node belong to, if it is one.
@@ -155,6 +160,14 @@ impl BoxTree {
         }
         of_node
     }
+}
+
+/// The pairs of children of a pair of nodes, each once also when the two are one.
+fn children(a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> {
+    let across = [(2 * a, 2 * b), (2 * a, 2 * b + 1), (2 * a + 1, 2 * b + 1)];
+    across
+        .into_iter()
+        .chain((a != b).then_some((2 * a + 1, 2 * b)))
 }
 
 fn union(a: Bounds, b: &Bounds) -> Bounds {
@@ -201,4 +214,69 @@ fn spread(x: u32) -> u64 {
         x = (x | (x << shift)) & mask;
     }
     x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scattered_boxes(n: u32) -> Vec<Bounds> {
+        let part = |i: u32, factor: f64| (f64::from(i) * factor).fract();
+        let of = |i: u32| {
+            let (x, y) = (part(i, 0.754_877), part(i, 0.569_840));
+            let (w, h) = (0.3 * part(i, 0.381).powi(4), 0.3 * part(i, 0.272).powi(4));
+            [[x, y], [x + w, y + h]]
+        };
+        (0..n).map(of).collect()
+    }
+
+    #[test]
+    fn pairs_are_found_once_each() {
+        for n in [0, 1, 4, 5, 100, 1000] {
+            let boxes = scattered_boxes(n);
+            let mut found = Vec::new();
+            let visit = BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+                found.push([i.min(j), i.max(j)]);
+            });
+            found.sort_unstable();
+            let meets = |&[i, j]: &[u32; 2]| meet(&boxes[i as usize], &boxes[j as usize]);
+            let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
+            assert_eq!(found, all.filter(meets).collect::<Vec<_>>());
+            assert_eq!(visit, Visit::Complete);
+        }
+    }
+
+    #[test]
+    fn the_closest_pair_is_of_two_groups() {
+        let boxes = scattered_boxes(300);
+        for n_groups in [1, 2, 7] {
+            let groups: Vec<u32> = (0..300).map(|i| i / 10 % n_groups).collect();
+            let centre_distance = |i: u32, j: u32| {
+                let centre = |k: u32, axis: usize| {
+                    0.5 * (boxes[k as usize][0][axis] + boxes[k as usize][1][axis])
+                };
+                (centre(i, 0) - centre(j, 0)).hypot(centre(i, 1) - centre(j, 1))
+            };
+            let mut expected = f64::INFINITY;
+            for i in 0..300 {
+                for j in (0..i).filter(|&j| groups[j as usize] != groups[i as usize]) {
+                    expected = expected.min(centre_distance(i, j));
+                }
+            }
+            let found = BoxTree::new(&boxes).closest(&groups, 1_000_000, centre_distance);
+            assert_eq!(found, (expected, Visit::Complete));
+        }
+    }
+
+    #[test]
+    fn a_heap_of_boxes_ends_the_search() {
+        let boxes = vec![[[0.0; 2], [1.0; 2]]; 1000];
+        let mut found = 0;
+        let visit = BoxTree::new(&boxes).pairs(10_000, |_, _| found += 1);
+        assert_eq!(visit, Visit::Truncated);
+        assert!(found > 0 && found <= 10_000);
+        let groups: Vec<u32> = (0..1000).collect();
+        let (_, visit) = BoxTree::new(&boxes).closest(&groups, 100, |_, _| 1.0);
+        assert_eq!(visit, Visit::Truncated);
+    }
 }

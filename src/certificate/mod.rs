@@ -26,7 +26,7 @@ mod rounding;
 mod topology;
 mod weld;
 
-pub(crate) use box_tree::{Bounds, BoxTree, Visit};
+pub(crate) use box_tree::{Bounds, BoxTree, Visit, search_budget};
 pub(crate) use edges::Start;
 pub use judgement::{Certificate, Overlap, certify};
 pub(crate) use overlap::OrientedFaces;

@@ -1,13 +1,9 @@
 //! OverlappingPair of faces whose interiors intersect in UV space.
 
 use super::CornerUvs;
-use super::box_tree::{Bounds, BoxTree, Visit};
+use super::box_tree::{Bounds, BoxTree, Visit, search_budget};
 use super::topology::UvTopology;
 use crate::numerics::predicates::orient2d_sign;
-
-/// Box comparisons before the search gives up; some seconds. A map without overlaps needs some 20 per face, so only meshes
-/// whose faces lie in heaps come near it.
-const BUDGET: u64 = 400_000_000;
 
 /// The faces of non-zero orientation, all made counter-clockwise.
 pub(crate) struct OrientedFaces {
@@ -43,7 +39,7 @@ impl OrientedFaces {
     /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes.
     pub fn overlaps(&self, mut visit: impl FnMut(OverlappingPair)) -> Visit {
         let boxes: Vec<Bounds> = self.corners.iter().map(bounds).collect();
-        BoxTree::new(&boxes).pairs(BUDGET, |i, j| {
+        BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
             let corners = [self.corners[i as usize], self.corners[j as usize]];
             if interiors_intersect(&corners[0], &corners[1]) {
                 let faces = [self.faces[i as usize], self.faces[j as usize]];

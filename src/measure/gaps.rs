@@ -2,12 +2,9 @@
 
 use super::faces::FaceMeasures;
 use super::size::in_unit_square;
-use crate::certificate::{Bounds, BoxTree, Start, UvTopology, Visit};
+use crate::certificate::{Bounds, BoxTree, Start, UvTopology, Visit, search_budget};
 use crate::numerics::predicates::orient2d_sign;
 use serde::Serialize;
-
-/// Comparisons before the search gives up.
-const BUDGET: u64 = 400_000_000;
 
 /// Distances between the boundaries of different charts, in parts of the unit square's side (of the UV extent where
 /// UVs leave it); 0 means that charts touch or cross. Null when there is one chart.
@@ -100,7 +97,7 @@ impl Boundary {
         let margin = 0.5 * reach * (1.0 + 1e-9); // a pair at just this distance is found
         let boxes: Vec<Bounds> = self.segments.iter().map(|s| bounds(s, margin)).collect();
         let mut nearest = vec![f64::INFINITY; n_charts];
-        let visit = BoxTree::new(&boxes).pairs(BUDGET, |i, j| {
+        let visit = BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
             let [a, b] = [i, j].map(|k| self.charts[k as usize] as usize);
             if a != b && nearest[a].max(nearest[b]) > 0.0 {
                 let distance = self.distance(i, j);
@@ -116,7 +113,9 @@ impl Boundary {
     /// The smallest distance between segments of two charts.
     fn closest(&self) -> (f64, Visit) {
         let boxes: Vec<Bounds> = self.segments.iter().map(|s| bounds(s, 0.0)).collect();
-        BoxTree::new(&boxes).closest(&self.charts, BUDGET, |i, j| self.distance(i, j))
+        BoxTree::new(&boxes).closest(&self.charts, search_budget(boxes.len()), |i, j| {
+            self.distance(i, j)
+        })
     }
 
     fn distance(&self, i: u32, j: u32) -> f64 {
