@@ -137,6 +137,9 @@ pub mod atlas;
 pub mod measure;
 
 #[cfg(feature = "files")]
+pub mod deform;
+
+#[cfg(feature = "files")]
 pub mod document;
 #[cfg(feature = "files")]
 pub mod picture;

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use crate::deform::ProblemError;
 use crate::pipeline::PipelineError;
 
 /// Why a command ended, in one line, and its exit status.
@@ -57,5 +58,11 @@ impl From<PipelineError> for Failure {
             exit_code: error.exit_code(),
             message: format!("{error} ({})", error.code()),
         }
+    }
+}
+
+impl From<ProblemError> for Failure {
+    fn from(error: ProblemError) -> Self {
+        Self::input(format!("{error} ({})", error.code()))
     }
 }

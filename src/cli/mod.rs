@@ -9,6 +9,7 @@ mod health;
 mod measure;
 mod progress;
 mod serve;
+mod solve;
 mod unwrap;
 mod words;
 
@@ -36,6 +37,8 @@ enum Command {
     Measure(measure::Args),
     /// Check exactly that no face of a file's UVs is flipped or degenerate: exit 0 if so, 4 if not
     Verify(measure::VerifyArgs),
+    /// Solve a problem file: handles pulled to targets, no element inverted
+    Solve(solve::Args),
     /// Run the HTTP service
     Serve(Box<serve::Args>),
     /// Print the OpenAPI document of the service
@@ -56,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Unwrap(args) => unwrap::run(&args),
         Command::Measure(args) => measure::measure(&args),
         Command::Verify(args) => measure::verify(&args),
+        Command::Solve(args) => solve::run(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Openapi => writeln!(std::io::stdout(), "{}", crate::http::openapi())
             .map_err(|error| Failure::other(error.to_string())),

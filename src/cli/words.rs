@@ -6,6 +6,7 @@ use serde_json::Value;
 
 pub(super) const ENERGIES: &[&str] = &["arap", "lscm", "symmetric-dirichlet"];
 pub(super) const BARRIERS: &[&str] = &["inverse-spline", "none"];
+pub(super) const METHODS: &[&str] = &["projected", "levenberg"];
 pub(super) const CUTS: &[&str] = &["auto", "disk"];
 pub(super) const GROUPS: &[&str] = &["mesh", "scene", "material", "primitive"];
 pub(super) const HEATMAPS: &[&str] = &["conformal", "area", "symmetric-dirichlet"];
