@@ -366,3 +366,81 @@ fn counter_clockwise(uvs: &CornerUvs) -> CornerUvs {
         *uvs
     }
 }
+
+#[test]
+fn planar_maps_are_judged_with_their_overlaps() {
+    use unwrapd::certificate::certify_planar;
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    assert!(certify_planar(&square, &triangles).is_bijective());
+    let mirrored = square.map(|[x, y]| [-x, y]);
+    assert_eq!(certify_planar(&mirrored, &triangles).inverted, 2);
+    let flat = square.map(|[x, _]| [x, 0.0]);
+    assert_eq!(certify_planar(&flat, &triangles).degenerate, 2);
+    let infinite = square.map(|[x, y]| [x / y.min(0.5), y]);
+    assert_eq!(certify_planar(&infinite, &triangles).nonfinite, 2);
+    assert_eq!(certify_planar(&square, &[[0, 1, 9]]).nonfinite, 1);
+}
+
+#[test]
+fn a_strip_wound_over_itself_is_valid_but_not_bijective() {
+    use unwrapd::certificate::certify_planar;
+    // A strip of an annulus whose angle grows past a full turn.
+    let wound = |turns: f64| {
+        let point = |k: u32| {
+            let angle = f64::from(k / 2) / 40.0 * turns * std::f64::consts::TAU;
+            let radius = if k.is_multiple_of(2) { 2.0 } else { 1.0 };
+            [radius * angle.cos(), radius * angle.sin()]
+        };
+        let vertices: Vec<[f64; 2]> = (0..82).map(point).collect();
+        let triangles: Vec<[u32; 3]> = (0..40_u32)
+            .flat_map(|k| {
+                [
+                    [2 * k, 2 * k + 2, 2 * k + 1],
+                    [2 * k + 1, 2 * k + 2, 2 * k + 3],
+                ]
+            })
+            .collect();
+        certify_planar(&vertices, &triangles)
+    };
+    assert!(wound(0.9).is_bijective());
+    let twice = wound(1.5);
+    assert!(twice.is_valid() && !twice.is_bijective());
+    assert!(twice.overlapping_pairs >= 40, "{}", twice.overlapping_pairs);
+}
+
+#[test]
+fn crossing_triangles_are_counted_but_not_those_that_touch() {
+    use unwrapd::certificate::crossings;
+    let positions = [
+        [0.0, 0.0, 0.0],
+        [4.0, 0.0, 0.0],
+        [0.0, 4.0, 0.0],
+        // Passes through the first.
+        [1.0, 1.0, -1.0],
+        [1.0, 1.0, 1.0],
+        [5.0, 5.0, 0.0],
+        // Stands on it.
+        [0.5, 1.0, 0.0],
+        [0.5, 2.0, 1.0],
+        [0.5, 0.5, 1.0],
+        // Lies in its plane, with a common corner.
+        [3.0, 0.1, 0.0],
+        [0.1, 3.0, 0.0],
+    ];
+    let pairs = |triangles: &[[u32; 3]]| crossings(&positions, triangles).pairs;
+    assert_eq!(pairs(&[[0, 1, 2], [3, 4, 5]]), 1);
+    assert_eq!(pairs(&[[0, 1, 2], [6, 7, 8]]), 0);
+    assert_eq!(
+        pairs(&[[0, 1, 2], [0, 3, 4]]),
+        1,
+        "a common vertex, but they cross elsewhere"
+    );
+    assert_eq!(pairs(&[[0, 1, 2], [0, 1, 4]]), 0, "a common edge");
+    assert_eq!(pairs(&[[0, 1, 2], [0, 9, 10]]), 1, "coplanar");
+    assert_eq!(pairs(&[[0, 1, 2], [3, 4, 4]]), 0, "no area");
+    assert_eq!(pairs(&[[0, 1, 2], [3, 4, 99]]), 0, "not there");
+    let found = crossings(&positions, &[[6, 7, 8], [0, 1, 2], [3, 4, 5]]);
+    assert_eq!((found.named.len(), found.truncated), (1, false));
+    assert!(found.named[0] == [1, 2] || found.named[0] == [2, 1]);
+}
