@@ -12,3 +12,4 @@ mod restarts;
 mod results;
 mod server;
 mod synchronous;
+mod timestamp;
