@@ -10,6 +10,7 @@ mod progress;
 mod requests;
 mod restarts;
 mod results;
+mod retention;
 mod server;
 mod synchronous;
 mod timestamp;
