@@ -7,6 +7,7 @@ mod meshes;
 mod openapi;
 mod page;
 mod progress;
+mod rendering;
 mod requests;
 mod restarts;
 mod results;
