@@ -14,7 +14,7 @@ use crate::jobs::{
     Wish, next_attempt_seq,
 };
 
-/// Records in a [`Database`]. Every method is one transaction, durable when it returns.
+/// Records in a database file. Every method is one transaction, durable when it returns.
 pub struct SqliteStore {
     database: Database,
 }
