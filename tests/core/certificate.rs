@@ -408,39 +408,3 @@ fn a_strip_wound_over_itself_is_valid_but_not_bijective() {
     assert!(twice.is_valid() && !twice.is_bijective());
     assert!(twice.overlapping_pairs >= 40, "{}", twice.overlapping_pairs);
 }
-
-#[test]
-fn crossing_triangles_are_counted_but_not_those_that_touch() {
-    use unwrapd::certificate::crossings;
-    let positions = [
-        [0.0, 0.0, 0.0],
-        [4.0, 0.0, 0.0],
-        [0.0, 4.0, 0.0],
-        // Passes through the first.
-        [1.0, 1.0, -1.0],
-        [1.0, 1.0, 1.0],
-        [5.0, 5.0, 0.0],
-        // Stands on it.
-        [0.5, 1.0, 0.0],
-        [0.5, 2.0, 1.0],
-        [0.5, 0.5, 1.0],
-        // Lies in its plane, with a common corner.
-        [3.0, 0.1, 0.0],
-        [0.1, 3.0, 0.0],
-    ];
-    let pairs = |triangles: &[[u32; 3]]| crossings(&positions, triangles).pairs;
-    assert_eq!(pairs(&[[0, 1, 2], [3, 4, 5]]), 1);
-    assert_eq!(pairs(&[[0, 1, 2], [6, 7, 8]]), 0);
-    assert_eq!(
-        pairs(&[[0, 1, 2], [0, 3, 4]]),
-        1,
-        "a common vertex, but they cross elsewhere"
-    );
-    assert_eq!(pairs(&[[0, 1, 2], [0, 1, 4]]), 0, "a common edge");
-    assert_eq!(pairs(&[[0, 1, 2], [0, 9, 10]]), 1, "coplanar");
-    assert_eq!(pairs(&[[0, 1, 2], [3, 4, 4]]), 0, "no area");
-    assert_eq!(pairs(&[[0, 1, 2], [3, 4, 99]]), 0, "not there");
-    let found = crossings(&positions, &[[6, 7, 8], [0, 1, 2], [3, 4, 5]]);
-    assert_eq!((found.named.len(), found.truncated), (1, false));
-    assert!(found.named[0] == [1, 2] || found.named[0] == [2, 1]);
-}

@@ -1,9 +1,11 @@
 //! Tests of the geometry library.
 mod atlas;
 mod barrier;
+mod box_tree;
 mod cage;
 mod certificate;
 mod charts;
+mod crossings;
 mod cut;
 mod disk;
 #[cfg(feature = "files")]
