@@ -40,17 +40,17 @@ fn pairs_are_found_once_each() {
 }
 
 fn every_pair_is_found_once<const D: usize>(boxes: &[Bounds<D>]) {
-        let n = boxes.len() as u32;
-        let mut found = Vec::new();
-        let visit = BoxTree::new(boxes).pairs(search_budget(boxes.len()), |i, j| {
-            found.push([i.min(j), i.max(j)]);
-        });
-        found.sort_unstable();
-        let meets = |&[i, j]: &[u32; 2]| meet(&boxes[i as usize], &boxes[j as usize]);
-        let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
-        assert!(found == all.filter(meets).collect::<Vec<_>>(), "{n} boxes");
-        assert_eq!(visit, Visit::Complete);
-    }
+    let n = boxes.len() as u32;
+    let mut found = Vec::new();
+    let visit = BoxTree::new(boxes).pairs(search_budget(boxes.len()), |i, j| {
+        found.push([i.min(j), i.max(j)]);
+    });
+    found.sort_unstable();
+    let meets = |&[i, j]: &[u32; 2]| meet(&boxes[i as usize], &boxes[j as usize]);
+    let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
+    assert!(found == all.filter(meets).collect::<Vec<_>>(), "{n} boxes");
+    assert_eq!(visit, Visit::Complete);
+}
 
 #[test]
 fn enlarged_boxes_meet_where_they_touched() {
