@@ -33,8 +33,9 @@ pub fn unwrap_document(
     observer: &dyn Observer,
 ) -> Result<Outcome, PipelineError> {
     options.validate().map_err(PipelineError::InvalidOptions)?;
-    let tracker = Tracker::new(observer, options.time_budget);
-    in_pool(options.threads, || {
+    let settings = options.settings();
+    let tracker = Tracker::new(observer, settings.time_budget);
+    in_pool(settings.threads, || {
         unwrap_in_pool(upload, options, &tracker)
     })?
 }
@@ -49,6 +50,7 @@ fn unwrap_in_pool(
 
     tracker.stage(Stage::Read);
     let document = Document::read(upload)?;
+    options.limits.check(&document)?;
     let group_by = group_by(options);
     let groups = document.groups(group_by);
     let meshes: Vec<Merged> = groups
@@ -74,6 +76,7 @@ fn unwrap_in_pool(
 
     let mut report = Report::new(groups);
     report.options = Some(options.clone());
+    report.limits = Some(options.limits);
     report.certified &= options.barrier != BarrierKind::None;
     report.written = Some(written.notes);
     report.seconds = Some(seconds);

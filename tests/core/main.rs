@@ -1,12 +1,17 @@
 //! Tests of the geometry library.
 mod atlas;
 mod barrier;
+mod box_tree;
+mod cage;
 mod certificate;
 mod charts;
+mod crossings;
 mod cut;
 mod disk;
 #[cfg(feature = "files")]
 mod document;
+#[cfg(feature = "files")]
+mod elements;
 mod embed;
 mod energy;
 #[cfg(feature = "files")]
@@ -17,6 +22,8 @@ mod mesh;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
+#[cfg(feature = "files")]
+mod outline;
 #[cfg(feature = "files")]
 mod picture;
 mod pipeline;
