@@ -1,19 +1,14 @@
 //! `unwrapd solve`: a problem file of handles and targets.
 
-use std::cell::RefCell;
-use std::fmt::Write;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use serde::Serialize;
-
 use super::failure::Failure;
-use super::files::{json, write_atomically};
+use super::files::read_file;
+use super::solution::{Output, Records, solve_and_write};
 use super::words::{METHODS, word};
-use crate::deform::{Method, Problem, ProblemFile, Solution, Worth};
-use crate::mesh::io::{ElementFormat, Elements, text_positions};
-use crate::solver::{Control, Iterate, LevenbergStep, Settings, Summary};
+use crate::deform::{Method, Problem, ProblemFile};
+use crate::mesh::io::{ElementFormat, Elements};
 
 /// Solves a problem file: handles pulled to targets, no element inverted.
 #[derive(clap::Args)]
@@ -26,86 +21,36 @@ pub(super) struct Args {
     /// How: projected Newton with advancing targets, or the paper's iteration
     #[arg(long, default_value = "projected", value_parser = word::<Method>(METHODS))]
     method: Method,
-    /// Write a JSON report: status, iterations, energies, residual, seconds
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Write a line per iteration as CSV
-    #[arg(long, value_name = "FILE")]
-    trace: Option<PathBuf>,
+    #[command(flatten)]
+    records: Records,
 }
 
-#[derive(Serialize)]
-struct Report {
-    method: Method,
-    #[serde(flatten)]
-    summary: Summary,
-    #[serde(flatten)]
-    worth: Worth,
-    /// The smallest size of an element over its rest size, over all iterates.
-    smallest_ever: f64,
-    /// Reading and checking.
-    setup_seconds: f64,
-    /// Everything after that.
-    solve_seconds: f64,
-}
-
-/// Runs `solve`; exit 4 if the result has an inverted element that a barrier should have kept out.
+/// Runs `solve`.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let format = Output::of(&args.output)?;
+    let output = Output::of(&args.output)?;
     let clock = Instant::now();
     let (problem, mesh) = read(&args.problem)?;
     let setup_seconds = clock.elapsed().as_secs_f64();
-    let trace = Trace::default();
-    let clock = Instant::now();
-    let solution = trace.solve(&problem, args.method)?;
-    let report = Report {
-        method: args.method,
-        summary: solution.summary,
-        worth: solution.worth,
-        smallest_ever: trace.smallest(),
+    let target = (&output, args.output.as_path());
+    solve_and_write(
+        &problem,
+        mesh,
+        args.method,
         setup_seconds,
-        solve_seconds: clock.elapsed().as_secs_f64(),
-    };
-    write_atomically(
-        &args.output,
-        format.text(mesh, &problem, &solution).as_bytes(),
-    )?;
-    if let Some(path) = &args.report {
-        write_atomically(path, &json(&report)?)?;
-    }
-    if let Some(path) = &args.trace {
-        write_atomically(path, trace.csv().as_bytes())?;
-    }
-    println!(
-        "{:?}: {} iterations, {} factorizations, energy {:.6e}, barrier {:.3e}, residual {:.1e}, {} inverted",
-        report.summary.status,
-        report.summary.iterations,
-        report.summary.factorizations,
-        report.worth.energy,
-        report.worth.barrier,
-        report.worth.residual,
-        report.worth.inverted
-    );
-    if report.worth.inverted > 0 && problem.forbids_inversion() {
-        return Err(Failure::uncertified("no map without inversion"));
-    }
-    Ok(())
+        target,
+        &args.records,
+    )
 }
 
 /// The problem and the mesh that its file names.
 fn read(path: &Path) -> Result<(Problem, Elements), Failure> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    let open = |path: &Path| {
-        fs::read(path).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
-    };
-    let file = ProblemFile::parse(&open(path)?)?;
+    let file = ProblemFile::parse(&read_file(path)?)?;
     let format = ElementFormat::of_name(&file.mesh)
         .ok_or_else(|| Failure::input(format!("{}: not a mesh format that is read", file.mesh)))?;
-    let mesh = format
-        .read(&open(&folder.join(&file.mesh))?)
-        .map_err(|error| Failure::input(format!("{}: {error}", file.mesh)))?;
+    let mesh = format.read(&read_file(&folder.join(&file.mesh))?)?;
     let start = file.initial.as_ref().map(|initial| {
-        let bytes = open(&folder.join(initial))?;
+        let bytes = read_file(&folder.join(initial))?;
         numbers(&bytes).ok_or_else(|| Failure::input(format!("{initial}: not numbers")))
     });
     let problem = file.with(mesh.clone(), start.transpose()?)?;
@@ -118,93 +63,4 @@ fn numbers(bytes: &[u8]) -> Option<Vec<f64>> {
     text.split_ascii_whitespace()
         .map(|word| word.parse().ok())
         .collect()
-}
-
-/// The format of the result.
-enum Output {
-    Positions,
-    Mesh(ElementFormat),
-}
-
-impl Output {
-    fn of(path: &Path) -> Result<Self, Failure> {
-        let name = path.to_string_lossy();
-        if name.to_ascii_lowercase().ends_with(".txt") {
-            return Ok(Self::Positions);
-        }
-        let format = ElementFormat::of_name(&name);
-        format.map(Self::Mesh).ok_or_else(|| {
-            Failure::usage(format!(
-                "{name}: the result is .txt, .obj, .off, .msh, .mesh, .tet or .vtu"
-            ))
-        })
-    }
-
-    fn text(&self, mesh: Elements, problem: &Problem, solution: &Solution) -> String {
-        let is_planar = problem.body.dim() == 2;
-        match self {
-            Self::Positions if is_planar => text_positions::<2>(solution.x.as_chunks().0),
-            Self::Positions => text_positions::<3>(solution.x.as_chunks().0),
-            Self::Mesh(format) => {
-                let vertices = if is_planar {
-                    let planar: &[[f64; 2]] = solution.x.as_chunks().0;
-                    planar.iter().map(|p| [p[0], p[1], 0.0]).collect()
-                } else {
-                    solution.x.as_chunks().0.to_vec()
-                };
-                format.write(&Elements { vertices, ..mesh })
-            }
-        }
-    }
-}
-
-/// What happened in every iteration.
-#[derive(Default)]
-struct Trace {
-    iterates: RefCell<Vec<Iterate>>,
-    steps: RefCell<Vec<LevenbergStep>>,
-}
-
-impl Trace {
-    fn solve(&self, problem: &Problem, method: Method) -> Result<Solution, Failure> {
-        let watch = |iterate: &Iterate| {
-            self.iterates.borrow_mut().push(*iterate);
-            Control::Continue
-        };
-        let mut record = |step: &LevenbergStep| self.steps.borrow_mut().push(*step);
-        Ok(match method {
-            Method::Projected => problem.solve(&Settings::follow(), &watch)?,
-            Method::Levenberg => {
-                problem.solve_by_levenberg(&problem.levenberg, &watch, &mut record)?
-            }
-        })
-    }
-
-    fn smallest(&self) -> f64 {
-        let sizes = self.iterates.borrow();
-        sizes
-            .iter()
-            .map(|i| i.smallest)
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    fn csv(&self) -> String {
-        let (iterates, steps) = (self.iterates.borrow(), self.steps.borrow());
-        let mut text = String::from("iteration,energy,smallest,mu,sigma,alpha,residual\n");
-        for (index, i) in iterates.iter().enumerate() {
-            let step = steps.get(index).map_or(",,,".to_owned(), |step| {
-                format!(
-                    "{:e},{:e},{:e},{:e}",
-                    step.mu, step.sigma, step.alpha, step.residual
-                )
-            });
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{},{:e},{:e},{step}",
-                i.iteration, i.energy, i.smallest
-            );
-        }
-        text
-    }
 }

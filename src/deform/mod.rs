@@ -7,6 +7,7 @@
 
 mod body;
 pub mod cage;
+mod handles;
 mod model;
 #[cfg(feature = "files")]
 pub mod outline;
@@ -17,8 +18,9 @@ mod problem_file;
 mod solve;
 
 pub use body::{Body, BodyElements};
+pub use handles::{Handle, bind};
 pub use model::DeformationEnergy;
-pub use problem::Problem;
+pub use problem::{Model, Problem};
 pub use problem_error::ProblemError;
 #[cfg(feature = "files")]
 pub use problem_file::{ProblemFile, Rest};

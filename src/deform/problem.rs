@@ -1,6 +1,7 @@
 //! A body, handles and their targets, an energy and a barrier.
 
 use super::body::Body;
+use super::handles::{Handle, bind};
 use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
 use crate::barrier::{Barrier, BarrierKind};
@@ -23,7 +24,66 @@ pub struct Problem {
     pub levenberg: LevenbergSettings,
 }
 
+/// What a deformation costs, as a user says it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model {
+    /// The energy.
+    pub energy: DeformationEnergy,
+    /// The barrier.
+    pub barrier: BarrierKind,
+    /// β; the paper's for the energy if absent.
+    pub beta: Option<f64>,
+    /// s of the inverse spline.
+    pub s: f64,
+}
+
+impl Model {
+    /// The barrier with its numbers; ε is the paper's share, 1e-4 as its authors have it, of the smallest element unless
+    /// given.
+    pub(super) fn barrier(
+        &self,
+        body: &Body,
+        epsilon: Option<f64>,
+    ) -> Result<Barrier, ProblemError> {
+        let smallest = body
+            .determinants()
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let barrier = Barrier {
+            kind: self.barrier,
+            beta: self.beta.unwrap_or(self.energy.default_beta()),
+            s: self.s,
+            epsilon: epsilon.unwrap_or(1e-4 * smallest),
+        };
+        for (name, value) in [("beta", barrier.beta), ("s", barrier.s)] {
+            if !(value > 0.0 && value.is_finite()) {
+                let range = "a positive number";
+                return Err(ProblemError::BadParameter { name, range });
+            }
+        }
+        if !(barrier.epsilon >= 0.0 && barrier.epsilon < smallest) {
+            return Err(ProblemError::BadParameter {
+                name: "epsilon",
+                range: "at least 0 and below the smallest rest determinant",
+            });
+        }
+        Ok(barrier)
+    }
+}
+
 impl Problem {
+    /// A body at rest and handles to pull it by.
+    pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
+        Ok(Self {
+            start: body.rest.clone(),
+            energy: model.energy,
+            barrier: model.barrier(&body, None)?,
+            stations: vec![bind(&body, handles)?],
+            levenberg: LevenbergSettings::default(),
+            body,
+        })
+    }
+
     /// Does the energy or the barrier keep every element from inverting?
     pub fn forbids_inversion(&self) -> bool {
         let terms = self
@@ -63,6 +123,7 @@ pub(super) fn handles(
         vertices: order.iter().map(|&i| vertices[i]).collect(),
         targets: order.iter().flat_map(|&i| targets[i].clone()).collect(),
         groups: order.iter().map(|&i| groups[i]).collect(),
+        ..Handles::default()
     })
 }
 

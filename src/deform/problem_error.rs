@@ -25,6 +25,15 @@ pub enum ProblemError {
         /// How many there are.
         n_vertices: usize,
     },
+    /// There is nothing to pull at.
+    #[error("no handle")]
+    NoHandle,
+    /// A handle names no place of the body.
+    #[error("handle {handle} lies outside the mesh")]
+    HandleOutside {
+        /// Index of the handle.
+        handle: usize,
+    },
     /// A target is not a position.
     #[error("the target of handle {handle} is not {dim} finite numbers")]
     BadTarget {
@@ -88,6 +97,8 @@ impl ProblemError {
             Self::Read(error) => error.code(),
             Self::Element(error) => error.code(),
             Self::UnknownHandle { .. } => "unknown_handle",
+            Self::NoHandle => "no_handle",
+            Self::HandleOutside { .. } => "handle_outside",
             Self::BadTarget { .. } => "bad_target",
             Self::Unpaired { .. } => "unpaired_handles",
             Self::ContradictoryHandles { .. } => "contradictory_handles",

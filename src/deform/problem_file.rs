@@ -4,9 +4,9 @@ use serde::Deserialize;
 
 use super::body::Body;
 use super::model::DeformationEnergy;
-use super::problem::{Problem, check_start, handles};
+use super::problem::{Model, Problem, check_start, handles};
 use super::problem_error::ProblemError;
-use crate::barrier::{Barrier, BarrierKind};
+use crate::barrier::BarrierKind;
 use crate::mesh::ElementError;
 use crate::mesh::io::Elements;
 use crate::solver::{Handles, LevenbergSettings};
@@ -93,7 +93,13 @@ impl ProblemFile {
                 expected: body.rest.len(),
             });
         }
-        let barrier = self.barrier(&body)?;
+        let model = Model {
+            energy: self.energy,
+            barrier: self.barrier,
+            beta: self.beta,
+            s: self.gamma,
+        };
+        let barrier = model.barrier(&body, self.eps)?;
         check_start(&body, &start, &barrier)?;
         Ok(Problem {
             stations: self.stations(&body)?,
@@ -103,32 +109,6 @@ impl ProblemFile {
             energy: self.energy,
             barrier,
         })
-    }
-
-    fn barrier(&self, body: &Body) -> Result<Barrier, ProblemError> {
-        let smallest = body
-            .determinants()
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
-        let barrier = Barrier {
-            kind: self.barrier,
-            beta: self.beta.unwrap_or(self.energy.default_beta()),
-            s: self.gamma,
-            epsilon: self.eps.unwrap_or(1e-4 * smallest),
-        };
-        for (name, value) in [("beta", barrier.beta), ("gamma", barrier.s)] {
-            if !(value > 0.0 && value.is_finite()) {
-                let range = "a positive number";
-                return Err(ProblemError::BadParameter { name, range });
-            }
-        }
-        if !(barrier.epsilon >= 0.0 && barrier.epsilon < smallest) {
-            return Err(ProblemError::BadParameter {
-                name: "eps",
-                range: "at least 0 and below the smallest rest determinant",
-            });
-        }
-        Ok(barrier)
     }
 
     fn levenberg(&self) -> LevenbergSettings {

@@ -61,8 +61,7 @@ const SHAKE: f64 = 1e-3;
 impl Problem {
     /// Minimizes the energy with the handles at their targets. With a barrier every iterate is without inversion.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
-        let terms = self.terms(self.barrier)?;
-        let mut objective = Objective::of_terms(self.body.n_vertices(), terms);
+        let mut objective = self.objective()?;
         let mut x = self.start.clone();
         if x == self.body.rest && self.stations.len() == 1 {
             self.shake(&objective, &mut x);
@@ -118,6 +117,22 @@ impl Problem {
             }
         }
         Ok(self.solution(x, total))
+    }
+
+    /// The energy with the barrier, and the points that handles pull at.
+    fn objective(&self) -> Result<Objective, ProblemError> {
+        let terms = self.terms(self.barrier)?;
+        let n_vertices = self.body.n_vertices();
+        let Some(handles) = self.stations.first().filter(|h| !h.points.is_empty()) else {
+            return Ok(Objective::of_terms(n_vertices, terms));
+        };
+        let points = Positional {
+            dim: self.body.dim(),
+            rows: handles.points.clone(),
+            targets: handles.point_targets.clone(),
+            alpha: 0.0,
+        };
+        Ok(Objective::constrained(n_vertices, terms, points))
     }
 
     fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
@@ -186,8 +201,15 @@ impl Problem {
 fn distance_squared(handles: &Handles, dim: usize, x: &[f64]) -> f64 {
     let held = handles.vertices.iter();
     let places = held.flat_map(|&v| &x[dim * v as usize..dim * (v as usize + 1)]);
-    places
+    let points = Positional {
+        dim,
+        rows: handles.points.clone(),
+        targets: Vec::new(),
+        alpha: 0.0,
+    };
+    let held: f64 = places
         .zip(&handles.targets)
         .map(|(x, t)| (x - t) * (x - t))
-        .sum()
+        .sum();
+    held + points.residual(x, &handles.point_targets)
 }

@@ -34,6 +34,17 @@ impl Positional {
         })
     }
 
+    /// Adds 2αCᵀ·`moves`: by how much the negative gradient grows where the targets move.
+    pub fn add_pull(&self, moves: &[f64], sum: &mut [f64]) {
+        for (row, moves) in self.rows.iter().zip(moves.chunks(self.dim)) {
+            for &(v, weight) in row {
+                for (k, t) in moves.iter().enumerate() {
+                    sum[self.dim * v as usize + k] += 2.0 * self.alpha * weight * t;
+                }
+            }
+        }
+    }
+
     /// ‖Cx − d‖² for these positions d.
     pub fn residual(&self, x: &[f64], targets: &[f64]) -> f64 {
         let gaps = self.places(x).zip(targets).map(|(place, t)| place - t);

@@ -33,6 +33,10 @@ const PATIENCE: usize = 20;
 /// How far the rest settles before handles that are stuck try again: see [`Settings::tolerance`].
 const SETTLED: f64 = 1e-6;
 
+/// The strength of soft constraints beside the energy's mean curvature, while they travel and, rising tenfold, at the end.
+const SOFT: f64 = 1e3;
+const HARD: f64 = 1e9;
+
 /// Moves the handles along their path to their targets, the other vertices following, and then minimizes `objective` with
 /// the handles held.
 ///
@@ -41,6 +45,10 @@ const SETTLED: f64 = 1e-6;
 /// quadratic model allow. The energy may rise while the handles travel; no iterate leaves the domain, in which `x` must
 /// be. Where the handles cannot advance the rest settles first; if that gives them no room either, the map is the nearest
 /// valid one on their path and the status [`Status::TargetsUnreachable`].
+///
+/// Points inside elements are the soft constraints of an [`Objective::constrained`] made of [`Handles::points`]. Their strength
+/// is relative to the energy's curvature and grows once the targets are reached, one short minimization for each
+/// decade.
 pub fn follow<const D: usize>(
     objective: &mut Objective,
     x: &mut [f64],
@@ -60,8 +68,11 @@ where
         let before = travel.s;
         if travel.advance(objective, x, settings, watch) == Control::Finish
             || travel.settle(objective, x, settings, watch) == Control::Finish
-            || travel.s >= 1.0
         {
+            return travel.summary;
+        }
+        if travel.s >= 1.0 {
+            travel.harden(objective, x, settings, watch);
             return travel.summary;
         }
         let is_spent = travel.summary.iterations >= settings.max_iterations;
@@ -79,10 +90,15 @@ where
 struct Travel<'a, const D: usize> {
     handles: &'a Handles,
     path: Path<D>,
+    /// Where the points start, and by how much they have to move.
+    point_origins: Vec<f64>,
+    point_ways: Vec<f64>,
     /// How much of the path lies behind.
     s: f64,
     /// The advance to try next.
     stride: f64,
+    /// The unit of the points' strength: the energy's mean curvature at the start.
+    unit: f64,
     summary: Summary,
     newton: Vec<f64>,
     direction: Vec<f64>,
@@ -93,12 +109,20 @@ impl<'a, const D: usize> Travel<'a, D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    fn new(objective: &Objective, x: &[f64], handles: &'a Handles) -> Self {
+    fn new(objective: &mut Objective, x: &[f64], handles: &'a Handles) -> Self {
+        let point_origins: Vec<f64> = objective
+            .constraints()
+            .map_or(Vec::new(), |c| c.places(x).collect());
+        objective.set_constraints(0.0, &point_origins);
+        let ways = handles.point_targets.iter().zip(&point_origins);
         Self {
             handles,
             path: Path::new(handles, x),
+            point_ways: ways.map(|(target, origin)| target - origin).collect(),
+            point_origins,
             s: 0.0,
             stride: FIRST_ADVANCE,
+            unit: 0.0,
             summary: Summary::at_start(objective.value(x)),
             newton: vec![0.0; x.len()],
             direction: vec![0.0; x.len()],
@@ -117,6 +141,10 @@ where
         let mut stuck = 0;
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
         {
+            if objective.constraints().is_some_and(|c| c.alpha == 0.0) {
+                objective.linearize(x, 0.0);
+                self.pull(objective, SOFT, self.s);
+            }
             objective.linearize(x, 0.0);
             self.summary.factorizations += 1;
             let Ok(decrement) = objective.newton_direction(&mut self.newton) else {
@@ -148,6 +176,7 @@ where
         while self.stride > LEAST_ADVANCE {
             let to = (self.s + self.stride).min(1.0);
             self.aim(objective, x, to);
+            self.pull(objective, SOFT, to);
             let largest = SAFETY * objective.largest_step(x, &self.direction);
             if largest >= 1.0 && self.is_acceptable(objective, x) {
                 x.copy_from_slice(&self.trial);
@@ -157,6 +186,7 @@ where
             }
             self.stride *= 0.5 * largest.clamp(0.2, 1.0);
         }
+        self.pull(objective, SOFT, self.s);
         self.stride = 4.0 * LEAST_ADVANCE;
         false
     }
@@ -170,7 +200,8 @@ where
                 self.direction[at + k] = place[k] - x[at + k];
             }
         }
-        objective.follow(&mut self.direction);
+        let moves: Vec<f64> = self.point_ways.iter().map(|w| (to - self.s) * w).collect();
+        objective.follow(&mut self.direction, &moves);
         for (d, n) in self.direction.iter_mut().zip(&self.newton) {
             *d += n;
         }
@@ -200,6 +231,38 @@ where
         if let Some(step) = line_search(objective, x, &self.newton, from, &mut self.trial) {
             x.copy_from_slice(&self.trial);
             self.summary.energy_last = step.energy;
+        }
+    }
+
+    /// Sets the points' targets to where they are on their way, and their strength.
+    fn pull(&mut self, objective: &mut Objective, strength: f64, s: f64) {
+        if self.point_ways.is_empty() {
+            return;
+        }
+        if self.unit == 0.0 {
+            self.unit = objective.mean_diagonal();
+        }
+        let ways = self.point_origins.iter().zip(&self.point_ways);
+        let targets: Vec<f64> = ways.map(|(origin, way)| origin + s * way).collect();
+        objective.set_constraints(strength * self.unit, &targets);
+    }
+
+    /// Makes the points meet their targets.
+    fn harden(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) {
+        let mut strength = SOFT;
+        while !self.point_ways.is_empty() && strength < HARD {
+            strength *= 10.0;
+            self.pull(objective, strength, 1.0);
+            self.summary.energy_last = objective.value(x);
+            if self.settle(objective, x, settings, watch) == Control::Finish {
+                return;
+            }
         }
     }
 

@@ -259,16 +259,23 @@ impl Objective {
         }
     }
 
-    /// How all vertices follow when the fixed ones move, to first order: given the move at the fixed vertices, solves for
-    /// the others. Uses the factorization of the last [`newton_direction`](Self::newton_direction).
+    /// How all vertices follow when the fixed ones and the constraints' targets move, to first order: given the move at the
+    /// fixed vertices and that of the targets, solves for the others. Uses the factorization of the last
+    /// [`newton_direction`](Self::newton_direction).
     ///
     /// Cost: one solve.
-    pub fn follow(&mut self, direction: &mut [f64]) {
+    pub fn follow(&mut self, direction: &mut [f64], target_moves: &[f64]) {
         let held: Vec<(usize, f64)> = self.fixed_unknowns().map(|i| (i, direction[i])).collect();
         direction.fill(0.0);
+        if let Some(constraints) = &self.constraints {
+            constraints.add_pull(target_moves, direction);
+        }
         let mut moves = vec![None; self.n()];
         for &(i, value) in &held {
             moves[i] = Some(value);
+        }
+        for &(i, _) in &held {
+            direction[i] = 0.0;
         }
         for (&value, entry) in self.cleared.iter().zip(&self.fixed_entries) {
             match (moves[entry.row], moves[entry.column]) {
@@ -308,6 +315,11 @@ impl Objective {
             held += 0.5 * value * form(direction, entry.row, entry.column);
         }
         linear + 0.5 * quadratic + held
+    }
+
+    /// The mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), the constraints left out.
+    pub fn mean_diagonal(&self) -> f64 {
+        self.mean_diagonal
     }
 
     /// The sum of the weights.

@@ -1,5 +1,6 @@
 //! How handles travel to their targets.
 
+use crate::energy::Row;
 use crate::numerics::square::{Matrix, Square, apply, identity, times, transposed};
 use crate::numerics::vec3;
 
@@ -13,6 +14,10 @@ pub struct Handles {
     /// The number of the group of each vertex: those of a group, a disc of vertices or the end of a bar, travel as a rigid
     /// body as far as their targets allow, so that no element between them is crushed on the way.
     pub groups: Vec<u32>,
+    /// Points inside elements that must come to given positions too: held by soft constraints that harden in the end.
+    pub points: Vec<Row>,
+    /// Their targets, coordinates one after another; they travel straight.
+    pub point_targets: Vec<f64>,
 }
 
 /// The way of handles from where they are to their targets, as a function of s from 0 to 1.

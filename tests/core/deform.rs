@@ -82,6 +82,7 @@ fn problem(
             vertices: vertices.to_vec(),
             targets,
             groups,
+            ..Handles::default()
         }],
         levenberg: LevenbergSettings::default(),
         body,
@@ -276,6 +277,7 @@ fn a_group_travels_as_a_rigid_body() {
         // Half a turn about the x axis through (0, ½, ½), and a shift by 2 along it.
         targets: vec![2.0, 1.0, 1.0, 2.0, 1.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0, 0.0],
         groups: vec![0; 4],
+        ..Handles::default()
     };
     let x = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0];
     let path = Path::<3>::new(&handles, &x);
