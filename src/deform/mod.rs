@@ -6,3 +6,4 @@
 pub mod cage;
 #[cfg(feature = "files")]
 pub mod outline;
+pub mod warp;
