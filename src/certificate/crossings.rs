@@ -1,7 +1,7 @@
 //! Pairs of triangles in space that pass through each other.
 
-use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use super::overlap::interiors_intersect;
+use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use crate::mesh::orient3d_sign;
 use crate::numerics::predicates::orient2d_sign;
 use serde::Serialize;
