@@ -1,7 +1,7 @@
 //! Pairs of triangles in space that pass through each other.
 
-use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use super::overlap::interiors_intersect;
+use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use crate::mesh::orient3d_sign;
 use crate::numerics::predicates::orient2d_sign;
 use serde::Serialize;
@@ -55,8 +55,8 @@ pub fn crossings(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Crossings {
 
 /// Whether the relative interiors of two triangles have a common point.
 fn cross(a: &Triangle, b: &Triangle) -> bool {
-    let sides_of_a = a.map(|p| orient3d_sign(b[0], b[1], b[2], p));
-    let sides_of_b = b.map(|p| orient3d_sign(a[0], a[1], a[2], p));
+    let sides_of_a = a.map(|p| side(b, p));
+    let sides_of_b = b.map(|p| side(a, p));
     if sides_of_a == [0; 3] && sides_of_b == [0; 3] {
         return coplanar_overlap(a, b);
     }
@@ -75,6 +75,14 @@ fn cross(a: &Triangle, b: &Triangle) -> bool {
     // through q from edge q₀q₁ to q₀q₂. Where two of these edges pass the line in order is the sign of the tetrahedron
     // they span; both intervals have interior points in common if each begins before the other ends.
     orient3d_sign(p[0], p[1], q[0], q[1]) < 0 && orient3d_sign(p[0], p[2], q[0], q[2]) > 0
+}
+
+/// On which side of a triangle's plane a point lies; a common corner, which the exact predicate is slow to find, is on it.
+fn side(triangle: &Triangle, point: [f64; 3]) -> i8 {
+    if triangle.contains(&point) {
+        return 0;
+    }
+    orient3d_sign(triangle[0], triangle[1], triangle[2], point)
 }
 
 /// The corner that is alone on its side of a plane which passes between the corners; a corner on the plane is on the other side.

@@ -31,7 +31,9 @@ mod rounding;
 mod topology;
 mod weld;
 
-pub(crate) use box_tree::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
+#[cfg(feature = "files")]
+pub(crate) use box_tree::enlarged;
+pub(crate) use box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
 pub use crossings::{Crossings, crossings};
 pub(crate) use edges::Start;
 pub use judgement::{Certificate, Overlap, certify};

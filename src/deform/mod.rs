@@ -16,6 +16,7 @@ mod problem_error;
 #[cfg(feature = "files")]
 mod problem_file;
 mod solve;
+pub mod warp;
 
 pub use body::{Body, BodyElements};
 pub use handles::{Handle, bind};

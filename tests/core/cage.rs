@@ -71,6 +71,16 @@ fn a_cage_fills_what_its_surface_encloses() {
 }
 
 #[test]
+fn vertices_that_no_triangle_uses_are_carried_too() {
+    let mut sphere = Surface::of(&zoo::sphere(24, 48));
+    sphere.positions.push([3.0, 0.1, 0.2]);
+    let cage = Cage::around(&[sphere.caged()], 20).expect("a cage");
+    let embedding = cage.embed(&sphere.positions).expect("inside");
+    let same = cage.interpolate(&embedding, cage.mesh().vertices());
+    assert!(norm(sub(same[same.len() - 1], [3.0, 0.1, 0.2])) < 1e-12);
+}
+
+#[test]
 fn a_shell_with_a_wide_hole_has_no_inside() {
     let mesh = zoo::grid(20, 20);
     let sheet = Surface::of(&mesh);

@@ -31,4 +31,6 @@ mod pipeline;
 mod solver;
 mod taylor;
 mod uv_meshes;
+#[cfg(feature = "files")]
+mod warp;
 mod zoo;

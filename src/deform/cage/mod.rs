@@ -61,6 +61,10 @@ impl Cage {
         )?;
         let mut voxels = Voxels::new(&grid);
         for surface in surfaces {
+            // Also those that no triangle uses.
+            for &p in surface.positions {
+                voxels.touch([p; 3])?;
+            }
             for triangle in surface.triangles {
                 voxels.touch(triangle.map(|v| surface.positions[v as usize]))?;
             }
