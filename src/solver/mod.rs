@@ -11,6 +11,7 @@
 //! clock and no randomness; who watches may end it early ([`Watch`]).
 
 mod follow;
+mod held;
 mod levenberg;
 mod line_search;
 mod newton;

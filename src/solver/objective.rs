@@ -1,7 +1,8 @@
 //! The function to minimize, with the memory that minimizing it takes.
 
+use super::held::{Held, form};
 use crate::energy::{Assembly, Positional, Term};
-use crate::numerics::block::{BlockPattern, Entry, Slots};
+use crate::numerics::block::{BlockPattern, Slots};
 use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
 
 /// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when this is made.
@@ -16,11 +17,8 @@ pub struct Objective {
     hessian: Vec<f64>,
     /// Energies far below the sum of the weights are rounding.
     scale: f64,
-    fixed: Vec<u32>,
-    fixed_entries: Vec<Entry>,
-    /// What stood at the fixed entries before they were cleared.
-    cleared: Vec<f64>,
-    cleared_gradient: Vec<f64>,
+    held: Held,
+    /// Of the energy, without the constraints.
     mean_diagonal: f64,
 }
 
@@ -80,10 +78,7 @@ impl Objective {
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             scale: terms.iter().map(|term| term.scale()).sum(),
-            fixed: Vec::new(),
-            fixed_entries: Vec::new(),
-            cleared: Vec::new(),
-            cleared_gradient: Vec::new(),
+            held: Held::default(),
             mean_diagonal: 0.0,
             slots,
             pattern,
@@ -94,18 +89,7 @@ impl Objective {
 
     /// Holds these vertices, and only these, where they are.
     pub fn fix(&mut self, vertices: &[u32]) {
-        let mut chosen = vec![false; self.n() / self.dim()];
-        for &v in vertices {
-            chosen[v as usize] = true;
-        }
-        self.fixed = vertices.to_vec();
-        self.fixed_entries = self.pattern.rows_and_columns(&chosen);
-        self.cleared = vec![0.0; self.fixed_entries.len()];
-    }
-
-    /// The vertices that are held.
-    pub fn fixed(&self) -> &[u32] {
-        &self.fixed
+        self.held = Held::new(&self.pattern, vertices);
     }
 
     /// Number of unknowns.
@@ -184,7 +168,19 @@ impl Objective {
         self.mean_diagonal = sum / diagonal.len().max(1) as f64;
         self.add_term(self.terms.len(), x, tau);
         self.shift_diagonal(SHIFT * self.mean_diagonal + f64::MIN_POSITIVE);
-        self.hold_fixed();
+        let diagonal = self.stand_in();
+        let Self {
+            pattern,
+            hessian,
+            gradient,
+            ..
+        } = self;
+        self.held.clear(pattern, hessian, gradient, diagonal);
+    }
+
+    /// What stands on the diagonal at held vertices.
+    fn stand_in(&self) -> f64 {
+        self.mean_diagonal.max(f64::MIN_POSITIVE)
     }
 
     /// Adds the derivatives of the `i`-th term, or of the constraints after the last.
@@ -206,20 +202,6 @@ impl Objective {
     pub fn shift_diagonal(&mut self, shift: f64) {
         for &slot in self.pattern.diagonal() {
             self.hessian[slot] += shift;
-        }
-    }
-
-    /// Makes rows and columns of the fixed vertices those of a multiple of the identity.
-    fn hold_fixed(&mut self) {
-        for (cleared, entry) in self.cleared.iter_mut().zip(&self.fixed_entries) {
-            *cleared = std::mem::take(&mut self.hessian[entry.slot]);
-        }
-        let held: Vec<usize> = self.fixed_unknowns().collect();
-        self.cleared_gradient.clear();
-        for i in held {
-            self.cleared_gradient.push(self.gradient[i]);
-            self.gradient[i] = 0.0;
-            self.hessian[self.pattern.diagonal()[i]] = self.mean_diagonal.max(f64::MIN_POSITIVE);
         }
     }
 
@@ -265,29 +247,12 @@ impl Objective {
     ///
     /// Cost: one solve.
     pub fn follow(&mut self, direction: &mut [f64], target_moves: &[f64]) {
-        let held: Vec<(usize, f64)> = self.fixed_unknowns().map(|i| (i, direction[i])).collect();
-        direction.fill(0.0);
+        let moves = self.held.take_moves(direction);
         if let Some(constraints) = &self.constraints {
             constraints.add_pull(target_moves, direction);
         }
-        let mut moves = vec![None; self.n()];
-        for &(i, value) in &held {
-            moves[i] = Some(value);
-        }
-        for &(i, _) in &held {
-            direction[i] = 0.0;
-        }
-        for (&value, entry) in self.cleared.iter().zip(&self.fixed_entries) {
-            match (moves[entry.row], moves[entry.column]) {
-                (Some(row), None) => direction[entry.column] -= value * row,
-                (None, Some(column)) => direction[entry.row] -= value * column,
-                _ => {}
-            }
-        }
         self.cholesky.solve(direction, 1);
-        for (i, value) in held {
-            direction[i] = value;
-        }
+        self.held.put_moves(&moves, direction);
     }
 
     /// What the quadratic model of the last [`linearize`](Self::linearize) says of the change of the energy along a
@@ -306,15 +271,7 @@ impl Objective {
                 quadratic += self.hessian[slot] * form(direction, pattern.row_idx[slot], j);
             }
         }
-        let mut held = 0.0;
-        for (i, g) in self.fixed_unknowns().zip(&self.cleared_gradient) {
-            let stand_in = self.hessian[self.pattern.diagonal()[i]];
-            held += g * direction[i] - 0.5 * stand_in * direction[i] * direction[i];
-        }
-        for (value, entry) in self.cleared.iter().zip(&self.fixed_entries) {
-            held += 0.5 * value * form(direction, entry.row, entry.column);
-        }
-        linear + 0.5 * quadratic + held
+        linear + 0.5 * quadratic + self.held.model_change(self.stand_in(), direction)
     }
 
     /// The mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), the constraints left out.
@@ -325,21 +282,5 @@ impl Objective {
     /// The sum of the weights.
     pub fn scale(&self) -> f64 {
         self.scale
-    }
-
-    fn fixed_unknowns(&self) -> impl Iterator<Item = usize> {
-        let dim = self.dim();
-        let fixed = self.fixed.iter();
-        fixed.flat_map(move |&v| dim * v as usize..dim * (v as usize + 1))
-    }
-}
-
-/// What a stored entry of a symmetric matrix is multiplied with in d·Hd.
-fn form(direction: &[f64], row: usize, column: usize) -> f64 {
-    let product = direction[row] * direction[column];
-    if row == column {
-        product
-    } else {
-        2.0 * product
     }
 }

@@ -28,23 +28,20 @@ def solve(program, problem, method, folder):
 
 
 def mean_edge(problem):
-    """Mean edge length of the rest mesh's elements, over every pair of corners."""
-    description = json.loads(problem.read_text())
-    path = problem.parent / description["mesh"]
-    words = path.read_text().split()
-    if path.suffix == ".off":
-        n, m, corners, at = int(words[1]), int(words[2]), 3, 4
+    """Mean edge length of the rest mesh's elements, over every pair of neighbouring corners."""
+    path = problem.parent / json.loads(problem.read_text())["mesh"]
+    rows = [line.split() for line in path.read_text().splitlines() if line.strip()]
+    if path.suffix == ".obj":
+        x = [[float(w) for w in row[1:4]] for row in rows if row[0] == "v"]
+        elements = [[int(w.split("/")[0]) - 1 for w in row[1:4]] for row in rows if row[0] == "f"]
     else:
-        n, m, corners, at = int(words[0]), int(words[1]), 4, 2
-    x = [[float(w) for w in words[at + 3 * i:at + 3 * i + 3]] for i in range(n)]
-    at, stride = at + 3 * n, corners + (path.suffix == ".off")
-    total, count = 0.0, 0
-    for e in range(m):
-        ids = [int(w) for w in words[at + stride * e:at + stride * (e + 1)]][-corners:]
-        for i in range(corners):
-            total += math.dist(x[ids[i]], x[ids[i - 1]])
-            count += 1
-    return total / count
+        is_off = path.suffix == ".off"
+        n, m = (int(w) for w in rows[1 if is_off else 0][:2])
+        begin = 2 if is_off else 1
+        x = [[float(w) for w in row[:3]] for row in rows[begin:begin + n]]
+        elements = [[int(w) for w in row][1 if is_off else 0:] for row in rows[begin + n:begin + n + m]]
+    lengths = [math.dist(x[e[i]], x[e[i - 1]]) for e in elements for i in range(len(e))]
+    return statistics.fmean(lengths)
 
 
 def judged(case, ours, report, tolerance):
