@@ -70,7 +70,7 @@
     feature = "files",
     doc = "| [`picture`] | UV layouts and distortion as PNG, pictures with transparency |"
 )]
-//! | [`deform`] | rest shapes from pictures, drawings and surfaces, and what lies in them carried along |
+//! | [`deform`] | bodies of the plane and of space pulled by handles; from pictures, drawings and surfaces in cages |
 //! | [`pipeline`] | from arrays or a document to an atlas and its report |
 #![cfg_attr(
     feature = "service",

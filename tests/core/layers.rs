@@ -77,7 +77,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "cli",
-        &["http", "store"],
+        &["http", "store", "deform"],
         &[
             "clap",
             "indicatif",

@@ -7,6 +7,7 @@ mod certificate;
 mod charts;
 mod crossings;
 mod cut;
+mod deform;
 mod disk;
 #[cfg(feature = "files")]
 mod document;
