@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::failure::Failure;
 use super::files::read_file;
 use super::solution::{Output, Records, solve_and_write};
-use super::words::{ALL_BARRIERS, DEFORMATIONS, word};
+use super::words::{BARRIERS, DEFORMATIONS, word};
 use crate::barrier::BarrierKind;
 use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
 use crate::deform::{Body, DeformationEnergy, Handle, Method, Model, Problem};
@@ -30,7 +30,7 @@ pub(super) struct Args {
     #[arg(long, default_value = "arap", value_parser = word::<DeformationEnergy>(DEFORMATIONS))]
     energy: DeformationEnergy,
     /// Barrier
-    #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(ALL_BARRIERS))]
+    #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(BARRIERS))]
     barrier: BarrierKind,
     /// Strength of the barrier; by default the paper's, 100 for green and 0.01 for the others
     #[arg(long, value_name = "X")]

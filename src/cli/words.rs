@@ -5,7 +5,6 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 pub(super) const ENERGIES: &[&str] = &["arap", "lscm", "symmetric-dirichlet"];
-pub(super) const BARRIERS: &[&str] = &["inverse-spline", "none"];
 pub(super) const DEFORMATIONS: &[&str] = &[
     "arap",
     "green",
@@ -19,7 +18,7 @@ pub(super) const DEFORMATIONS: &[&str] = &[
     "st-venant-kirchhoff",
     "neo-hookean",
 ];
-pub(super) const ALL_BARRIERS: &[&str] = &[
+pub(super) const BARRIERS: &[&str] = &[
     "inverse-spline",
     "augmented-log",
     "log",
