@@ -14,6 +14,7 @@ mod edges;
 pub mod io;
 mod surface;
 mod union_find;
+mod vertex_faces;
 mod weld;
 
 pub use adjacency::Adjacency;
@@ -22,3 +23,4 @@ pub use disk::{Disk, NotADisk};
 pub use edges::{CUT, Edges, next, origin, same_direction};
 pub use surface::{MeshError, Surface};
 pub use union_find::UnionFind;
+pub use vertex_faces::VertexFaces;
