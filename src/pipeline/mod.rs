@@ -35,4 +35,6 @@ pub use judge::{measure_document, verify_document};
 #[cfg(feature = "files")]
 pub use options::{MeasureOptions, Options};
 #[cfg(feature = "files")]
+pub use pictures::{Drawn, Pictures};
+#[cfg(feature = "files")]
 pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
