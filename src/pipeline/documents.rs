@@ -71,7 +71,11 @@ fn unwrap_in_pool(
 
     let mut report = Report::new(groups);
     report.options = Some(options.clone());
-    report.certified &= options.barrier != BarrierKind::None;
+    let is_promised = options.barrier != BarrierKind::None;
+    if is_promised && !report.certified {
+        return Err(PipelineError::NotCertified);
+    }
+    report.certified &= is_promised;
     report.written = Some(written.notes);
     report.seconds = Some(seconds);
     Ok(Outcome {

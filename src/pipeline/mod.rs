@@ -10,6 +10,7 @@
 
 mod arrays;
 mod error;
+mod map;
 mod observer;
 mod options;
 mod repeated;
