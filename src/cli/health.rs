@@ -4,23 +4,19 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
+use super::listen::Listen;
+
 const TIMEOUT: Duration = Duration::from_secs(3);
 
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Address of the service; `0.0.0.0` and `[::]` mean this machine
-    #[arg(
-        long,
-        value_name = "ADDRESS",
-        env = "UNWRAPD_LISTEN",
-        default_value = "127.0.0.1:8080"
-    )]
-    listen: SocketAddr,
+    #[command(flatten)]
+    listen: Listen,
 }
 
 /// Asks `/readyz` over a plain socket.
 pub(super) fn run(args: &Args) -> Result<(), String> {
-    let mut address = args.listen;
+    let mut address = args.listen.address;
     if address.ip().is_unspecified() {
         address.set_ip(match address {
             SocketAddr::V4(_) => std::net::Ipv4Addr::LOCALHOST.into(),

@@ -27,6 +27,7 @@ impl Which {
         MeasureOptions {
             texcoord: self.texcoord,
             group_by: self.group_by,
+            ..MeasureOptions::default()
         }
     }
 }

@@ -6,6 +6,7 @@
 mod failure;
 mod files;
 mod health;
+mod listen;
 mod measure;
 mod progress;
 mod serve;

@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io::{IsTerminal, Write};
-use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,6 +10,7 @@ use tokio::net::TcpListener;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio_util::sync::CancellationToken;
 
+use super::listen::Listen;
 use crate::http;
 use crate::jobs::{self, Jobs, LocalEvents};
 use crate::store::{FileBlobs, SqliteStore};
@@ -21,14 +21,8 @@ const STOP_TIME: Duration = Duration::from_secs(10);
 /// Every setting has a flag and an environment variable.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Address to listen on; port 0 takes a free one
-    #[arg(
-        long,
-        value_name = "ADDRESS",
-        env = "UNWRAPD_LISTEN",
-        default_value = "127.0.0.1:8080"
-    )]
-    listen: SocketAddr,
+    #[command(flatten)]
+    listen: Listen,
     /// Folder for the records and files of jobs; made if it does not exist
     #[arg(
         long,
@@ -85,6 +79,22 @@ pub(super) struct Args {
         value_parser = seconds
     )]
     synchronous_seconds: f64,
+    /// Days that a job is kept after its end, with its files
+    #[arg(
+        long,
+        value_name = "DAYS",
+        env = "UNWRAPD_RETAIN_DAYS",
+        default_value_t = 30.0,
+        value_parser = days
+    )]
+    retain_days: f64,
+}
+
+fn days(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(days) if (0.0..=1e6).contains(&days) => Ok(days),
+        _ => Err("a number of days between 0 and 1000000".to_owned()),
+    }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -94,6 +104,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+const DAY_SECONDS: f64 = 86_400.0;
 /// Default memory of a job, in bytes.
 const JOB_MEMORY: u64 = 8 << 30;
 
@@ -111,6 +122,7 @@ impl Args {
             time: Duration::from_secs_f64(self.job_seconds),
             memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory())),
             triangles: self.max_triangles,
+            retention: Duration::from_secs_f64(self.retain_days * DAY_SECONDS),
         })
     }
 
@@ -184,9 +196,10 @@ async fn serve(args: &Args) -> Result<(), String> {
     ));
     jobs.recover().await.map_err(|e| text(&e))?;
 
-    let listener = TcpListener::bind(args.listen)
+    let wished = args.listen.address;
+    let listener = TcpListener::bind(wished)
         .await
-        .map_err(|error| format!("cannot listen on {}: {error}", args.listen))?;
+        .map_err(|error| format!("cannot listen on {wished}: {error}"))?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
     // Whoever does not want to read it may close the pipe.
     let _ = writeln!(std::io::stdout(), "listening on http://{address}");

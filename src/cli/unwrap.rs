@@ -11,7 +11,7 @@ use crate::charts::Cut;
 use crate::document::{GroupBy, OutputFormat};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
-use crate::pipeline::{self, Options, Outcome};
+use crate::pipeline::{self, Limits, Options, Outcome};
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
 #[derive(clap::Args)]
@@ -92,6 +92,7 @@ impl Args {
                 .output
                 .file_stem()
                 .map(|stem| stem.to_string_lossy().into_owned()),
+            limits: Limits::default(),
         })
     }
 

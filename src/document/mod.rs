@@ -20,12 +20,13 @@ mod texcoord_lines;
 mod upload;
 mod uvs;
 
+use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
 pub use upload::Upload;
-pub use uvs::{CornerUvs, NewUvs, OutputFormat, WriteOptions, Written};
+pub use uvs::{NewUvs, OutputFormat, WriteOptions, Written};
 
 /// A file as it was read.
 pub enum Document {

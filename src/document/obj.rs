@@ -5,10 +5,9 @@
 //! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along its
 //! diagonals, as a corner of a polygon has one UV.
 use super::obj_text::rewrite;
-use super::{
-    CornerUvs, DocumentError, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
-};
+use super::{DocumentError, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written};
 use super::{new_gltf, new_obj};
+use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
 use std::collections::BTreeMap;
 

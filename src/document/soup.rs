@@ -1,5 +1,6 @@
 //! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
-use super::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written, new_gltf};
+use super::{DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written, new_gltf};
+use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
 
 /// A file as it was read.

@@ -1,9 +1,6 @@
 use super::{DocumentError, Primitive, WriteNotes};
 use serde::{Deserialize, Serialize};
 
-/// The UVs of the three corners of a face.
-pub type CornerUvs = [[f64; 2]; 3];
-
 /// A new UV set on the integer grid.
 #[derive(Debug, Clone)]
 pub struct NewUvs<'a> {

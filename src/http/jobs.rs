@@ -28,7 +28,8 @@ const MAX_PAGE: u32 = 200;
 ///
 /// With `Idempotency-Key`, a repetition within a day gets the same job instead of a second one. With `Prefer: wait=N`
 /// the answer waits up to N seconds (at most 60) and is 200 if the job has ended by then. Progress is found under
-/// `/events`, the result under `/result` and `/report`.
+/// `/events`, the result under `/result` and `/report`. Some time after its end, 30 days unless the service is set
+/// otherwise, a job is removed with its files.
 #[utoipa::path(
     post, path = "/v1/jobs", operation_id = "createJob", tag = "jobs",
     params(

@@ -4,6 +4,8 @@
 //! [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI document. Whatever goes wrong is
 //! answered with an RFC 9457 problem that carries a stable code (`problem.rs` has the table).
 
+mod answers;
+mod download;
 mod events;
 mod extract;
 mod framing;

@@ -84,9 +84,14 @@ fn members(value: &mut Value) -> impl Iterator<Item = &mut Value> {
     value.as_object_mut().into_iter().flat_map(Map::values_mut)
 }
 
-/// What holds for every operation: it may end with a problem, parameters are absent rather than null, and files are
-/// bytes.
+/// What holds for every operation: it may end with a problem, parameters are absent rather than null, files are bytes,
+/// and so are parts of them.
 fn complete(operation: &mut Value) {
+    if !operation["responses"]["206"].is_null() {
+        let mut content = operation["responses"]["200"]["content"].clone();
+        members(&mut content).for_each(|of_type| of_type["schema"] = bytes());
+        operation["responses"]["206"]["content"] = content;
+    }
     for response in members(&mut operation["responses"]) {
         for (media_type, content) in response
             .get_mut("content")

@@ -32,6 +32,7 @@ pub(super) enum Code {
     InvalidRequest,
     InvalidOptions,
     MissingMesh,
+    NeedsJob,
     NotFound,
     JobNotFound,
     NoSuchFile,
@@ -56,10 +57,11 @@ pub(super) enum Code {
 }
 
 impl Code {
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 25] = [
         Self::InvalidRequest,
         Self::InvalidOptions,
         Self::MissingMesh,
+        Self::NeedsJob,
         Self::NotFound,
         Self::JobNotFound,
         Self::NoSuchFile,
@@ -97,6 +99,7 @@ impl Code {
                 "An option is unknown or has no such value",
             ),
             Self::MissingMesh => ("missing_mesh", 400, "The upload has no part named mesh"),
+            Self::NeedsJob => ("needs_job", 400, "The result needs a job"),
             Self::NotFound => ("not_found", 404, "No such path"),
             Self::JobNotFound => ("job_not_found", 404, "No job has this id"),
             Self::NoSuchFile => ("no_such_file", 404, "The job makes no such file"),

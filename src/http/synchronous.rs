@@ -6,29 +6,23 @@ use axum::extract::{Request, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
 
+use super::answers::CallProblems;
 use super::jobs::wait_for;
 use super::problem::{Code, Problem};
-use super::upload;
-use super::{App, Shared, results};
+use super::{App, Shared, download, upload};
 use crate::jobs::{Ended, Job, JobId, Jobs, Kind, State as JobState, Submitted};
 
 /// Unwrap a mesh and get it back.
 ///
 /// For meshes that take seconds; it stands in the same queue as jobs do, and nothing is kept. The answer is the file in
-/// the format that `format` names; `gltf` has two files and needs a job. Report and pictures need a job as well.
-/// Closing the connection cancels.
+/// the format that `format` names, `glb` or `obj`; a `gltf` has files beside it, which one answer cannot hold: that needs
+/// a job (`needs_job`), and so do report and pictures. Closing the connection cancels.
 #[utoipa::path(
     post, path = "/v1/unwrap", operation_id = "unwrap", tag = "synchronous",
     params(("filename" = Option<String>, Query, description = "Name of the file in a raw body")),
     responses(
         (status = 200, description = "The mesh with its new UVs", content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/obj"))),
-        (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
-        (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
-        (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The mesh cannot be used; the code says why", body = Problem, content_type = "application/problem+json"),
-        (status = 500, description = "`crashed`, `internal_error`", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "`queue_full`, `stopping`, `worker_lost`", body = Problem, content_type = "application/problem+json"),
-        (status = 504, description = "`timed_out`: make it a job", body = Problem, content_type = "application/problem+json"),
+        CallProblems,
     )
 )]
 pub(super) async fn unwrap(State(app): Shared, request: Request) -> Result<Response, Problem> {
@@ -43,13 +37,7 @@ pub(super) async fn unwrap(State(app): Shared, request: Request) -> Result<Respo
     params(("filename" = Option<String>, Query, description = "Name of the file in a raw body")),
     responses(
         (status = 200, description = "The report", body = crate::pipeline::Report),
-        (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
-        (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
-        (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The mesh cannot be used, or has no UVs; the code says why", body = Problem, content_type = "application/problem+json"),
-        (status = 500, description = "`crashed`, `internal_error`", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "`queue_full`, `stopping`, `worker_lost`", body = Problem, content_type = "application/problem+json"),
-        (status = 504, description = "`timed_out`: make it a job", body = Problem, content_type = "application/problem+json"),
+        CallProblems,
     )
 )]
 pub(super) async fn measure(State(app): Shared, request: Request) -> Result<Response, Problem> {
@@ -63,8 +51,8 @@ async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, P
         .get("format")
         .is_some_and(|format| format == "gltf")
     {
-        let detail = "format gltf has several files: make it a job with POST /v1/jobs";
-        return Err(Problem::new(Code::InvalidOptions, detail));
+        let detail = "a gltf has files beside it: POST /v1/jobs, or ask for glb";
+        return Err(Problem::new(Code::NeedsJob, detail));
     }
     let (submission, _folder) = received.into_submission(None, true);
     let (Submitted::New(job) | Submitted::Replay(job)) = app.jobs.submit(submission).await?;
@@ -89,7 +77,7 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
     match (&job.failure, job.state, job.output.first()) {
         (Some(failure), _, _) => Err(Problem::of_failure(failure)),
         (None, JobState::Succeeded, Some(file)) => {
-            results::answer(app, job, file, &HeaderMap::new()).await
+            download::answer(app, job, file, &HeaderMap::new()).await
         }
         _ => Err(Problem::new(
             Code::WorkerLost,

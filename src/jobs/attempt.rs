@@ -12,6 +12,7 @@ use super::queue::{Control, Jobs, input_key, output_key};
 use super::storage::StoreResult;
 use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
 use super::timestamp::Timestamp;
+use crate::pipeline::Limits;
 
 /// How often the child's memory is looked at.
 const WATCH_INTERVAL: Duration = Duration::from_millis(250);
@@ -65,10 +66,12 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
         kind: job.kind,
         input: job.input.iter().map(|file| file.name.clone()).collect(),
         options: job.options.clone(),
-        threads: settings.threads,
-        triangles: settings.triangles,
+        limits: Limits {
+            triangles: Some(settings.triangles),
+            threads: Some(settings.threads),
+            seconds: Some(settings.time.as_secs_f64() * BUDGET_SHARE),
+        },
         memory: settings.memory,
-        seconds: settings.time.as_secs_f64() * BUDGET_SHARE,
     };
     Ok(task::write_json(folder, TASK, &task)?)
 }
@@ -168,6 +171,7 @@ async fn conclude(jobs: &Jobs, mut job: Job, ending: Ending) {
     match ending {
         Ending::Succeeded(output) => {
             job.state = State::Succeeded;
+            job.progress.stage = None;
             job.progress.fraction = 1.0;
             job.output = output;
         }

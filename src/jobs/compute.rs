@@ -18,7 +18,7 @@ use nix::sys::signal::{SigSet, Signal};
 use super::job::{Failure, Kind, OutputFile};
 use super::progress::Progress;
 use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
-use crate::document::{Document, Upload};
+use crate::document::Upload;
 use crate::pipeline::{self, Observer, PipelineError, Stage};
 use crate::solver::Control;
 
@@ -53,7 +53,6 @@ fn attempt(folder: &Path) -> Attempt<()> {
     };
     tell(&Message::Ready);
     let upload = read_upload(folder, &task.input).map_err(internal)?;
-    check_size(&upload, task.triangles)?;
     let files = match task.kind {
         Kind::Unwrap => unwrap(&upload, &task, &reporter)?,
         Kind::Measure => measure(&upload, &task)?,
@@ -107,31 +106,13 @@ fn read_upload(folder: &Path, names: &[String]) -> std::io::Result<Upload> {
     })
 }
 
-/// Refuses a mesh with too many triangles before anything is computed. Reading a file twice takes far less time than
-/// mapping it.
-fn check_size(upload: &Upload, limit: u64) -> Attempt<()> {
-    let document = Document::read(upload).map_err(|error| refusal(&error.into()))?;
-    let faces = document
-        .primitives()
-        .iter()
-        .map(|p| p.triangles.len() as u64);
-    let triangles: u64 = faces.sum();
-    if limit < triangles {
-        let detail = format!("the mesh has {triangles} triangles; {limit} are allowed");
-        return Err((3, Failure::new("limit_exceeded", detail)));
-    }
-    Ok(())
-}
-
 /// What a job leaves: role, name and content of each file.
 type Files = Vec<(String, String, Vec<u8>)>;
 
 fn unwrap(upload: &Upload, task: &Task, reporter: &Reporter) -> Attempt<Files> {
     let mut options: pipeline::Options =
         serde_json::from_value(task.options.clone()).map_err(internal)?;
-    let budget = options.time_budget.unwrap_or(f64::INFINITY);
-    options.time_budget = Some(budget.min(task.seconds));
-    options.threads = Some(options.threads.unwrap_or(usize::MAX).min(task.threads));
+    options.limits = task.limits;
     let outcome = pipeline::unwrap_document(upload, &options, reporter).map_err(|e| refusal(&e))?;
     let report = serde_json::to_vec_pretty(&outcome.report).map_err(internal)?;
     let mut files: Files = Vec::new();
@@ -152,8 +133,9 @@ fn unwrap(upload: &Upload, task: &Task, reporter: &Reporter) -> Attempt<Files> {
 }
 
 fn measure(upload: &Upload, task: &Task) -> Attempt<Files> {
-    let options: pipeline::MeasureOptions =
+    let mut options: pipeline::MeasureOptions =
         serde_json::from_value(task.options.clone()).map_err(internal)?;
+    options.limits = task.limits;
     let report = pipeline::measure_document(upload, &options).map_err(|e| refusal(&e))?;
     let report = serde_json::to_vec_pretty(&report).map_err(internal)?;
     Ok(vec![(

@@ -15,6 +15,8 @@
 //! The child ends when its standard input closes, so a killed server leaves no orphans; each attempt has its own
 //! folder and its own number, and what an outdated attempt reports changes no record.
 //!
+//! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its files.
+//!
 //! Where records, files and events live is not decided here: [`JobStore`], [`Blobs`] and [`Events`] are traits.
 
 mod attempt;
@@ -24,6 +26,7 @@ mod events;
 mod job;
 mod progress;
 mod queue;
+mod retention;
 mod settings;
 mod storage;
 mod submit;

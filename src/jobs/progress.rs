@@ -9,7 +9,7 @@ use crate::pipeline::Stage;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(default)]
 pub struct Progress {
-    /// What is being done; null before the start.
+    /// What is being done, or was being done at a bad end; null before the start and after success.
     pub stage: Option<Stage>,
     /// How much is done, from 0 to 1. It never falls.
     #[schema(minimum = 0, maximum = 1)]

@@ -19,7 +19,6 @@ use super::timestamp::Timestamp;
 const MAX_LOST: u32 = 3;
 /// Between two tries of a store that fails.
 const STORE_RETRY: Duration = Duration::from_secs(1);
-
 /// For a job that nobody waits for to end.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
 
@@ -75,7 +74,8 @@ impl Jobs {
     }
 
     /// Puts the house in order after a start: scratch is emptied, jobs that ran when the server was lost are queued
-    /// again (or failed, when that happened too often), calls that nobody waits for any more are forgotten.
+    /// again (or failed, when that happened too often), calls that nobody waits for any more are forgotten, and files
+    /// without a job are removed.
     pub async fn recover(&self) -> StoreResult<()> {
         let scratch = &self.settings.scratch;
         if tokio::fs::try_exists(scratch).await? {
@@ -96,12 +96,15 @@ impl Jobs {
                 self.make_live(&job);
             }
         }
-        Ok(())
+        self.remove_orphaned_files().await
     }
 
     /// Starts attempts as jobs come and slots are free. When told to stop, ends the running attempts, puts their jobs
-    /// back in the queue and returns.
+    /// back in the queue and returns. Removes jobs whose time is over meanwhile.
     pub async fn run(self: Arc<Self>, stop: CancellationToken) {
+        let (jobs, stopped) = (Arc::clone(&self), stop.clone());
+        self.tasks
+            .spawn(async move { jobs.remove_expired_until(&stopped).await });
         let slots = Arc::new(Semaphore::new(self.settings.concurrency));
         while let Some((slot, job)) = self.next(&slots, &stop).await {
             let (jobs, stop) = (Arc::clone(&self), stop.clone());

@@ -22,4 +22,6 @@ pub struct Settings {
     pub memory: u64,
     /// Triangles of a mesh.
     pub triangles: u64,
+    /// How long a job is kept after its end, with its files.
+    pub retention: Duration,
 }

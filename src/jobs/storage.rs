@@ -7,6 +7,7 @@ use futures_util::future::BoxFuture;
 use super::events::Subscription;
 use super::job::{Job, JobId, State};
 use super::progress::Event;
+use super::timestamp::Timestamp;
 
 /// The store did not do what it was asked; one line.
 #[derive(Debug, thiserror::Error)]
@@ -104,6 +105,9 @@ pub trait JobStore: Send + Sync {
     /// Removes a record and its idempotency key.
     fn delete(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>>;
 
+    /// The jobs that ended before a moment.
+    fn ended_before(&self, moment: Timestamp) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
+
     /// How many jobs there are in each state.
     fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>>;
 }
@@ -118,6 +122,9 @@ pub trait Blobs: Send + Sync {
 
     /// Opens a file for reading and seeking.
     fn open<'a>(&'a self, key: &'a str) -> BoxFuture<'a, StoreResult<tokio::fs::File>>;
+
+    /// The jobs that have files.
+    fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
     /// Removes all files of a job.
     fn remove(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>>;

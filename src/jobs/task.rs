@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::job::{Kind, OutputFile};
 use super::progress::Progress;
+use crate::pipeline::Limits;
 
 pub(super) const TASK: &str = "job.json";
 pub(super) const OUTCOME: &str = "outcome.json";
@@ -32,10 +33,9 @@ pub(super) struct Task {
     /// Names of the input files, the mesh first; the n-th lies in [`input_file`]`(n)`.
     pub input: Vec<String>,
     pub options: serde_json::Value,
-    pub threads: usize,
-    pub triangles: u64,
+    pub limits: Limits,
+    /// Bytes.
     pub memory: u64,
-    pub seconds: f64,
 }
 
 /// One line of a child's standard output.

@@ -31,8 +31,9 @@ pub fn unwrap_document(
     observer: &dyn Observer,
 ) -> Result<Outcome, PipelineError> {
     options.validate().map_err(PipelineError::InvalidOptions)?;
-    let tracker = Tracker::new(observer, options.time_budget);
-    in_pool(options.threads, || {
+    let settings = options.settings();
+    let tracker = Tracker::new(observer, settings.time_budget);
+    in_pool(settings.threads, || {
         unwrap_in_pool(upload, options, &tracker)
     })?
 }
@@ -47,6 +48,7 @@ fn unwrap_in_pool(
 
     tracker.stage(Stage::Read);
     let document = Document::read(upload)?;
+    options.limits.check(&document)?;
     let group_by = group_by(options);
     let groups = document.groups(group_by);
     let meshes: Vec<Merged> = groups
@@ -71,6 +73,7 @@ fn unwrap_in_pool(
 
     let mut report = Report::new(groups);
     report.options = Some(options.clone());
+    report.limits = Some(options.limits);
     let is_promised = options.barrier != BarrierKind::None;
     if is_promised && !report.certified {
         return Err(PipelineError::NotCertified);
@@ -84,7 +87,7 @@ fn unwrap_in_pool(
         pictures: Pictures {
             uvs,
             shown: options.heatmap_measure,
-            threads: options.threads,
+            threads: options.settings().threads,
         },
     })
 }

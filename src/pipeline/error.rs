@@ -18,6 +18,14 @@ pub enum PipelineError {
     #[cfg(feature = "files")]
     #[error(transparent)]
     Document(#[from] DocumentError),
+    /// More triangles than the limits allow.
+    #[error("the mesh has {triangles} triangles; {limit} are allowed")]
+    TooManyTriangles {
+        /// How many it has.
+        triangles: u64,
+        /// How many it may have.
+        limit: u64,
+    },
     /// No face has three distinct positions.
     #[error("the mesh has no triangle")]
     NoTriangles,
@@ -48,7 +56,7 @@ impl PipelineError {
             Self::InvalidOptions(_) => "invalid_options",
             Self::Mesh(MeshError::IndexOutOfRange { .. }) => "index_out_of_range",
             Self::Mesh(MeshError::NonFinitePosition { .. }) => "non_finite_position",
-            Self::Mesh(MeshError::TooLarge) => "limit_exceeded",
+            Self::Mesh(MeshError::TooLarge) | Self::TooManyTriangles { .. } => "limit_exceeded",
             #[cfg(feature = "files")]
             Self::Document(error) => error.code(),
             Self::NoTriangles => "no_triangles",
@@ -64,7 +72,10 @@ impl PipelineError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::InvalidOptions(_) => 2,
-            Self::Mesh(_) | Self::NoTriangles | Self::NoUvs { .. } => 3,
+            Self::Mesh(_)
+            | Self::TooManyTriangles { .. }
+            | Self::NoTriangles
+            | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
             Self::Document(_) => 3,
             Self::Atlas(_) => 4,

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::PipelineError;
+use super::arrays::in_pool;
 use super::options::MeasureOptions;
 use super::report::{GroupReport, Report};
 use crate::certificate::{Certificate, CornerUvs, Overlap, certify};
@@ -141,9 +142,7 @@ pub fn measure_document(
     upload: &Upload,
     options: &MeasureOptions,
 ) -> Result<Report, PipelineError> {
-    let document = Document::read(upload)?;
-    let uvs = WrittenUvs::gather(&document, options.group_by, |_| options.texcoord)?;
-    Ok(Report::new(uvs.judge()))
+    with_uvs(upload, options, |uvs| Report::new(uvs.judge()))
 }
 
 /// Judges the UVs that a document has: a certificate per group, by name. Shares no code with the writer.
@@ -152,11 +151,24 @@ pub fn verify_document(
     options: &MeasureOptions,
     overlap: Overlap,
 ) -> Result<Vec<(String, Certificate)>, PipelineError> {
-    let document = Document::read(upload)?;
-    let uvs = WrittenUvs::gather(&document, options.group_by, |_| options.texcoord)?;
-    Ok(uvs
-        .groups
-        .par_iter()
-        .map(|group| (group.name.clone(), group.certify(overlap)))
-        .collect())
+    with_uvs(upload, options, |uvs| {
+        uvs.groups
+            .par_iter()
+            .map(|group| (group.name.clone(), group.certify(overlap)))
+            .collect()
+    })
+}
+
+/// Does something with the UVs that a document has, within the limits.
+fn with_uvs<T: Send>(
+    upload: &Upload,
+    options: &MeasureOptions,
+    judge: impl FnOnce(&WrittenUvs) -> T + Send,
+) -> Result<T, PipelineError> {
+    in_pool(options.limits.threads, || {
+        let document = Document::read(upload)?;
+        options.limits.check(&document)?;
+        let uvs = WrittenUvs::gather(&document, options.group_by, |_| options.texcoord)?;
+        Ok(judge(&uvs))
+    })?
 }

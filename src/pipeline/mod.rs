@@ -20,6 +20,8 @@ mod documents;
 #[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]
+mod limits;
+#[cfg(feature = "files")]
 mod pictures;
 #[cfg(feature = "files")]
 mod report;
@@ -33,6 +35,8 @@ pub use options::Settings;
 pub use documents::{Outcome, unwrap_document};
 #[cfg(feature = "files")]
 pub use judge::{measure_document, verify_document};
+#[cfg(feature = "files")]
+pub use limits::Limits;
 #[cfg(feature = "files")]
 pub use options::{MeasureOptions, Options};
 #[cfg(feature = "files")]

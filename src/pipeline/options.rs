@@ -1,7 +1,10 @@
 //! What a caller may choose, with defaults and limits.
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
+#[cfg(feature = "files")]
+use super::Limits;
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 #[cfg(feature = "files")]
@@ -124,6 +127,9 @@ pub struct Options {
     /// Name of the written files without extension; the input's if absent. Not an option over HTTP.
     #[serde(skip)]
     pub stem: Option<String>,
+    /// What may be used of all this. Not an option over HTTP.
+    #[serde(skip)]
+    pub limits: Limits,
 }
 
 #[cfg(feature = "files")]
@@ -146,13 +152,14 @@ impl Default for Options {
             heatmap_measure: HeatmapMeasure::SymmetricDirichlet,
             format: OutputFormat::Glb,
             stem: None,
+            limits: Limits::default(),
         }
     }
 }
 
 #[cfg(feature = "files")]
 impl Options {
-    /// The part that concerns the geometry.
+    /// The part that concerns the geometry, within the limits.
     pub fn settings(&self) -> Settings {
         Settings {
             energy: self.energy,
@@ -162,8 +169,8 @@ impl Options {
             cut: self.cut,
             resolution: self.resolution,
             padding: self.padding,
-            threads: self.threads,
-            time_budget: self.time_budget,
+            threads: self.limits.threads(self.threads),
+            time_budget: self.limits.time_budget(self.time_budget),
         }
     }
 
@@ -193,6 +200,9 @@ pub struct MeasureOptions {
     pub texcoord: u32,
     /// What shares one atlas.
     pub group_by: GroupBy,
+    /// What may be used for it. Not an option over HTTP.
+    #[serde(skip)]
+    pub limits: Limits,
 }
 
 #[cfg(feature = "files")]
@@ -201,6 +211,7 @@ impl Default for MeasureOptions {
         Self {
             texcoord: 0,
             group_by: GroupBy::Mesh,
+            limits: Limits::default(),
         }
     }
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::arrays::{ChartRecord, Unwrapped};
+use super::limits::Limits;
 use super::options::Options;
 use crate::certificate::Certificate;
 use crate::document::WriteNotes;
@@ -24,6 +25,9 @@ pub struct Report {
     /// What was asked for; absent where existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub options: Option<Options>,
+    /// What it was allowed to use of that; absent where existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<Limits>,
     /// Every group has a valid certificate and was mapped with a barrier.
     pub certified: bool,
     /// One entry per atlas, in the document's order.
@@ -107,6 +111,7 @@ impl Report {
             schema_version: SCHEMA_VERSION,
             unwrapd_version: env!("CARGO_PKG_VERSION"),
             options: None,
+            limits: None,
             certified: groups.iter().all(|group| group.certificate.is_valid()),
             groups,
             written: None,

@@ -25,7 +25,7 @@ impl FileBlobs {
 }
 
 impl Blobs for FileBlobs {
-    /// The content reaches the disk before the name does, and the name before this returns.
+    /// The content reaches the disk before the name does, and the name with all folders on its way before this returns.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
         async move {
             let to = self.root.join(key);
@@ -33,7 +33,14 @@ impl Blobs for FileBlobs {
             fs::create_dir_all(folder).await?;
             fs::File::open(from).await?.sync_all().await?;
             fs::rename(from, &to).await?;
-            Ok(fs::File::open(folder).await?.sync_all().await?)
+            for folder in to
+                .ancestors()
+                .skip(1)
+                .take_while(|f| f.starts_with(&self.root))
+            {
+                fs::File::open(folder).await?.sync_all().await?;
+            }
+            Ok(())
         }
         .boxed()
     }
@@ -45,6 +52,24 @@ impl Blobs for FileBlobs {
 
     fn open<'a>(&'a self, key: &'a str) -> BoxFuture<'a, StoreResult<fs::File>> {
         async move { Ok(fs::File::open(self.root.join(key)).await?) }.boxed()
+    }
+
+    fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
+        async move {
+            let mut folders = fs::read_dir(&self.root).await?;
+            let mut owners = Vec::new();
+            while let Some(folder) = folders.next_entry().await? {
+                // What has another name was not put here by this program.
+                owners.extend(
+                    folder
+                        .file_name()
+                        .to_str()
+                        .and_then(|name| name.parse::<JobId>().ok()),
+                );
+            }
+            Ok(owners)
+        }
+        .boxed()
     }
 
     fn remove(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>> {

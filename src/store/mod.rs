@@ -9,7 +9,9 @@
 //! DATA/scratch/…        what is in the making; emptied at every start
 //! ```
 
+mod database;
 mod files;
+mod idempotency;
 mod rows;
 mod sqlite;
 

@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, Sqlite, Transaction};
 
-use crate::jobs::{Job, StoreError, StoreResult, Timestamp};
+use crate::jobs::{Job, JobId, StoreError, StoreResult, Timestamp};
 
 /// Adds a job that has not been started.
 pub(super) async fn insert(
@@ -45,6 +45,12 @@ fn damaged(error: impl std::fmt::Display) -> StoreError {
     StoreError(format!("a record is damaged: {error}"))
 }
 
+/// The id that a row holds.
+pub(super) fn id(row: &SqliteRow) -> StoreResult<JobId> {
+    let text: String = row.try_get("id").map_err(damaged)?;
+    text.parse().map_err(damaged)
+}
+
 /// The job that a row of `SELECT * FROM job` holds.
 pub(super) fn job(row: &SqliteRow) -> StoreResult<Job> {
     let text = |column| row.try_get::<String, _>(column).map_err(damaged);
@@ -54,7 +60,7 @@ pub(super) fn job(row: &SqliteRow) -> StoreResult<Job> {
         Ok::<_, StoreError>(ms.map(Timestamp))
     };
     Ok(Job {
-        id: text("id")?.parse().map_err(damaged)?,
+        id: id(row)?,
         kind: word(&text("kind")?)?,
         state: word(&text("state")?)?,
         options: parsed(&text("options")?)?,

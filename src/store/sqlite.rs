@@ -1,79 +1,29 @@
 //! Records of jobs in SQLite.
 
 use std::path::Path;
-use std::time::Duration;
 
 use futures_util::FutureExt;
 use futures_util::future::BoxFuture;
-use sqlx::sqlite::{
-    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteRow,
-    SqliteSynchronous,
-};
-use sqlx::{Row, Sqlite, Transaction};
+use sqlx::Row;
+use sqlx::sqlite::SqliteRow;
 
-use super::rows;
+use super::database::Database;
+use super::{idempotency, rows};
 use crate::jobs::{
-    Enqueued, Event, IdempotencyKey, Job, JobId, JobStore, Listing, State, StoreError, StoreResult,
-    Timestamp, Wish, next_attempt_seq,
+    Enqueued, Event, IdempotencyKey, Job, JobId, JobStore, Listing, State, StoreResult, Timestamp,
+    Wish, next_attempt_seq,
 };
 
-const SCHEMA: &str = include_str!("schema.sql");
-const SCHEMA_VERSION: i64 = 1;
-/// How long a statement waits for another one's lock.
-const BUSY: Duration = Duration::from_secs(5);
-/// How long an idempotency key is remembered: one day.
-const KEY_LIFE_MS: i64 = 86_400_000;
-
-/// A database file. Every method is one transaction, durable when it returns.
+/// Records in a database file. Every method is one transaction, durable when it returns.
 pub struct SqliteStore {
-    pool: SqlitePool,
-}
-
-impl From<sqlx::Error> for StoreError {
-    fn from(error: sqlx::Error) -> Self {
-        Self(error.to_string())
-    }
+    database: Database,
 }
 
 impl SqliteStore {
-    /// Opens the database, and makes it if need be.
+    /// Opens the database file, and makes it if need be.
     pub async fn open(file: &Path) -> StoreResult<Self> {
-        let options = SqliteConnectOptions::new()
-            .filename(file)
-            .create_if_missing(true)
-            .journal_mode(SqliteJournalMode::Wal)
-            .synchronous(SqliteSynchronous::Full)
-            .foreign_keys(true)
-            .busy_timeout(BUSY);
-        let pool = SqlitePoolOptions::new()
-            .max_connections(4)
-            .connect_with(options)
-            .await?;
-        let store = Self { pool };
-        let version: i64 = sqlx::query("PRAGMA user_version")
-            .fetch_one(&store.pool)
-            .await?
-            .try_get(0)?;
-        match version {
-            0 => {
-                let mut transaction = store.begin().await?;
-                sqlx::raw_sql(SCHEMA).execute(&mut *transaction).await?;
-                transaction.commit().await?;
-            }
-            SCHEMA_VERSION => {}
-            newer => {
-                let file = file.display();
-                return Err(StoreError(format!(
-                    "{file} has schema version {newer}; this program knows {SCHEMA_VERSION}"
-                )));
-            }
-        }
-        Ok(store)
-    }
-
-    /// Takes the write lock at once: a transaction that reads first could not get it later.
-    async fn begin(&self) -> sqlx::Result<Transaction<'_, Sqlite>> {
-        self.pool.begin_with("BEGIN IMMEDIATE").await
+        let database = Database::open(file).await?;
+        Ok(Self { database })
     }
 }
 
@@ -85,15 +35,12 @@ impl JobStore for SqliteStore {
         depth: u32,
     ) -> BoxFuture<'a, StoreResult<Enqueued>> {
         async move {
-            let mut transaction = self.begin().await?;
-            if let Some(key) = key {
-                sqlx::query("DELETE FROM idempotency WHERE created < ?")
-                    .bind(job.created.0 - KEY_LIFE_MS)
-                    .execute(&mut *transaction)
-                    .await?;
-                if let Some(earlier) = key_use(&mut transaction, key).await? {
-                    return Ok(earlier);
-                }
+            let mut transaction = self.database.begin().await?;
+            if let Some(key) = key
+                && let Some(earlier) =
+                    idempotency::earlier_use(key, job.created, &mut transaction).await?
+            {
+                return Ok(earlier);
             }
             let queued: i64 = sqlx::query("SELECT count(*) FROM job WHERE state = 'queued'")
                 .fetch_one(&mut *transaction)
@@ -104,13 +51,7 @@ impl JobStore for SqliteStore {
             }
             rows::insert(job, &mut transaction).await?;
             if let Some(key) = key {
-                sqlx::query("INSERT INTO idempotency VALUES (?, ?, ?, ?)")
-                    .bind(&key.key)
-                    .bind(&key.fingerprint)
-                    .bind(job.id.to_string())
-                    .bind(job.created.0)
-                    .execute(&mut *transaction)
-                    .await?;
+                idempotency::remember(key, job, &mut transaction).await?;
             }
             transaction.commit().await?;
             Ok(Enqueued::New)
@@ -122,7 +63,7 @@ impl JobStore for SqliteStore {
         async move {
             let row = sqlx::query("SELECT * FROM job WHERE id = ?")
                 .bind(id.to_string())
-                .fetch_optional(&self.pool)
+                .fetch_optional(&self.database.pool)
                 .await?;
             row.as_ref().map(rows::job).transpose()
         }
@@ -139,7 +80,7 @@ impl JobStore for SqliteStore {
             .bind(listing.state.map(State::word))
             .bind(listing.before.map(|id| id.to_string()))
             .bind(i64::from(listing.limit))
-            .fetch_all(&self.pool)
+            .fetch_all(&self.database.pool)
             .await?;
             jobs(&found)
         }
@@ -148,7 +89,7 @@ impl JobStore for SqliteStore {
 
     fn claim(&self) -> BoxFuture<'_, StoreResult<Option<Job>>> {
         async move {
-            let mut transaction = self.begin().await?;
+            let mut transaction = self.database.begin().await?;
             let oldest = "SELECT * FROM job WHERE state = 'queued' ORDER BY id LIMIT 1";
             let Some(row) = sqlx::query(oldest)
                 .fetch_optional(&mut *transaction)
@@ -182,7 +123,7 @@ impl JobStore for SqliteStore {
         attempt: u32,
         event: Event,
     ) -> BoxFuture<'static, StoreResult<()>> {
-        let pool = self.pool.clone();
+        let pool = self.database.pool.clone();
         async move {
             sqlx::query(
                 "UPDATE job SET seq = ?, progress = ? WHERE id = ? AND attempt = ? AND state = 'running'",
@@ -213,7 +154,7 @@ impl JobStore for SqliteStore {
             .bind(job.finished.map(|time| time.0))
             .bind(job.id.to_string())
             .bind(i64::from(job.attempt))
-            .execute(&self.pool)
+            .execute(&self.database.pool)
             .await?;
             Ok(changed.rows_affected() == 1)
         }
@@ -222,7 +163,7 @@ impl JobStore for SqliteStore {
 
     fn wish(&self, id: JobId, wish: Wish) -> BoxFuture<'_, StoreResult<Option<Job>>> {
         async move {
-            let mut transaction = self.begin().await?;
+            let mut transaction = self.database.begin().await?;
             let recorded = match wish {
                 Wish::Cancel => {
                     "UPDATE job SET cancel = 1, seq = seq + (state = 'queued'),
@@ -252,7 +193,7 @@ impl JobStore for SqliteStore {
 
     fn recover(&self) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
         async move {
-            let mut transaction = self.begin().await?;
+            let mut transaction = self.database.begin().await?;
             sqlx::query(
                 "UPDATE job SET state = 'cancelled', seq = seq + 1, finished = ?
                  WHERE state IN ('queued', 'running') AND cancel",
@@ -276,9 +217,20 @@ impl JobStore for SqliteStore {
         async move {
             sqlx::query("DELETE FROM job WHERE id = ?")
                 .bind(id.to_string())
-                .execute(&self.pool)
+                .execute(&self.database.pool)
                 .await?;
             Ok(())
+        }
+        .boxed()
+    }
+
+    fn ended_before(&self, moment: Timestamp) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
+        async move {
+            let found = sqlx::query("SELECT id FROM job WHERE finished < ?")
+                .bind(moment.0)
+                .fetch_all(&self.database.pool)
+                .await?;
+            found.iter().map(rows::id).collect()
         }
         .boxed()
     }
@@ -286,7 +238,7 @@ impl JobStore for SqliteStore {
     fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>> {
         async move {
             let found = sqlx::query("SELECT state, count(*) FROM job GROUP BY state")
-                .fetch_all(&self.pool)
+                .fetch_all(&self.database.pool)
                 .await?;
             let mut counts = State::ALL.map(|state| (state, 0)).to_vec();
             for row in found {
@@ -305,24 +257,4 @@ impl JobStore for SqliteStore {
 
 fn jobs(found: &[SqliteRow]) -> StoreResult<Vec<Job>> {
     found.iter().map(rows::job).collect()
-}
-
-/// What an idempotency key was used for before, if it was.
-async fn key_use(
-    transaction: &mut Transaction<'_, Sqlite>,
-    key: &IdempotencyKey,
-) -> StoreResult<Option<Enqueued>> {
-    let row = sqlx::query(
-        "SELECT job.*, fingerprint FROM idempotency JOIN job ON job.id = idempotency.job WHERE key = ?",
-    )
-    .bind(&key.key)
-    .fetch_optional(&mut **transaction)
-    .await?;
-    let Some(row) = row else {
-        return Ok(None);
-    };
-    if row.try_get::<String, _>("fingerprint")? != key.fingerprint {
-        return Ok(Some(Enqueued::KeyReused));
-    }
-    Ok(Some(Enqueued::Replay(Box::new(rows::job(&row)?))))
 }

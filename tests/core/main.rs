@@ -1,6 +1,7 @@
 //! Tests of the geometry library.
 mod atlas;
 mod barrier;
+mod box_tree;
 mod certificate;
 mod charts;
 mod cut;

@@ -59,6 +59,12 @@ impl Server {
         kill(Pid::from_raw(self.process.id() as i32), signal).expect("the server is ours");
     }
 
+    /// Starts it again on the same data, with other environment variables.
+    pub fn restart_with(&mut self, settings: &[(&'static str, &'static str)]) {
+        self.settings = settings.to_vec();
+        self.restart();
+    }
+
     /// Starts it again on the same data.
     pub fn restart(&mut self) {
         (self.process, self.stdout, self.address) = spawn(self.data.path(), &self.settings);

@@ -44,7 +44,10 @@ async fn unusable_meshes_are_problems() {
     let no_uvs = send("/v1/measure", meshes::TRIANGLE).await;
     assert_problem(no_uvs, 422, "no_uvs").await;
     let two_files = send("/v1/unwrap?format=gltf", meshes::TRIANGLE).await;
-    assert_problem(two_files, 400, "invalid_options").await;
+    assert_problem(two_files, 400, "needs_job").await;
+    let obj = send("/v1/unwrap?format=obj", meshes::TRIANGLE).await;
+    let obj = obj.text().await.expect("text");
+    assert!(obj.contains("\nvt "), "{obj}");
 }
 
 #[tokio::test]

@@ -28,7 +28,8 @@ mod uri;
 mod vertices;
 mod write;
 
-use super::{CornerUvs, DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
+use super::{DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
+use crate::certificate::CornerUvs;
 pub use references::references;
 
 use accessor::Accessor;

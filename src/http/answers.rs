@@ -1,0 +1,79 @@
+//! Answers that several operations have in common, for the OpenAPI document.
+
+use std::collections::BTreeMap;
+
+use utoipa::IntoResponses;
+use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
+
+use super::problem::Code;
+
+/// By status.
+type Responses = BTreeMap<String, RefOr<Response>>;
+
+/// What asking for a file that a job made is answered, apart from the file.
+pub(super) struct FileAnswers;
+
+/// What a synchronous call is answered, apart from its result.
+pub(super) struct CallProblems;
+
+impl IntoResponses for FileAnswers {
+    fn responses() -> Responses {
+        let mut answers = problems(&[
+            Code::JobNotFound,
+            Code::NoSuchFile,
+            Code::NotFinished,
+            Code::NoResult,
+            Code::RangeNotSatisfiable,
+        ]);
+        for (status, description) in [("206", "The asked range of it"), ("304", "Unchanged")] {
+            let answer = ResponseBuilder::new().description(description);
+            answers.insert(status.to_owned(), answer.into());
+        }
+        answers
+    }
+}
+
+impl IntoResponses for CallProblems {
+    fn responses() -> Responses {
+        let mut answers = problems(&[
+            Code::InvalidRequest,
+            Code::InvalidOptions,
+            Code::MissingMesh,
+            Code::NeedsJob,
+            Code::UploadTooLarge,
+            Code::UnsupportedMediaType,
+            Code::InternalError,
+            Code::Crashed,
+            Code::QueueFull,
+            Code::Stopping,
+            Code::WorkerLost,
+            Code::TimedOut,
+        ]);
+        let unusable = "The mesh cannot be used; the code says why";
+        answers.insert("422".to_owned(), problem(unusable.to_owned()));
+        answers
+    }
+}
+
+/// The codes by their statuses.
+fn problems(codes: &[Code]) -> Responses {
+    let mut descriptions: BTreeMap<u16, Vec<String>> = BTreeMap::new();
+    for code in codes {
+        let (word, status, title) = code.row();
+        let lines = descriptions.entry(status).or_default();
+        lines.push(format!("`{word}`: {title}"));
+    }
+    descriptions
+        .into_iter()
+        .map(|(status, lines)| (status.to_string(), problem(lines.join("; "))))
+        .collect()
+}
+
+fn problem(description: String) -> RefOr<Response> {
+    let schema = Ref::from_schema_name("Problem");
+    let content = ContentBuilder::new().schema(Some(schema)).build();
+    ResponseBuilder::new()
+        .description(description)
+        .content("application/problem+json", content)
+        .into()
+}

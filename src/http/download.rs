@@ -1,0 +1,130 @@
+//! A stored file as an answer: whole, a range of it, or unchanged (RFC 9110).
+
+use std::io::SeekFrom;
+use std::ops::Range;
+
+use axum::body::Body;
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use tokio::io::{AsyncReadExt, AsyncSeekExt};
+use tokio_util::io::ReaderStream;
+
+use super::App;
+use super::problem::{Code, Problem};
+use crate::jobs::{Job, OutputFile};
+
+/// A file that a job made, or what of it was asked for. The name of its version is job, attempt and role: files never
+/// change.
+pub(super) async fn answer(
+    app: &App,
+    job: &Job,
+    file: &OutputFile,
+    headers: &HeaderMap,
+) -> Result<Response, Problem> {
+    let tag = format!(
+        "\"{}-{}-{}\"",
+        job.id,
+        job.attempt,
+        file.role.replace('/', "-")
+    );
+    if names(headers, header::IF_NONE_MATCH, &tag) {
+        return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
+    }
+    let is_same = !headers.contains_key(header::IF_RANGE) || names(headers, header::IF_RANGE, &tag);
+    let range = match headers.get(header::RANGE).filter(|_| is_same) {
+        Some(value) => range(value, file.bytes),
+        None => Ok(None),
+    };
+    let Ok(range) = range else {
+        let detail = format!("the file has {} bytes", file.bytes);
+        let problem = Problem::new(Code::RangeNotSatisfiable, detail).with_limit(file.bytes);
+        let size = [(header::CONTENT_RANGE, format!("bytes */{}", file.bytes))];
+        return Ok((size, problem).into_response());
+    };
+    let part = range.clone().unwrap_or(0..file.bytes);
+    let mut content = app.jobs.open(job, file).await?;
+    content.seek(SeekFrom::Start(part.start)).await?;
+    let length = part.end - part.start;
+    let body = Body::from_stream(ReaderStream::new(content.take(length)));
+    let mut response = body.into_response();
+    let headers = response.headers_mut();
+    let mut set = |name, value: &str| {
+        if let Ok(value) = HeaderValue::from_str(value) {
+            headers.insert(name, value);
+        }
+    };
+    set(header::CONTENT_TYPE, content_type(&file.name));
+    set(header::CONTENT_LENGTH, &length.to_string());
+    set(header::CONTENT_DISPOSITION, &disposition(&file.name));
+    set(header::ACCEPT_RANGES, "bytes");
+    set(header::CACHE_CONTROL, "private, no-cache");
+    set(header::ETAG, &tag);
+    if range.is_some() {
+        let range = format!("bytes {}-{}/{}", part.start, part.end - 1, file.bytes);
+        set(header::CONTENT_RANGE, &range);
+        *response.status_mut() = StatusCode::PARTIAL_CONTENT;
+    }
+    Ok(response)
+}
+
+fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) -> bool {
+    headers
+        .get_all(name)
+        .iter()
+        .filter_map(|value| value.to_str().ok())
+        .flat_map(|value| value.split(','))
+        .any(|given| given.trim() == tag || given.trim() == "*")
+}
+
+/// The one range of a Range header. What is no single range of bytes is ignored, as RFC 9110 asks; `Err` has no byte
+/// of the file in it.
+fn range(value: &HeaderValue, size: u64) -> Result<Option<Range<u64>>, ()> {
+    let spec = value
+        .to_str()
+        .ok()
+        .and_then(|text| text.strip_prefix("bytes="));
+    let Some((first, last)) = spec.and_then(|spec| spec.split_once('-')) else {
+        return Ok(None);
+    };
+    let range = match (first.trim().parse::<u64>(), last.trim().parse::<u64>()) {
+        (Ok(first), Ok(last)) if first <= last => first..size.min(last.saturating_add(1)),
+        (Ok(first), Err(_)) if last.trim().is_empty() => first..size,
+        (Err(_), Ok(count)) if first.trim().is_empty() => size - size.min(count)..size,
+        _ => return Ok(None),
+    };
+    if range.is_empty() {
+        Err(())
+    } else {
+        Ok(Some(range))
+    }
+}
+
+fn content_type(name: &str) -> &'static str {
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    match extension {
+        "glb" => "model/gltf-binary",
+        "gltf" => "model/gltf+json",
+        "obj" => "model/obj",
+        "json" => "application/json",
+        "png" => "image/png",
+        _ => "application/octet-stream",
+    }
+}
+
+/// Pictures and reports are shown, everything else is saved. The name is given in ASCII, and in UTF-8 if it needs it.
+fn disposition(name: &str) -> String {
+    let kind = match content_type(name) {
+        "image/png" | "application/json" => "inline",
+        _ => "attachment",
+    };
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_' | ' ');
+    let ascii: String = name
+        .chars()
+        .map(|c| if plain(c) { c } else { '_' })
+        .collect();
+    if ascii == name {
+        return format!("{kind}; filename=\"{ascii}\"");
+    }
+    let encoded = percent_encoding::utf8_percent_encode(name, percent_encoding::NON_ALPHANUMERIC);
+    format!("{kind}; filename=\"{ascii}\"; filename*=UTF-8''{encoded}")
+}

@@ -1,0 +1,123 @@
+//! PLY, text and binary of both byte orders.
+//!
+//! A header declares elements and their properties, the data follow in that order. Used are `x y z` of `vertex`
+//! and the list `vertex_indices` (or `vertex_index`) of `face`; everything else is passed over by its declared
+//! size. Read without a library: the kept one at hand refuses `nan` anywhere in a text file, numbers such as `1.`
+//! and comments that are not UTF-8, and runs for ever on an element that has a count but no properties.
+mod data;
+mod header;
+
+use self::data::Data;
+use self::header::{Element, Kind, header};
+use super::{IndexedTriangles, ReadError, position, push_fan};
+
+fn malformed(at: usize, cause: &'static str) -> ReadError {
+    ReadError::Malformed {
+        format: "PLY",
+        place: "byte",
+        at,
+        cause,
+    }
+}
+
+/// Reads a PLY file.
+pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
+    let header = header(bytes)?;
+    let mut data = Data {
+        bytes,
+        at: header.end,
+        encoding: header.encoding,
+    };
+    let mut mesh = IndexedTriangles::default();
+    for element in &header.elements {
+        match element.name.as_slice() {
+            b"vertex" => read_vertices(element, &mut data, &mut mesh)?,
+            b"face" => read_faces(element, &mut data, &mut mesh)?,
+            _ => read_records(element, &mut data, None, |_| Ok(()))?,
+        }
+    }
+    let n_vertices = mesh.positions.len();
+    match mesh.triangles.iter().flatten().max() {
+        Some(&index) if index as usize >= n_vertices => Err(ReadError::IndexOutOfRange {
+            index: i64::from(index),
+            n_vertices,
+        }),
+        _ => Ok(mesh),
+    }
+}
+
+fn read_vertices(
+    element: &Element,
+    data: &mut Data,
+    mesh: &mut IndexedTriangles,
+) -> Result<(), ReadError> {
+    let at = data.at;
+    let axis = |name: &[u8]| {
+        let found = element.properties.iter().position(|p| p.name == name);
+        found.ok_or_else(|| malformed(at, "a vertex needs the properties x, y and z"))
+    };
+    let axes = [axis(b"x")?, axis(b"y")?, axis(b"z")?];
+    read_records(element, data, None, |record| {
+        let coordinates = axes.map(|property| record.scalars[property]);
+        let vertex = mesh.positions.len();
+        mesh.positions.push(position(coordinates, vertex)?);
+        Ok(())
+    })
+}
+
+/// Faces may come before the vertices: their indices are compared with the vertices at the end of the file.
+fn read_faces(
+    element: &Element,
+    data: &mut Data,
+    mesh: &mut IndexedTriangles,
+) -> Result<(), ReadError> {
+    let list = element.properties.iter().position(|p| {
+        matches!(p.kind, Kind::List { .. })
+            && matches!(p.name.as_slice(), b"vertex_indices" | b"vertex_index")
+    });
+    read_records(element, data, list, |record| {
+        push_fan(&mut mesh.triangles, &record.list, u32::MAX as usize)
+    })
+}
+
+/// One element: the scalars by property (a list counts as 0), and the list that was asked for.
+struct Record {
+    scalars: Vec<f64>,
+    list: Vec<i64>,
+}
+
+/// Reads all records of an element. Each takes at least a byte, so a false count ends with the file.
+fn read_records(
+    element: &Element,
+    data: &mut Data,
+    wanted: Option<usize>,
+    mut visit: impl FnMut(&Record) -> Result<(), ReadError>,
+) -> Result<(), ReadError> {
+    if element.properties.is_empty() {
+        return Ok(());
+    }
+    let mut record = Record {
+        scalars: vec![0.0; element.properties.len()],
+        list: Vec::new(),
+    };
+    for _ in 0..element.count {
+        for (k, property) in element.properties.iter().enumerate() {
+            match property.kind {
+                Kind::Scalar(scalar) => record.scalars[k] = data.next(scalar)?,
+                Kind::List { count, item } => {
+                    let n_items = data.next(count)?;
+                    if n_items < 0.0 || n_items.fract() != 0.0 {
+                        return Err(malformed(data.at, "a list of so many items is impossible"));
+                    }
+                    data.list(
+                        n_items as u64,
+                        item,
+                        (wanted == Some(k)).then_some(&mut record.list),
+                    )?;
+                }
+            }
+        }
+        visit(&record)?;
+    }
+    Ok(())
+}

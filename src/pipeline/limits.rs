@@ -1,0 +1,46 @@
+//! What the work on a document may use, whatever its options ask for.
+
+use serde::{Deserialize, Serialize};
+
+use super::PipelineError;
+use crate::document::Document;
+
+/// Limits set by who runs the work, beside the options of who wants it. What is absent is not limited.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(default)]
+pub struct Limits {
+    /// Triangles of the document; one with more is refused.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub triangles: Option<u64>,
+    /// Threads.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub threads: Option<usize>,
+    /// Seconds after which the current valid map is taken as it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+}
+
+impl Limits {
+    /// Refuses a document with too many triangles.
+    pub(super) fn check(&self, document: &Document) -> Result<(), PipelineError> {
+        let faces = document.primitives().iter().map(|p| p.triangles.len());
+        let triangles = faces.sum::<usize>() as u64;
+        match self.triangles {
+            Some(limit) if limit < triangles => {
+                Err(PipelineError::TooManyTriangles { triangles, limit })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The threads asked for, as far as they are allowed.
+    pub(super) fn threads(&self, asked: Option<usize>) -> Option<usize> {
+        asked.into_iter().chain(self.threads).min()
+    }
+
+    /// The time budget asked for, as far as it is allowed.
+    pub(super) fn time_budget(&self, asked: Option<f64>) -> Option<f64> {
+        asked.into_iter().chain(self.seconds).reduce(f64::min)
+    }
+}

@@ -1,0 +1,50 @@
+//! Idempotency keys: which submission used one first.
+
+use sqlx::{Row, Sqlite, Transaction};
+
+use super::rows;
+use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult, Timestamp};
+
+/// How long a key is remembered: one day.
+const LIFE_MS: i64 = 86_400_000;
+
+/// What a key was used for before, if it was. Forgets the keys that are too old by now.
+pub(super) async fn earlier_use(
+    key: &IdempotencyKey,
+    now: Timestamp,
+    transaction: &mut Transaction<'_, Sqlite>,
+) -> StoreResult<Option<Enqueued>> {
+    sqlx::query("DELETE FROM idempotency WHERE created < ?")
+        .bind(now.0 - LIFE_MS)
+        .execute(&mut **transaction)
+        .await?;
+    let row = sqlx::query(
+        "SELECT job.*, fingerprint FROM idempotency JOIN job ON job.id = idempotency.job WHERE key = ?",
+    )
+    .bind(&key.key)
+    .fetch_optional(&mut **transaction)
+    .await?;
+    let Some(row) = row else {
+        return Ok(None);
+    };
+    if row.try_get::<String, _>("fingerprint")? != key.fingerprint {
+        return Ok(Some(Enqueued::KeyReused));
+    }
+    Ok(Some(Enqueued::Replay(Box::new(rows::job(&row)?))))
+}
+
+/// Remembers what a key was used for.
+pub(super) async fn remember(
+    key: &IdempotencyKey,
+    job: &Job,
+    transaction: &mut Transaction<'_, Sqlite>,
+) -> StoreResult<()> {
+    sqlx::query("INSERT INTO idempotency VALUES (?, ?, ?, ?)")
+        .bind(&key.key)
+        .bind(&key.fingerprint)
+        .bind(job.id.to_string())
+        .bind(job.created.0)
+        .execute(&mut **transaction)
+        .await?;
+    Ok(())
+}

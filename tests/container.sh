@@ -1,0 +1,48 @@
+#!/bin/sh
+# Runs the image as it is meant to be run, on a read-only root and without privileges, and asks of it what the README
+# promises: one call, a job, its files, a restart that keeps them.
+#
+# usage: docker build -f docker/Dockerfile -t unwrapd . && tests/container.sh [unwrapd]
+set -eu
+cd "$(dirname "$0")/.."
+image=${1:-unwrapd}
+volume=unwrapd-test-$$
+container=
+work=$(mktemp -d)
+trap 'docker rm -f "$container" >/dev/null 2>&1; docker volume rm "$volume" >/dev/null 2>&1; rm -rf "$work"' EXIT
+
+start() {
+    container=$(docker run -d --read-only --cap-drop ALL --security-opt no-new-privileges \
+        -p 127.0.0.1::8080 -v "$volume:/data" "$image")
+    address=http://$(docker port "$container" 8080/tcp)
+    curl -s --retry 50 --retry-delay 1 --retry-all-errors "$address/readyz" >/dev/null
+    echo "$address is ready"
+}
+stop() {
+    docker stop "$container" >/dev/null
+    echo "stopped with $(docker inspect -f '{{.State.ExitCode}}' "$container")"
+    docker rm "$container" >/dev/null
+}
+member() { sed -n "s/.*\"$1\":\"\([^\"]*\)\".*/\1/p"; }
+
+start
+docker exec "$container" id
+docker exec "$container" unwrapd health
+curl -sSf "$address/healthz"
+curl -sSf "$address/v1/unwrap" -H 'content-type: model/gltf-binary' --data-binary @tests/assets/Box.glb -o "$work/box.glb"
+docker exec -i "$container" sh -c 'cat >/data/box.glb && unwrapd verify /data/box.glb --bijective' <"$work/box.glb"
+
+id=$(curl -sSf "$address/v1/jobs?cut=auto" -H 'content-type: model/gltf-binary' -H 'prefer: wait=60' \
+    --data-binary @tests/assets/Box.glb | member id)
+state() { curl -sSf "$address/v1/jobs/$id" | member state; }
+[ "$(state)" = succeeded ]
+curl -sSf "$address/v1/jobs/$id/result" -o "$work/result.glb"
+cmp "$work/box.glb" "$work/result.glb"
+
+stop
+start
+[ "$(state)" = succeeded ]
+curl -sSf "$address/v1/jobs/$id/result" | cmp - "$work/result.glb"
+stop
+docker image inspect -f '{{.Size}} bytes, user {{.Config.User}}' "$image"
+echo "the container does what it should"

@@ -1,0 +1,72 @@
+//! The box tree against brute force.
+
+/// The tree is the crate's own affair and needs nothing of it.
+#[path = "../../src/certificate/box_tree.rs"]
+mod source;
+
+use source::{Bounds, BoxTree, Visit, search_budget};
+
+/// Whether no line along an axis lies between two boxes.
+fn meet(a: &Bounds, b: &Bounds) -> bool {
+    (0..2).all(|axis| a[0][axis] < b[1][axis] && b[0][axis] < a[1][axis])
+}
+
+fn scattered_boxes(n: u32) -> Vec<Bounds> {
+    let part = |i: u32, factor: f64| (f64::from(i) * factor).fract();
+    let of = |i: u32| {
+        let (x, y) = (part(i, 0.754_877), part(i, 0.569_840));
+        let (w, h) = (0.3 * part(i, 0.381).powi(4), 0.3 * part(i, 0.272).powi(4));
+        [[x, y], [x + w, y + h]]
+    };
+    (0..n).map(of).collect()
+}
+
+#[test]
+fn pairs_are_found_once_each() {
+    for n in [0, 1, 4, 5, 100, 1000] {
+        let boxes = scattered_boxes(n);
+        let mut found = Vec::new();
+        let visit = BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+            found.push([i.min(j), i.max(j)]);
+        });
+        found.sort_unstable();
+        let meets = |&[i, j]: &[u32; 2]| meet(&boxes[i as usize], &boxes[j as usize]);
+        let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
+        assert!(found == all.filter(meets).collect::<Vec<_>>(), "{n} boxes");
+        assert_eq!(visit, Visit::Complete);
+    }
+}
+
+#[test]
+fn the_closest_pair_is_of_two_groups() {
+    let boxes = scattered_boxes(300);
+    for n_groups in [1, 2, 7] {
+        let groups: Vec<u32> = (0..300).map(|i| i / 10 % n_groups).collect();
+        let centre_distance = |i: u32, j: u32| {
+            let centre = |k: u32, axis: usize| {
+                0.5 * (boxes[k as usize][0][axis] + boxes[k as usize][1][axis])
+            };
+            (centre(i, 0) - centre(j, 0)).hypot(centre(i, 1) - centre(j, 1))
+        };
+        let mut expected = f64::INFINITY;
+        for i in 0..300 {
+            for j in (0..i).filter(|&j| groups[j as usize] != groups[i as usize]) {
+                expected = expected.min(centre_distance(i, j));
+            }
+        }
+        let found = BoxTree::new(&boxes).closest(&groups, 1_000_000, centre_distance);
+        assert_eq!(found, (expected, Visit::Complete));
+    }
+}
+
+#[test]
+fn a_heap_of_boxes_ends_the_search() {
+    let boxes = vec![[[0.0; 2], [1.0; 2]]; 1000];
+    let mut found = 0;
+    let visit = BoxTree::new(&boxes).pairs(10_000, |_, _| found += 1);
+    assert_eq!(visit, Visit::Truncated);
+    assert!(found > 0 && found <= 10_000);
+    let groups: Vec<u32> = (0..1000).collect();
+    let (_, visit) = BoxTree::new(&boxes).closest(&groups, 100, |_, _| 1.0);
+    assert_eq!(visit, Visit::Truncated);
+}

@@ -1,0 +1,86 @@
+//! What a textured asset looks like before and after it got another UV set, as three.js renders it.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+/// How far the pictures of each pair are apart; `None` where they cannot be rendered.
+fn compared(pairs: &[[PathBuf; 2]]) -> Option<Vec<Value>> {
+    let renderer = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/render");
+    if !renderer.join("node_modules").is_dir() {
+        println!(
+            "skipped: `npm install` was not run in {}",
+            renderer.display()
+        );
+        return None;
+    }
+    if let Err(error) = Command::new("chromium").arg("--version").output() {
+        println!("skipped: no chromium ({error})");
+        return None;
+    }
+    let mut node = Command::new("node")
+        .arg(renderer.join("compare.mjs"))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("node runs");
+    let mut list = node.stdin.take().expect("piped");
+    for [before, after] in pairs {
+        writeln!(list, "{}\t{}", before.display(), after.display()).expect("node reads");
+    }
+    drop(list);
+    let output = node.wait_with_output().expect("node ends");
+    assert!(output.status.success(), "{output:?}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    let answers = text.lines().map(serde_json::from_str);
+    Some(answers.collect::<Result<_, _>>().expect("JSON lines"))
+}
+
+/// Unwraps an asset of the tests with these options and returns it and its result.
+fn unwrapped(asset: &str, folder: &Path, options: &[&str]) -> [PathBuf; 2] {
+    let input = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/assets")
+        .join(asset);
+    let stem = input.file_stem().expect("a name").to_string_lossy();
+    let output = folder.join(format!("{stem}{}.glb", options.concat()));
+    let status = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
+        .arg("unwrap")
+        .args([&input, Path::new("-o"), &output])
+        .args(options)
+        .stdout(Stdio::null())
+        .status()
+        .expect("the binary runs");
+    assert!(status.success(), "{asset}: {status}");
+    [input, output]
+}
+
+/// Not a pixel changes, unless the textures' own UVs are replaced: then the difference is seen.
+#[test]
+fn a_textured_asset_looks_the_same_with_another_uv_set() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let textured = [
+        "MultiUVTest.glb",
+        "TextureTransformTest/TextureTransformTest.gltf",
+    ];
+    let mut pairs: Vec<[PathBuf; 2]> = textured
+        .iter()
+        .map(|asset| unwrapped(asset, folder.path(), &[]))
+        .collect();
+    pairs.push(unwrapped(textured[0], folder.path(), &["--overwrite"]));
+    let Some(compared) = compared(&pairs) else {
+        return;
+    };
+    let number = |answer: &Value, key: &str| -> f64 {
+        answer[key].as_f64().unwrap_or_else(|| panic!("{answer}"))
+    };
+    let (replaced, kept) = compared.split_last().expect("three answers");
+    assert_eq!(kept.len(), textured.len());
+    for answer in kept {
+        // Both are full of text in colours: the textures are there.
+        assert!(number(answer, "covered") > 0.1 && number(answer, "colours") > 1000.0);
+        assert_eq!(number(answer, "max"), 0.0, "{answer}");
+    }
+    assert!(number(replaced, "mean") > 1.0, "{replaced}");
+}

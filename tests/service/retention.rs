@@ -1,0 +1,64 @@
+//! What is kept, and what is not.
+
+use std::time::Instant;
+
+use nix::sys::signal::Signal;
+use serde_json::Value;
+
+use crate::meshes;
+use crate::server::{SOON, Server, assert_problem};
+
+/// Names of the folders that hold files of jobs.
+fn owners(server: &Server) -> Vec<String> {
+    let folders = std::fs::read_dir(server.data().join("blobs")).expect("a folder");
+    folders
+        .map(|folder| folder.expect("an entry").file_name())
+        .map(|name| name.into_string().expect("text"))
+        .collect()
+}
+
+async fn get(server: &Server, job: &Value) -> reqwest::Response {
+    let path = job["links"]["self"].as_str().expect("a link");
+    server.get(path).send().await.expect("an answer")
+}
+
+#[tokio::test]
+async fn a_restart_keeps_jobs_and_removes_files_without_one() {
+    let mut server = Server::start();
+    let job = server.submit(meshes::small(), "").await;
+    server.ended(&job).await;
+    server.kill();
+    // As a crash between files and record leaves them; what is no id is not ours.
+    let blobs = server.data().join("blobs");
+    for name in ["019a0000-0000-7000-8000-000000000000/input", "lost+found"] {
+        std::fs::create_dir_all(blobs.join(name)).expect("a folder");
+    }
+    std::fs::write(
+        blobs.join("019a0000-0000-7000-8000-000000000000/input/0"),
+        "v",
+    )
+    .expect("a file");
+
+    server.restart();
+    let mut left = owners(&server);
+    left.sort();
+    assert_eq!(left, [job["id"].as_str().expect("an id"), "lost+found"]);
+    assert_eq!(get(&server, &job).await.status(), 200);
+}
+
+#[tokio::test]
+async fn a_job_goes_with_its_files_when_its_time_is_over() {
+    let mut server = Server::start();
+    let job = server.submit(meshes::small(), "").await;
+    server.ended(&job).await;
+    server.signal(Signal::SIGTERM);
+    server.stopped();
+
+    server.restart_with(&[("UNWRAPD_RETAIN_DAYS", "0")]);
+    let start = Instant::now();
+    while !owners(&server).is_empty() {
+        assert!(start.elapsed() < SOON, "the files are still there");
+        tokio::task::yield_now().await;
+    }
+    assert_problem(get(&server, &job).await, 404, "job_not_found").await;
+}
