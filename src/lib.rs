@@ -53,7 +53,7 @@
 //! | module | what lives there |
 //! |---|---|
 //! | [`numerics`] | sparse Cholesky (symbolic once, numeric each iteration), exact predicates, small closed forms |
-//! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; readers |
+//! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; readers and writers |
 //! | [`cut`] | surfaces opened along seams to disks |
 //! | [`energy`], [`barrier`] | densities as functions of singular values, and what keeps them from inverting |
 //! | [`solver`] | projected Newton, exact largest step, line search, status |
@@ -68,8 +68,9 @@
 )]
 #![cfg_attr(
     feature = "files",
-    doc = "| [`picture`] | UV layouts and distortion as PNG |"
+    doc = "| [`picture`] | UV layouts and distortion as PNG, pictures with transparency |"
 )]
+//! | [`deform`] | bodies of the plane and of space pulled by handles; from pictures, drawings and surfaces in cages |
 //! | [`pipeline`] | from arrays or a document to an atlas and its report |
 #![cfg_attr(
     feature = "service",
@@ -142,6 +143,8 @@ pub mod measure;
 pub mod document;
 #[cfg(feature = "files")]
 pub mod picture;
+
+pub mod deform;
 
 pub mod pipeline;
 

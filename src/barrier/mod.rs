@@ -8,41 +8,27 @@
 //! Being a function of det J a barrier is isotropic too: it joins a density as a [`Guard`](crate::energy::Guard), one projection for both.
 //! [`map_energy`] puts them together from the words of the options.
 
+mod guard;
 mod inverse_spline;
+mod log;
+mod neo_hookean;
 mod none;
 
+pub use guard::{Barrier, BarrierKind};
 pub use inverse_spline::InverseSpline;
+pub use log::{AugmentedLog, Log};
+pub use neo_hookean::NeoHookean;
 pub use none::NoBarrier;
 
-use crate::energy::{
-    Arap, Density, EnergyKind, Lscm, RestShape, SymmetricDirichlet, Term, Triangles,
-};
+use crate::energy::{Arap, EnergyKind, LocalTerm, Lscm, RestShape, SymmetricDirichlet, Triangles};
 
-/// Which barrier is added to the energy.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum BarrierKind {
-    /// [`InverseSpline`]: no element inverts.
-    #[default]
-    InverseSpline,
-    /// None, for comparison: [`Arap`] and [`Lscm`] may flip triangles.
-    None,
-}
-
-/// An energy and a barrier, in words and numbers.
+/// An energy of maps of surfaces and a barrier, in words and numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapEnergy {
     /// The density.
     pub energy: EnergyKind,
     /// The barrier.
-    pub barrier: BarrierKind,
-    /// β, the barrier's factor.
-    pub beta: f64,
-    /// s, the share of its rest area below which an element feels the barrier.
-    pub s: f64,
-    /// ε, the area at which the barrier is infinite; see [`epsilon`].
-    pub epsilon: f64,
+    pub barrier: Barrier,
 }
 
 /// The energy of maps of `triangles` with these rest shapes, ready for the solver.
@@ -54,36 +40,15 @@ pub struct MapEnergy {
 pub fn map_energy(
     triangles: &[[u32; 3]],
     rest: &[RestShape],
-    parameters: &MapEnergy,
-) -> Box<dyn Term> {
-    match parameters.energy {
-        EnergyKind::Arap => with_barrier(triangles, rest, Arap, parameters),
-        EnergyKind::Lscm => with_barrier(triangles, rest, Lscm, parameters),
+    &MapEnergy { energy, barrier }: &MapEnergy,
+) -> Box<dyn LocalTerm> {
+    Box::new(match energy {
+        EnergyKind::Arap => Triangles::new(triangles, rest, Arap, barrier),
+        EnergyKind::Lscm => Triangles::new(triangles, rest, Lscm, barrier),
         EnergyKind::SymmetricDirichlet => {
-            with_barrier(triangles, rest, SymmetricDirichlet, parameters)
+            Triangles::new(triangles, rest, SymmetricDirichlet, barrier)
         }
-    }
-}
-
-fn with_barrier(
-    triangles: &[[u32; 3]],
-    rest: &[RestShape],
-    density: impl Density + 'static,
-    &MapEnergy {
-        barrier,
-        beta,
-        s,
-        epsilon,
-        ..
-    }: &MapEnergy,
-) -> Box<dyn Term> {
-    match barrier {
-        BarrierKind::InverseSpline => {
-            let guard = InverseSpline { beta, s, epsilon };
-            Box::new(Triangles::new(triangles, rest, density, guard))
-        }
-        BarrierKind::None => Box::new(Triangles::new(triangles, rest, density, NoBarrier)),
-    }
+    })
 }
 
 /// The paper's ε = 1e-5·(smallest rest area), or a tenth of the start's smallest area where that is less, so that the

@@ -1,7 +1,7 @@
-//! Which of many boxes meet: a tree of bounding boxes over Morton order.
+//! Which of many boxes meet: a tree of bounding boxes over Morton order, in plane and space.
 
 /// Smallest and greatest coordinates of a box.
-pub(crate) type Bounds = [[f64; 2]; 2];
+pub(crate) type Bounds<const D: usize = 2> = [[f64; D]; 2];
 
 /// Whether a search saw everything.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -20,34 +20,43 @@ pub(crate) fn search_budget(n: usize) -> u64 {
 /// Boxes per leaf: testing a handful outright is cheaper than descending further.
 const LEAF: usize = 4;
 
-/// Encloses nothing and meets nothing.
-const NOTHING: Bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+/// The box of some points; of none, one that encloses nothing and meets nothing.
+pub(crate) fn bounds_of<const D: usize>(points: &[[f64; D]]) -> Bounds<D> {
+    let nothing = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    points.iter().fold(nothing, |b, &p| union(b, &[p, p]))
+}
+
+/// A box larger by the least amount on every side: what touched it now meets it.
+pub(crate) fn enlarged<const D: usize>([low, high]: Bounds<D>) -> Bounds<D> {
+    [low.map(f64::next_down), high.map(f64::next_up)]
+}
 
 /// A complete binary tree over boxes in Morton order of their centres; the children of node `i` are `2i` and `2i + 1`, the
 /// root is 1.
-pub(crate) struct BoxTree {
+pub(crate) struct BoxTree<const D: usize = 2> {
     items: Vec<u32>,
-    boxes: Vec<Bounds>,
-    nodes: Vec<Bounds>,
+    boxes: Vec<Bounds<D>>,
+    nodes: Vec<Bounds<D>>,
 }
 
-impl BoxTree {
-    pub fn new(boxes: &[Bounds]) -> BoxTree {
-        let whole = boxes.iter().fold(NOTHING, union);
+impl<const D: usize> BoxTree<D> {
+    pub fn new(boxes: &[Bounds<D>]) -> Self {
+        let nothing = bounds_of(&[]);
+        let whole = boxes.iter().fold(nothing, union);
         let mut sorted: Vec<(u64, u32)> =
             boxes.iter().map(|b| morton(b, &whole)).zip(0..).collect();
         sorted.sort_unstable();
         let items: Vec<u32> = sorted.into_iter().map(|(_, item)| item).collect();
-        let boxes: Vec<Bounds> = items.iter().map(|&i| boxes[i as usize]).collect();
+        let boxes: Vec<Bounds<D>> = items.iter().map(|&i| boxes[i as usize]).collect();
         let leaves = boxes.len().div_ceil(LEAF).next_power_of_two();
-        let mut nodes = vec![NOTHING; 2 * leaves];
+        let mut nodes = vec![nothing; 2 * leaves];
         for (leaf, chunk) in boxes.chunks(LEAF).enumerate() {
-            nodes[leaves + leaf] = chunk.iter().fold(NOTHING, union);
+            nodes[leaves + leaf] = chunk.iter().fold(nothing, union);
         }
         for node in (1..leaves).rev() {
             nodes[node] = union(nodes[2 * node], &nodes[2 * node + 1]);
         }
-        BoxTree {
+        Self {
             items,
             boxes,
             nodes,
@@ -170,48 +179,41 @@ fn children(a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> {
         .chain((a != b).then_some((2 * a + 1, 2 * b)))
 }
 
-fn union(a: Bounds, b: &Bounds) -> Bounds {
+fn union<const D: usize>(a: Bounds<D>, b: &Bounds<D>) -> Bounds<D> {
+    let axis = std::array::from_fn::<usize, D, _>(|axis| axis);
     [
-        [a[0][0].min(b[0][0]), a[0][1].min(b[0][1])],
-        [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])],
+        axis.map(|k| a[0][k].min(b[0][k])),
+        axis.map(|k| a[1][k].max(b[1][k])),
     ]
 }
 
 /// Whether the interiors of two boxes meet.
-fn meet(a: &Bounds, b: &Bounds) -> bool {
-    a[0][0] < b[1][0] && b[0][0] < a[1][0] && a[0][1] < b[1][1] && b[0][1] < a[1][1]
+fn meet<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
+    (0..D).all(|axis| a[0][axis] < b[1][axis] && b[0][axis] < a[1][axis])
 }
 
-fn box_distance(a: &Bounds, b: &Bounds) -> f64 {
+fn box_distance<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> f64 {
     let gap = |axis: usize| {
         (b[0][axis] - a[1][axis])
             .max(a[0][axis] - b[1][axis])
             .max(0.0)
     };
-    gap(0).hypot(gap(1))
+    (0..D).map(gap).fold(0.0, f64::hypot)
 }
 
-/// Place of a box's centre on the Z-order curve over 2³² × 2³² cells of `whole`.
-fn morton(b: &Bounds, whole: &Bounds) -> u64 {
-    let cell = |axis: usize| {
+/// Place of a box's centre on the Z-order curve over `whole`, the sides cut into 2^(64/D) cells.
+fn morton<const D: usize>(b: &Bounds<D>, whole: &Bounds<D>) -> u64 {
+    let bits = 64 / D;
+    let cell: [u64; D] = std::array::from_fn(|axis| {
         let size = whole[1][axis] - whole[0][axis];
         let part = (0.5 * (b[0][axis] + b[1][axis]) - whole[0][axis]) / size;
-        (part * f64::from(u32::MAX)) as u32 // NaN (no extent) becomes 0
-    };
-    spread(cell(0)) | (spread(cell(1)) << 1)
-}
-
-/// The bits of `x` moved to the even places.
-fn spread(x: u32) -> u64 {
-    let mut x = u64::from(x);
-    for (shift, mask) in [
-        (16, 0x0000_ffff_0000_ffff),
-        (8, 0x00ff_00ff_00ff_00ff),
-        (4, 0x0f0f_0f0f_0f0f_0f0f),
-        (2, 0x3333_3333_3333_3333),
-        (1, 0x5555_5555_5555_5555),
-    ] {
-        x = (x | (x << shift)) & mask;
+        (part * ((1_u64 << bits) - 1) as f64) as u64 // NaN (no extent) becomes 0
+    });
+    let mut place = 0;
+    for bit in (0..bits).rev() {
+        for axis in (0..D).rev() {
+            place = place << 1 | cell[axis] >> bit & 1;
+        }
     }
-    x
+    place
 }

@@ -15,21 +15,30 @@
 //! when its orientation, so corrected, is not the one that carries most UV area in its chart. A mirrored chart is therefore
 //! valid, a Möbius strip in one piece is not.
 //!
+//! Maps without UVs are judged by the same predicates: [`certify_planar`] a deformed mesh of the plane, [`crossings`] whether a
+//! surface in space passes through itself.
+//!
 //! **What is not judged**: separation after rounding ([`Certificate::grid_bits`] speaks of orientations only).
 
 mod box_tree;
 mod charts;
+mod crossings;
 mod edges;
 mod judgement;
 mod overlap;
+mod planar;
 mod rounding;
 mod topology;
 mod weld;
 
-pub(crate) use box_tree::{Bounds, BoxTree, Visit, search_budget};
+#[cfg(feature = "files")]
+pub(crate) use box_tree::enlarged;
+pub(crate) use box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
+pub use crossings::{Crossings, crossings};
 pub(crate) use edges::Start;
 pub use judgement::{Certificate, Overlap, certify};
 pub(crate) use overlap::OrientedFaces;
+pub use planar::{PlanarCertificate, certify_planar};
 pub(crate) use topology::UvTopology;
 
 /// The UVs of a face's three corners, as the file has them.

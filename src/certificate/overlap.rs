@@ -1,7 +1,7 @@
 //! OverlappingPair of faces whose interiors intersect in UV space.
 
 use super::CornerUvs;
-use super::box_tree::{Bounds, BoxTree, Visit, search_budget};
+use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
 use super::topology::UvTopology;
 use crate::numerics::predicates::orient2d_sign;
 
@@ -20,25 +20,29 @@ pub(crate) struct OverlappingPair {
 
 impl OrientedFaces {
     pub fn new(topology: &UvTopology) -> OrientedFaces {
-        let n_faces = topology.faces.len() as u32;
-        let faces: Vec<u32> = (0..n_faces)
-            .filter(|&f| topology.orientation[f as usize] != 0)
-            .collect();
-        let counter_clockwise = |&f: &u32| {
-            let [a, b, c] = topology.uvs[f as usize];
-            if topology.orientation[f as usize] > 0 {
+        Self::of(&topology.uvs, &topology.orientation)
+    }
+
+    /// The faces with these corners, whose exact orientations are given.
+    pub fn of(corners: &[CornerUvs], orientation: &[i8]) -> OrientedFaces {
+        let oriented = || (0..corners.len()).filter(|&f| orientation[f] != 0);
+        let counter_clockwise = |f: usize| {
+            let [a, b, c] = corners[f];
+            if orientation[f] > 0 {
                 [a, b, c]
             } else {
                 [a, c, b]
             }
         };
-        let corners = faces.iter().map(counter_clockwise).collect();
-        OrientedFaces { faces, corners }
+        OrientedFaces {
+            faces: oriented().map(|f| f as u32).collect(),
+            corners: oriented().map(counter_clockwise).collect(),
+        }
     }
 
     /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes.
     pub fn overlaps(&self, mut visit: impl FnMut(OverlappingPair)) -> Visit {
-        let boxes: Vec<Bounds> = self.corners.iter().map(bounds).collect();
+        let boxes: Vec<Bounds> = self.corners.iter().map(|c| bounds_of(c)).collect();
         BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
             let corners = [self.corners[i as usize], self.corners[j as usize]];
             if interiors_intersect(&corners[0], &corners[1]) {
@@ -49,14 +53,8 @@ impl OrientedFaces {
     }
 }
 
-fn bounds([a, b, c]: &CornerUvs) -> Bounds {
-    let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]);
-    let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]);
-    [[low(0), low(1)], [high(0), high(1)]]
-}
-
 /// Whether two counter-clockwise triangles share interior points: no edge line of either has the other on its outer side.
-fn interiors_intersect(a: &CornerUvs, b: &CornerUvs) -> bool {
+pub(super) fn interiors_intersect(a: &CornerUvs, b: &CornerUvs) -> bool {
     !separates(a, b) && !separates(b, a)
 }
 

@@ -2,6 +2,11 @@
 
 use std::process::ExitCode;
 
+use crate::deform::ProblemError;
+use crate::deform::outline::OutlineError;
+use crate::mesh::ElementError;
+use crate::mesh::io::ReadError;
+use crate::picture::ImageError;
 use crate::pipeline::PipelineError;
 
 /// Why a command ended, in one line, and its exit status.
@@ -59,3 +64,22 @@ impl From<PipelineError> for Failure {
         }
     }
 }
+
+/// An input that cannot be used: the error's line and its code.
+macro_rules! input_errors {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Self::input(format!("{error} ({})", error.code()))
+            }
+        })*
+    };
+}
+
+input_errors!(
+    ProblemError,
+    ReadError,
+    ElementError,
+    OutlineError,
+    ImageError
+);

@@ -8,11 +8,15 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use crate::document::{Upload, gltf};
 
+/// Reads a file.
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
+}
+
 /// Reads a file and the files beside it that it references by relative URI. A missing one is left to the document,
 /// which knows whether it is needed.
 pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
-    let bytes =
-        fs::read(path).map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
+    let bytes = read_file(path)?;
     let name = path
         .file_name()
         .unwrap_or_default()

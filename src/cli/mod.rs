@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 2 usage; 3 the input cannot be used; 4 not certified or no valid result within the limits;
 //! 1 anything else.
 
+mod deform;
 mod failure;
 mod files;
 mod health;
@@ -10,6 +11,8 @@ mod listen;
 mod measure;
 mod progress;
 mod serve;
+mod solution;
+mod solve;
 mod unwrap;
 mod words;
 
@@ -37,6 +40,10 @@ enum Command {
     Measure(measure::Args),
     /// Check exactly that no face of a file's UVs is flipped or degenerate: exit 0 if so, 4 if not
     Verify(measure::VerifyArgs),
+    /// Pull a mesh, a picture's outline or a drawing by handles, no element inverted
+    Deform(deform::Args),
+    /// Solve a problem file: handles pulled to targets, no element inverted
+    Solve(solve::Args),
     /// Run the HTTP service
     Serve(Box<serve::Args>),
     /// Print the OpenAPI document of the service
@@ -57,6 +64,8 @@ pub fn run() -> ExitCode {
         Command::Unwrap(args) => unwrap::run(&args),
         Command::Measure(args) => measure::measure(&args),
         Command::Verify(args) => measure::verify(&args),
+        Command::Deform(args) => deform::run(&args),
+        Command::Solve(args) => solve::run(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Openapi => writeln!(std::io::stdout(), "{}", crate::http::openapi())
             .map_err(|error| Failure::other(error.to_string())),

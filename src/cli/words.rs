@@ -6,6 +6,27 @@ use serde_json::Value;
 
 pub(super) const ENERGIES: &[&str] = &["arap", "lscm", "symmetric-dirichlet"];
 pub(super) const BARRIERS: &[&str] = &["inverse-spline", "none"];
+pub(super) const DEFORMATIONS: &[&str] = &[
+    "arap",
+    "green",
+    "dirichlet",
+    "laplacian",
+    "uniform-laplacian",
+    "lscm",
+    "symmetric-dirichlet",
+    "mips",
+    "amips",
+    "st-venant-kirchhoff",
+    "neo-hookean",
+];
+pub(super) const ALL_BARRIERS: &[&str] = &[
+    "inverse-spline",
+    "augmented-log",
+    "log",
+    "neo-hookean",
+    "none",
+];
+pub(super) const METHODS: &[&str] = &["projected", "levenberg"];
 pub(super) const CUTS: &[&str] = &["auto", "disk"];
 pub(super) const GROUPS: &[&str] = &["mesh", "scene", "material", "primitive"];
 pub(super) const HEATMAPS: &[&str] = &["conformal", "area", "symmetric-dirichlet"];

@@ -16,7 +16,7 @@ use super::rest::rest_shape;
 use super::start::{first_bad_triangle, tutte};
 use super::sweep::sweep;
 use crate::barrier::map_energy;
-use crate::energy::{RestShape, Term};
+use crate::energy::{LocalTerm, RestShape};
 use crate::mesh::{Disk, VertexFaces};
 use crate::solver::{Control, Iterate, Objective, Projection, Settings, best_scale, minimize};
 
@@ -129,7 +129,7 @@ fn coarsest_map(
         .map(|&v| shape.positions[v as usize])
         .collect();
     let mut coarse = tutte(&ClosedDisk::new(&disk, &positions))?;
-    let scale = best_scale(&*system.term, coarse.as_flattened());
+    let scale = best_scale(&|x| system.term.value(x), coarse.as_flattened());
     for p in &mut coarse {
         *p = p.map(|x| x * scale);
     }
@@ -148,7 +148,7 @@ fn coarsest_map(
 struct System {
     vertices: Vec<u32>,
     triangles: Vec<[u32; 3]>,
-    term: Box<dyn Term>,
+    term: Box<dyn LocalTerm>,
 }
 
 impl System {

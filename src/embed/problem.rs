@@ -3,8 +3,8 @@
 use super::parameterize::{Embedding, Options};
 use super::rest::RestShapes;
 use super::start::first_bad_triangle;
-use crate::barrier::{BarrierKind, MapEnergy, epsilon, map_energy};
-use crate::energy::Term;
+use crate::barrier::{Barrier, BarrierKind, MapEnergy, epsilon, map_energy};
+use crate::energy::LocalTerm;
 use crate::mesh::Disk;
 use crate::numerics::vec2::doubled_area;
 use crate::solver::{Objective, Settings, Watch, best_scale, minimize};
@@ -25,9 +25,9 @@ pub(super) struct Problem<'a> {
 
 impl Problem<'_> {
     /// The energy with the ε that this start asks for.
-    fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
+    fn term(&self, start: &[[f64; 2]]) -> Box<dyn LocalTerm> {
         let smallest_rest = (self.rest.shapes.iter())
-            .map(|shape| shape.area)
+            .map(|shape| shape.size)
             .fold(f64::INFINITY, f64::min);
         let smallest_start = (self.disk.triangles.iter())
             .map(|t| signed_area(t, start))
@@ -35,13 +35,15 @@ impl Problem<'_> {
         self.term_with(epsilon(smallest_rest, smallest_start))
     }
 
-    fn term_with(&self, epsilon: f64) -> Box<dyn Term> {
+    fn term_with(&self, epsilon: f64) -> Box<dyn LocalTerm> {
         let parameters = MapEnergy {
             energy: self.options.energy,
-            barrier: self.options.barrier,
-            beta: self.options.beta,
-            s: self.options.s,
-            epsilon,
+            barrier: Barrier {
+                kind: self.options.barrier,
+                beta: self.options.beta,
+                s: self.options.s,
+                epsilon,
+            },
         };
         map_energy(&self.disk.triangles, &self.rest.shapes, &parameters)
     }
@@ -55,7 +57,8 @@ impl Problem<'_> {
         let mean_area = area.max(f64::MIN_POSITIVE) / self.rest.shapes.len() as f64;
         let uv = scaled(uv, power_of_two(1.0 / mean_area.sqrt()));
         // The domain grows as ε falls; for the search there is none.
-        let best = best_scale(&*self.term_with(0.0), uv.as_flattened());
+        let term = self.term_with(0.0);
+        let best = best_scale(&|x| term.value(x), uv.as_flattened());
         self.positive_or_power_of_two(&uv, best)
     }
 

@@ -4,7 +4,7 @@ use super::decimate::{Collapse, Collapses};
 use super::rest::rest_shape;
 use super::sweep::improve_vertex;
 use super::triangulation::pairs;
-use crate::barrier::{BarrierKind, MapEnergy, map_energy};
+use crate::barrier::{Barrier, MapEnergy, map_energy};
 use crate::energy::EnergyKind;
 use crate::numerics::predicates::orient2d_sign;
 use crate::numerics::vec2::{cross, dot, sub};
@@ -14,10 +14,7 @@ use crate::numerics::vec3;
 /// wide enough for floating point.
 pub(super) const ROUNDING: MapEnergy = MapEnergy {
     energy: EnergyKind::SymmetricDirichlet,
-    barrier: BarrierKind::None,
-    beta: 0.0,
-    s: 1.0,
-    epsilon: 0.0,
+    barrier: Barrier::NONE,
 };
 
 /// Local Newton steps on a vertex just put back.

@@ -58,12 +58,12 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
     let mut shapes: Vec<_> = (triangles.iter())
         .map(|t| rest_shape(relative(t), smallest))
         .collect();
-    let total: f64 = shapes.iter().map(|shape| shape.area).sum();
+    let total: f64 = shapes.iter().map(|shape| shape.size).sum();
     let unit = (total / triangles.len().max(1) as f64).sqrt();
     for shape in &mut shapes {
         *shape = RestShape {
             inverse: shape.inverse.map(|row| row.map(|x| x * unit)),
-            area: shape.area / (unit * unit),
+            size: shape.size / (unit * unit),
             weight: shape.weight / (unit * unit),
         };
     }
@@ -97,9 +97,9 @@ pub(super) fn rest_shape(p: [[f64; 3]; 3], smallest: f64) -> RestShape {
         vec2::sub(corners[1], corners[0]),
         vec2::sub(corners[2], corners[0]),
     );
-    let is_substitute = shape.area > 1.01 * true_area;
+    let is_substitute = shape.size > 1.01 * true_area;
     let extra = if is_substitute {
-        SUBSTITUTE_WEIGHT * shape.area
+        SUBSTITUTE_WEIGHT * shape.size
     } else {
         0.0
     };

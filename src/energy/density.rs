@@ -1,27 +1,67 @@
 //! What a density and a barrier have to say of themselves.
 
-use super::{Derivatives, Jacobian};
+use crate::numerics::square::Matrix;
 
-/// An energy per rest area, ψ(J), that depends on the singular values of J only.
-pub trait Density: Send + Sync {
-    /// ψ is finite where det J is greater than this; −∞ if everywhere.
+/// An energy per rest size as a function ψ of the signed singular values σ₁ ≥ … ≥ |σ_D| of the Jacobian.
+///
+/// Three functions make an energy: gradient, Hessian and its projection in the coordinates of the vertices follow from
+/// them. ψ must be symmetric in its arguments.
+pub trait Density<const D: usize>: Send + Sync {
+    /// ψ is finite where Πσ = det J is greater than this; −∞ if everywhere.
     fn floor(&self) -> f64;
 
-    /// ψ(J), +∞ outside the domain.
-    fn value(&self, j: &Jacobian) -> f64;
+    /// ψ(σ), +∞ outside the domain.
+    fn value(&self, sigma: &[f64; D]) -> f64;
 
-    /// The derivatives of ψ at a J of the domain.
-    fn derivatives(&self, j: &Jacobian) -> Derivatives;
+    /// ∂ψ/∂σᵢ.
+    fn gradient(&self, sigma: &[f64; D]) -> [f64; D];
+
+    /// ∂²ψ/∂σᵢ∂σⱼ.
+    fn hessian(&self, sigma: &[f64; D]) -> Matrix<D>;
+
+    /// The curvature against a rotation in the plane of the axes i and j, (ψᵢ + ψⱼ)/(σᵢ + σⱼ) given the gradient.
+    ///
+    /// Only a density that minimizes a model other than its own Hessian, as [`FrozenArap`](super::FrozenArap) does, has a
+    /// reason to say something else.
+    fn twist(&self, sigma: &[f64; D], gradient: &[f64; D], i: usize, j: usize) -> f64 {
+        // Where two singular values cancel a rotation has no axis; rounding of σ is of this relative size.
+        (gradient[i] + gradient[j])
+            / (sigma[i] + sigma[j])
+                .max(1e-8 * sigma[0])
+                .max(f64::MIN_POSITIVE)
+    }
 }
 
 /// A function φ of an element's size, det J, added to the density's share before the projection.
 pub trait Guard: Send + Sync {
     /// φ is finite where det J is greater than this; −∞ if everywhere.
-    fn floor(&self, rest_area: f64) -> f64;
+    fn floor(&self, rest_size: f64) -> f64;
 
-    /// φ(det J) of an element, not weighted by its area; +∞ at and below the floor.
-    fn value(&self, det: f64, rest_area: f64) -> f64;
+    /// φ(det J) of an element, not weighted by its size; +∞ at and below the floor.
+    fn value(&self, det: f64, rest_size: f64) -> f64;
 
     /// φ′ and φ″ at a det J above the floor.
-    fn derivatives(&self, det: f64, rest_area: f64) -> [f64; 2];
+    fn derivatives(&self, det: f64, rest_size: f64) -> [f64; 2];
+}
+
+impl<const D: usize, T: Density<D> + ?Sized> Density<D> for Box<T> {
+    fn floor(&self) -> f64 {
+        (**self).floor()
+    }
+
+    fn value(&self, sigma: &[f64; D]) -> f64 {
+        (**self).value(sigma)
+    }
+
+    fn gradient(&self, sigma: &[f64; D]) -> [f64; D] {
+        (**self).gradient(sigma)
+    }
+
+    fn hessian(&self, sigma: &[f64; D]) -> Matrix<D> {
+        (**self).hessian(sigma)
+    }
+
+    fn twist(&self, sigma: &[f64; D], gradient: &[f64; D], i: usize, j: usize) -> f64 {
+        (**self).twist(sigma, gradient, i, j)
+    }
 }

@@ -1,35 +1,33 @@
 //! Least-squares conformal.
 
-use super::{Density, Derivatives, Jacobian};
+use super::Density;
+use crate::numerics::square::Matrix;
 
 /// The squared distance of J to the nearest similarity.
 ///
 /// ```text
-/// ψ = ½ (σ₁ − σ₂)² = m²
+/// ψ = ½ (σ₁ − σ₂)²
 /// ```
 /// Minimum 0, at similarities, the zero map among them: without a barrier or two fixed vertices a free boundary shrinks
-/// to a point. Without unit; the sum over a mesh is an area. Domain: every J; quadratic.
+/// to a point. Without unit; the sum over a mesh is an area. Domain: every J of the plane; quadratic.
 /// From: Lévy et al. 2002, Least Squares Conformal Maps. Tests: `energy::taylor_*`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lscm;
 
-impl Density for Lscm {
+impl Density<2> for Lscm {
     fn floor(&self) -> f64 {
         f64::NEG_INFINITY
     }
 
-    fn value(&self, j: &Jacobian) -> f64 {
-        let [c, d] = j.reflected;
-        c * c + d * d
+    fn value(&self, [a, b]: &[f64; 2]) -> f64 {
+        0.5 * (a - b) * (a - b)
     }
 
-    fn derivatives(&self, _: &Jacobian) -> Derivatives {
-        Derivatives {
-            twist: 0.0,
-            flip: 2.0,
-            pp: 0.0,
-            pm: 0.0,
-            mm: 2.0,
-        }
+    fn gradient(&self, [a, b]: &[f64; 2]) -> [f64; 2] {
+        [a - b, b - a]
+    }
+
+    fn hessian(&self, _: &[f64; 2]) -> Matrix<2> {
+        [[1.0, -1.0], [-1.0, 1.0]]
     }
 }

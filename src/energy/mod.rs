@@ -1,41 +1,48 @@
 //! Deformation energies as functions of singular values.
 //!
-//! An isotropic energy does not know directions: what a triangle contributes is a function ψ of the singular values of
-//! its Jacobian J, weighted by its rest area. Of a 2×2 matrix everything can be had without a singular value
-//! decomposition: J is the sum of a similarity and of a reflected similarity, of Frobenius norms p and m, and
+//! An isotropic energy does not know directions: what an element contributes is a function ψ of the signed singular values
+//! of its Jacobian J, weighted by its rest size. A density ([`Density`]) gives ψ, ∂ψ and ∂²ψ in σ and nothing else, once
+//! for triangles in the plane and tetrahedra in space. A function of det J alone, such as a barrier, joins as a
+//! [`Guard`]; both are summed before the one projection of the Hessian to positive semidefinite, which is in closed form
+//! because in the frame of the singular vectors the Hessian is one number for each twist and flip and one D×D block
+//! ([`Modes`]).
 //!
-//! ```text
-//! σ₁, σ₂ = (p ± m)/√2     det J = (p² − m²)/2     ‖J‖² = p² + m²
-//! ```
-//!
-//! A density ([`Density`]) gives ψ and its derivatives in (p, m) and nothing else. A function of det J alone, such as a
-//! barrier, joins as a [`Guard`]; both are summed before the one projection of the Hessian to positive semidefinite
-//! ([`Derivatives::project`]), which is in closed form because in the basis of p and m the Hessian is two numbers and
-//! one 2×2 block (Smith, de Goes, Kim 2019, Analytic Eigensystems for Isotropic Distortion Energies).
-//!
-//! [`Triangles`] sums over a mesh; the solver sees it as a [`Term`] and knows no energy by name. Nothing here knows
-//! where a map comes from or how it is improved.
+//! [`Triangles`] and [`Tetrahedra`] sum over a mesh. Energies of the displacement that are quadratic forms stand beside
+//! them ([`Quadratic`]), and anything else that gives value, gradient and Hessian block of a stencil can: the solver sees
+//! a [`Term`] and knows no energy by name. Nothing here knows where a map comes from or how it is improved.
 
 mod arap;
 mod density;
-mod derivatives;
-mod element;
-mod jacobian;
+mod green;
+mod laplacian;
 mod lscm;
+mod mips;
+mod modes;
+mod neo_hookean;
+mod positional;
+mod quadratic;
 mod rest;
+mod simplex;
+mod simplices;
 mod symmetric_dirichlet;
 mod term;
-mod triangles;
+mod zero;
 
-pub use arap::Arap;
+pub use arap::{Arap, FrozenArap};
 pub use density::{Density, Guard};
-pub use derivatives::Derivatives;
-pub use jacobian::Jacobian;
+pub use green::{Green, StVenantKirchhoff};
+pub use laplacian::{biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};
 pub use lscm::Lscm;
+pub use mips::{Amips, Mips};
+pub use modes::Modes;
+pub use neo_hookean::NeoHookean;
+pub use positional::{Positional, Row};
+pub use quadratic::Quadratic;
 pub use rest::RestShape;
+pub use simplices::{Simplices, Tetrahedra, Triangles};
 pub use symmetric_dirichlet::SymmetricDirichlet;
-pub use term::{Local, Term};
-pub use triangles::Triangles;
+pub use term::{Assembly, Local, LocalTerm, Term};
+pub use zero::Zero;
 
 /// Which density is minimized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

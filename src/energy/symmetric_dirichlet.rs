@@ -1,45 +1,42 @@
 //! Symmetric Dirichlet.
 
-use super::{Density, Derivatives, Jacobian};
+use super::Density;
+use crate::numerics::square::Matrix;
 
 /// The Dirichlet energies of the map and of its inverse.
 ///
 /// ```text
-/// ψ = ½ Σᵢ (σᵢ² + σᵢ⁻²) = ½ N (1 + D⁻²)     N = p² + m², D = det J
+/// ψ = ½ Σᵢ (σᵢ² + σᵢ⁻²)
 /// ```
-/// Minimum 2, at rotations. Without unit; the sum over a mesh is an area. Domain det J > 0, +∞ outside: a barrier of its
-/// own. From: Smith and Schaefer 2015, Bijective Parameterization with Free Boundaries. (Reports quote it without the
-/// factor ½, with minimum 4.) Tests: `energy::taylor_*`, `energy::symmetric_dirichlet_has_its_minimum_at_rotations`.
+/// Minimum D, at rotations. Without unit; the sum over a mesh is an area or volume. Domain det J > 0, +∞ outside: a
+/// barrier of its own. From: Smith and Schaefer 2015, Bijective Parameterization with Free Boundaries. (Reports quote it
+/// without the factor ½, with minimum 4 in the plane.) Tests: `energy::taylor_*`,
+/// `energy::symmetric_dirichlet_has_its_minimum_at_rotations`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SymmetricDirichlet;
 
-impl Density for SymmetricDirichlet {
+impl<const D: usize> Density<D> for SymmetricDirichlet {
     fn floor(&self) -> f64 {
         0.0
     }
 
-    fn value(&self, j: &Jacobian) -> f64 {
-        if j.det > 0.0 {
-            0.5 * j.norm_squared() * (1.0 + 1.0 / (j.det * j.det))
+    fn value(&self, sigma: &[f64; D]) -> f64 {
+        if sigma[D - 1] > 0.0 {
+            0.5 * sigma.iter().map(|s| s * s + 1.0 / (s * s)).sum::<f64>()
         } else {
             f64::INFINITY
         }
     }
 
-    fn derivatives(&self, j: &Jacobian) -> Derivatives {
-        let (p, m, n) = (j.p(), j.m(), j.norm_squared());
-        let inverse = 1.0 / j.det;
-        let square = inverse * inverse;
-        let cube = square * inverse;
-        let three_n_fourth = 3.0 * n * square * square;
-        let twist = 1.0 + square - n * cube;
-        let flip = 1.0 + square + n * cube;
-        Derivatives {
-            twist,
-            flip,
-            pp: twist + p * p * (three_n_fourth - 4.0 * cube),
-            pm: -p * m * three_n_fourth,
-            mm: flip + m * m * (three_n_fourth + 4.0 * cube),
+    fn gradient(&self, sigma: &[f64; D]) -> [f64; D] {
+        sigma.map(|s| s - 1.0 / (s * s * s))
+    }
+
+    fn hessian(&self, sigma: &[f64; D]) -> Matrix<D> {
+        let mut hessian = [[0.0; D]; D];
+        for (i, s) in sigma.iter().enumerate() {
+            hessian[i][i] = 1.0 + 3.0 / (s * s * s * s);
         }
+        hessian
     }
 }

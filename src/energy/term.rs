@@ -1,46 +1,119 @@
 //! What the solver asks of an energy.
 
-use crate::numerics::block::BlockPattern;
+use crate::numerics::block::{BlockPattern, Slots};
+use crate::numerics::square::Matrix;
+use crate::numerics::stencils::Stencils;
 
-/// A sum over triangles of functions of their vertices' positions in the plane.
+/// A sum of functions of a few vertices' positions each.
 ///
-/// Positions `x` are flat: coordinates of vertex `v` at `2v` and `2v + 1`. All sums run in the order of the triangles,
-/// so results depend on the arguments alone.
+/// Positions `x` are flat: with D coordinates per vertex, those of vertex `v` are `x[Dv..Dv + D]`. All sums run in the order
+/// of the stencils, so results depend on the arguments alone. Of the methods with a default the defaults are those of a
+/// term that is finite everywhere.
 pub trait Term: Send + Sync {
-    /// The vertices of each triangle in increasing order, whatever their orientation.
-    fn stencils(&self) -> Vec<[u32; 3]>;
+    /// D: coordinates per vertex, 2 or 3.
+    fn dim(&self) -> usize;
 
-    /// The value that counts as large: the sum of the weights. An energy far below it is rounding.
-    fn scale(&self) -> f64;
+    /// The vertices of each summand.
+    fn stencils(&self) -> Stencils;
 
-    /// The sum, +∞ as soon as one triangle is outside the domain.
+    /// The value that counts as large, such as the sum of the weights: an energy far below it is rounding.
+    fn scale(&self) -> f64 {
+        0.0
+    }
+
+    /// The sum, +∞ as soon as one summand is outside its domain.
     fn value(&self, x: &[f64]) -> f64;
 
-    /// Adds the gradient at `x` to `gradient`, and the Hessian, with negative eigenvalues of each triangle's share
-    /// multiplied by `tau`, to `hessian`, the values of `pattern` (made from the [`stencils`](Term::stencils)).
-    fn add_derivatives(
-        &self,
-        x: &[f64],
-        tau: f64,
-        pattern: &BlockPattern,
-        gradient: &mut [f64],
-        hessian: &mut [f64],
-    );
+    /// Adds gradient and Hessian at `x`, with negative eigenvalues of each summand's Hessian multiplied by `tau`: at 0 it
+    /// must be positive semidefinite, at 1 the true one.
+    fn add_derivatives(&self, x: &[f64], tau: f64, assembly: &mut Assembly);
 
     /// The smallest t > 0 at which `x + t·direction` leaves the domain, +∞ if it never does.
-    fn largest_step(&self, x: &[f64], direction: &[f64]) -> f64;
+    fn largest_step(&self, _x: &[f64], _direction: &[f64]) -> f64 {
+        f64::INFINITY
+    }
 
-    /// The smallest det J: the smallest area of a triangle over its rest area, negative where one is flipped.
-    fn smallest(&self, x: &[f64]) -> f64;
+    /// The smallest det J: the smallest size of an element over its rest size, negative where one is inverted; +∞ if the
+    /// term has no elements.
+    fn smallest(&self, _x: &[f64]) -> f64 {
+        f64::INFINITY
+    }
 
-    /// Does the domain exclude every flipped triangle?
-    fn forbids_flips(&self) -> bool;
+    /// Does the domain exclude every inverted element?
+    fn forbids_flips(&self) -> bool {
+        false
+    }
+}
 
-    /// The sum over the triangles `around` a vertex.
+/// A term whose share of one vertex can be had alone, in the plane.
+pub trait LocalTerm: Term {
+    /// The sum over the elements `around` a vertex.
     fn value_around(&self, around: &[u32], x: &[f64]) -> f64;
 
     /// The derivatives of that sum in the vertex's two coordinates, the Hessian projected.
     fn derivatives_around(&self, vertex: u32, around: &[u32], x: &[f64]) -> Local;
+}
+
+/// Where a term adds its gradient and Hessian.
+pub struct Assembly<'a> {
+    pattern: &'a BlockPattern,
+    slots: &'a Slots,
+    gradient: &'a mut [f64],
+    hessian: &'a mut [f64],
+}
+
+impl<'a> Assembly<'a> {
+    /// Sums into `gradient` and the values of `pattern`, in the term's `slots`.
+    pub fn new(
+        pattern: &'a BlockPattern,
+        slots: &'a Slots,
+        gradient: &'a mut [f64],
+        hessian: &'a mut [f64],
+    ) -> Self {
+        Self {
+            pattern,
+            slots,
+            gradient,
+            hessian,
+        }
+    }
+
+    /// Adds to the gradient at a vertex.
+    pub fn add_gradient<const D: usize>(&mut self, vertex: u32, gradient: &[f64; D]) {
+        let at = D * vertex as usize;
+        for (sum, share) in self.gradient[at..at + D].iter_mut().zip(gradient) {
+            *sum += share;
+        }
+    }
+
+    /// Adds to the gradient in one unknown.
+    pub fn add_to_gradient(&mut self, unknown: usize, share: f64) {
+        self.gradient[unknown] += share;
+    }
+
+    /// Adds a multiple of the identity to the block of one vertex.
+    pub fn add_diagonal_identity(&mut self, vertex: u32, share: f64) {
+        self.pattern
+            .add_diagonal_identity(self.hessian, vertex, share);
+    }
+
+    /// Adds a multiple of the identity to the block of two vertices of a stencil; `pair` counts them as
+    /// [`Stencils::pairs`] does.
+    pub fn add_pair_identity(&mut self, stencil: usize, pair: usize, share: f64) {
+        let slot = self.slots.of(stencil)[pair];
+        self.pattern.add_pair_identity(self.hessian, slot, share);
+    }
+
+    /// Adds to the block of one vertex; the lower triangle of `block` is read.
+    pub fn add_diagonal<const D: usize>(&mut self, vertex: u32, block: &Matrix<D>) {
+        self.pattern.add_diagonal(self.hessian, vertex, block);
+    }
+
+    /// Adds to the block of two vertices of a stencil, its rows those of the larger; `pair` counts them as
+    /// [`Stencils::pairs`] does.
+    pub fn add_pair<const D: usize>(&mut self, stencil: usize, pair: usize, block: &Matrix<D>) {
+        BlockPattern::add_pair(self.hessian, self.slots.of(stencil)[pair], block);
+    }
 }
 
 /// First and second derivatives in the coordinates of one vertex.
@@ -48,24 +121,24 @@ pub trait Term: Send + Sync {
 pub struct Local {
     /// ∂/∂u, ∂/∂v.
     pub gradient: [f64; 2],
-    /// h₀₀, h₁₀, h₁₁, positive semidefinite.
-    pub hessian: [f64; 3],
+    /// Positive semidefinite.
+    pub hessian: Matrix<2>,
 }
 
 impl Local {
     /// Adds one triangle's share.
-    pub fn add(&mut self, gradient: [f64; 2], hessian: [f64; 3]) {
-        for (sum, share) in self.gradient.iter_mut().zip(gradient) {
-            *sum += share;
-        }
-        for (sum, share) in self.hessian.iter_mut().zip(hessian) {
-            *sum += share;
+    pub fn add(&mut self, gradient: [f64; 2], hessian: Matrix<2>) {
+        for i in 0..2 {
+            self.gradient[i] += gradient[i];
+            for j in 0..2 {
+                self.hessian[i][j] += hessian[i][j];
+            }
         }
     }
 
     /// The Newton direction −H⁻¹g, with H shifted by 1e-9 of its trace so that it exists.
     pub fn newton_direction(&self) -> [f64; 2] {
-        let [mut h00, h10, mut h11] = self.hessian;
+        let [[mut h00, _], [h10, mut h11]] = self.hessian;
         let shift = 1e-9 * (h00 + h11) + f64::MIN_POSITIVE;
         h00 += shift;
         h11 += shift;

@@ -193,7 +193,7 @@ async fn conclude(jobs: &Jobs, mut job: Job, ending: Ending) {
     let code = job.failure.as_ref().map(|failure| failure.code.as_str());
     tracing::info!(job = %job.id, state = job.state.word(), code, "ended");
     match jobs.store.update(&job).await {
-        Ok(true) if job.state.is_final() => jobs.end_live(&job),
+        Ok(true) if job.state.is_final() => jobs.end(&job).await,
         Ok(true) => jobs.events.publish(job.id, job.event()),
         Ok(false) => tracing::warn!(job = %job.id, attempt = job.attempt, "outdated attempt"),
         Err(error) => tracing::error!(job = %job.id, %error, "end not recorded"),

@@ -205,7 +205,7 @@ impl Jobs {
             return Ok(None);
         };
         if job.state.is_final() {
-            self.end_live(&job);
+            self.end(&job).await;
         }
         Ok(Some(job))
     }
@@ -244,7 +244,13 @@ impl Jobs {
         self.events.announce(job.id, job.event());
     }
 
-    pub(super) fn end_live(&self, job: &Job) {
+    /// Tells those who watch that a job has ended. Nothing but the record is kept of a cancelled one.
+    pub(super) async fn end(&self, job: &Job) {
+        if job.state == State::Cancelled
+            && let Err(error) = self.blobs.remove(job.id).await
+        {
+            tracing::error!(job = %job.id, %error, "files of a cancelled job not removed");
+        }
         self.controls().remove(&job.id);
         self.events.publish(job.id, job.event());
     }

@@ -1,48 +1,56 @@
-//! The pattern of a matrix of 2×2 blocks, one for each vertex and each pair of vertices of a triangle.
+//! The pattern of a matrix of D×D blocks, one for each vertex and each pair of vertices that share a stencil.
 
 use super::cholesky::SymmetricPattern;
+use super::square::Matrix;
+use super::stencils::Stencils;
 
-/// Where the blocks of every triangle go in the value array of a [`SymmetricPattern`].
-///
-/// Unknowns `2v` and `2v + 1` belong to vertex `v`. The slots are found once, so that adding a triangle's Hessian is
-/// twelve blocks' worth of plain additions at known places.
+/// The lower triangle of such a matrix, entry by entry: unknowns `Dv` to `Dv + D − 1` belong to vertex `v`.
 #[derive(Clone, Debug)]
 pub struct BlockPattern {
+    dim: usize,
     scalar: SymmetricPattern,
-    pairs: Vec<[PairSlot; 3]>,
 }
 
-/// The place of the block of two vertices: of its first and its second column.
+/// Where the blocks of one term's pairs of vertices lie in the values of a [`BlockPattern`], in the order of
+/// [`Stencils::pairs`]. Found once, so that adding a stencil's Hessian is plain additions at known places.
+#[derive(Clone, Debug)]
+pub struct Slots {
+    /// Of each stencil, its first pair.
+    starts: Vec<u32>,
+    pairs: Vec<PairSlot>,
+}
+
+/// The place of the block of two vertices: of its first entry, and how far the columns of the smaller vertex are apart.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PairSlot {
-    columns: [u32; 2],
+    first: u32,
+    stride: u32,
 }
 
 impl BlockPattern {
-    /// The pattern of `n_vertices` vertices and of triangles whose vertices are in increasing order.
+    /// The pattern of `n_vertices` vertices with `dim` coordinates, 2 or 3, and the slots of each term's stencils.
     ///
     /// # Panics
-    /// If a triangle names a vertex that there is not.
-    pub fn new(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]> + Clone) -> Self {
-        let (starts, neighbours) = larger_neighbours(n_vertices, triangles.clone());
-        let scalar = scalar_pattern(&starts, &neighbours);
-        let slot = |small: u32, large: u32| {
+    /// If a stencil names a vertex that there is not.
+    pub fn new(dim: usize, n_vertices: usize, terms: &[Stencils]) -> (Self, Vec<Slots>) {
+        let pairs = || terms.iter().flat_map(Stencils::pairs);
+        let (starts, neighbours) = larger_neighbours(n_vertices, pairs);
+        let scalar = scalar_pattern(dim, &starts, &neighbours);
+        let slot = |(small, large): (u32, u32)| {
             let small = small as usize;
             let list = &neighbours[starts[small]..starts[small + 1]];
             let rank = list.partition_point(|&v| v < large);
-            // The first column starts with the two rows of the diagonal block, the second with one.
-            let columns = [
-                scalar.col_ptr[2 * small] + 2 + 2 * rank,
-                scalar.col_ptr[2 * small + 1] + 1 + 2 * rank,
-            ];
+            // The first column of a vertex starts with the rows of its own block.
             PairSlot {
-                columns: columns.map(|slot| slot as u32),
+                first: (scalar.col_ptr[dim * small] + dim + dim * rank) as u32,
+                stride: (dim * list.len()) as u32,
             }
         };
-        let pairs = triangles
-            .map(|[a, b, c]| [slot(a, b), slot(a, c), slot(b, c)])
+        let slots = terms
+            .iter()
+            .map(|stencils| Slots::new(stencils, slot))
             .collect();
-        Self { scalar, pairs }
+        (Self { dim, scalar }, slots)
     }
 
     /// The same pattern, entry by entry.
@@ -50,24 +58,47 @@ impl BlockPattern {
         &self.scalar
     }
 
-    /// The slots of a triangle's pairs of vertices: first and second, first and third, second and third.
-    pub fn pairs(&self, triangle: usize) -> [PairSlot; 3] {
-        self.pairs[triangle]
+    /// Coordinates per vertex.
+    pub fn dim(&self) -> usize {
+        self.dim
     }
 
-    /// Adds the symmetric block `[h00, h10, h11]` of one vertex.
-    pub fn add_diagonal(&self, values: &mut [f64], vertex: u32, block: [f64; 3]) {
-        let first = self.scalar.col_ptr[2 * vertex as usize];
-        values[first] += block[0];
-        values[first + 1] += block[1];
-        values[self.scalar.col_ptr[2 * vertex as usize + 1]] += block[2];
+    /// Adds the symmetric block of one vertex; its lower triangle is read.
+    pub fn add_diagonal<const D: usize>(&self, values: &mut [f64], vertex: u32, block: &Matrix<D>) {
+        for column in 0..D {
+            let first = self.scalar.col_ptr[D * vertex as usize + column];
+            for row in column..D {
+                values[first + row - column] += block[row][column];
+            }
+        }
     }
 
-    /// Adds the block of two vertices, its rows those of the larger: `block[column][row]`.
-    pub fn add_pair(&self, values: &mut [f64], slot: PairSlot, block: [[f64; 2]; 2]) {
-        for (column, slot) in block.iter().zip(slot.columns) {
-            values[slot as usize] += column[0];
-            values[slot as usize + 1] += column[1];
+    /// Adds the block of two vertices, its rows those of the larger.
+    pub fn add_pair<const D: usize>(values: &mut [f64], slot: PairSlot, block: &Matrix<D>) {
+        let mut first = slot.first as usize;
+        for column in 0..D {
+            for (row, value) in values[first..first + D].iter_mut().enumerate() {
+                *value += block[row][column];
+            }
+            // A column's own block loses a row from one column to the next.
+            first += slot.stride as usize + D - 1 - column;
+        }
+    }
+
+    /// Adds a multiple of the identity to the block of one vertex.
+    pub fn add_diagonal_identity(&self, values: &mut [f64], vertex: u32, share: f64) {
+        let first = self.dim * vertex as usize;
+        for &slot in &self.scalar.col_ptr[first..first + self.dim] {
+            values[slot] += share;
+        }
+    }
+
+    /// Adds a multiple of the identity to the block of two vertices.
+    pub fn add_pair_identity(&self, values: &mut [f64], slot: PairSlot, share: f64) {
+        let mut first = slot.first as usize;
+        for column in 0..self.dim {
+            values[first + column] += share;
+            first += slot.stride as usize + self.dim - 1 - column;
         }
     }
 
@@ -76,38 +107,76 @@ impl BlockPattern {
         &self.scalar.col_ptr[..self.scalar.n]
     }
 
-    /// Every slot in the rows and columns of the vertices for which `chosen` is true, the diagonal included.
-    pub fn rows_and_columns(&self, chosen: &[bool]) -> Vec<usize> {
+    /// Every slot in the rows and columns of the vertices for which `chosen` is true, the diagonal included, with its row
+    /// and column.
+    pub fn rows_and_columns(&self, chosen: &[bool]) -> Vec<Entry> {
         let pattern = &self.scalar;
+        let chosen = |unknown: usize| chosen[unknown / self.dim];
+        let entry = |column: usize, slot: usize| Entry {
+            slot,
+            row: pattern.row_idx[slot],
+            column,
+        };
         (0..pattern.n)
             .flat_map(|j| {
-                (pattern.col_ptr[j]..pattern.col_ptr[j + 1])
-                    .filter(move |&slot| chosen[j / 2] || chosen[pattern.row_idx[slot] / 2])
+                (pattern.col_ptr[j]..pattern.col_ptr[j + 1]).map(move |slot| entry(j, slot))
             })
+            .filter(|entry| chosen(entry.row) || chosen(entry.column))
             .collect()
     }
 }
 
+/// A stored entry of a symmetric matrix.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Its place in the values.
+    pub slot: usize,
+    /// Its row.
+    pub row: usize,
+    /// Its column, at most the row.
+    pub column: usize,
+}
+
+impl Slots {
+    fn new(stencils: &Stencils, slot: impl Fn((u32, u32)) -> PairSlot) -> Self {
+        let mut starts = vec![0];
+        for stencil in stencils.iter() {
+            let n = stencil.len() as u32;
+            starts.push(starts[starts.len() - 1] + n * n.saturating_sub(1) / 2);
+        }
+        Self {
+            starts,
+            pairs: stencils.pairs().map(slot).collect(),
+        }
+    }
+
+    /// The slots of a stencil's pairs of vertices.
+    pub fn of(&self, stencil: usize) -> &[PairSlot] {
+        &self.pairs[self.starts[stencil] as usize..self.starts[stencil + 1] as usize]
+    }
+}
+
 /// For each vertex its neighbours with a larger index, sorted: `neighbours[starts[v]..starts[v + 1]]`.
-fn larger_neighbours(
+fn larger_neighbours<P: Iterator<Item = (u32, u32)>>(
     n_vertices: usize,
-    triangles: impl Iterator<Item = [u32; 3]> + Clone,
+    pairs: impl Fn() -> P,
 ) -> (Vec<usize>, Vec<u32>) {
     let mut bucket_ends = vec![0; n_vertices + 1];
-    for [a, b, _] in triangles.clone() {
-        bucket_ends[a as usize + 1] += 2;
-        bucket_ends[b as usize + 1] += 1;
+    for (small, _) in pairs() {
+        bucket_ends[small as usize + 1] += 1;
     }
     for v in 0..n_vertices {
         bucket_ends[v + 1] += bucket_ends[v];
     }
     let mut buckets = vec![0; bucket_ends[n_vertices]];
     let mut next = bucket_ends.clone();
-    for [a, b, c] in triangles {
-        for (small, large) in [(a, b), (a, c), (b, c)] {
-            buckets[next[small as usize]] = large;
-            next[small as usize] += 1;
-        }
+    for (small, large) in pairs() {
+        assert!(
+            (large as usize) < n_vertices,
+            "a stencil names a vertex that there is not"
+        );
+        buckets[next[small as usize]] = large;
+        next[small as usize] += 1;
     }
     let mut starts = vec![0];
     let mut neighbours = Vec::with_capacity(buckets.len());
@@ -124,22 +193,23 @@ fn larger_neighbours(
     (starts, neighbours)
 }
 
-fn scalar_pattern(starts: &[usize], neighbours: &[u32]) -> SymmetricPattern {
+fn scalar_pattern(dim: usize, starts: &[usize], neighbours: &[u32]) -> SymmetricPattern {
     let n_vertices = starts.len() - 1;
-    let mut col_ptr = Vec::with_capacity(2 * n_vertices + 1);
-    let mut row_idx = Vec::with_capacity(3 * n_vertices + 4 * neighbours.len());
+    let mut col_ptr = Vec::with_capacity(dim * n_vertices + 1);
+    let mut row_idx = Vec::with_capacity(dim * dim * (n_vertices + neighbours.len()));
     col_ptr.push(0);
     for v in 0..n_vertices {
-        for first_row in [2 * v, 2 * v + 1] {
-            row_idx.extend(first_row..2 * v + 2);
+        for first_row in dim * v..dim * (v + 1) {
+            row_idx.extend(first_row..dim * (v + 1));
             for &large in &neighbours[starts[v]..starts[v + 1]] {
-                row_idx.extend([2 * large as usize, 2 * large as usize + 1]);
+                let large = dim * large as usize;
+                row_idx.extend(large..large + dim);
             }
             col_ptr.push(row_idx.len());
         }
     }
     SymmetricPattern {
-        n: 2 * n_vertices,
+        n: dim * n_vertices,
         col_ptr,
         row_idx,
     }

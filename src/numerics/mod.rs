@@ -7,5 +7,10 @@
 pub mod block;
 pub mod cholesky;
 pub mod predicates;
+pub mod roots;
+pub mod square;
+pub mod stencils;
+pub mod svd;
+pub mod symmetric;
 pub mod vec2;
 pub mod vec3;

@@ -1,4 +1,4 @@
-//! Drawings of UV layouts and their distortion.
+//! Drawings of UV layouts and their distortion; pictures with transparency, and deformed with a mesh.
 //!
 //! A picture lies as the texture does: where all UVs are inside the unit square, the picture is that square, and a
 //! pixel of it is a texel of a texture of the same size. Faces are filled by supersampling with a half-open scan
@@ -8,12 +8,17 @@
 mod canvas;
 mod colour;
 mod heat;
+mod image;
 mod layout;
 mod legend;
+mod mipmaps;
 mod panel;
 mod raster;
 mod text;
+mod warp;
 
 pub use heat::{HeatmapMeasure, heatmap_png};
+pub use image::{Image, ImageError};
 pub use layout::layout_png;
 pub use panel::Panel;
+pub use warp::{Deformation, Extent, Warped, warped};

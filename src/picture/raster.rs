@@ -1,9 +1,11 @@
-//! Filling triangles on a grid of samples, several to a pixel.
+//! Filling triangles on a grid of samples, one or several to a pixel.
 use super::canvas::Canvas;
 use super::colour::{BACKGROUND, INK, OVERLAP, Rgb, mix};
 
 /// Steps of a corner's coordinates to a sample.
 const STEPS: i64 = 256;
+/// Corners are moved to this far from the origin at most, in samples: products of two differences stay exact.
+const FARTHEST: f64 = (1 << 20) as f64;
 /// Most samples along a side; bounds the memory of a picture.
 const MOST_SAMPLES: usize = 4096;
 /// Thickness of the line between two faces, in pixels.
@@ -42,35 +44,21 @@ impl Raster {
 
     /// Fills a triangle given in pixels. Its edges are drawn with the given opacity, each face drawing its half.
     pub fn fill(&mut self, corners: [[f64; 2]; 3], colour: Rgb, edge_opacity: f32, mode: Mode) {
-        let scale = (self.per_pixel as i64 * STEPS) as f64;
-        let limit = (4 * MOST_SAMPLES as i64 * STEPS) as f64;
-        let fixed = corners.map(|p| p.map(|x| (x * scale).round().clamp(-limit, limit) as i64));
-        let mut sorted = fixed;
-        sorted.sort_unstable_by_key(|p| p[1]);
-        let [low, middle, high] = sorted;
+        let fixed = steps(corners.map(|p| p.map(|x| x * self.per_pixel as f64)));
         let edges = Edges::new(&fixed);
         let reach = 0.5 * EDGE_PIXELS * self.per_pixel as f64;
-        for row in rows(low[1], high[1], self.side) {
+        for (row, columns) in spans(fixed, [self.side; 2]) {
             let y = row as i64 * STEPS + STEPS / 2;
-            let short = if y < middle[1] {
-                [low, middle]
-            } else {
-                [middle, high]
-            };
-            let (a, b) = (
-                first_sample(low, high, y),
-                first_sample(short[0], short[1], y),
-            );
-            let last = self.side as i64;
-            for column in a.min(b).clamp(0, last)..a.max(b).clamp(0, last) {
+            for column in columns {
+                let at = [column as i64 * STEPS + STEPS / 2, y];
                 let shown = if edge_opacity > 0.0 {
-                    let distance = edges.distance([column * STEPS + STEPS / 2, y]);
+                    let distance = edges.distance(at);
                     let cover = (reach - distance + 0.5).clamp(0.0, 1.0) as f32;
                     mix(colour, INK, cover * edge_opacity)
                 } else {
                     colour
                 };
-                self.set(row * self.side + column as usize, shown, mode);
+                self.set(row * self.side + column, shown, mode);
             }
         }
     }
@@ -107,6 +95,35 @@ impl Raster {
         }
         canvas
     }
+}
+
+/// Corners given in samples, rounded to steps.
+pub(super) fn steps(corners: [[f64; 2]; 3]) -> [[i64; 2]; 3] {
+    corners.map(|p| p.map(|x| (x.clamp(-FARTHEST, FARTHEST) * STEPS as f64).round() as i64))
+}
+
+/// The samples inside a triangle, row by row, on a grid of `size` columns and rows. Half open, so that a sample on a common edge
+/// belongs to one of two triangles.
+pub(super) fn spans(
+    mut corners: [[i64; 2]; 3],
+    size: [usize; 2],
+) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> {
+    corners.sort_unstable_by_key(|p| p[1]);
+    let [low, middle, high] = corners;
+    rows(low[1], high[1], size[1]).map(move |row| {
+        let y = row as i64 * STEPS + STEPS / 2;
+        let short = if y < middle[1] {
+            [low, middle]
+        } else {
+            [middle, high]
+        };
+        let ends = [
+            first_sample(low, high, y),
+            first_sample(short[0], short[1], y),
+        ];
+        let [a, b] = ends.map(|x| x.clamp(0, size[0] as i64) as usize);
+        (row, a.min(b)..a.max(b))
+    })
 }
 
 /// Rows of samples at or above `low` and below `high`.

@@ -33,7 +33,7 @@ pub fn line_search(
     (energy, decrement): (f64, f64),
     trial: &mut [f64],
 ) -> Option<Step> {
-    let mut length = (SAFETY * objective.term().largest_step(x, direction)).min(1.0);
+    let mut length = (SAFETY * objective.largest_step(x, direction)).min(1.0);
     for _ in 0..MAX_HALVINGS {
         for ((trial, x), d) in trial.iter_mut().zip(x).zip(direction) {
             *trial = x + length * d;

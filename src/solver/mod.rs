@@ -10,16 +10,22 @@
 //! det J > 0 in every triangle, and the energy falls from iterate to iterate. The solver knows no energy by name, has no
 //! clock and no randomness; who watches may end it early ([`Watch`]).
 
+mod follow;
+mod levenberg;
 mod line_search;
 mod newton;
 mod objective;
+mod path;
 mod relaxation;
 mod scale;
 mod settings;
 mod watch;
 
+pub use follow::follow;
+pub use levenberg::{LevenbergSettings, LevenbergStep, levenberg};
 pub use newton::minimize;
 pub use objective::Objective;
+pub use path::{Handles, Path, Rotation};
 pub use scale::best_scale;
 pub use settings::{Projection, Settings, Status, Summary};
 pub use watch::{Control, Iterate, Watch};

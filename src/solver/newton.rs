@@ -8,23 +8,23 @@ use super::watch::{Control, Iterate, Watch};
 
 /// Moves `x` from a start inside the domain to a minimum of `objective` nearby.
 ///
-/// `x` is flat: coordinates of vertex `v` at `2v` and `2v + 1`. A start outside the domain is left as it is and reported
+/// `x` is flat, the coordinates of a vertex one after another. A start outside the domain is left as it is and reported
 /// as [`Status::Stalled`]. Energy falls with every step. Costs per iteration one factorization (more while the relaxed
 /// matrix is indefinite), one solve, one assembly and about 1.2 evaluations; no memory is allocated inside the loop.
 ///
 /// # Panics
-/// If `x` has a length other than twice the objective's number of vertices.
+/// If `x` does not hold the coordinates of the objective's vertices.
 pub fn minimize(
     objective: &mut Objective,
     x: &mut [f64],
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Summary {
-    assert_eq!(x.len(), objective.n(), "two coordinates per vertex");
+    assert_eq!(x.len(), objective.n(), "coordinates of every vertex");
     let mut direction = vec![0.0; x.len()];
     let mut trial = vec![0.0; x.len()];
     let mut relaxation = Relaxation::new(settings.projection);
-    let mut summary = start(objective, x);
+    let mut summary = Summary::at_start(objective.value(x));
     if !summary.energy_first.is_finite() {
         return summary;
     }
@@ -57,7 +57,7 @@ pub fn minimize(
         x.copy_from_slice(&trial);
         summary.iterations += 1;
         summary.energy_last = step.energy;
-        relaxation.after_step(step.length, (energy - step.energy) / energy);
+        relaxation.after_step(step.length, (energy - step.energy) / energy.abs());
         if watched(objective, x, &summary, watch) == Control::Finish {
             return summary.ended(Status::Stopped);
         }
@@ -66,17 +66,6 @@ pub fn minimize(
         }
     }
     summary.ended(Status::IterationLimit)
-}
-
-fn start(objective: &Objective, x: &[f64]) -> Summary {
-    let energy = objective.value(x);
-    Summary {
-        status: Status::Stalled,
-        iterations: 0,
-        factorizations: 0,
-        energy_first: energy,
-        energy_last: energy,
-    }
 }
 
 /// Leaves −H⁻¹g in `direction` and returns the Newton decrement, projecting more until the matrix is positive definite;
@@ -104,14 +93,8 @@ fn watched(objective: &Objective, x: &[f64], summary: &Summary, watch: &dyn Watc
     let iterate = Iterate {
         iteration: summary.iterations,
         energy: summary.energy_last,
-        smallest: objective.term().smallest(x),
+        smallest: objective.smallest(x),
     };
-    debug_assert!(iterate.smallest > 0.0 || !objective.term().forbids_flips());
+    debug_assert!(iterate.smallest > 0.0 || !objective.forbids_flips());
     watch.iterate(&iterate)
-}
-
-impl Summary {
-    fn ended(self, status: Status) -> Self {
-        Self { status, ..self }
-    }
 }

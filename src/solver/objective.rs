@@ -1,12 +1,15 @@
 //! The function to minimize, with the memory that minimizing it takes.
 
-use crate::energy::Term;
-use crate::numerics::block::BlockPattern;
+use crate::energy::{Assembly, Positional, Term};
+use crate::numerics::block::{BlockPattern, Entry, Slots};
 use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
 
-/// A [`Term`] with its gradient, Hessian and factorization; the pattern is analyzed once, when this is made.
+/// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when this is made.
 pub struct Objective {
-    term: Box<dyn Term>,
+    terms: Vec<Box<dyn Term>>,
+    constraints: Option<Positional>,
+    /// Of each term, and of the constraints last.
+    slots: Vec<Slots>,
     pattern: BlockPattern,
     cholesky: Cholesky,
     gradient: Vec<f64>,
@@ -14,7 +17,11 @@ pub struct Objective {
     /// Energies far below the sum of the weights are rounding.
     scale: f64,
     fixed: Vec<u32>,
-    fixed_slots: Vec<usize>,
+    fixed_entries: Vec<Entry>,
+    /// What stood at the fixed entries before they were cleared.
+    cleared: Vec<f64>,
+    cleared_gradient: Vec<f64>,
+    mean_diagonal: f64,
 }
 
 /// Diagonal shift, as a share of the mean diagonal: makes the rigid motions, which nothing holds, regular.
@@ -28,29 +35,77 @@ impl Objective {
     /// `term` as a function of the positions of `n_vertices` vertices.
     ///
     /// # Panics
-    /// If the term's triangles name a vertex that there is not.
+    /// If a stencil names a vertex that there is not.
     pub fn new(n_vertices: usize, term: Box<dyn Term>) -> Self {
-        let pattern = BlockPattern::new(n_vertices, term.stencils().into_iter());
+        Self::of_terms(n_vertices, vec![term])
+    }
+
+    /// The sum of `terms`, at least one, of equal dimension.
+    ///
+    /// # Panics
+    /// If there is none, if their dimensions differ, or if a stencil names a vertex that there is not.
+    pub fn of_terms(n_vertices: usize, terms: Vec<Box<dyn Term>>) -> Self {
+        Self::assembled(n_vertices, terms, None)
+    }
+
+    /// The sum of `terms` and of soft constraints, whose strength and targets may change.
+    ///
+    /// # Panics
+    /// As [`of_terms`](Self::of_terms).
+    pub fn constrained(
+        n_vertices: usize,
+        terms: Vec<Box<dyn Term>>,
+        constraints: Positional,
+    ) -> Self {
+        Self::assembled(n_vertices, terms, Some(constraints))
+    }
+
+    fn assembled(
+        n_vertices: usize,
+        terms: Vec<Box<dyn Term>>,
+        constraints: Option<Positional>,
+    ) -> Self {
+        let dim = terms[0].dim();
+        let all = terms.iter().map(AsRef::as_ref);
+        let all = all.chain(constraints.iter().map(|c| c as &dyn Term));
+        let stencils: Vec<_> = all
+            .map(|term| {
+                assert_eq!(term.dim(), dim, "terms of one dimension");
+                term.stencils()
+            })
+            .collect();
+        let (pattern, slots) = BlockPattern::new(dim, n_vertices, &stencils);
         Self {
             cholesky: Cholesky::analyze(pattern.scalar()),
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
-            scale: term.scale(),
+            scale: terms.iter().map(|term| term.scale()).sum(),
             fixed: Vec::new(),
-            fixed_slots: Vec::new(),
+            fixed_entries: Vec::new(),
+            cleared: Vec::new(),
+            cleared_gradient: Vec::new(),
+            mean_diagonal: 0.0,
+            slots,
             pattern,
-            term,
+            terms,
+            constraints,
         }
     }
 
     /// Holds these vertices, and only these, where they are.
     pub fn fix(&mut self, vertices: &[u32]) {
-        let mut chosen = vec![false; self.n() / 2];
+        let mut chosen = vec![false; self.n() / self.dim()];
         for &v in vertices {
             chosen[v as usize] = true;
         }
         self.fixed = vertices.to_vec();
-        self.fixed_slots = self.pattern.rows_and_columns(&chosen);
+        self.fixed_entries = self.pattern.rows_and_columns(&chosen);
+        self.cleared = vec![0.0; self.fixed_entries.len()];
+    }
+
+    /// The vertices that are held.
+    pub fn fixed(&self) -> &[u32] {
+        &self.fixed
     }
 
     /// Number of unknowns.
@@ -58,46 +113,113 @@ impl Objective {
         self.gradient.len()
     }
 
-    /// The energy's terms, without what is fixed.
-    pub fn term(&self) -> &dyn Term {
-        &*self.term
+    /// Coordinates per vertex.
+    pub fn dim(&self) -> usize {
+        self.pattern.dim()
     }
 
-    /// The energy, +∞ outside the domain.
+    fn all(&self) -> impl Iterator<Item = &dyn Term> {
+        let constraints = self.constraints.iter().map(|c| c as &dyn Term);
+        self.terms.iter().map(AsRef::as_ref).chain(constraints)
+    }
+
+    /// The soft constraints.
+    pub fn constraints(&self) -> Option<&Positional> {
+        self.constraints.as_ref()
+    }
+
+    /// Changes strength and targets of the soft constraints.
+    pub fn set_constraints(&mut self, alpha: f64, targets: &[f64]) {
+        if let Some(constraints) = &mut self.constraints {
+            constraints.alpha = alpha;
+            constraints.targets.copy_from_slice(targets);
+        }
+    }
+
+    /// Energy and constraints, +∞ outside the domain.
     pub fn value(&self, x: &[f64]) -> f64 {
-        self.term.value(x)
+        self.all().map(|term| term.value(x)).sum()
+    }
+
+    /// The energy without the constraints.
+    pub fn energy(&self, x: &[f64]) -> f64 {
+        self.terms.iter().map(|term| term.value(x)).sum()
+    }
+
+    /// The smallest t > 0 at which `x + t·direction` leaves the domain, +∞ if it never does.
+    pub fn largest_step(&self, x: &[f64], direction: &[f64]) -> f64 {
+        let steps = self
+            .terms
+            .iter()
+            .map(|term| term.largest_step(x, direction));
+        steps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The smallest size of an element over its rest size.
+    pub fn smallest(&self, x: &[f64]) -> f64 {
+        let sizes = self.terms.iter().map(|term| term.smallest(x));
+        sizes.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Does the domain exclude every inverted element?
+    pub fn forbids_flips(&self) -> bool {
+        self.terms.iter().any(|term| term.forbids_flips())
     }
 
     /// What a change of energy is compared with: the energy, unless that is negligible.
     pub fn reference(&self, energy: f64) -> f64 {
-        energy.max(NEGLIGIBLE * self.scale)
+        energy.abs().max(NEGLIGIBLE * self.scale)
     }
 
-    /// Evaluates gradient and Hessian at `x`, negative eigenvalues of each triangle's share times `tau`.
+    /// Evaluates gradient and Hessian at `x`, negative eigenvalues of each summand's share times `tau`.
     pub fn linearize(&mut self, x: &[f64], tau: f64) {
         self.gradient.fill(0.0);
         self.hessian.fill(0.0);
-        self.term
-            .add_derivatives(x, tau, &self.pattern, &mut self.gradient, &mut self.hessian);
+        for i in 0..self.terms.len() {
+            self.add_term(i, x, tau);
+        }
+        // Before the constraints: their strength says nothing of the energy's.
         let diagonal = self.pattern.diagonal();
         let sum: f64 = diagonal.iter().map(|&slot| self.hessian[slot]).sum();
-        let mean = sum / diagonal.len().max(1) as f64;
-        for &slot in diagonal {
-            self.hessian[slot] += SHIFT * mean + f64::MIN_POSITIVE;
+        self.mean_diagonal = sum / diagonal.len().max(1) as f64;
+        self.add_term(self.terms.len(), x, tau);
+        self.shift_diagonal(SHIFT * self.mean_diagonal + f64::MIN_POSITIVE);
+        self.hold_fixed();
+    }
+
+    /// Adds the derivatives of the `i`-th term, or of the constraints after the last.
+    fn add_term(&mut self, i: usize, x: &[f64], tau: f64) {
+        let constraints = self.constraints.as_ref().map(|c| c as &dyn Term);
+        let Some(term) = self.terms.get(i).map(AsRef::as_ref).or(constraints) else {
+            return;
+        };
+        let mut assembly = Assembly::new(
+            &self.pattern,
+            &self.slots[i],
+            &mut self.gradient,
+            &mut self.hessian,
+        );
+        term.add_derivatives(x, tau, &mut assembly);
+    }
+
+    /// Adds to every diagonal entry of the last [`linearize`](Self::linearize).
+    pub fn shift_diagonal(&mut self, shift: f64) {
+        for &slot in self.pattern.diagonal() {
+            self.hessian[slot] += shift;
         }
-        self.hold_fixed(mean);
     }
 
     /// Makes rows and columns of the fixed vertices those of a multiple of the identity.
-    fn hold_fixed(&mut self, diagonal: f64) {
-        for &slot in &self.fixed_slots {
-            self.hessian[slot] = 0.0;
+    fn hold_fixed(&mut self) {
+        for (cleared, entry) in self.cleared.iter_mut().zip(&self.fixed_entries) {
+            *cleared = std::mem::take(&mut self.hessian[entry.slot]);
         }
-        for &v in &self.fixed {
-            for i in [2 * v as usize, 2 * v as usize + 1] {
-                self.hessian[self.pattern.diagonal()[i]] = diagonal;
-                self.gradient[i] = 0.0;
-            }
+        let held: Vec<usize> = self.fixed_unknowns().collect();
+        self.cleared_gradient.clear();
+        for i in held {
+            self.cleared_gradient.push(self.gradient[i]);
+            self.gradient[i] = 0.0;
+            self.hessian[self.pattern.diagonal()[i]] = self.mean_diagonal.max(f64::MIN_POSITIVE);
         }
     }
 
@@ -111,11 +233,16 @@ impl Objective {
         (&self.pattern, &self.hessian)
     }
 
+    /// Factors the Hessian H of the last [`linearize`](Self::linearize).
+    pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
+        self.cholesky.factor(&self.hessian)
+    }
+
     /// Solves Hd = −g of the last [`linearize`](Self::linearize) and returns the Newton decrement −½g·d, positive.
     ///
     /// Cost: one factorization, one solve.
     pub fn newton_direction(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
-        self.cholesky.factor(&self.hessian)?;
+        self.factor()?;
         for (d, g) in direction.iter_mut().zip(&self.gradient) {
             *d = -g;
         }
@@ -130,5 +257,89 @@ impl Objective {
         } else {
             Err(NotPositiveDefinite)
         }
+    }
+
+    /// How all vertices follow when the fixed ones and the constraints' targets move, to first order: given the move at the
+    /// fixed vertices and that of the targets, solves for the others. Uses the factorization of the last
+    /// [`newton_direction`](Self::newton_direction).
+    ///
+    /// Cost: one solve.
+    pub fn follow(&mut self, direction: &mut [f64], target_moves: &[f64]) {
+        let held: Vec<(usize, f64)> = self.fixed_unknowns().map(|i| (i, direction[i])).collect();
+        direction.fill(0.0);
+        if let Some(constraints) = &self.constraints {
+            constraints.add_pull(target_moves, direction);
+        }
+        let mut moves = vec![None; self.n()];
+        for &(i, value) in &held {
+            moves[i] = Some(value);
+        }
+        for &(i, _) in &held {
+            direction[i] = 0.0;
+        }
+        for (&value, entry) in self.cleared.iter().zip(&self.fixed_entries) {
+            match (moves[entry.row], moves[entry.column]) {
+                (Some(row), None) => direction[entry.column] -= value * row,
+                (None, Some(column)) => direction[entry.row] -= value * column,
+                _ => {}
+            }
+        }
+        self.cholesky.solve(direction, 1);
+        for (i, value) in held {
+            direction[i] = value;
+        }
+    }
+
+    /// What the quadratic model of the last [`linearize`](Self::linearize) says of the change of the energy along a
+    /// direction that may move the fixed vertices too: g·d + ½d·Hd.
+    pub fn model_change(&self, direction: &[f64]) -> f64 {
+        let pattern = self.pattern.scalar();
+        let linear: f64 = self
+            .gradient
+            .iter()
+            .zip(direction)
+            .map(|(g, d)| g * d)
+            .sum();
+        let mut quadratic = 0.0;
+        for j in 0..pattern.n {
+            for slot in pattern.col_ptr[j]..pattern.col_ptr[j + 1] {
+                quadratic += self.hessian[slot] * form(direction, pattern.row_idx[slot], j);
+            }
+        }
+        let mut held = 0.0;
+        for (i, g) in self.fixed_unknowns().zip(&self.cleared_gradient) {
+            let stand_in = self.hessian[self.pattern.diagonal()[i]];
+            held += g * direction[i] - 0.5 * stand_in * direction[i] * direction[i];
+        }
+        for (value, entry) in self.cleared.iter().zip(&self.fixed_entries) {
+            held += 0.5 * value * form(direction, entry.row, entry.column);
+        }
+        linear + 0.5 * quadratic + held
+    }
+
+    /// The mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), the constraints left out.
+    pub fn mean_diagonal(&self) -> f64 {
+        self.mean_diagonal
+    }
+
+    /// The sum of the weights.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    fn fixed_unknowns(&self) -> impl Iterator<Item = usize> {
+        let dim = self.dim();
+        let fixed = self.fixed.iter();
+        fixed.flat_map(move |&v| dim * v as usize..dim * (v as usize + 1))
+    }
+}
+
+/// What a stored entry of a symmetric matrix is multiplied with in d·Hd.
+fn form(direction: &[f64], row: usize, column: usize) -> f64 {
+    let product = direction[row] * direction[column];
+    if row == column {
+        product
+    } else {
+        2.0 * product
     }
 }

@@ -1,24 +1,22 @@
 //! The best size of a map.
 
-use crate::energy::Term;
-
 /// Golden section: each evaluation leaves this share of the bracket.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The factor by which `x` should be scaled about the origin for the lowest energy; 1 if none of 2⁻³⁰ to 2³⁰ gives a
+/// The factor by which `x` should be scaled about the origin for the lowest energy `value`; 1 if none of 2⁻³⁰ to 2³⁰ gives a
 /// finite one.
 ///
 /// A parameterization on a circle knows nothing of size, and a start far too small costs Newton many steps. Doubles or
 /// halves while that helps, then narrows by golden section to half a percent: the energy has one minimum in scale for
 /// every density here. Some 20 evaluations.
-pub fn best_scale(term: &dyn Term, x: &[f64]) -> f64 {
+pub fn best_scale(value: &dyn Fn(&[f64]) -> f64, x: &[f64]) -> f64 {
     let mut scaled = vec![0.0; x.len()];
     let mut energy = |exponent: f64| {
         let factor = exponent.exp2();
         for (scaled, x) in scaled.iter_mut().zip(x) {
             *scaled = factor * x;
         }
-        term.value(&scaled)
+        value(&scaled)
     };
     let mut best = (energy(0.0), 0.0_f64);
     for direction in [1.0, -1.0] {

@@ -40,6 +40,14 @@ impl Settings {
             ..Self::draft()
         }
     }
+
+    /// For handles: tolerance 1e-6, 5000 steps.
+    pub fn follow() -> Self {
+        Self {
+            max_iterations: 5000,
+            ..Self::normal()
+        }
+    }
 }
 
 impl Default for Settings {
@@ -69,6 +77,8 @@ pub enum Status {
     Stalled,
     /// After [`Settings::max_iterations`].
     IterationLimit,
+    /// Handles could not be brought to their targets: the map is the nearest valid one on their way.
+    TargetsUnreachable,
     /// The watcher said so.
     Stopped,
 }
@@ -87,4 +97,33 @@ pub struct Summary {
     pub energy_first: f64,
     /// Energy of the result.
     pub energy_last: f64,
+}
+
+impl Summary {
+    /// Of a minimization that has not begun.
+    pub fn at_start(energy: f64) -> Self {
+        Self {
+            status: Status::Stalled,
+            iterations: 0,
+            factorizations: 0,
+            energy_first: energy,
+            energy_last: energy,
+        }
+    }
+
+    pub(super) fn ended(self, status: Status) -> Self {
+        Self { status, ..self }
+    }
+
+    /// Of both, the other after this one.
+    #[must_use]
+    pub fn followed_by(&self, next: &Self) -> Self {
+        Self {
+            status: next.status,
+            iterations: self.iterations + next.iterations,
+            factorizations: self.factorizations + next.factorizations,
+            energy_first: self.energy_first,
+            energy_last: next.energy_last,
+        }
+    }
 }

@@ -7,7 +7,7 @@ pub struct Iterate {
     pub iteration: usize,
     /// The energy, lower each time.
     pub energy: f64,
-    /// The smallest area of a triangle over its rest area.
+    /// The smallest size of an element over its rest size.
     pub smallest: f64,
 }
 

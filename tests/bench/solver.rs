@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::hint::black_box;
 use std::time::Instant;
 
-use unwrapd::barrier::{BarrierKind, MapEnergy, map_energy};
+use unwrapd::barrier::{Barrier, BarrierKind, MapEnergy, map_energy};
 use unwrapd::charts::{Chart, Cut, charts};
 use unwrapd::embed::{Options, optimize, rest_shapes, start};
 use unwrapd::energy::EnergyKind;
@@ -114,10 +114,12 @@ fn split(chart: &Chart, uv: &[[f64; 2]]) {
     let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
     let parameters = MapEnergy {
         energy: EnergyKind::Arap,
-        barrier: BarrierKind::InverseSpline,
-        beta: 0.01,
-        s: 1.0,
-        epsilon: 0.0,
+        barrier: Barrier {
+            kind: BarrierKind::InverseSpline,
+            beta: 0.01,
+            s: 1.0,
+            epsilon: 0.0,
+        },
     };
     let clock = Instant::now();
     let term = map_energy(&chart.disk.triangles, &rest.shapes, &parameters);
@@ -133,7 +135,7 @@ fn split(chart: &Chart, uv: &[[f64; 2]]) {
         black_box(objective.value(x));
     });
     let step = least(|| {
-        black_box(objective.term().largest_step(x, &direction));
+        black_box(objective.largest_step(x, &direction));
     });
     println!(
         "  ms: set-up {setup:.1}; assembly {assembly:.2}, factor and solve {solve:.2}, value {value:.2}, largest step {step:.2}"

@@ -4,11 +4,11 @@
 #[path = "../../src/certificate/box_tree.rs"]
 mod source;
 
-use source::{Bounds, BoxTree, Visit, search_budget};
+use source::{Bounds, BoxTree, Visit, enlarged, search_budget};
 
 /// Whether no line along an axis lies between two boxes.
-fn meet(a: &Bounds, b: &Bounds) -> bool {
-    (0..2).all(|axis| a[0][axis] < b[1][axis] && b[0][axis] < a[1][axis])
+fn meet<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
+    (0..D).all(|axis| a[0][axis] < b[1][axis] && b[0][axis] < a[1][axis])
 }
 
 fn scattered_boxes(n: u32) -> Vec<Bounds> {
@@ -21,20 +21,47 @@ fn scattered_boxes(n: u32) -> Vec<Bounds> {
     (0..n).map(of).collect()
 }
 
+/// The same boxes with a third side.
+fn boxes_in_space(n: u32) -> Vec<Bounds<3>> {
+    let flat = scattered_boxes(n).into_iter().zip(1..);
+    flat.map(|([[x, y], [a, b]], k)| {
+        let z = (f64::from(k) * 0.430_159).fract();
+        [[x, y, z], [a, b, z + 0.5 * (a - x)]]
+    })
+    .collect()
+}
+
 #[test]
 fn pairs_are_found_once_each() {
     for n in [0, 1, 4, 5, 100, 1000] {
-        let boxes = scattered_boxes(n);
-        let mut found = Vec::new();
-        let visit = BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
-            found.push([i.min(j), i.max(j)]);
-        });
-        found.sort_unstable();
-        let meets = |&[i, j]: &[u32; 2]| meet(&boxes[i as usize], &boxes[j as usize]);
-        let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
-        assert!(found == all.filter(meets).collect::<Vec<_>>(), "{n} boxes");
-        assert_eq!(visit, Visit::Complete);
+        every_pair_is_found_once(&scattered_boxes(n));
+        every_pair_is_found_once(&boxes_in_space(n));
     }
+}
+
+fn every_pair_is_found_once<const D: usize>(boxes: &[Bounds<D>]) {
+    let n = boxes.len() as u32;
+    let mut found = Vec::new();
+    let visit = BoxTree::new(boxes).pairs(search_budget(boxes.len()), |i, j| {
+        found.push([i.min(j), i.max(j)]);
+    });
+    found.sort_unstable();
+    let meets = |&[i, j]: &[u32; 2]| meet(&boxes[i as usize], &boxes[j as usize]);
+    let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
+    assert!(found == all.filter(meets).collect::<Vec<_>>(), "{n} boxes");
+    assert_eq!(visit, Visit::Complete);
+}
+
+#[test]
+fn enlarged_boxes_meet_where_they_touched() {
+    let (a, b) = ([[0.0, 0.0], [1.0, 1.0]], [[1.0, 0.5], [1.0, 2.0]]);
+    let touching = |boxes: &[Bounds]| {
+        let mut found = 0;
+        BoxTree::new(boxes).pairs(100, |_, _| found += 1);
+        found
+    };
+    assert_eq!(touching(&[a, b]), 0);
+    assert_eq!(touching(&[enlarged(a), enlarged(b)]), 1);
 }
 
 #[test]

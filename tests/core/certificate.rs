@@ -366,3 +366,45 @@ fn counter_clockwise(uvs: &CornerUvs) -> CornerUvs {
         *uvs
     }
 }
+
+#[test]
+fn planar_maps_are_judged_with_their_overlaps() {
+    use unwrapd::certificate::certify_planar;
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    assert!(certify_planar(&square, &triangles).is_bijective());
+    let mirrored = square.map(|[x, y]| [-x, y]);
+    assert_eq!(certify_planar(&mirrored, &triangles).inverted, 2);
+    let flat = square.map(|[x, _]| [x, 0.0]);
+    assert_eq!(certify_planar(&flat, &triangles).degenerate, 2);
+    let infinite = square.map(|[x, y]| [x / y.min(0.5), y]);
+    assert_eq!(certify_planar(&infinite, &triangles).nonfinite, 2);
+    assert_eq!(certify_planar(&square, &[[0, 1, 9]]).nonfinite, 1);
+}
+
+#[test]
+fn a_strip_wound_over_itself_is_valid_but_not_bijective() {
+    use unwrapd::certificate::certify_planar;
+    // A strip of an annulus whose angle grows past a full turn.
+    let wound = |turns: f64| {
+        let point = |k: u32| {
+            let angle = f64::from(k / 2) / 40.0 * turns * std::f64::consts::TAU;
+            let radius = if k.is_multiple_of(2) { 2.0 } else { 1.0 };
+            [radius * angle.cos(), radius * angle.sin()]
+        };
+        let vertices: Vec<[f64; 2]> = (0..82).map(point).collect();
+        let triangles: Vec<[u32; 3]> = (0..40_u32)
+            .flat_map(|k| {
+                [
+                    [2 * k, 2 * k + 2, 2 * k + 1],
+                    [2 * k + 1, 2 * k + 2, 2 * k + 3],
+                ]
+            })
+            .collect();
+        certify_planar(&vertices, &triangles)
+    };
+    assert!(wound(0.9).is_bijective());
+    let twice = wound(1.5);
+    assert!(twice.is_valid() && !twice.is_bijective());
+    assert!(twice.overlapping_pairs >= 40, "{}", twice.overlapping_pairs);
+}

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("numerics", &[], &["faer", "robust", "rayon"]),
-    ("mesh", &["numerics"], &[]),
+    ("mesh", &["numerics"], &["robust"]),
     ("cut", &["mesh"], &[]),
     ("energy", &["mesh"], &[]),
     ("barrier", &["energy"], &[]),
@@ -31,6 +31,11 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     ("picture", &["measure"], &["image", "rayon"]),
+    (
+        "deform",
+        &["solver", "picture"],
+        &["spade", "kurbo", "roxmltree", "serde_json"],
+    ),
     (
         "pipeline",
         &["charts", "atlas", "document", "picture"],
@@ -72,7 +77,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "cli",
-        &["http", "store"],
+        &["http", "store", "deform"],
         &[
             "clap",
             "indicatif",

@@ -2,12 +2,17 @@
 mod atlas;
 mod barrier;
 mod box_tree;
+mod cage;
 mod certificate;
 mod charts;
+mod crossings;
 mod cut;
+mod deform;
 mod disk;
 #[cfg(feature = "files")]
 mod document;
+#[cfg(feature = "files")]
+mod elements;
 mod embed;
 mod energy;
 #[cfg(feature = "files")]
@@ -19,9 +24,13 @@ mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
 #[cfg(feature = "files")]
+mod outline;
+#[cfg(feature = "files")]
 mod picture;
 mod pipeline;
 mod solver;
 mod taylor;
 mod uv_meshes;
+#[cfg(feature = "files")]
+mod warp;
 mod zoo;

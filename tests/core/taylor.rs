@@ -33,7 +33,12 @@ pub fn assert_taylor(
             });
         match best {
             Some(found) => assert!(found > order, "order {found} of remainder {part}"),
-            None => assert!(remainders(1e-3)[part] <= 100.0 * rounding),
+            None => assert!(
+                remainders(1e-3)[part] <= 100.0 * rounding,
+                "remainder {part}: {:e}, value {:e}, slope {slope:e}, curvature {curvature:e}",
+                remainders(1e-3)[part],
+                f(x)
+            ),
         }
     }
 }

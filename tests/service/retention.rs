@@ -8,15 +8,6 @@ use serde_json::Value;
 use crate::meshes;
 use crate::server::{SOON, Server, assert_problem};
 
-/// Names of the folders that hold files of jobs.
-fn owners(server: &Server) -> Vec<String> {
-    let folders = std::fs::read_dir(server.data().join("blobs")).expect("a folder");
-    folders
-        .map(|folder| folder.expect("an entry").file_name())
-        .map(|name| name.into_string().expect("text"))
-        .collect()
-}
-
 async fn get(server: &Server, job: &Value) -> reqwest::Response {
     let path = job["links"]["self"].as_str().expect("a link");
     server.get(path).send().await.expect("an answer")
@@ -40,7 +31,7 @@ async fn a_restart_keeps_jobs_and_removes_files_without_one() {
     .expect("a file");
 
     server.restart();
-    let mut left = owners(&server);
+    let mut left = server.owners_of_files();
     left.sort();
     assert_eq!(left, [job["id"].as_str().expect("an id"), "lost+found"]);
     assert_eq!(get(&server, &job).await.status(), 200);
@@ -56,7 +47,7 @@ async fn a_job_goes_with_its_files_when_its_time_is_over() {
 
     server.restart_with(&[("UNWRAPD_RETAIN_DAYS", "0")]);
     let start = Instant::now();
-    while !owners(&server).is_empty() {
+    while !server.owners_of_files().is_empty() {
         assert!(start.elapsed() < SOON, "the files are still there");
         tokio::task::yield_now().await;
     }

@@ -87,6 +87,15 @@ impl Server {
         self.data.path()
     }
 
+    /// Names of the folders that hold files of jobs.
+    pub fn owners_of_files(&self) -> Vec<String> {
+        let folders = std::fs::read_dir(self.data().join("blobs")).expect("a folder");
+        folders
+            .map(|folder| folder.expect("an entry").file_name())
+            .map(|name| name.into_string().expect("text"))
+            .collect()
+    }
+
     pub fn url(&self, path: &str) -> String {
         format!("http://{}{path}", self.address)
     }

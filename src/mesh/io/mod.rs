@@ -1,20 +1,29 @@
-//! Readers of triangle and polygon meshes in text and binary files.
+//! Readers of triangle, polygon and tetrahedral meshes in text and binary files.
 //!
 //! Bytes in, plain arrays or a [`ReadError`] out; nothing is opened, nothing panics, and memory is bounded by
 //! a small multiple of the input: a count that a file claims is never trusted, it only says when to stop.
 //! Polygons become fans of triangles around their first corner, in the order of the file, so a face index means
-//! the same in every tool that does so. Coordinates are parsed as `f64` and rounded to `f32` once, −0 becoming 0:
-//! what is welded, mapped and measured is what is written.
+//! the same in every tool that does so. Coordinates are parsed as `f64` and, for surfaces that are unwrapped, rounded to
+//! `f32` once, −0 becoming 0: what is welded, mapped and measured is what is written. What is deformed ([`Elements`]) keeps
+//! its `f64`.
+mod cursor;
+mod elements;
+pub mod gmsh;
+pub mod medit;
 pub mod obj;
 pub mod off;
 pub mod ply;
 pub mod stl;
+pub mod tet;
+pub mod vtu;
+
+pub use elements::{ElementFormat, Elements, text_positions};
 
 /// Positions and triangles of one file, in the file's order.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct IndexedTriangles {
+pub struct IndexedTriangles<T = f32> {
     /// Vertex positions.
-    pub positions: Vec<[f32; 3]>,
+    pub positions: Vec<[T; 3]>,
     /// Three vertex indices for each triangle.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -47,8 +56,8 @@ pub enum ReadError {
         /// What is wrong there.
         cause: &'static str,
     },
-    /// A coordinate is NaN, infinite or beyond the range of `f32`.
-    #[error("vertex {vertex} has a coordinate that is not a finite f32")]
+    /// A coordinate is NaN, infinite or, where it is kept as `f32`, beyond its range.
+    #[error("vertex {vertex} has a coordinate that is not a finite number")]
     NonFinitePosition {
         /// Index of the vertex, from 0.
         vertex: usize,
@@ -97,13 +106,29 @@ impl Format {
     }
 }
 
-/// A position as the rest of the program sees it: finite, in `f32`, without negative zeros.
-fn position(coordinates: [f64; 3], vertex: usize) -> Result<[f32; 3], ReadError> {
-    let rounded = coordinates.map(|x| x as f32 + 0.0);
-    if rounded.iter().all(|x| x.is_finite()) {
-        Ok(rounded)
-    } else {
-        Err(ReadError::NonFinitePosition { vertex })
+/// The numbers that coordinates are kept as.
+trait Coordinate: Copy + Default {
+    /// The nearest such number, without a negative zero; `None` where that is not finite.
+    fn nearest(x: f64) -> Option<Self>;
+}
+
+impl Coordinate for f32 {
+    fn nearest(x: f64) -> Option<Self> {
+        Some(x as f32 + 0.0).filter(|x| x.is_finite())
+    }
+}
+
+impl Coordinate for f64 {
+    fn nearest(x: f64) -> Option<Self> {
+        Some(x + 0.0).filter(|x| x.is_finite())
+    }
+}
+
+/// A position as the rest of the program sees it: finite, without negative zeros.
+fn position<T: Coordinate>(coordinates: [f64; 3], vertex: usize) -> Result<[T; 3], ReadError> {
+    match coordinates.map(T::nearest) {
+        [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
+        _ => Err(ReadError::NonFinitePosition { vertex }),
     }
 }
 

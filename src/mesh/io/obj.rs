@@ -6,7 +6,11 @@
 //! A vertex may be named before it is defined; a negative index counts back from the vertices defined so far. A
 //! position that is not there is an error. A texture coordinate or normal that is not there is taken as not
 //! given, as neither is needed to map the surface.
-use super::{IndexedTriangles, ReadError, number, position, push_fan, three_numbers, words};
+use super::{
+    Coordinate, Elements, IndexedTriangles, ReadError, number, position, push_fan, three_numbers,
+    words,
+};
+use std::fmt::Write;
 
 /// One corner of a polygon. Indices count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,9 +25,9 @@ pub struct Corner {
 
 /// An OBJ file.
 #[derive(Debug, Clone, Default)]
-pub struct Obj {
+pub struct Obj<T = f32> {
     /// Positions and the fans of all polygons, in the file's order.
-    pub mesh: IndexedTriangles,
+    pub mesh: IndexedTriangles<T>,
     /// Texture coordinates as the file has them, v up.
     pub texcoords: Vec<[f64; 2]>,
     /// Normals.
@@ -34,7 +38,7 @@ pub struct Obj {
     pub polygon_ends: Vec<usize>,
 }
 
-impl Obj {
+impl<T> Obj<T> {
     /// The polygons in the file's order; those of fewer than three corners have no triangles.
     pub fn polygons(&self) -> impl Iterator<Item = &[Corner]> {
         let mut start = 0;
@@ -131,6 +135,10 @@ type RawCorner = [i64; 3];
 
 /// Reads an OBJ file.
 pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
+    read_as(bytes)
+}
+
+pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> {
     let mut obj = Obj::default();
     let mut raw_corners: Vec<RawCorner> = Vec::new();
     for statement in statements(bytes) {
@@ -198,7 +206,7 @@ fn raw_corner(word: &[u8], defined: [usize; 3]) -> Option<RawCorner> {
 }
 
 /// Checks the corners against what the whole file defines, and makes the triangles.
-fn resolve(obj: &mut Obj, raw_corners: &[RawCorner]) -> Result<(), ReadError> {
+fn resolve<T>(obj: &mut Obj<T>, raw_corners: &[RawCorner]) -> Result<(), ReadError> {
     let n_vertices = obj.mesh.positions.len();
     let optional = |index: i64, n: usize| {
         let index = u32::try_from(index.checked_sub(1)?).ok()?;
@@ -225,4 +233,17 @@ fn resolve(obj: &mut Obj, raw_corners: &[RawCorner]) -> Result<(), ReadError> {
         start = end;
     }
     Ok(())
+}
+
+/// The text of a surface: the triangles, or else the boundary of the tetrahedra.
+pub fn write(elements: &Elements) -> String {
+    let mut text = String::new();
+    for [x, y, z] in &elements.vertices {
+        let _ = writeln!(text, "v {x:?} {y:?} {z:?}"); // writing to a string cannot fail
+    }
+    for triangle in elements.surface().iter() {
+        let [a, b, c] = triangle.map(|v| u64::from(v) + 1);
+        let _ = writeln!(text, "f {a} {b} {c}");
+    }
+    text
 }

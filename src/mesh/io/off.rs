@@ -3,7 +3,11 @@
 //! Of the variants (`[ST][C][N]OFF`) the coordinates come first on a vertex line in every one; what follows them
 //! (normals, colours, texture coordinates) is passed over, and so are the colours of faces. Four-dimensional and
 //! binary files are refused. The counts are read as `u64` and nothing is reserved by them.
-use super::{IndexedTriangles, ReadError, lines, number, position, push_fan, three_numbers, words};
+use super::{
+    Coordinate, Elements, IndexedTriangles, ReadError, lines, number, position, push_fan,
+    three_numbers, words,
+};
+use std::fmt::Write;
 
 fn malformed(line: usize, cause: &'static str) -> ReadError {
     ReadError::Malformed {
@@ -39,6 +43,10 @@ pub(super) fn has_header(bytes: &[u8]) -> bool {
 
 /// Reads a text OFF file.
 pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
+    read_as(bytes)
+}
+
+pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<IndexedTriangles<T>, ReadError> {
     let mut statements = statements(bytes);
     let (n_vertices, n_faces) = counts(&mut statements)?;
     let mut mesh = IndexedTriangles::default();
@@ -95,4 +103,17 @@ fn read_polygon(line: &[u8], polygon: &mut Vec<i64>) -> Option<()> {
         polygon.push(number(words.next()?)?);
     }
     Some(())
+}
+
+/// The text of a surface: the triangles, or else the boundary of the tetrahedra.
+pub fn write(elements: &Elements) -> String {
+    let triangles = elements.surface();
+    let mut text = format!("OFF\n{} {} 0\n", elements.vertices.len(), triangles.len());
+    for [x, y, z] in &elements.vertices {
+        let _ = writeln!(text, "{x:?} {y:?} {z:?}"); // writing to a string cannot fail
+    }
+    for [a, b, c] in triangles.iter() {
+        let _ = writeln!(text, "3 {a} {b} {c}");
+    }
+    text
 }

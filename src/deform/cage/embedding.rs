@@ -1,0 +1,137 @@
+//! Points in a cage, and where they go when it is deformed.
+
+use super::grid::{ORDERS, path_slots};
+use super::{ABSENT, Cage, CageError};
+use crate::numerics::vec3::{add_scaled, cross, sub, unit};
+
+/// For each of some points the tetrahedron it lies in and its place there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Embedding {
+    /// The element of each point; of several that have it on their boundary the lowest.
+    pub tets: Vec<u32>,
+    /// Barycentric weights of the element's corners, not negative and of sum 1 up to rounding.
+    pub weights: Vec<[f64; 4]>,
+}
+
+impl Cage {
+    /// Finds the tetrahedron of every position; those of the surfaces that the cage was made for are always inside.
+    pub fn embed(&self, positions: &[[f64; 3]]) -> Result<Embedding, CageError> {
+        let mut embedding = Embedding::default();
+        for (vertex, &position) in positions.iter().enumerate() {
+            let (tet, weights) = self.locate(position).ok_or(CageError::Outside { vertex })?;
+            embedding.tets.push(tet);
+            embedding.weights.push(weights);
+        }
+        Ok(embedding)
+    }
+
+    fn locate(&self, position: [f64; 3]) -> Option<(u32, [f64; 4])> {
+        let local = self.grid.local(position);
+        let (cell, voxel) = self.lowest_voxel(local)?;
+        let part = [0, 1, 2].map(|k| local[k] - cell[k] as f64);
+        let order = ORDERS
+            .iter()
+            .position(|&[a, b, c]| part[a] >= part[b] && part[b] >= part[c])?;
+        let [a, b, c] = ORDERS[order].map(|axis| part[axis]);
+        let along_path = [1.0 - a, a - b, b - c, c];
+        let mut weights = [0.0; 4];
+        for (slot, weight) in path_slots(order).into_iter().zip(along_path) {
+            weights[slot] = weight;
+        }
+        Some((6 * voxel + order as u32, weights))
+    }
+
+    /// The lowest voxel of the cage that has a point inside or on its boundary.
+    fn lowest_voxel(&self, local: [f64; 3]) -> Option<([usize; 3], u32)> {
+        let candidates = |axis: usize| {
+            let n = self.grid.counts[axis];
+            let floor = local[axis].floor();
+            let lower = if local[axis] == floor {
+                floor - 1.0
+            } else {
+                floor
+            };
+            [lower, floor]
+                .into_iter()
+                .filter(move |&x| (0.0..n as f64).contains(&x))
+                .map(|x| x as usize)
+        };
+        for z in candidates(2) {
+            for y in candidates(1) {
+                for x in candidates(0) {
+                    let voxel = self.voxel_of_cell[self.grid.cell([x, y, z])];
+                    if voxel != ABSENT {
+                        return Some(([x, y, z], voxel));
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// Where the points are when the cage's vertices are at `deformed`.
+    pub fn interpolate(&self, embedding: &Embedding, deformed: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let places = embedding.tets.iter().zip(&embedding.weights);
+        places
+            .map(|(&tet, weights)| {
+                let corners = self.mesh.tets()[tet as usize];
+                (0..4).fold([0.0; 3], |sum, k| {
+                    add_scaled(sum, weights[k], deformed[corners[k] as usize])
+                })
+            })
+            .collect()
+    }
+
+    /// Unit normals at the points, transformed by the inverse transpose of the Jacobian of their elements.
+    pub fn normals(
+        &self,
+        embedding: &Embedding,
+        deformed: &[[f64; 3]],
+        normals: &[[f64; 3]],
+    ) -> Vec<[f64; 3]> {
+        let transformed = |(&tet, n): (&u32, &[f64; 3])| {
+            let [x, y, z] = self.jacobian(tet, deformed);
+            // The cofactor matrix: the inverse transpose times the determinant, which is positive.
+            unit(combination([cross(y, z), cross(z, x), cross(x, y)], *n))
+        };
+        embedding
+            .tets
+            .iter()
+            .zip(normals)
+            .map(transformed)
+            .collect()
+    }
+
+    /// Unit tangents at the points, transformed by the Jacobian of their elements. Handedness does not change.
+    pub fn tangents(
+        &self,
+        embedding: &Embedding,
+        deformed: &[[f64; 3]],
+        tangents: &[[f64; 3]],
+    ) -> Vec<[f64; 3]> {
+        let transformed =
+            |(&tet, t): (&u32, &[f64; 3])| unit(combination(self.jacobian(tet, deformed), *t));
+        embedding
+            .tets
+            .iter()
+            .zip(tangents)
+            .map(transformed)
+            .collect()
+    }
+
+    /// The columns of an element's Jacobian: its path runs along one axis after the other.
+    fn jacobian(&self, tet: u32, deformed: &[[f64; 3]]) -> [[f64; 3]; 3] {
+        let order = tet as usize % 6;
+        let corners = self.mesh.tets()[tet as usize];
+        let path = path_slots(order).map(|slot| deformed[corners[slot] as usize]);
+        let mut columns = [[0.0; 3]; 3];
+        for (step, &axis) in ORDERS[order].iter().enumerate() {
+            columns[axis] = sub(path[step + 1], path[step]).map(|x| x / self.grid.side);
+        }
+        columns
+    }
+}
+
+fn combination(columns: [[f64; 3]; 3], factors: [f64; 3]) -> [f64; 3] {
+    (0..3).fold([0.0; 3], |sum, k| add_scaled(sum, factors[k], columns[k]))
+}

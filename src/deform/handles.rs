@@ -1,0 +1,191 @@
+//! Handles as a user names them.
+
+use serde::Deserialize;
+
+use super::body::{Body, BodyElements};
+use super::problem_error::ProblemError;
+use crate::energy::Row;
+use crate::numerics::square::{Matrix, Square, apply, transposed};
+use crate::solver::Handles;
+
+/// One handle; positions have as many coordinates as the body.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Handle {
+    /// A vertex.
+    Vertex {
+        /// Its index, from 0.
+        vertex: u32,
+        /// Where it goes.
+        to: Vec<f64>,
+    },
+    /// Every vertex in a ball around a point, moved as a rigid body.
+    Disc {
+        /// The centre at rest.
+        center: Vec<f64>,
+        /// The radius.
+        radius: f64,
+        /// Where the centre goes.
+        to: Vec<f64>,
+        /// A turn about the centre in degrees, counter-clockwise; in the plane only.
+        #[serde(default)]
+        turn: f64,
+    },
+    /// A point inside an element at rest.
+    Point {
+        /// The point.
+        at: Vec<f64>,
+        /// Where it goes.
+        to: Vec<f64>,
+    },
+}
+
+/// Finds the vertices and elements of a body that handles name.
+///
+/// A vertex may be named twice if both say the same. Errors name the handle by its place in the list, from 0.
+pub fn bind(body: &Body, handles: &[Handle]) -> Result<Handles, ProblemError> {
+    match body.elements {
+        BodyElements::Triangles { .. } => Binder::<2>::new(body).bind(handles),
+        BodyElements::Tetrahedra { .. } => Binder::<3>::new(body).bind(handles),
+    }
+}
+
+struct Binder<'a, const D: usize> {
+    body: &'a Body,
+    vertices: Vec<u32>,
+    targets: Vec<Vec<f64>>,
+    points: Vec<Row>,
+    point_targets: Vec<f64>,
+}
+
+impl<'a, const D: usize> Binder<'a, D>
+where
+    Matrix<D>: Square<D>,
+{
+    fn new(body: &'a Body) -> Self {
+        Self {
+            body,
+            vertices: Vec::new(),
+            targets: Vec::new(),
+            points: Vec::new(),
+            point_targets: Vec::new(),
+        }
+    }
+
+    fn bind(mut self, handles: &[Handle]) -> Result<Handles, ProblemError> {
+        for (index, handle) in handles.iter().enumerate() {
+            self.add(index, handle)?;
+        }
+        if self.vertices.is_empty() && self.points.is_empty() {
+            return Err(ProblemError::NoHandle);
+        }
+        let groups = self.body.groups(&self.vertices);
+        let bound = super::problem::handles(D, &self.vertices, &self.targets, &groups)?;
+        Ok(Handles {
+            points: self.points,
+            point_targets: self.point_targets,
+            ..bound
+        })
+    }
+
+    fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {
+        match handle {
+            Handle::Vertex { vertex, to } => {
+                if *vertex as usize >= self.body.n_vertices() {
+                    return Err(ProblemError::UnknownHandle {
+                        handle: index,
+                        vertex: *vertex,
+                        n_vertices: self.body.n_vertices(),
+                    });
+                }
+                self.vertices.push(*vertex);
+                self.targets.push(position::<D>(index, to)?.to_vec());
+            }
+            Handle::Disc {
+                center,
+                radius,
+                to,
+                turn,
+            } => {
+                let (center, to) = (position(index, center)?, position(index, to)?);
+                self.add_disc(index, center, *radius, to, *turn)?;
+            }
+            Handle::Point { at, to } => {
+                let (at, to) = (position(index, at)?, position::<D>(index, to)?);
+                let outside = ProblemError::HandleOutside { handle: index };
+                self.points.push(self.row(at).ok_or(outside)?);
+                self.point_targets.extend(to);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_disc(
+        &mut self,
+        index: usize,
+        center: [f64; D],
+        radius: f64,
+        to: [f64; D],
+        turn: f64,
+    ) -> Result<(), ProblemError> {
+        if !(radius >= 0.0 && radius.is_finite() && turn.is_finite()) || D == 3 && turn != 0.0 {
+            return Err(ProblemError::BadParameter {
+                name: "radius and turn",
+                range: "finite, the radius not negative, a turn in the plane only",
+            });
+        }
+        let (sin, cos) = turn.to_radians().sin_cos();
+        let before = self.vertices.len();
+        for v in 0..self.body.n_vertices() {
+            let arm: [f64; D] = std::array::from_fn(|k| self.body.rest[D * v + k] - center[k]);
+            if arm.iter().map(|x| x * x).sum::<f64>() > radius * radius {
+                continue;
+            }
+            let mut place: [f64; D] = std::array::from_fn(|k| to[k] + arm[k]);
+            if turn != 0.0 {
+                place[0] = to[0] + cos * arm[0] - sin * arm[1];
+                place[1] = to[1] + sin * arm[0] + cos * arm[1];
+            }
+            self.vertices.push(v as u32);
+            self.targets.push(place.to_vec());
+        }
+        if self.vertices.len() == before {
+            return Err(ProblemError::HandleOutside { handle: index });
+        }
+        Ok(())
+    }
+
+    /// The element at rest that holds a point, as the point's barycentric coordinates; the first, where several do.
+    fn row(&self, at: [f64; D]) -> Option<Row> {
+        let place =
+            |v: u32| -> [f64; D] { std::array::from_fn(|k| self.body.rest[D * v as usize + k]) };
+        for element in self.body.corners() {
+            let origin = place(element[0]);
+            let edges: Matrix<D> = std::array::from_fn(|k| {
+                let corner = place(element[k + 1]);
+                std::array::from_fn(|c| corner[c] - origin[c])
+            });
+            let inverse = transposed(&edges.inverse(edges.det()));
+            let others = apply(&inverse, &std::array::from_fn(|k| at[k] - origin[k]));
+            let first = 1.0 - others.iter().sum::<f64>();
+            if first >= -ROUNDING && others.iter().all(|&w| w >= -ROUNDING) {
+                let weights = std::iter::once(first).chain(others);
+                let mut row: Row = element.iter().copied().zip(weights).collect();
+                row.sort_unstable_by_key(|&(v, _)| v);
+                return Some(row);
+            }
+        }
+        None
+    }
+}
+
+/// Points on an edge between two elements may lie outside both by this share of them.
+const ROUNDING: f64 = 1e-9;
+
+fn position<const D: usize>(handle: usize, numbers: &[f64]) -> Result<[f64; D], ProblemError> {
+    let position: Option<[f64; D]> = numbers.try_into().ok();
+    position
+        .filter(|p| p.iter().all(|x| x.is_finite()))
+        .ok_or(ProblemError::BadTarget { handle, dim: D })
+}

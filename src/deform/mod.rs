@@ -1,0 +1,28 @@
+//! Bodies pulled by handles, no element inverted, and what lies in them carried along.
+//!
+//! A [`Body`] is a planar or tetrahedral mesh with rest shapes, a [`Problem`] a body with handles, their targets, a
+//! [`DeformationEnergy`] and a barrier; [`Problem::solve`] moves the handles to their targets over maps that are all valid.
+//! Bodies come from mesh files, from pictures and drawings (`outline`) and from surfaces put into a [`cage`], which carries
+//! them along.
+
+mod body;
+pub mod cage;
+mod handles;
+mod model;
+#[cfg(feature = "files")]
+pub mod outline;
+mod problem;
+mod problem_error;
+#[cfg(feature = "files")]
+mod problem_file;
+mod solve;
+pub mod warp;
+
+pub use body::{Body, BodyElements};
+pub use handles::{Handle, bind};
+pub use model::DeformationEnergy;
+pub use problem::{Model, Problem};
+pub use problem_error::ProblemError;
+#[cfg(feature = "files")]
+pub use problem_file::{ProblemFile, Rest};
+pub use solve::{Method, Solution, Worth};

@@ -1,0 +1,142 @@
+//! What a deformation costs, in words and numbers.
+
+use serde::{Deserialize, Serialize};
+
+use super::body::{Body, BodyElements};
+use crate::barrier::Barrier;
+use crate::energy::{
+    Amips, Arap, Density, Green, Lscm, Mips, NeoHookean, RestShape, StVenantKirchhoff,
+    SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero, biharmonic, dirichlet,
+    uniform_biharmonic,
+};
+
+/// Which deformation energy is minimized.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum DeformationEnergy {
+    /// As rigid as possible.
+    #[default]
+    Arap,
+    /// Squared norm of Green's strain, not weighted by size.
+    Green,
+    /// Dirichlet energy of the displacement.
+    Dirichlet,
+    /// Biharmonic energy of the displacement, cotangent weights.
+    Laplacian,
+    /// Biharmonic energy of the displacement, uniform weights.
+    #[serde(alias = "uniform_laplacian")]
+    UniformLaplacian,
+    /// Least-squares conformal; in the plane only.
+    Lscm,
+    /// Symmetric Dirichlet.
+    #[serde(alias = "symmetric_dirichlet")]
+    SymmetricDirichlet,
+    /// Most isometric parameterizations: conformal distortion.
+    Mips,
+    /// Advanced MIPS, its exponent's factor 1.
+    Amips,
+    /// St. Venant–Kirchhoff with Lamé parameters λ = 1, μ = ½.
+    StVenantKirchhoff,
+    /// Neo-Hookean with Lamé parameters λ = 1, μ = ½.
+    NeoHookean,
+}
+
+/// The Lamé parameters λ and μ of an ordinary solid, Poisson's ratio ⅓, in its own unit.
+const LAME: [f64; 2] = [1.0, 0.5];
+
+impl DeformationEnergy {
+    /// The paper's β for this energy.
+    pub fn default_beta(self) -> f64 {
+        match self {
+            Self::Green => 100.0,
+            _ => 0.01,
+        }
+    }
+
+    /// Is it a sum over elements, without a weight?
+    fn is_unweighted(self) -> bool {
+        self == Self::Green
+    }
+
+    /// The terms of the energy of `body` with a barrier, in which an element's size is the determinant of its edges, twice
+    /// its area or six times its volume. `None` for an energy that the body's dimension does not have.
+    pub fn terms(self, body: &Body, barrier: Barrier) -> Option<Vec<Box<dyn Term>>> {
+        match &body.elements {
+            BodyElements::Triangles { corners, rest } => {
+                let shapes = self.weighted(rest, 2.0);
+                let guarded = |density: Box<dyn Density<2>>| -> Box<dyn Term> {
+                    Box::new(Triangles::new(corners, &shapes, density, barrier))
+                };
+                let density = if self == Self::Lscm {
+                    Some(Box::new(Lscm) as Box<dyn Density<2>>)
+                } else {
+                    self.density()
+                };
+                Some(match density {
+                    Some(density) => vec![guarded(density)],
+                    None => vec![self.quadratic(body, rest), guarded(Box::new(Zero))],
+                })
+            }
+            BodyElements::Tetrahedra { corners, rest } => {
+                let shapes = self.weighted(rest, 6.0);
+                let guarded = |density: Box<dyn Density<3>>| -> Box<dyn Term> {
+                    Box::new(Tetrahedra::new(corners, &shapes, density, barrier))
+                };
+                if self == Self::Lscm {
+                    return None;
+                }
+                Some(match self.density() {
+                    Some(density) => vec![guarded(density)],
+                    None => vec![self.quadratic(body, rest), guarded(Box::new(Zero))],
+                })
+            }
+        }
+    }
+
+    /// The energies that are densities in every dimension.
+    fn density<const D: usize>(self) -> Option<Box<dyn Density<D>>> {
+        let [lambda, mu] = LAME;
+        Some(match self {
+            Self::Arap => Box::new(Arap),
+            Self::Green => Box::new(Green),
+            Self::SymmetricDirichlet => Box::new(SymmetricDirichlet),
+            Self::Mips => Box::new(Mips),
+            Self::Amips => Box::new(Amips { s: 1.0 }),
+            Self::StVenantKirchhoff => Box::new(StVenantKirchhoff { lambda, mu }),
+            Self::NeoHookean => Box::new(NeoHookean { lambda, mu }),
+            Self::Lscm | Self::Dirichlet | Self::Laplacian | Self::UniformLaplacian => return None,
+        })
+    }
+
+    fn weighted<const D: usize>(
+        self,
+        rest: &[RestShape<D>],
+        determinant: f64,
+    ) -> Vec<RestShape<D>> {
+        let weight = |shape: &RestShape<D>| {
+            if self.is_unweighted() {
+                1.0
+            } else {
+                shape.weight
+            }
+        };
+        let shapes = rest.iter().map(|shape| RestShape {
+            size: determinant * shape.size,
+            weight: weight(shape),
+            ..*shape
+        });
+        shapes.collect()
+    }
+
+    fn quadratic<const D: usize>(self, body: &Body, rest: &[RestShape<D>]) -> Box<dyn Term> {
+        let sizes: Vec<f64> = rest.iter().map(|shape| shape.size).collect();
+        let corners = body.corners();
+        let x = body.rest.clone();
+        Box::new(match self {
+            Self::Laplacian => biharmonic(&corners, rest, &sizes, &body.masses(), x),
+            Self::UniformLaplacian => uniform_biharmonic(D, &corners, x),
+            _ => dirichlet(&corners, rest, &sizes, x),
+        })
+    }
+}

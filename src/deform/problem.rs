@@ -1,0 +1,151 @@
+//! A body, handles and their targets, an energy and a barrier.
+
+use super::body::Body;
+use super::handles::{Handle, bind};
+use super::model::DeformationEnergy;
+use super::problem_error::ProblemError;
+use crate::barrier::{Barrier, BarrierKind};
+use crate::solver::{Handles, LevenbergSettings};
+
+/// A problem with its mesh, checked.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// What is deformed.
+    pub body: Body,
+    /// Start positions, coordinates one after another.
+    pub start: Vec<f64>,
+    /// The energy.
+    pub energy: DeformationEnergy,
+    /// The barrier.
+    pub barrier: Barrier,
+    /// The stations of the handles, the last of them their targets.
+    pub stations: Vec<Handles>,
+    /// What `levenberg` is told.
+    pub levenberg: LevenbergSettings,
+}
+
+/// What a deformation costs, as a user says it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model {
+    /// The energy.
+    pub energy: DeformationEnergy,
+    /// The barrier.
+    pub barrier: BarrierKind,
+    /// β; the paper's for the energy if absent.
+    pub beta: Option<f64>,
+    /// s of the inverse spline.
+    pub s: f64,
+}
+
+impl Model {
+    /// The barrier with its numbers; ε is the paper's share, 1e-4 as its authors have it, of the smallest element unless
+    /// given.
+    pub(super) fn barrier(
+        &self,
+        body: &Body,
+        epsilon: Option<f64>,
+    ) -> Result<Barrier, ProblemError> {
+        let smallest = body
+            .determinants()
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let barrier = Barrier {
+            kind: self.barrier,
+            beta: self.beta.unwrap_or(self.energy.default_beta()),
+            s: self.s,
+            epsilon: epsilon.unwrap_or(1e-4 * smallest),
+        };
+        for (name, value) in [("beta", barrier.beta), ("s", barrier.s)] {
+            if !(value > 0.0 && value.is_finite()) {
+                let range = "a positive number";
+                return Err(ProblemError::BadParameter { name, range });
+            }
+        }
+        if !(barrier.epsilon >= 0.0 && barrier.epsilon < smallest) {
+            return Err(ProblemError::BadParameter {
+                name: "epsilon",
+                range: "at least 0 and below the smallest rest determinant",
+            });
+        }
+        Ok(barrier)
+    }
+}
+
+impl Problem {
+    /// A body at rest and handles to pull it by.
+    pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
+        Ok(Self {
+            start: body.rest.clone(),
+            energy: model.energy,
+            barrier: model.barrier(&body, None)?,
+            stations: vec![bind(&body, handles)?],
+            levenberg: LevenbergSettings::default(),
+            body,
+        })
+    }
+
+    /// Does the energy or the barrier keep every element from inverting?
+    pub fn forbids_inversion(&self) -> bool {
+        let terms = self
+            .energy
+            .terms(&self.body, self.barrier)
+            .unwrap_or_default();
+        terms.iter().any(|term| term.forbids_flips())
+    }
+}
+
+/// Vertices paired with their targets, each vertex once.
+pub(super) fn handles(
+    dim: usize,
+    vertices: &[u32],
+    targets: &[Vec<f64>],
+    groups: &[u32],
+) -> Result<Handles, ProblemError> {
+    if vertices.len() != targets.len() {
+        return Err(ProblemError::Unpaired {
+            handles: vertices.len(),
+            targets: targets.len(),
+        });
+    }
+    let is_bad = |t: &Vec<f64>| t.len() != dim || !t.iter().all(|x| x.is_finite());
+    if let Some(handle) = targets.iter().position(is_bad) {
+        return Err(ProblemError::BadTarget { handle, dim });
+    }
+    let mut order: Vec<usize> = (0..vertices.len()).collect();
+    order.sort_by_key(|&i| vertices[i]);
+    let same = |w: &&[usize]| vertices[w[0]] == vertices[w[1]] && targets[w[0]] != targets[w[1]];
+    if let Some(pair) = order.windows(2).find(same) {
+        let vertex = vertices[pair[0]];
+        return Err(ProblemError::ContradictoryHandles { vertex });
+    }
+    order.dedup_by_key(|i| vertices[*i]);
+    Ok(Handles {
+        vertices: order.iter().map(|&i| vertices[i]).collect(),
+        targets: order.iter().flat_map(|&i| targets[i].clone()).collect(),
+        groups: order.iter().map(|&i| groups[i]).collect(),
+        ..Handles::default()
+    })
+}
+
+/// With a barrier no element may be at ε from the beginning.
+pub(super) fn check_start(
+    body: &Body,
+    start: &[f64],
+    barrier: &Barrier,
+) -> Result<(), ProblemError> {
+    if barrier.kind == BarrierKind::None {
+        return Ok(());
+    }
+    let determinants = body.determinants_at(start);
+    match determinants
+        .iter()
+        .position(|&d| d <= barrier.epsilon || d.is_nan())
+    {
+        Some(element) => Err(ProblemError::InfeasibleStart {
+            element,
+            determinant: determinants[element],
+            epsilon: barrier.epsilon,
+        }),
+        None => Ok(()),
+    }
+}

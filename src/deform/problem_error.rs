@@ -1,0 +1,111 @@
+//! Why a problem cannot be solved.
+
+use crate::mesh::ElementError;
+use crate::mesh::io::ReadError;
+
+/// Why a problem cannot be solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ProblemError {
+    /// The file is not a problem.
+    #[error("the problem file: {0}")]
+    Malformed(String),
+    /// The mesh cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The mesh cannot be deformed.
+    #[error(transparent)]
+    Element(#[from] ElementError),
+    /// A handle names a vertex that there is not.
+    #[error("handle {handle} names vertex {vertex} of {n_vertices}")]
+    UnknownHandle {
+        /// Index of the handle.
+        handle: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// How many there are.
+        n_vertices: usize,
+    },
+    /// There is nothing to pull at.
+    #[error("no handle")]
+    NoHandle,
+    /// A handle names no place of the body.
+    #[error("handle {handle} lies outside the mesh")]
+    HandleOutside {
+        /// Index of the handle.
+        handle: usize,
+    },
+    /// A target is not a position.
+    #[error("the target of handle {handle} is not {dim} finite numbers")]
+    BadTarget {
+        /// Index of the handle.
+        handle: usize,
+        /// Coordinates of a position.
+        dim: usize,
+    },
+    /// Handles and targets do not pair up.
+    #[error("{handles} handles but {targets} targets")]
+    Unpaired {
+        /// How many handles.
+        handles: usize,
+        /// How many targets.
+        targets: usize,
+    },
+    /// One vertex is to be at two places.
+    #[error("vertex {vertex} has two handles with different targets")]
+    ContradictoryHandles {
+        /// The vertex.
+        vertex: u32,
+    },
+    /// The start has an element at or below ε.
+    #[error(
+        "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}"
+    )]
+    InfeasibleStart {
+        /// The element.
+        element: usize,
+        /// Twice its area or six times its volume.
+        determinant: f64,
+        /// ε.
+        epsilon: f64,
+    },
+    /// A number is not in its range.
+    #[error("{name} must be {range}")]
+    BadParameter {
+        /// Which.
+        name: &'static str,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// The energy is not defined for the body.
+    #[error("this energy is defined in the plane only")]
+    PlanarEnergy,
+    /// The start does not belong to the mesh.
+    #[error("the start has {found} numbers, the mesh {expected}")]
+    WrongStart {
+        /// Numbers found.
+        found: usize,
+        /// Numbers needed.
+        expected: usize,
+    },
+}
+
+impl ProblemError {
+    /// A word for programs; it does not change.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed(_) => "malformed_problem",
+            Self::Read(error) => error.code(),
+            Self::Element(error) => error.code(),
+            Self::UnknownHandle { .. } => "unknown_handle",
+            Self::NoHandle => "no_handle",
+            Self::HandleOutside { .. } => "handle_outside",
+            Self::BadTarget { .. } => "bad_target",
+            Self::Unpaired { .. } => "unpaired_handles",
+            Self::ContradictoryHandles { .. } => "contradictory_handles",
+            Self::InfeasibleStart { .. } => "infeasible_start",
+            Self::BadParameter { .. } => "bad_parameter",
+            Self::PlanarEnergy => "planar_energy",
+            Self::WrongStart { .. } => "wrong_start",
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Problem files: a mesh, handles and their targets, an energy and a barrier.
+
+use serde::Deserialize;
+
+use super::body::Body;
+use super::model::DeformationEnergy;
+use super::problem::{Model, Problem, check_start, handles};
+use super::problem_error::ProblemError;
+use crate::barrier::BarrierKind;
+use crate::mesh::ElementError;
+use crate::mesh::io::Elements;
+use crate::solver::{Handles, LevenbergSettings};
+
+/// A problem as its file says it; every path is relative to the file.
+#[derive(Clone, Debug, Deserialize)]
+pub struct ProblemFile {
+    /// The mesh.
+    pub mesh: String,
+    /// Start positions, one vertex per line; the rest positions if absent.
+    pub initial: Option<String>,
+    /// Where rest shapes come from.
+    #[serde(default)]
+    pub rest: Rest,
+    /// Vertex ids.
+    pub handles: Vec<u32>,
+    /// Where they should come, one position each.
+    pub targets: Vec<Vec<f64>>,
+    /// Target sets to go through one after another, the last of them [`targets`](Self::targets).
+    #[serde(default)]
+    pub sequence: Vec<Vec<Vec<f64>>>,
+    /// The energy.
+    pub energy: DeformationEnergy,
+    /// The barrier.
+    pub barrier: BarrierKind,
+    /// β; the paper's for the energy if absent.
+    pub beta: Option<f64>,
+    /// s.
+    #[serde(default = "one")]
+    pub gamma: f64,
+    /// ε; 1e-4 of the smallest rest determinant if absent.
+    pub eps: Option<f64>,
+    /// Of `levenberg` only: do the targets retreat while the shift is large?
+    pub substepping: Option<bool>,
+    /// Of `levenberg` only: does α grow?
+    pub alpha_update: Option<bool>,
+    /// Of `levenberg` only: α at the start.
+    pub alpha0: Option<f64>,
+    /// Of `levenberg` only: r.
+    pub alpha_ratio: Option<f64>,
+    /// Of `levenberg` only: steps at most.
+    pub max_iter: Option<usize>,
+    /// Of `levenberg` only: ends when a step is shorter.
+    pub min_step: Option<f64>,
+    /// Of `levenberg` only: the largest ‖Cx − d‖² that counts as met.
+    pub tol: Option<f64>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// What an element is without distortion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rest {
+    /// Its x, y or x, y, z.
+    #[default]
+    Same,
+    /// A triangle of space, laid flat.
+    Corotated,
+}
+
+impl ProblemFile {
+    /// Parses JSON.
+    pub fn parse(json: &[u8]) -> Result<Self, ProblemError> {
+        serde_json::from_slice(json).map_err(|error| ProblemError::Malformed(error.to_string()))
+    }
+
+    /// The problem on this mesh, starting from these positions or from rest.
+    pub fn with(self, mesh: Elements, start: Option<Vec<f64>>) -> Result<Problem, ProblemError> {
+        let body = if !mesh.tets.is_empty() {
+            Body::from(&mesh.into_tet_mesh()?)
+        } else if self.rest == Rest::Corotated {
+            Body::flattened(&mesh.vertices, &mesh.triangles)
+                .map_err(|element| ElementError::ZeroSize { element })?
+        } else {
+            Body::from(&mesh.into_planar_mesh()?)
+        };
+        let start = start.unwrap_or_else(|| body.rest.clone());
+        if start.len() != body.rest.len() {
+            return Err(ProblemError::WrongStart {
+                found: start.len(),
+                expected: body.rest.len(),
+            });
+        }
+        let model = Model {
+            energy: self.energy,
+            barrier: self.barrier,
+            beta: self.beta,
+            s: self.gamma,
+        };
+        let barrier = model.barrier(&body, self.eps)?;
+        check_start(&body, &start, &barrier)?;
+        Ok(Problem {
+            stations: self.stations(&body)?,
+            levenberg: self.levenberg(),
+            body,
+            start,
+            energy: self.energy,
+            barrier,
+        })
+    }
+
+    fn levenberg(&self) -> LevenbergSettings {
+        let default = LevenbergSettings::default();
+        LevenbergSettings {
+            max_iterations: self.max_iter.unwrap_or(default.max_iterations),
+            min_step: self.min_step.unwrap_or(default.min_step),
+            tolerance: self.tol.unwrap_or(default.tolerance),
+            substepping: self.substepping.unwrap_or(default.substepping),
+            alpha_update: self.alpha_update.unwrap_or(default.alpha_update),
+            alpha: self.alpha0.unwrap_or(default.alpha),
+            alpha_ratio: self.alpha_ratio.unwrap_or(default.alpha_ratio),
+        }
+    }
+
+    fn stations(&self, body: &Body) -> Result<Vec<Handles>, ProblemError> {
+        let groups = body.groups(&self.handles_checked(body)?);
+        let last = std::iter::once(&self.targets);
+        let sets = self
+            .sequence
+            .iter()
+            .filter(|&set| *set != self.targets)
+            .chain(last);
+        sets.map(|targets| handles(body.dim(), &self.handles, targets, &groups))
+            .collect()
+    }
+
+    fn handles_checked(&self, body: &Body) -> Result<Vec<u32>, ProblemError> {
+        let n_vertices = body.n_vertices();
+        let outside = |&v: &u32| v as usize >= n_vertices;
+        if let Some(handle) = self.handles.iter().position(outside) {
+            let vertex = self.handles[handle];
+            return Err(ProblemError::UnknownHandle {
+                handle,
+                vertex,
+                n_vertices,
+            });
+        }
+        Ok(self.handles.clone())
+    }
+}

@@ -1,0 +1,215 @@
+//! From a problem to a map.
+
+use serde::{Deserialize, Serialize};
+
+use super::problem::Problem;
+use super::problem_error::ProblemError;
+use crate::barrier::Barrier;
+use crate::energy::{Positional, Term};
+use crate::solver::{
+    Handles, LevenbergSettings, LevenbergStep, Objective, Settings, Status, Summary, Watch, follow,
+    levenberg,
+};
+
+/// How a problem is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Projected Newton, the targets advancing as far as the map stays valid.
+    #[default]
+    Projected,
+    /// The paper's iteration with soft constraints, for comparison.
+    Levenberg,
+}
+
+/// A map and what it is worth.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Positions, coordinates one after another.
+    pub x: Vec<f64>,
+    /// What the solver did.
+    pub summary: Summary,
+    /// What the map is worth.
+    pub worth: Worth,
+}
+
+/// What a map is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Worth {
+    /// The deformation energy, without the barrier.
+    pub energy: f64,
+    /// The barrier's share, β included.
+    pub barrier: f64,
+    /// The sum of the squared distances of the handles from their targets.
+    pub residual: f64,
+    /// Elements whose determinant is not positive.
+    pub inverted: usize,
+    /// The smallest determinant over its value at rest.
+    pub smallest: f64,
+}
+
+/// How far the rest settles at each station of a sequence but the last: see [`Settings::tolerance`]. More would give a twisted
+/// bar time to buckle out of its turns.
+const STATION_TOLERANCE: f64 = 0.1;
+
+/// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's edge, so that a
+/// straight bar that is pressed at once buckles instead of staying on the saddle that its symmetry keeps it on.
+const SHAKE: f64 = 1e-3;
+
+impl Problem {
+    /// Minimizes the energy with the handles at their targets. With a barrier every iterate is without inversion.
+    pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
+        let mut objective = self.objective()?;
+        let mut x = self.start.clone();
+        if x == self.body.rest && self.stations.len() == 1 {
+            self.shake(&objective, &mut x);
+        }
+        let mut total = Summary::at_start(objective.value(&x));
+        for (index, handles) in self.stations.iter().enumerate() {
+            let is_last = index + 1 == self.stations.len();
+            let settings = Settings {
+                tolerance: if is_last {
+                    settings.tolerance
+                } else {
+                    STATION_TOLERANCE
+                },
+                ..*settings
+            };
+            let summary = if self.body.dim() == 2 {
+                follow::<2>(&mut objective, &mut x, handles, &settings, watch)
+            } else {
+                follow::<3>(&mut objective, &mut x, handles, &settings, watch)
+            };
+            total = total.followed_by(&summary);
+            if matches!(summary.status, Status::TargetsUnreachable | Status::Stopped) {
+                break;
+            }
+        }
+        Ok(self.solution(x, total))
+    }
+
+    /// The same by the paper's iteration.
+    pub fn solve_by_levenberg(
+        &self,
+        settings: &LevenbergSettings,
+        watch: &dyn Watch,
+        record: &mut dyn FnMut(&LevenbergStep),
+    ) -> Result<Solution, ProblemError> {
+        let terms = self.terms(self.barrier)?;
+        let first = self.stations.first().cloned().unwrap_or_default();
+        let constraints = Positional {
+            dim: self.body.dim(),
+            rows: first.vertices.iter().map(|&v| vec![(v, 1.0)]).collect(),
+            targets: first.targets,
+            alpha: settings.alpha,
+        };
+        let mut objective = Objective::constrained(self.body.n_vertices(), terms, constraints);
+        let mut x = self.start.clone();
+        let mut total = Summary::at_start(objective.energy(&x));
+        for handles in &self.stations {
+            objective.set_constraints(settings.alpha, &handles.targets);
+            let summary = levenberg(&mut objective, &mut x, settings, watch, &mut *record);
+            total = total.followed_by(&summary);
+            if summary.status == Status::Stopped {
+                break;
+            }
+        }
+        Ok(self.solution(x, total))
+    }
+
+    /// The energy with the barrier, and the points that handles pull at.
+    fn objective(&self) -> Result<Objective, ProblemError> {
+        let terms = self.terms(self.barrier)?;
+        let n_vertices = self.body.n_vertices();
+        let Some(handles) = self.stations.first().filter(|h| !h.points.is_empty()) else {
+            return Ok(Objective::of_terms(n_vertices, terms));
+        };
+        let points = Positional {
+            dim: self.body.dim(),
+            rows: handles.points.clone(),
+            targets: handles.point_targets.clone(),
+            alpha: 0.0,
+        };
+        Ok(Objective::constrained(n_vertices, terms, points))
+    }
+
+    fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
+        self.energy
+            .terms(&self.body, barrier)
+            .ok_or(ProblemError::PlanarEnergy)
+    }
+
+    /// Moves free vertices a little, the same way each time, if that leaves the map inside the domain.
+    fn shake(&self, objective: &Objective, x: &mut [f64]) {
+        let dim = self.body.dim();
+        let smallest = self
+            .body
+            .determinants()
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let amplitude = SHAKE * smallest.powf(1.0 / dim as f64);
+        let mut is_held = vec![false; self.body.n_vertices()];
+        for &v in self.stations.iter().flat_map(|handles| &handles.vertices) {
+            is_held[v as usize] = true;
+        }
+        let mut shaken = x.to_vec();
+        for (i, x) in shaken.iter_mut().enumerate() {
+            if !is_held[i / dim] {
+                *x += amplitude * (12.9898 * (i + 1) as f64).sin();
+            }
+        }
+        if objective.value(&shaken).is_finite() {
+            x.copy_from_slice(&shaken);
+        }
+    }
+
+    fn solution(&self, x: Vec<f64>, summary: Summary) -> Solution {
+        Solution {
+            worth: self.worth(&x),
+            summary,
+            x,
+        }
+    }
+
+    /// Judges a map, whoever made it.
+    pub fn worth(&self, x: &[f64]) -> Worth {
+        let value = |barrier: Barrier| -> f64 {
+            let terms = self.energy.terms(&self.body, barrier).unwrap_or_default();
+            terms.iter().map(|term| term.value(x)).sum()
+        };
+        let energy = value(Barrier::NONE);
+        let now = self.body.determinants_at(x);
+        let ratios = now
+            .iter()
+            .zip(self.body.determinants())
+            .map(|(now, rest)| now / rest);
+        Worth {
+            energy,
+            barrier: value(self.barrier) - energy,
+            residual: self
+                .stations
+                .last()
+                .map_or(0.0, |last| distance_squared(last, self.body.dim(), x)),
+            inverted: now.iter().filter(|&&d| d <= 0.0).count(),
+            smallest: ratios.fold(f64::INFINITY, f64::min),
+        }
+    }
+}
+
+fn distance_squared(handles: &Handles, dim: usize, x: &[f64]) -> f64 {
+    let held = handles.vertices.iter();
+    let places = held.flat_map(|&v| &x[dim * v as usize..dim * (v as usize + 1)]);
+    let points = Positional {
+        dim,
+        rows: handles.points.clone(),
+        targets: Vec::new(),
+        alpha: 0.0,
+    };
+    let held: f64 = places
+        .zip(&handles.targets)
+        .map(|(x, t)| (x - t) * (x - t))
+        .sum();
+    held + points.residual(x, &handles.point_targets)
+}

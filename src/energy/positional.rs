@@ -1,0 +1,93 @@
+//! Soft positional constraints.
+
+use super::{Assembly, Term};
+use crate::numerics::stencils::Stencils;
+
+/// A linear function of positions that should have a given value: vertices, in increasing order, with their weights. Of a
+/// point in an element these are its barycentric coordinates.
+pub type Row = Vec<(u32, f64)>;
+
+/// α‖Cx − t‖² with a sparse C, the same for each coordinate.
+///
+/// Minimum 0, where Cx = t. Unit of α times a length squared. Domain: everywhere. From: Schüller et al. 2013, equation 9.
+/// Tests: `energy::taylor_positional`.
+#[derive(Clone, Debug)]
+pub struct Positional {
+    /// Coordinates per position.
+    pub dim: usize,
+    /// The rows of C.
+    pub rows: Vec<Row>,
+    /// t: a position for each row, coordinates one after another.
+    pub targets: Vec<f64>,
+    /// α, the strength.
+    pub alpha: f64,
+}
+
+impl Positional {
+    /// Cx: where each row is, coordinates one after another.
+    pub fn places<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.rows.iter().flat_map(move |row| {
+            (0..self.dim).map(move |k| {
+                let weighted = row.iter().map(|&(v, w)| w * x[self.dim * v as usize + k]);
+                weighted.sum()
+            })
+        })
+    }
+
+    /// Adds 2αCᵀ·`moves`: by how much the negative gradient grows where the targets move.
+    pub fn add_pull(&self, moves: &[f64], sum: &mut [f64]) {
+        for (row, moves) in self.rows.iter().zip(moves.chunks(self.dim)) {
+            for &(v, weight) in row {
+                for (k, t) in moves.iter().enumerate() {
+                    sum[self.dim * v as usize + k] += 2.0 * self.alpha * weight * t;
+                }
+            }
+        }
+    }
+
+    /// ‖Cx − d‖² for these positions d.
+    pub fn residual(&self, x: &[f64], targets: &[f64]) -> f64 {
+        let gaps = self.places(x).zip(targets).map(|(place, t)| place - t);
+        gaps.map(|gap| gap * gap).sum()
+    }
+}
+
+impl Term for Positional {
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    fn stencils(&self) -> Stencils {
+        let vertices: Vec<Vec<u32>> = (self.rows.iter())
+            .map(|row| row.iter().map(|&(v, _)| v).collect())
+            .collect();
+        Stencils::of(vertices.iter().map(Vec::as_slice))
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        self.alpha * self.residual(x, &self.targets)
+    }
+
+    fn add_derivatives(&self, x: &[f64], _tau: f64, assembly: &mut Assembly) {
+        let gaps: Vec<f64> = self
+            .places(x)
+            .zip(&self.targets)
+            .map(|(place, t)| place - t)
+            .collect();
+        for (index, row) in self.rows.iter().enumerate() {
+            let gap = &gaps[self.dim * index..self.dim * (index + 1)];
+            let mut pair = 0;
+            for (j, &(v, weight)) in row.iter().enumerate() {
+                let factor = 2.0 * self.alpha * weight;
+                for (k, gap) in gap.iter().enumerate() {
+                    assembly.add_to_gradient(self.dim * v as usize + k, factor * gap);
+                }
+                assembly.add_diagonal_identity(v, factor * weight);
+                for &(_, other) in &row[..j] {
+                    assembly.add_pair_identity(index, pair, factor * other);
+                    pair += 1;
+                }
+            }
+        }
+    }
+}

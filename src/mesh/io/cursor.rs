@@ -1,0 +1,119 @@
+//! Reading one value after the other, from words of text or from bytes.
+
+use super::ReadError;
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    /// Words separated by blanks.
+    Text,
+    LittleEndian,
+    BigEndian,
+}
+
+/// A place in a file of a given format.
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    format: &'static str,
+    pub encoding: Encoding,
+}
+
+impl<'a> Cursor<'a> {
+    pub fn new(bytes: &'a [u8], format: &'static str) -> Self {
+        Self {
+            bytes,
+            at: 0,
+            format,
+            encoding: Encoding::Text,
+        }
+    }
+
+    /// An error at this place.
+    pub fn malformed(&self, cause: &'static str) -> ReadError {
+        ReadError::Malformed {
+            format: self.format,
+            place: "byte",
+            at: self.at,
+            cause,
+        }
+    }
+
+    /// The next word of text; `None` at the end.
+    pub fn word(&mut self) -> Option<&'a [u8]> {
+        let word = self.peek_word()?;
+        self.at += word.len();
+        Some(word)
+    }
+
+    /// The next word, not yet taken; passes over the blanks before it.
+    pub fn peek_word(&mut self) -> Option<&'a [u8]> {
+        let rest = &self.bytes[self.at..];
+        let blanks = rest.iter().position(|b| !b.is_ascii_whitespace())?;
+        self.at += blanks;
+        let word = &rest[blanks..];
+        let length = word.iter().position(u8::is_ascii_whitespace);
+        Some(&word[..length.unwrap_or(word.len())])
+    }
+
+    /// Passes over the rest of the line.
+    pub fn end_line(&mut self) {
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(|&b| b == b'\n').map(|n| n + 1);
+        self.at += length.unwrap_or(rest.len());
+    }
+
+    /// Passes over everything up to and with `mark`; false where it does not come, and the cursor stays.
+    pub fn skip_past(&mut self, mark: &[u8]) -> bool {
+        let found = self.bytes[self.at..]
+            .windows(mark.len())
+            .position(|w| w == mark);
+        self.at += found.map_or(0, |n| n + mark.len());
+        found.is_some()
+    }
+
+    /// A number written as text, whatever the encoding of the file.
+    pub fn parse<T: std::str::FromStr>(&mut self, cause: &'static str) -> Result<T, ReadError> {
+        let parsed = self.word().and_then(super::number);
+        parsed.ok_or_else(|| self.malformed(cause))
+    }
+
+    /// A 32-bit integer.
+    pub fn int(&mut self) -> Result<i32, ReadError> {
+        match self.encoding {
+            Encoding::Text => self.parse("an integer is expected"),
+            Encoding::LittleEndian => self.array().map(i32::from_le_bytes),
+            Encoding::BigEndian => self.array().map(i32::from_be_bytes),
+        }
+    }
+
+    /// A 64-bit count or tag.
+    pub fn size(&mut self) -> Result<u64, ReadError> {
+        match self.encoding {
+            Encoding::Text => self.parse("a count or a tag is expected"),
+            Encoding::LittleEndian => self.array().map(u64::from_le_bytes),
+            Encoding::BigEndian => self.array().map(u64::from_be_bytes),
+        }
+    }
+
+    /// A coordinate; NaN and infinity are numbers here.
+    pub fn float(&mut self) -> Result<f64, ReadError> {
+        match self.encoding {
+            Encoding::Text => self.parse("a coordinate is expected"),
+            Encoding::LittleEndian => self.array().map(f64::from_le_bytes),
+            Encoding::BigEndian => self.array().map(f64::from_be_bytes),
+        }
+    }
+
+    /// Three coordinates.
+    pub fn point(&mut self) -> Result<[f64; 3], ReadError> {
+        Ok([self.float()?, self.float()?, self.float()?])
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], ReadError> {
+        let bytes = self.bytes[self.at..].first_chunk::<N>();
+        let bytes = *bytes.ok_or_else(|| self.malformed("the file ends early"))?;
+        self.at += N;
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,60 @@
+//! VTK's XML format for unstructured grids, `.vtu`, as text: written for viewers such as ParaView, not read.
+//!
+//! Forty lines, so no crate: `vtkio`'s last stable release is of 2021 and would bring an XML writer, compressors and a binary
+//! framework.
+use super::Elements;
+use std::fmt::Write;
+
+/// VTK's numbers for a triangle and a tetrahedron.
+const TYPES: [&str; 2] = ["5", "10"];
+
+/// The text of the elements, triangles before tetrahedra.
+pub fn write(elements: &Elements) -> String {
+    let n_cells = elements.triangles.len() + elements.tets.len();
+    let mut text = format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
+         <UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{n_cells}\">\n<Points>\n\
+         <DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
+        elements.vertices.len()
+    );
+    for [x, y, z] in &elements.vertices {
+        let _ = writeln!(text, "{x:?} {y:?} {z:?}"); // writing to a string cannot fail
+    }
+    text.push_str("</DataArray>\n</Points>\n<Cells>\n");
+    array(&mut text, "connectivity", |text| {
+        for [a, b, c] in &elements.triangles {
+            let _ = writeln!(text, "{a} {b} {c}");
+        }
+        for [a, b, c, d] in &elements.tets {
+            let _ = writeln!(text, "{a} {b} {c} {d}");
+        }
+    });
+    array(&mut text, "offsets", |text| {
+        let n_triangles = elements.triangles.len() as u64;
+        for k in 1..=n_triangles {
+            let _ = writeln!(text, "{}", 3 * k);
+        }
+        for k in 1..=elements.tets.len() as u64 {
+            let _ = writeln!(text, "{}", 3 * n_triangles + 4 * k);
+        }
+    });
+    array(&mut text, "types", |text| {
+        for (of_shape, n) in TYPES
+            .into_iter()
+            .zip([elements.triangles.len(), elements.tets.len()])
+        {
+            text.extend(std::iter::repeat_n([of_shape, "\n"], n).flatten());
+        }
+    });
+    text.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+    text
+}
+
+fn array(text: &mut String, name: &str, content: impl FnOnce(&mut String)) {
+    let _ = writeln!(
+        text,
+        "<DataArray type=\"Int64\" Name=\"{name}\" format=\"ascii\">"
+    );
+    content(text);
+    text.push_str("</DataArray>\n");
+}

@@ -1,0 +1,19 @@
+//! The exact sign of a tetrahedron's volume.
+
+use robust::{Coord3D, orient3d};
+
+/// The sign of det[b−a, c−a, d−a]: 1 when `a`, `b`, `c` turn counter-clockwise seen from `d`, −1 when clockwise, 0 when the four
+/// are exactly coplanar.
+///
+/// Exact while no product of three differences underflows or overflows: coordinates between 1e-90 and 1e90 in magnitude (or
+/// 0). A coordinate that is not finite gives 0.
+pub fn orient3d_sign(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> i8 {
+    let coord = |p: [f64; 3]| Coord3D {
+        x: p[0],
+        y: p[1],
+        z: p[2],
+    };
+    // robust's sign is that of det[a−d, b−d, c−d], the opposite.
+    let volume = orient3d(coord(a), coord(b), coord(c), coord(d));
+    i8::from(volume < 0.0) - i8::from(volume > 0.0)
+}

@@ -1,0 +1,128 @@
+//! Square matrices of the plane and of space: what differs between 2×2 and 3×3.
+//!
+//! Everything else about elements is written once for both dimensions.
+
+use super::svd::{Svd, svd2, svd3};
+use super::vec3;
+
+/// A D×D matrix, rows first.
+pub type Matrix<const D: usize> = [[f64; D]; D];
+
+/// What energies need of a matrix, in either dimension.
+pub trait Square<const D: usize>: Copy {
+    /// Its determinant.
+    fn det(&self) -> f64;
+
+    /// Coefficients of det(self + t·`direction`) in powers of t.
+    fn det_along(&self, direction: &Self) -> [f64; 4];
+
+    /// Its inverse, given its determinant.
+    fn inverse(&self, det: f64) -> Matrix<D>;
+
+    /// Its signed singular value decomposition, given its determinant.
+    fn svd(&self, det: f64) -> Svd<D>;
+
+    /// The signed singular values alone; see [`Svd`].
+    fn singular_values(&self, det: f64) -> [f64; D];
+}
+
+impl Square<2> for Matrix<2> {
+    fn det(&self) -> f64 {
+        let [[a, b], [c, d]] = self;
+        a * d - b * c
+    }
+
+    fn det_along(&self, direction: &Self) -> [f64; 4] {
+        let ([[a, b], [c, d]], [[p, q], [r, s]]) = (self, direction);
+        [
+            self.det(),
+            a * s - b * r + p * d - q * c,
+            direction.det(),
+            0.0,
+        ]
+    }
+
+    fn inverse(&self, det: f64) -> Self {
+        let [[a, b], [c, d]] = self;
+        [[d / det, -b / det], [-c / det, a / det]]
+    }
+
+    fn svd(&self, det: f64) -> Svd<2> {
+        svd2(self, det)
+    }
+
+    fn singular_values(&self, det: f64) -> [f64; 2] {
+        super::svd::singular_values2(self, det)
+    }
+}
+
+impl Square<3> for Matrix<3> {
+    fn det(&self) -> f64 {
+        let [a, b, c] = *self;
+        vec3::dot(a, vec3::cross(b, c))
+    }
+
+    fn det_along(&self, direction: &Self) -> [f64; 4] {
+        let ([a, b, c], [p, q, r]) = (*self, *direction);
+        let det = |a, b, c| vec3::dot(a, vec3::cross(b, c));
+        [
+            det(a, b, c),
+            det(p, b, c) + det(a, q, c) + det(a, b, r),
+            det(a, q, r) + det(p, b, r) + det(p, q, c),
+            det(p, q, r),
+        ]
+    }
+
+    fn inverse(&self, det: f64) -> Self {
+        let [a, b, c] = *self;
+        let columns = [vec3::cross(b, c), vec3::cross(c, a), vec3::cross(a, b)];
+        [0, 1, 2].map(|r| [0, 1, 2].map(|k| columns[k][r] / det))
+    }
+
+    fn svd(&self, det: f64) -> Svd<3> {
+        svd3(self, det)
+    }
+
+    fn singular_values(&self, det: f64) -> [f64; 3] {
+        svd3(self, det).sigma
+    }
+}
+
+/// `value` times the identity.
+pub fn identity<const D: usize>(value: f64) -> Matrix<D> {
+    std::array::from_fn(|r| std::array::from_fn(|c| if r == c { value } else { 0.0 }))
+}
+
+/// a · b.
+pub fn times<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
+    let mut product = [[0.0; D]; D];
+    for (row, a) in product.iter_mut().zip(a) {
+        for (k, b) in b.iter().enumerate() {
+            for c in 0..D {
+                row[c] += a[k] * b[c];
+            }
+        }
+    }
+    product
+}
+
+/// aᵀ.
+pub fn transposed<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+    std::array::from_fn(|r| std::array::from_fn(|c| a[c][r]))
+}
+
+/// a · x.
+pub fn apply<const D: usize>(a: &Matrix<D>, x: &[f64; D]) -> [f64; D] {
+    a.map(|row| (0..D).map(|c| row[c] * x[c]).sum())
+}
+
+/// aᵀ · x.
+pub fn apply_transposed<const D: usize>(a: &Matrix<D>, x: &[f64; D]) -> [f64; D] {
+    let mut image = [0.0; D];
+    for (row, x) in a.iter().zip(x) {
+        for c in 0..D {
+            image[c] += row[c] * x;
+        }
+    }
+    image
+}

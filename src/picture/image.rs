@@ -1,0 +1,110 @@
+//! Pictures with transparency, from and to files.
+
+use image::codecs::png::PngEncoder;
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageReader, Limits};
+use std::io::Cursor;
+
+/// Pixels of a picture at most; more is refused before anything is decoded.
+const MOST_PIXELS: u64 = 100_000_000;
+/// Bytes that a decoder may allocate: the picture at 16 bits per channel, and as much again.
+const MOST_BYTES: u64 = 16 * MOST_PIXELS;
+
+/// Why a picture cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ImageError {
+    /// Neither PNG nor JPEG.
+    #[error("not a PNG or JPEG picture")]
+    UnknownFormat,
+    /// The picture has more pixels than are read.
+    #[error("{width} × {height} pixels are more than 100 megapixels")]
+    TooLarge {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// The file is damaged.
+    #[error("invalid picture: {0}")]
+    Invalid(String),
+}
+
+impl ImageError {
+    /// Stable name of the cause, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnknownFormat => "unknown_format",
+            Self::TooLarge { .. } => "image_too_large",
+            Self::Invalid(_) => "invalid_image",
+        }
+    }
+}
+
+/// Pixels of red, green, blue and alpha (not premultiplied), row 0 at the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// `width` × `height` pixels, row by row.
+    pub pixels: Vec<[u8; 4]>,
+}
+
+impl Image {
+    /// A transparent picture.
+    pub fn transparent(width: usize, height: usize) -> Self {
+        Self {
+            width,
+            height,
+            pixels: vec![[0; 4]; width * height],
+        }
+    }
+
+    /// Decodes a PNG or JPEG file, upright as its metadata says; more than 8 bits per channel are rounded.
+    pub fn decode(bytes: &[u8]) -> Result<Self, ImageError> {
+        let mut reader = ImageReader::new(Cursor::new(bytes))
+            .with_guessed_format()
+            .map_err(|error| unreadable(error.into()))?;
+        if reader.format().is_none() {
+            return Err(ImageError::UnknownFormat);
+        }
+        let mut limits = Limits::no_limits();
+        limits.max_alloc = Some(MOST_BYTES);
+        reader.limits(limits);
+        let mut decoder = reader.into_decoder().map_err(unreadable)?;
+        let (width, height) = decoder.dimensions();
+        if u64::from(width) * u64::from(height) > MOST_PIXELS {
+            return Err(ImageError::TooLarge { width, height });
+        }
+        let orientation = decoder.orientation().map_err(unreadable)?;
+        let mut decoded = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
+        decoded.apply_orientation(orientation);
+        let rgba = decoded.into_rgba8();
+        Ok(Self {
+            width: rgba.width() as usize,
+            height: rgba.height() as usize,
+            pixels: rgba.as_raw().as_chunks::<4>().0.to_vec(),
+        })
+    }
+
+    /// The PNG file.
+    pub fn png(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let written = PngEncoder::new(&mut bytes).write_image(
+            self.pixels.as_flattened(),
+            self.width as u32,
+            self.height as u32,
+            ExtendedColorType::Rgba8,
+        );
+        // Writing to memory fails for wrong dimensions only.
+        debug_assert!(written.is_ok());
+        bytes
+    }
+}
+
+fn unreadable(error: image::ImageError) -> ImageError {
+    match error {
+        image::ImageError::Unsupported(_) => ImageError::UnknownFormat,
+        error => ImageError::Invalid(error.to_string()),
+    }
+}

@@ -1,0 +1,300 @@
+//! Handles pulled to their targets, every iterate a valid map.
+
+use super::line_search::line_search;
+use super::newton::minimize;
+use super::objective::Objective;
+use super::path::{Handles, Path, Rotation};
+use super::settings::{Settings, Status, Summary};
+use super::watch::{Control, Iterate, Watch};
+use crate::numerics::square::{Matrix, Square};
+
+/// A first advance along the path: all of it, since a small deformation needs no more.
+const FIRST_ADVANCE: f64 = 1.0;
+
+/// Advances shorter than this are not tried: the vertices in the way have to move first.
+const LEAST_ADVANCE: f64 = 1e-4;
+
+/// Share of the way to the first inversion that an advance may take. With 0.5 the 119 reference problems take a third more
+/// iterations.
+const SAFETY: f64 = 0.9;
+
+/// How far the energy may rise above twice what the quadratic model promises, as a share of the energy.
+const SURPRISE: f64 = 2.0;
+
+/// Below this share of the sum of the weights an energy is that of a body at rest, where any advance is a surprise.
+const UNSTRAINED: f64 = 0.02;
+
+/// What a round of advances must gain for another to be worth while, as a share of the path.
+const LEAST_PROGRESS: f64 = 1e-3;
+
+/// Steps without an advance after which the rest must settle first.
+const PATIENCE: usize = 20;
+
+/// How far the rest settles before handles that are stuck try again: see [`Settings::tolerance`].
+const SETTLED: f64 = 1e-6;
+
+/// The strength of soft constraints beside the energy's mean curvature, while they travel and, rising tenfold, at the end.
+const SOFT: f64 = 1e3;
+const HARD: f64 = 1e9;
+
+/// Moves the handles along their path to their targets, the other vertices following, and then minimizes `objective` with
+/// the handles held.
+///
+/// Each iteration is one factorization and two or more solves: the Newton step with the handles held, and how the vertices
+/// follow an advance of the handles to first order. Both are taken together, the advance no longer than inversions and the
+/// quadratic model allow. The energy may rise while the handles travel; no iterate leaves the domain, in which `x` must
+/// be. Where the handles cannot advance the rest settles first; if that gives them no room either, the map is the nearest
+/// valid one on their path and the status [`Status::TargetsUnreachable`].
+///
+/// Points inside elements are the soft constraints of an [`Objective::constrained`] made of [`Handles::points`]. Their strength
+/// is relative to the energy's curvature and grows once the targets are reached, one short minimization for each
+/// decade.
+pub fn follow<const D: usize>(
+    objective: &mut Objective,
+    x: &mut [f64],
+    handles: &Handles,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Summary
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    objective.fix(&handles.vertices);
+    let mut travel = Travel::<D>::new(objective, x, handles);
+    if !travel.summary.energy_first.is_finite() {
+        return travel.summary;
+    }
+    loop {
+        let before = travel.s;
+        if travel.advance(objective, x, settings, watch) == Control::Finish
+            || travel.settle(objective, x, settings, watch) == Control::Finish
+        {
+            return travel.summary;
+        }
+        if travel.s >= 1.0 {
+            travel.harden(objective, x, settings, watch);
+            return travel.summary;
+        }
+        let is_spent = travel.summary.iterations >= settings.max_iterations;
+        if is_spent || travel.s < before + LEAST_PROGRESS {
+            let status = Status::TargetsUnreachable;
+            return Summary {
+                status,
+                ..travel.summary
+            };
+        }
+        travel.stride = FIRST_ADVANCE;
+    }
+}
+
+struct Travel<'a, const D: usize> {
+    handles: &'a Handles,
+    path: Path<D>,
+    /// Where the points start, and by how much they have to move.
+    point_origins: Vec<f64>,
+    point_ways: Vec<f64>,
+    /// How much of the path lies behind.
+    s: f64,
+    /// The advance to try next.
+    stride: f64,
+    /// The unit of the points' strength: the energy's mean curvature at the start.
+    unit: f64,
+    summary: Summary,
+    newton: Vec<f64>,
+    direction: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl<'a, const D: usize> Travel<'a, D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    fn new(objective: &mut Objective, x: &[f64], handles: &'a Handles) -> Self {
+        let point_origins: Vec<f64> = objective
+            .constraints()
+            .map_or(Vec::new(), |c| c.places(x).collect());
+        objective.set_constraints(0.0, &point_origins);
+        let ways = handles.point_targets.iter().zip(&point_origins);
+        Self {
+            handles,
+            path: Path::new(handles, x),
+            point_ways: ways.map(|(target, origin)| target - origin).collect(),
+            point_origins,
+            s: 0.0,
+            stride: FIRST_ADVANCE,
+            unit: 0.0,
+            summary: Summary::at_start(objective.value(x)),
+            newton: vec![0.0; x.len()],
+            direction: vec![0.0; x.len()],
+            trial: vec![0.0; x.len()],
+        }
+    }
+
+    /// Advances until the targets are reached or the handles are stuck.
+    fn advance(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Control {
+        let mut stuck = 0;
+        while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
+        {
+            if objective.constraints().is_some_and(|c| c.alpha == 0.0) {
+                objective.linearize(x, 0.0);
+                self.pull(objective, SOFT, self.s);
+            }
+            objective.linearize(x, 0.0);
+            self.summary.factorizations += 1;
+            let Ok(decrement) = objective.newton_direction(&mut self.newton) else {
+                break;
+            };
+            if self.step(objective, x) {
+                stuck = 0;
+            } else {
+                stuck += 1;
+                self.relax(objective, x, decrement);
+            }
+            self.summary.iterations += 1;
+            let iterate = Iterate {
+                iteration: self.summary.iterations,
+                energy: self.summary.energy_last,
+                smallest: objective.smallest(x),
+            };
+            debug_assert!(iterate.smallest > 0.0 || !objective.forbids_flips());
+            if watch.iterate(&iterate) == Control::Finish {
+                self.summary.status = Status::Stopped;
+                return Control::Finish;
+            }
+        }
+        Control::Continue
+    }
+
+    /// An advance together with the Newton step; false if none that is worth while stays in the domain.
+    fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
+        while self.stride > LEAST_ADVANCE {
+            let to = (self.s + self.stride).min(1.0);
+            self.aim(objective, x, to);
+            self.pull(objective, SOFT, to);
+            let largest = SAFETY * objective.largest_step(x, &self.direction);
+            if largest >= 1.0 && self.is_acceptable(objective, x) {
+                x.copy_from_slice(&self.trial);
+                self.s = to;
+                self.stride *= 2.0;
+                return true;
+            }
+            self.stride *= 0.5 * largest.clamp(0.2, 1.0);
+        }
+        self.pull(objective, SOFT, self.s);
+        self.stride = 4.0 * LEAST_ADVANCE;
+        false
+    }
+
+    /// Leaves in `direction` the Newton step and the advance to `to` together.
+    fn aim(&mut self, objective: &mut Objective, x: &[f64], to: f64) {
+        for (i, &v) in self.handles.vertices.iter().enumerate() {
+            let place = self.path.position(i, to);
+            let at = D * v as usize;
+            for k in 0..D {
+                self.direction[at + k] = place[k] - x[at + k];
+            }
+        }
+        let moves: Vec<f64> = self.point_ways.iter().map(|w| (to - self.s) * w).collect();
+        objective.follow(&mut self.direction, &moves);
+        for (d, n) in self.direction.iter_mut().zip(&self.newton) {
+            *d += n;
+        }
+    }
+
+    /// Is the energy after the direction about what the model promises? Leaves the point in `trial`.
+    fn is_acceptable(&mut self, objective: &Objective, x: &[f64]) -> bool {
+        for ((trial, x), d) in self.trial.iter_mut().zip(x).zip(&self.direction) {
+            *trial = x + d;
+        }
+        let energy = self.summary.energy_last;
+        let promised = objective.model_change(&self.direction).max(0.0);
+        let unit = objective
+            .reference(energy)
+            .max(UNSTRAINED * objective.scale());
+        let new_energy = objective.value(&self.trial);
+        let is_acceptable = new_energy <= energy + 2.0 * promised + SURPRISE * unit;
+        if is_acceptable {
+            self.summary.energy_last = new_energy;
+        }
+        is_acceptable
+    }
+
+    /// The Newton step alone, with a line search.
+    fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) {
+        let from = (self.summary.energy_last, decrement);
+        if let Some(step) = line_search(objective, x, &self.newton, from, &mut self.trial) {
+            x.copy_from_slice(&self.trial);
+            self.summary.energy_last = step.energy;
+        }
+    }
+
+    /// Sets the points' targets to where they are on their way, and their strength.
+    fn pull(&mut self, objective: &mut Objective, strength: f64, s: f64) {
+        if self.point_ways.is_empty() {
+            return;
+        }
+        if self.unit == 0.0 {
+            self.unit = objective.mean_diagonal();
+        }
+        let ways = self.point_origins.iter().zip(&self.point_ways);
+        let targets: Vec<f64> = ways.map(|(origin, way)| origin + s * way).collect();
+        objective.set_constraints(strength * self.unit, &targets);
+    }
+
+    /// Makes the points meet their targets.
+    fn harden(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) {
+        let mut strength = SOFT;
+        while !self.point_ways.is_empty() && strength < HARD {
+            strength *= 10.0;
+            self.pull(objective, strength, 1.0);
+            self.summary.energy_last = objective.value(x);
+            if self.settle(objective, x, settings, watch) == Control::Finish {
+                return;
+            }
+        }
+    }
+
+    /// Minimizes with the handles held where they are.
+    fn settle(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Control {
+        let before = self.summary;
+        let counted = |iterate: &Iterate| {
+            watch.iterate(&Iterate {
+                iteration: before.iterations + iterate.iteration,
+                ..*iterate
+            })
+        };
+        let settings = Settings {
+            max_iterations: settings.max_iterations.saturating_sub(before.iterations),
+            tolerance: if self.s < 1.0 {
+                settings.tolerance.min(SETTLED)
+            } else {
+                settings.tolerance
+            },
+            ..*settings
+        };
+        self.summary = before.followed_by(&minimize(objective, x, &settings, &counted));
+        if self.summary.status == Status::Stopped {
+            Control::Finish
+        } else {
+            Control::Continue
+        }
+    }
+}

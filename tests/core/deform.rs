@@ -1,0 +1,295 @@
+//! Handles: targets met, no inversion at any iterate, the paper's iteration beside ours, units.
+
+use std::cell::Cell;
+
+use unwrapd::barrier::{Barrier, BarrierKind};
+use unwrapd::deform::{Body, BodyElements, DeformationEnergy, Problem};
+use unwrapd::mesh::{PlanarMesh, TetMesh};
+use unwrapd::solver::{Control, Handles, Iterate, LevenbergSettings, Path, Settings, Status};
+
+const ENERGIES: [DeformationEnergy; 10] = [
+    DeformationEnergy::Arap,
+    DeformationEnergy::Green,
+    DeformationEnergy::Dirichlet,
+    DeformationEnergy::Laplacian,
+    DeformationEnergy::UniformLaplacian,
+    DeformationEnergy::SymmetricDirichlet,
+    DeformationEnergy::Mips,
+    DeformationEnergy::Amips,
+    DeformationEnergy::StVenantKirchhoff,
+    DeformationEnergy::NeoHookean,
+];
+
+/// A strip of `length` × 2 squares of the given edge, two triangles each.
+fn strip(length: u32, edge: f64) -> PlanarMesh {
+    let vertices = (0..3 * (length + 1)).map(|v| [f64::from(v / 3), f64::from(v % 3)]);
+    let triangles = (0..2 * length).flat_map(|cell| {
+        let a = cell / 2 * 3 + cell % 2;
+        [[a, a + 3, a + 4], [a, a + 4, a + 1]]
+    });
+    let vertices = vertices.map(|p| p.map(|x| edge * x)).collect();
+    PlanarMesh::new(vertices, triangles.collect()).expect("a valid strip")
+}
+
+/// A bar of `length` unit cubes, six tetrahedra each.
+fn bar(length: u32) -> TetMesh {
+    let id = |x: u32, y: u32, z: u32| 4 * x + 2 * y + z;
+    let vertices = (0..4 * (length + 1)).map(|v| [v / 4, v / 2 % 2, v % 2].map(f64::from));
+    let mut tets = Vec::new();
+    for x in 0..length {
+        for [a, b, c] in [
+            [0, 1, 2],
+            [0, 2, 1],
+            [1, 0, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [2, 1, 0],
+        ] {
+            let mut corner = [x, 0, 0];
+            let mut tet = [id(corner[0], corner[1], corner[2]); 4];
+            for (step, axis) in [a, b, c].into_iter().enumerate() {
+                corner[axis] += 1;
+                tet[step + 1] = id(corner[0], corner[1], corner[2]);
+            }
+            tets.push(tet);
+        }
+    }
+    TetMesh::new(vertices.collect(), tets).expect("a valid bar")
+}
+
+fn problem(
+    body: Body,
+    energy: DeformationEnergy,
+    kind: BarrierKind,
+    vertices: &[u32],
+    targets: Vec<f64>,
+) -> Problem {
+    let smallest = body
+        .determinants()
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+    let groups = body.groups(vertices);
+    Problem {
+        start: body.rest.clone(),
+        energy,
+        barrier: Barrier {
+            kind,
+            beta: energy.default_beta(),
+            s: 1.0,
+            epsilon: 1e-4 * smallest,
+        },
+        stations: vec![Handles {
+            vertices: vertices.to_vec(),
+            targets,
+            groups,
+            ..Handles::default()
+        }],
+        levenberg: LevenbergSettings::default(),
+        body,
+    }
+}
+
+/// The strip's left end held, its right end turned by a right angle and brought near.
+fn bent_strip(edge: f64, energy: DeformationEnergy, kind: BarrierKind) -> Problem {
+    let length = 8;
+    let vertices = [0, 1, 2, 24, 25, 26];
+    let targets = [
+        [0.0, 0.0],
+        [0.0, 1.0],
+        [0.0, 2.0],
+        [4.0, 4.0],
+        [3.0, 4.0],
+        [2.0, 4.0],
+    ];
+    let targets = targets.into_iter().flatten().map(|x| edge * x).collect();
+    problem(
+        Body::from(&strip(length, edge)),
+        energy,
+        kind,
+        &vertices,
+        targets,
+    )
+}
+
+fn twisted_bar(energy: DeformationEnergy) -> Problem {
+    let length = 6;
+    let held: Vec<u32> = (0..4).chain(4 * length..4 * length + 4).collect();
+    let l = f64::from(length);
+    let (a, b) = (
+        [
+            [0.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 1.0, 1.0],
+        ],
+        [[l, 1.0, 1.0], [l, 1.0, 0.0], [l, 0.0, 1.0], [l, 0.0, 0.0]],
+    );
+    let targets = a.into_iter().chain(b).flatten().collect();
+    problem(
+        Body::from(&bar(length)),
+        energy,
+        BarrierKind::InverseSpline,
+        &held,
+        targets,
+    )
+}
+
+#[test]
+fn every_energy_meets_its_targets_without_an_inversion() {
+    for energy in ENERGIES.into_iter().chain([DeformationEnergy::Lscm]) {
+        let problem = bent_strip(1.0, energy, BarrierKind::InverseSpline);
+        let smallest = Cell::new(f64::INFINITY);
+        let watch = |i: &Iterate| {
+            smallest.set(smallest.get().min(i.smallest));
+            Control::Continue
+        };
+        let solution = problem
+            .solve(&Settings::follow(), &watch)
+            .expect("a planar energy");
+        assert_eq!(solution.summary.status, Status::Converged, "{energy:?}");
+        assert!(solution.worth.residual < 1e-24, "{energy:?}");
+        assert!(
+            smallest.get() > 0.0 && solution.worth.inverted == 0,
+            "{energy:?}"
+        );
+    }
+}
+
+#[test]
+fn every_barrier_holds() {
+    for kind in [
+        BarrierKind::InverseSpline,
+        BarrierKind::AugmentedLog,
+        BarrierKind::Log,
+        BarrierKind::NeoHookean,
+    ] {
+        let problem = bent_strip(1.0, DeformationEnergy::Green, kind);
+        let solution = problem
+            .solve(&Settings::follow(), &go_on)
+            .expect("a planar energy");
+        assert_eq!(solution.worth.inverted, 0, "{kind:?}");
+        assert!(solution.worth.residual < 1e-24, "{kind:?}");
+    }
+}
+
+fn go_on(_: &Iterate) -> Control {
+    Control::Continue
+}
+
+#[test]
+fn a_bar_twists_by_half_a_turn_in_one_jump() {
+    for energy in ENERGIES {
+        let problem = twisted_bar(energy);
+        let solution = problem
+            .solve(&Settings::follow(), &go_on)
+            .expect("an energy of space");
+        assert_eq!(solution.worth.inverted, 0, "{energy:?}");
+        assert!(
+            solution.worth.residual < 1e-24,
+            "{energy:?} {:?}",
+            solution.summary
+        );
+    }
+    let planar = twisted_bar(DeformationEnergy::Lscm);
+    assert!(planar.solve(&Settings::follow(), &go_on).is_err());
+}
+
+#[test]
+fn the_papers_iteration_ends_in_the_same_minimum() {
+    for energy in [
+        DeformationEnergy::Arap,
+        DeformationEnergy::Green,
+        DeformationEnergy::Dirichlet,
+    ] {
+        let problem = bent_strip(1.0, energy, BarrierKind::InverseSpline);
+        let ours = problem
+            .solve(&Settings::follow(), &go_on)
+            .expect("a planar energy");
+        let mut steps = Vec::new();
+        let theirs = problem
+            .solve_by_levenberg(&problem.levenberg, &go_on, &mut |step| steps.push(*step))
+            .expect("a planar energy");
+        assert_eq!(theirs.summary.status, Status::Converged, "{energy:?}");
+        assert_eq!(steps.len(), theirs.summary.iterations);
+        assert!(theirs.worth.residual < 1e-12 && theirs.worth.inverted == 0);
+        let [a, b] = [ours, theirs].map(|s| s.worth.energy + s.worth.barrier);
+        assert!((a - b).abs() < 1e-4 * b.abs(), "{energy:?}: {a} {b}");
+    }
+}
+
+#[test]
+fn an_arap_map_scales_with_the_unit() {
+    // ARAP is an area, the barrier is not: without one the minimizer moves with the unit.
+    let one = bent_strip(1.0, DeformationEnergy::Arap, BarrierKind::None);
+    let solve = |problem: &Problem| {
+        problem
+            .solve(&Settings::follow(), &go_on)
+            .expect("a planar energy")
+    };
+    let base = solve(&one);
+    for edge in [1e-6, 1e-3, 1e5] {
+        let scaled = solve(&bent_strip(
+            edge,
+            DeformationEnergy::Arap,
+            BarrierKind::None,
+        ));
+        for (x, y) in base.x.iter().zip(&scaled.x) {
+            assert!((edge * x - y).abs() < 1e-3 * edge, "{x} {y} at {edge}");
+        }
+        assert_eq!(scaled.summary.iterations, base.summary.iterations);
+    }
+}
+
+#[test]
+fn targets_out_of_reach_end_in_a_valid_map() {
+    // Three neighbours in a row are to come to one line: their triangles would be empty.
+    let body = Body::from(&strip(4, 1.0));
+    let targets = vec![0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0, 0.25];
+    let problem = problem(
+        body,
+        DeformationEnergy::Arap,
+        BarrierKind::InverseSpline,
+        &[0, 1, 3, 4],
+        targets,
+    );
+    let solution = problem
+        .solve(&Settings::follow(), &go_on)
+        .expect("a planar energy");
+    assert_eq!(solution.summary.status, Status::TargetsUnreachable);
+    assert_eq!(solution.worth.inverted, 0);
+    assert!(solution.worth.residual > 0.0);
+}
+
+#[test]
+fn groups_are_connected_by_elements() {
+    let body = Body::from(&strip(8, 1.0));
+    let groups = body.groups(&[0, 1, 12, 26, 25]);
+    assert_eq!(groups[0], groups[1]);
+    assert_eq!(groups[3], groups[4]);
+    assert!(groups[0] != groups[2] && groups[2] != groups[3] && groups[0] != groups[3]);
+    assert!(matches!(body.elements, BodyElements::Triangles { .. }));
+}
+
+#[test]
+fn a_group_travels_as_a_rigid_body() {
+    let handles = Handles {
+        vertices: vec![0, 1, 2, 3],
+        // Half a turn about the x axis through (0, ½, ½), and a shift by 2 along it.
+        targets: vec![2.0, 1.0, 1.0, 2.0, 1.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0, 0.0],
+        groups: vec![0; 4],
+        ..Handles::default()
+    };
+    let x = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0];
+    let path = Path::<3>::new(&handles, &x);
+    let distance =
+        |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+    for s in [0.0, 0.2, 0.5, 0.9, 1.0] {
+        let places = [0, 1, 2, 3].map(|i| path.position(i, s));
+        assert!((distance(places[0], places[1]) - 1.0).abs() < 1e-12);
+        assert!((distance(places[0], places[3]) - 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!(places.iter().all(|p| (p[0] - 2.0 * s).abs() < 1e-12));
+    }
+    for (i, target) in handles.targets.as_chunks::<3>().0.iter().enumerate() {
+        assert!(distance(path.position(i, 1.0), *target) < 1e-12);
+    }
+}
