@@ -15,7 +15,7 @@
 //! when its orientation, so corrected, is not the one that carries most UV area in its chart. A mirrored chart is therefore
 //! valid, a Möbius strip in one piece is not.
 //!
-//! Maps without UVs are judged by the same predicates: [`certify_planar`] a deformed mesh of the plane, [`crossings`] whether a
+//! Maps without UVs are judged by the same predicates: [`certify_planar`] a deformed mesh of the plane, [`crossings()`] whether a
 //! surface in space passes through itself.
 //!
 //! **What is not judged**: separation after rounding ([`Certificate::grid_bits`] speaks of orientations only).

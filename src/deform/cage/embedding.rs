@@ -9,40 +9,84 @@ use crate::numerics::vec3::{add_scaled, cross, sub, unit};
 pub struct Embedding {
     /// The element of each point; of several that have it on their boundary the lowest.
     pub tets: Vec<u32>,
-    /// Barycentric weights of the element's corners, not negative and of sum 1 up to rounding.
+    /// Barycentric weights of the element's corners, of sum 1 up to rounding; not negative for points inside the cage.
     pub weights: Vec<[f64; 4]>,
 }
 
 impl Cage {
-    /// Finds the tetrahedron of every position; those of the surfaces that the cage was made for are always inside.
+    /// Finds the tetrahedron of every position.
+    ///
+    /// All points of the surfaces that the cage was made for are inside. Others may not be (vertices that no triangle uses): they
+    /// follow an element of a near voxel, whose map is extended.
     pub fn embed(&self, positions: &[[f64; 3]]) -> Result<Embedding, CageError> {
         let mut embedding = Embedding::default();
-        for (vertex, &position) in positions.iter().enumerate() {
-            let (tet, weights) = self.locate(position).ok_or(CageError::Outside { vertex })?;
+        let mut near = None;
+        for (vertex, position) in positions.iter().enumerate() {
+            if !position.iter().all(|x| x.is_finite()) {
+                return Err(CageError::NonFinitePosition { vertex });
+            }
+            let local = self.grid.local(*position);
+            let cell = self.lowest_voxel(local).unwrap_or_else(|| {
+                let near = near.get_or_insert_with(|| self.near_voxels());
+                self.grid
+                    .place(near[self.grid.cell(self.nearest_cell(local))])
+            });
+            let (tet, weights) = self.place(local, cell);
             embedding.tets.push(tet);
             embedding.weights.push(weights);
         }
         Ok(embedding)
     }
 
-    fn locate(&self, position: [f64; 3]) -> Option<(u32, [f64; 4])> {
-        let local = self.grid.local(position);
-        let (cell, voxel) = self.lowest_voxel(local)?;
+    /// The element of a voxel in which a point lies, and its weights; for points outside of the voxel an element in whose direction
+    /// it lies.
+    fn place(&self, local: [f64; 3], cell: [usize; 3]) -> (u32, [f64; 4]) {
         let part = [0, 1, 2].map(|k| local[k] - cell[k] as f64);
-        let order = ORDERS
-            .iter()
-            .position(|&[a, b, c]| part[a] >= part[b] && part[b] >= part[c])?;
+        let falls = |order: &[usize; 3]| {
+            part[order[0]] >= part[order[1]] && part[order[1]] >= part[order[2]]
+        };
+        let order = ORDERS.iter().position(falls).unwrap_or(0); // finite numbers have an order
         let [a, b, c] = ORDERS[order].map(|axis| part[axis]);
         let along_path = [1.0 - a, a - b, b - c, c];
         let mut weights = [0.0; 4];
         for (slot, weight) in path_slots(order).into_iter().zip(along_path) {
             weights[slot] = weight;
         }
-        Some((6 * voxel + order as u32, weights))
+        let voxel = self.voxel_of_cell[self.grid.cell(cell)];
+        (6 * voxel + order as u32, weights)
+    }
+
+    /// The voxel of the grid, part of the cage or not, nearest to a point.
+    fn nearest_cell(&self, local: [f64; 3]) -> [usize; 3] {
+        [0, 1, 2].map(|k| local[k].clamp(0.0, (self.grid.counts[k] - 1) as f64) as usize)
+    }
+
+    /// For every voxel of the grid the number of one of the cage that is reached in the fewest steps.
+    fn near_voxels(&self) -> Vec<u32> {
+        let in_cage = |cell: &u32| self.voxel_of_cell[*cell as usize] != ABSENT;
+        let mut front: Vec<u32> = (0..self.grid.n_cells() as u32).filter(in_cage).collect();
+        let mut near = vec![ABSENT; self.grid.n_cells()];
+        for &cell in &front {
+            near[cell as usize] = cell;
+        }
+        while !front.is_empty() {
+            let mut next = Vec::new();
+            for cell in front {
+                for neighbour in self.grid.neighbours(self.grid.place(cell)) {
+                    let neighbour = self.grid.cell(neighbour);
+                    if near[neighbour] == ABSENT {
+                        near[neighbour] = near[cell as usize];
+                        next.push(neighbour as u32);
+                    }
+                }
+            }
+            front = next;
+        }
+        near
     }
 
     /// The lowest voxel of the cage that has a point inside or on its boundary.
-    fn lowest_voxel(&self, local: [f64; 3]) -> Option<([usize; 3], u32)> {
+    fn lowest_voxel(&self, local: [f64; 3]) -> Option<[usize; 3]> {
         let candidates = |axis: usize| {
             let n = self.grid.counts[axis];
             let floor = local[axis].floor();
@@ -59,9 +103,8 @@ impl Cage {
         for z in candidates(2) {
             for y in candidates(1) {
                 for x in candidates(0) {
-                    let voxel = self.voxel_of_cell[self.grid.cell([x, y, z])];
-                    if voxel != ABSENT {
-                        return Some(([x, y, z], voxel));
+                    if self.voxel_of_cell[self.grid.cell([x, y, z])] != ABSENT {
+                        return Some([x, y, z]);
                     }
                 }
             }

@@ -17,9 +17,9 @@ pub enum CageError {
     /// The number of voxels is zero or too large.
     #[error("the cage would need more than {0}")]
     TooFine(&'static str),
-    /// A vertex to embed lies outside of all voxels.
-    #[error("vertex {vertex} lies outside of the cage")]
-    Outside {
+    /// A position to embed is infinite or not a number.
+    #[error("vertex {vertex} has a coordinate that is not finite")]
+    NonFinitePosition {
         /// The first such vertex, from 0.
         vertex: usize,
     },
@@ -32,7 +32,7 @@ impl CageError {
             Self::Surface { error, .. } => error.code(),
             Self::Empty => "no_elements",
             Self::TooFine(_) => "limit_exceeded",
-            Self::Outside { .. } => "outside_cage",
+            Self::NonFinitePosition { .. } => "non_finite_position",
         }
     }
 }

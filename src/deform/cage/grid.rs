@@ -1,7 +1,7 @@
 //! The voxel grid and its tetrahedra.
 
 use super::CageError;
-use crate::certificate::{Bounds, bounds_of};
+use crate::certificate::Bounds;
 
 /// Voxels of the whole grid at most, kept or not: a byte and two indices each.
 const MOST_CELLS: usize = 1 << 24;
@@ -84,6 +84,12 @@ impl Grid {
         (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
     }
 
+    /// The voxel of a number.
+    pub fn place(&self, cell: u32) -> [usize; 3] {
+        let (cell, [nx, ny, _]) = (cell as usize, self.counts);
+        [cell % nx, cell / nx % ny, cell / nx / ny]
+    }
+
     /// The number of a corner.
     pub fn corner_number(&self, at: [usize; 3]) -> usize {
         (at[2] * (self.counts[1] + 1) + at[1]) * (self.counts[0] + 1) + at[0]
@@ -97,15 +103,22 @@ impl Grid {
         self.counts.iter().map(|c| c + 1).product()
     }
 
+    /// The voxels that share a face with one.
+    pub fn neighbours(&self, at: [usize; 3]) -> impl Iterator<Item = [usize; 3]> + use<> {
+        let counts = self.counts;
+        (0..6).filter_map(move |side| {
+            let (axis, mut next) = (side / 2, at);
+            next[axis] = match side % 2 {
+                0 => at[axis].checked_sub(1)?,
+                _ => at[axis] + 1,
+            };
+            (next[axis] < counts[axis]).then_some(next)
+        })
+    }
+
     /// All voxels in the order of their numbers.
     pub fn cells(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
         let [nx, ny, nz] = self.counts;
         (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
     }
-}
-
-/// The box of all positions.
-pub(super) fn bounds<'a>(surfaces: impl Iterator<Item = &'a [[f64; 3]]>) -> Bounds<3> {
-    let corners: Vec<[f64; 3]> = surfaces.flat_map(bounds_of).collect();
-    bounds_of(&corners)
 }

@@ -4,7 +4,7 @@
 //! cut into six tetrahedra each, the same way everywhere, so that neighbours match. A deformed cage maps every point inside
 //! piecewise linearly: [`Embedding`] carries vertices, normals and tangents, [`Cage::split`] cuts the triangles where the map has
 //! its creases, so that the surface follows it exactly. A cage without inverted tetrahedra then never folds the surface locally,
-//! and [`certificate::crossings`](crate::certificate::crossings) counts where it passes through itself.
+//! and [`certificate::crossings`](crate::certificate::crossings()) counts where it passes through itself.
 //!
 //! Parts of a surface that are nearer to each other than a voxel share voxels and move together. A surface with holes larger than a
 //! voxel has no inside; its cage is a layer around it.
@@ -18,6 +18,7 @@ pub use embedding::Embedding;
 pub use error::CageError;
 pub use split::{Added, SplitSurface};
 
+use crate::certificate::bounds_of;
 use crate::mesh::{TetMesh, validate};
 use grid::{Grid, ORDERS, path_slots};
 use voxels::Voxels;
@@ -47,6 +48,7 @@ pub struct Cage {
 
 impl Cage {
     /// A cage of cubes, `n_voxels` along the longest side of the surfaces' common bounding box.
+    /// Vertices that no triangle uses have no part in it.
     ///
     /// Deterministic; costs time and memory in proportion to the grid's voxels (2²⁴ at most) and to the voxels that each triangle
     /// touches.
@@ -55,16 +57,13 @@ impl Cage {
             validate(s.positions, s.triangles, "triangles")
                 .map_err(|error| CageError::Surface { surface, error })?;
         }
-        let grid = Grid::around(
-            &grid::bounds(surfaces.iter().map(|s| s.positions)),
-            n_voxels,
-        )?;
+        let used = surfaces.iter().flat_map(|s| {
+            let vertices = s.triangles.as_flattened().iter();
+            vertices.map(|&v| s.positions[v as usize])
+        });
+        let grid = Grid::around(&bounds_of(&used.collect::<Vec<_>>()), n_voxels)?;
         let mut voxels = Voxels::new(&grid);
         for surface in surfaces {
-            // Also those that no triangle uses.
-            for &p in surface.positions {
-                voxels.touch([p; 3])?;
-            }
             for triangle in surface.triangles {
                 voxels.touch(triangle.map(|v| surface.positions[v as usize]))?;
             }

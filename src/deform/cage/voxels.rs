@@ -74,18 +74,11 @@ impl<'a> Voxels<'a> {
         let mut open = vec![[0_usize; 3]];
         self.state[0] = Voxel::Outside;
         while let Some(at) = open.pop() {
-            for axis in 0..3 {
-                for next in [at[axis].wrapping_sub(1), at[axis] + 1] {
-                    if next >= self.grid.counts[axis] {
-                        continue;
-                    }
-                    let mut neighbour = at;
-                    neighbour[axis] = next;
-                    let state = &mut self.state[self.grid.cell(neighbour)];
-                    if *state == Voxel::Unreached {
-                        *state = Voxel::Outside;
-                        open.push(neighbour);
-                    }
+            for neighbour in self.grid.neighbours(at) {
+                let state = &mut self.state[self.grid.cell(neighbour)];
+                if *state == Voxel::Unreached {
+                    *state = Voxel::Outside;
+                    open.push(neighbour);
                 }
             }
         }

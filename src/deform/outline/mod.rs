@@ -1,7 +1,7 @@
 //! Planar meshes from pictures and drawings.
 //!
 //! A picture's opaque part ([`of_image`]) or a drawing's filled shapes ([`of_svg`]) become an [`Outline`]: closed polygons that neither
-//! cross nor touch. [`triangulate`] fills it with triangles of bounded angles. Coordinates are pixels or user units with y
+//! cross nor touch. [`triangulate()`] fills it with triangles of bounded angles. Coordinates are pixels or user units with y
 //! down, as the source has them; "counter-clockwise" means positive area in these numbers.
 mod contour;
 mod drawing;
