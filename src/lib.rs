@@ -105,6 +105,8 @@
 //! - Charts too small for the grid (fewer than 16 cells per triangle) are enlarged and counted: the one exception to uniform
 //!   texel density.
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
+//! - A chart of which floating point finds no valid map is cut into halves, even where one chart per component was asked
+//!   for: a valid atlas with a seam more is worth more than none.
 //!
 //! # Invariants
 //!

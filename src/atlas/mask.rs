@@ -3,98 +3,8 @@
 //! The *body* is every cell a triangle touches. The *reach* is every cell within the padding of
 //! the chart (a disk, not a box). Two charts keep their distance when the reach of one meets no
 //! cell of the other's body: each point of the second then lies in a cell that is farther away.
+use super::bitmap::{Bitmap, Run};
 use super::outline::Outline;
-
-/// Cells `start..end` of one row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Run {
-    pub row: u32,
-    pub start: u32,
-    pub end: u32,
-}
-
-/// A block of cells.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Bitmap {
-    pub width: u32,
-    pub height: u32,
-    words: usize,
-    bits: Vec<u64>,
-}
-
-impl Bitmap {
-    fn new(width: u32, height: u32) -> Self {
-        let words = width.div_ceil(64) as usize;
-        Self {
-            width,
-            height,
-            words,
-            bits: vec![0; words * height as usize],
-        }
-    }
-
-    fn set(&mut self, run: Run) {
-        let row = &mut self.bits[run.row as usize * self.words..][..self.words];
-        set_bits(row, run.start, run.end);
-    }
-
-    /// A quarter turn counter-clockwise: (x, y) goes to (height − 1 − y, x).
-    pub(super) fn quarter_turn(&self) -> Self {
-        let mut out = Self::new(self.height, self.width);
-        for run in self.runs() {
-            let x = self.height - 1 - run.row;
-            for row in run.start..run.end {
-                out.bits[row as usize * out.words + (x / 64) as usize] |= 1 << (x % 64);
-            }
-        }
-        out
-    }
-
-    /// All runs, row by row.
-    pub(super) fn runs(&self) -> Vec<Run> {
-        let mut runs = Vec::new();
-        for row in 0..self.height {
-            let words = &self.bits[row as usize * self.words..][..self.words];
-            let mut end = 0;
-            loop {
-                let start = next(words, end, 0).min(self.width);
-                end = next(words, start, u64::MAX).min(self.width);
-                if start >= end {
-                    break;
-                }
-                runs.push(Run { row, start, end });
-            }
-        }
-        runs
-    }
-}
-
-/// First place from `x` on whose bit differs from those of `ground`.
-fn next(words: &[u64], x: u32, ground: u64) -> u32 {
-    let mut keep = u64::MAX << (x % 64);
-    for (i, word) in words.iter().enumerate().skip((x / 64) as usize) {
-        let differs = (word ^ ground) & keep;
-        if differs != 0 {
-            return 64 * i as u32 + differs.trailing_zeros();
-        }
-        keep = u64::MAX;
-    }
-    u32::MAX
-}
-
-/// Sets bits `start..end`.
-pub(super) fn set_bits(words: &mut [u64], start: u32, end: u32) {
-    for (i, word) in words
-        .iter_mut()
-        .enumerate()
-        .take(end.div_ceil(64) as usize)
-        .skip((start / 64) as usize)
-    {
-        let first = start.saturating_sub(64 * i as u32).min(63);
-        let last = (end - 64 * i as u32).min(64);
-        *word |= u64::MAX >> (64 - last) & u64::MAX << first;
-    }
-}
 
 /// One chart's cells at one scale.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -126,15 +36,15 @@ impl Mask {
         let mut body = Bitmap::new(width, height);
         let mut reach = Bitmap::new(width + 2 * margin, height + 2 * margin);
         let place = |v: u32| outline.uv[v as usize].map(|x| x * scale + around);
-        for triangle in outline.triangles {
-            fill(&mut body, &triangle.map(place));
-        }
-        let outward = |v: u32| place(v).map(|x| x + f64::from(margin));
-        for &[p, q] in &outline.boundary {
+        let segments = || outline.boundary.iter().map(|edge| edge.map(place));
+        fill(&mut body, segments());
+        for segment in segments() {
+            touch(&mut body, segment);
             if around > 0.0 {
-                thicken(&mut body, [place(p), place(q)], around);
+                thicken(&mut body, segment, around);
             }
-            thicken(&mut reach, [outward(p), outward(q)], around + padding);
+            let outward = segment.map(|p| p.map(|x| x + f64::from(margin)));
+            thicken(&mut reach, outward, around + padding);
         }
         for run in body.runs() {
             let Run { row, start, end } = run;
@@ -160,20 +70,40 @@ impl Mask {
     }
 }
 
-/// Sets the cells a triangle touches.
-fn fill(bitmap: &mut Bitmap, triangle: &[[f64; 2]; 3]) {
-    let [a, b, c] = *triangle;
-    sweep(
-        bitmap,
-        [a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1])],
-        |strip| {
-            let mut range = Range::EMPTY;
-            for [p, q] in [[a, b], [b, c], [c, a]] {
-                range.add_segment(p, q, strip);
-            }
-            range
-        },
-    );
+/// Sets the cells whose centres directed closed lines wind around.
+///
+/// A cell that no line touches is inside or outside as a whole: with [`touch`] these are the cells of the area.
+fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) {
+    let first_centre = |x: f64, end: u32| ((x - 0.5).ceil().max(0.0) as u32).min(end);
+    // Row, column from which on the winding is another, and by how much.
+    let mut crossings: Vec<(u32, u32, i32)> = Vec::new();
+    for [p, q] in segments {
+        let (low, high, sign) = if p[1] <= q[1] { (p, q, 1) } else { (q, p, -1) };
+        for row in first_centre(low[1], bitmap.height)..first_centre(high[1], bitmap.height) {
+            let share = (f64::from(row) + 0.5 - low[1]) / (high[1] - low[1]);
+            let x = low[0] + share.clamp(0.0, 1.0) * (high[0] - low[0]);
+            crossings.push((row, first_centre(x, bitmap.width), sign));
+        }
+    }
+    crossings.sort_unstable();
+    let mut winding = 0;
+    for pair in crossings.windows(2) {
+        let [(row, start, sign), (_, end, _)] = [pair[0], pair[1]];
+        winding += sign;
+        // Closed lines leave no winding at the end of a row.
+        if winding != 0 && start < end {
+            bitmap.set(Run { row, start, end });
+        }
+    }
+}
+
+/// Sets the cells a segment touches.
+fn touch(bitmap: &mut Bitmap, [p, q]: [[f64; 2]; 2]) {
+    sweep(bitmap, [p[1].min(q[1]), p[1].max(q[1])], |strip| {
+        let mut range = Range::EMPTY;
+        range.add_segment(p, q, strip);
+        range
+    });
 }
 
 /// Sets the cells nearer than `radius` to a segment.

@@ -8,7 +8,7 @@ pub(super) struct Outline<'a> {
     /// Rotated, with the lower left corner of the bounding rectangle at the origin; mesh units.
     pub uv: Vec<[f64; 2]>,
     pub triangles: &'a [[u32; 3]],
-    /// Edges of one triangle only.
+    /// Directed edges around the area, which lies to their left.
     pub boundary: Vec<[u32; 2]>,
     /// Sides of the bounding rectangle.
     pub extent: [f64; 2],
@@ -24,7 +24,7 @@ impl<'a> Outline<'a> {
         let mut outline = Self {
             uv: Vec::new(),
             triangles: map.triangles,
-            boundary: boundary(map.triangles),
+            boundary: boundary(map),
             extent: [0.0; 2],
             size: area.max(0.0).sqrt(),
             axis: orientation::direction(map.uv, bounds),
@@ -63,24 +63,44 @@ impl<'a> Outline<'a> {
 
 /// Sum of the signed areas.
 pub(super) fn area(map: &ChartMap) -> f64 {
-    let signed = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|v| map.uv[v as usize]);
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
-    map.triangles.iter().map(signed).sum::<f64>() / 2.0
+    map.triangles
+        .iter()
+        .map(|t| doubled_area(map, t))
+        .sum::<f64>()
+        / 2.0
 }
 
-/// Edges that only one triangle has, in sorted order.
-fn boundary(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let mut edges: Vec<[u32; 2]> = triangles
-        .iter()
-        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-        .map(|[p, q]| [p.min(q), p.max(q)])
+fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|v| map.uv[v as usize]);
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// What remains of all triangles' edges when those that run in opposite directions cancel, in sorted order.
+///
+/// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area too: their
+/// edges then run as those of their neighbours do, and stay, twice.
+fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
+    let counter_clockwise = |t: &[u32; 3]| {
+        let [a, b, c] = *t;
+        if doubled_area(map, t) < 0.0 {
+            [a, c, b]
+        } else {
+            [a, b, c]
+        }
+    };
+    // Edges by their ends, and whether they run from the smaller one to the larger.
+    let mut edges: Vec<(u32, u32, bool)> = (map.triangles.iter().map(counter_clockwise))
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[p, q]| (p.min(q), p.max(q), p < q))
         .collect();
     edges.sort_unstable();
-    edges
-        .chunk_by(|a, b| a == b)
-        .filter(|run| run.len() == 1)
-        .map(|run| run[0])
-        .collect()
+    let mut boundary = Vec::new();
+    for same in edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
+        let (low, high, _) = same[0];
+        let forward = same.iter().filter(|edge| edge.2).count();
+        let back = same.len() - forward;
+        boundary.extend((back..forward).map(|_| [low, high]));
+        boundary.extend((forward..back).map(|_| [high, low]));
+    }
+    boundary
 }

@@ -7,9 +7,9 @@
 //! positive and whose energy falls. Vertices whose ring leaves the patch stay where they are.
 use std::collections::HashMap;
 
-use super::snap::Rings;
 use crate::barrier::NoBarrier;
 use crate::energy::{RestShape, SymmetricDirichlet, Triangles};
+use crate::mesh::VertexFaces;
 use crate::solver::{Control, Iterate, Objective, Settings, minimize};
 
 /// Smallest height of a rest shape, in grid cells. A triangle whose heights are √2 stays positive when
@@ -26,7 +26,7 @@ const WORK: usize = 4_000_000;
 /// returns the vertices it moved. `plane` must be strictly positive on the patch.
 pub(super) fn relax(
     triangles: &[[u32; 3]],
-    rings: &Rings,
+    rings: &VertexFaces,
     patch: &[u32],
     cell: f64,
     plane: &mut [[f64; 2]],

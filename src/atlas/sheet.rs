@@ -3,7 +3,8 @@
 //! All positions of one row are tested together, 64 to a machine word: a run of a mask, of length
 //! between 2ᵏ and 2ᵏ⁺¹, is blocked at x when one of two windows of 2ᵏ cells is, and for each k the
 //! sheet keeps one bit per window.
-use super::mask::{Bitmap, Mask, Run, set_bits};
+use super::bitmap::{Bitmap, Run, set_bits};
+use super::mask::Mask;
 
 /// A place for one mask.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,9 +27,18 @@ pub(super) struct Turned {
 }
 
 impl Turned {
+    /// The mask as it is.
+    pub(super) fn unturned(mask: Mask) -> Self {
+        Self {
+            reach: scattered(mask.reach.runs()),
+            body: mask.body,
+            margin: mask.margin,
+        }
+    }
+
     /// The quarter turns that differ: four, or one of a square.
-    pub(super) fn all(mask: &Mask) -> Vec<Self> {
-        let mut masks = vec![mask.clone()];
+    pub(super) fn all(mask: Mask) -> Vec<Self> {
+        let mut masks = vec![mask];
         for turns in 1..4 {
             let turned = masks[turns - 1].quarter_turn();
             if turned == masks[0] {
@@ -36,12 +46,12 @@ impl Turned {
             }
             masks.push(turned);
         }
-        let turned = |mask: Mask| Self {
-            reach: scattered(mask.reach.runs()),
-            body: mask.body,
-            margin: mask.margin,
-        };
-        masks.into_iter().map(turned).collect()
+        masks.into_iter().map(Self::unturned).collect()
+    }
+
+    /// Width and height, in cells.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.body.width, self.body.height]
     }
 }
 

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::relax::relax;
 use super::{ChartMap, doubled_area, outline::Outline};
+use crate::mesh::VertexFaces;
 use crate::numerics::predicates::orient2d_sign;
 
 /// A chart on the grid, its bounding rectangle's lower left corner near the origin.
@@ -32,12 +33,12 @@ pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Sn
     let mut snap = Snap {
         triangles: map.triangles,
         grid: rounded.clone(),
-        rings: Rings::default(),
+        rings: VertexFaces::default(),
     };
     let all: Vec<u32> = (0..map.triangles.len() as u32).collect();
     let bad = snap.without_area(&all);
     if !bad.is_empty() && is_positive(map) {
-        snap.rings = Rings::new(map.uv.len(), map.triangles);
+        snap.rings = VertexFaces::new(map.uv.len(), map.triangles);
         snap.repair(map, outline, unit, bad)?;
         if !snap.without_area(&all).is_empty() {
             return None;
@@ -73,7 +74,7 @@ fn round(p: [f64; 2]) -> [i32; 2] {
 struct Snap<'a> {
     triangles: &'a [[u32; 3]],
     grid: Vec<[i32; 2]>,
-    rings: Rings,
+    rings: VertexFaces,
 }
 
 impl Snap<'_> {
@@ -193,41 +194,5 @@ impl Snap<'_> {
         }
         patch.sort_unstable();
         patch
-    }
-}
-
-/// The triangles around each vertex.
-#[derive(Default)]
-pub(super) struct Rings {
-    start: Vec<u32>,
-    triangles: Vec<u32>,
-}
-
-impl Rings {
-    fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
-        let mut start = vec![0; n_vertices + 1];
-        for &v in triangles.iter().flatten() {
-            start[v as usize + 1] += 1;
-        }
-        for v in 0..n_vertices {
-            start[v + 1] += start[v];
-        }
-        let mut next = start.clone();
-        let mut around = vec![0; 3 * triangles.len()];
-        for (t, triangle) in triangles.iter().enumerate() {
-            for &v in triangle {
-                around[next[v as usize] as usize] = t as u32;
-                next[v as usize] += 1;
-            }
-        }
-        Self {
-            start,
-            triangles: around,
-        }
-    }
-
-    pub(super) fn of(&self, v: u32) -> &[u32] {
-        let v = v as usize;
-        &self.triangles[self.start[v] as usize..self.start[v + 1] as usize]
     }
 }

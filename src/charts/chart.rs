@@ -38,7 +38,8 @@ pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
         Cut::Auto => regions(surface),
         Cut::Disk => (adjacency.piece.clone(), adjacency.n_pieces),
     };
-    let sheets = Sheet::divide(surface, &adjacency.twin, &region, n_regions);
+    let mesh = (&*surface.triangles, &*surface.positions);
+    let sheets = Sheet::divide(mesh, &adjacency.twin, &region, n_regions);
     let mut twin = glued_within(&adjacency.twin, &region);
     let seams: Vec<Vec<u32>> = sheets.par_iter().map(open_to_disk).collect();
     for (sheet, seams) in sheets.iter().zip(seams) {
@@ -54,7 +55,7 @@ pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
         join_disks(surface, &mut twin);
     }
     let (label, n_charts) = connected_faces(&twin);
-    Sheet::divide(surface, &twin, &label, n_charts)
+    Sheet::divide(mesh, &twin, &label, n_charts)
         .into_par_iter()
         .flat_map_iter(|sheet| open(surface, sheet))
         .collect()
@@ -72,7 +73,8 @@ fn glued_within(twin: &[u32], region: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-fn connected_faces(twin: &[u32]) -> (Vec<u32>, usize) {
+/// The faces that hang together, labelled.
+pub(super) fn connected_faces(twin: &[u32]) -> (Vec<u32>, usize) {
     let mut faces = UnionFind::new(twin.len() / 3);
     for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {
         faces.unite(h / 3, t / 3);
@@ -100,17 +102,39 @@ fn open(surface: &Surface, sheet: Sheet) -> Vec<Chart> {
         Err(reason) => {
             debug_assert!(false, "opened to no disk: {reason}");
             let singles = sheet.triangles.iter();
-            singles.filter_map(|&t| single(surface, t)).collect()
+            let corners = |t: u32| [3 * t, 3 * t + 1, 3 * t + 2];
+            singles
+                .filter_map(|&t| Chart::single(surface.corners(t as usize), corners(t)))
+                .collect()
         }
     }
 }
 
-fn single(surface: &Surface, triangle: u32) -> Option<Chart> {
-    Some(Chart {
-        positions: surface.corners(triangle as usize).to_vec(),
-        disk: Disk::new(3, vec![[0, 1, 2]]).ok()?,
-        corners: vec![[3 * triangle, 3 * triangle + 1, 3 * triangle + 2]],
-    })
+impl Chart {
+    /// One triangle.
+    pub(super) fn single(positions: [[f64; 3]; 3], corners: [u32; 3]) -> Option<Self> {
+        Some(Self {
+            positions: positions.to_vec(),
+            disk: Disk::new(3, vec![[0, 1, 2]]).ok()?,
+            corners: vec![corners],
+        })
+    }
+
+    /// Whether the surface winds this triangle as its chart does.
+    pub fn is_wound_as_surface(&self, triangle: usize) -> bool {
+        let [a, b, _] = self.corners[triangle].map(|corner| corner % 3);
+        b == (a + 1) % 3
+    }
+
+    /// Seen from behind: every triangle in the other winding.
+    pub fn turn_over(&mut self) {
+        for triangle in self.disk.triangles.iter_mut().chain(&mut self.corners) {
+            triangle.swap(1, 2);
+        }
+        for boundary in &mut self.disk.loops {
+            boundary.reverse();
+        }
+    }
 }
 
 /// The corners of each face of a connected sheet, in reverse where its winding disagrees with that of most area.

@@ -128,11 +128,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(path) = &args.report {
         write_atomically(path, &json(&outcome.report)?)?;
     }
-    if let Some(path) = &args.layout {
-        write_atomically(path, &outcome.layout_png)?;
-    }
-    if let Some(path) = &args.heatmap {
-        write_atomically(path, &outcome.heatmap_png)?;
+    if args.layout.is_some() || args.heatmap.is_some() {
+        let drawn = outcome.pictures.draw()?;
+        for (path, png) in [
+            (&args.layout, &drawn.layout_png),
+            (&args.heatmap, &drawn.heatmap_png),
+        ] {
+            if let Some(path) = path {
+                write_atomically(path, png)?;
+            }
+        }
     }
     summarize(&outcome);
     Ok(())

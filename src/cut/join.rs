@@ -59,7 +59,13 @@ fn join_at_boundaries(surface: &Surface, edges: &Edges, twin: &mut [u32], disks:
 /// slit changes the distances in it. False if there was none.
 fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut UnionFind) -> bool {
     let n_faces = surface.triangles.len();
-    let Some(whole) = Sheet::divide(surface, twin, &vec![0; n_faces], 1).pop() else {
+    let Some(whole) = Sheet::divide(
+        (&surface.triangles, &surface.positions),
+        twin,
+        &vec![0; n_faces],
+        1,
+    )
+    .pop() else {
         return false;
     };
     let on_boundary = whole.on_boundary();

@@ -19,8 +19,13 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// The sheets into which labels divide a surface that is glued by `twin`; label `i` makes sheet `i`.
-    pub fn divide(surface: &Surface, twin: &[u32], labels: &[u32], n_labels: usize) -> Vec<Self> {
+    /// The sheets into which labels divide triangles over some positions, glued by `twin`; label `i` makes sheet `i`.
+    pub fn divide(
+        (surface, positions): (&[[u32; 3]], &[[f64; 3]]),
+        twin: &[u32],
+        labels: &[u32],
+        n_labels: usize,
+    ) -> Vec<Self> {
         let mut triangles = vec![Vec::new(); n_labels];
         let mut local = Vec::with_capacity(labels.len());
         for (t, &label) in labels.iter().enumerate() {
@@ -39,21 +44,24 @@ impl Sheet {
                         t => 3 * local[t as usize / 3] + t % 3,
                     })
                     .collect();
-                Self::new(surface, triangles, twin)
+                Self::new((surface, positions), triangles, twin)
             })
             .collect()
     }
 
-    fn new(surface: &Surface, triangles: Vec<u32>, twin: Vec<u32>) -> Self {
+    fn new(
+        (surface, all): (&[[u32; 3]], &[[f64; 3]]),
+        triangles: Vec<u32>,
+        twin: Vec<u32>,
+    ) -> Self {
         let welded = |corner: u32| {
             let triangle = triangles[corner as usize / 3] as usize;
-            surface.triangles[triangle][corner as usize % 3]
+            surface[triangle][corner as usize % 3]
         };
         let (vertex, n_vertices) = fans(&twin, welded);
         let mut positions = vec![[0.0; 3]; n_vertices];
         for corner in 0..twin.len() as u32 {
-            positions[vertex[corner as usize] as usize] =
-                surface.positions[welded(corner) as usize];
+            positions[vertex[corner as usize] as usize] = all[welded(corner) as usize];
         }
         Self {
             triangles,

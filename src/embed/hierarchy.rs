@@ -14,10 +14,10 @@ use super::decimate::{Care, Collapses, Decimation};
 use super::reinsert::{ROUNDING, Shape, reinsert};
 use super::rest::rest_shape;
 use super::start::{first_bad_triangle, tutte};
-use super::sweep::{Stars, sweep};
+use super::sweep::sweep;
 use crate::barrier::map_energy;
 use crate::energy::{LocalTerm, RestShape};
-use crate::mesh::Disk;
+use crate::mesh::{Disk, VertexFaces};
 use crate::solver::{Control, Iterate, Objective, Projection, Settings, best_scale, minimize};
 
 /// Vertices of the coarsest level, if shape allows: so few that Tutte's map of them is not far from the optimum even
@@ -191,7 +191,7 @@ impl System {
     /// What the exact check does not confirm is not taken, here as in [`minimize`](Self::minimize).
     fn sweep(&self, uv: &mut [[f64; 2]]) {
         let mut x = self.gather(uv).into_flattened();
-        let stars = Stars::new(self.vertices.len(), &self.triangles);
+        let stars = VertexFaces::new(self.vertices.len(), &self.triangles);
         sweep(&*self.term, &stars, SWEEPS, &mut x);
         keep(&self.vertices, &self.triangles, &x, uv);
     }

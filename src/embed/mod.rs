@@ -27,4 +27,4 @@ mod tutte;
 
 pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
 pub use rest::{RestShapes, rest_shapes};
-pub use start::{hierarchical_start, start, tutte_start};
+pub use start::{hierarchical_start, is_positive, start, tutte_start};

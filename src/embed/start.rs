@@ -10,8 +10,8 @@ use crate::numerics::predicates::orient2d_sign;
 /// A locally injective map of the disk: counter-clockwise and positive in every triangle, exactly.
 ///
 /// Tutte's map if floating point allows, else by way of the hierarchy. Holes are closed first. Size and distortion are
-/// arbitrary. Should both fail, which no known disk does, Tutte's map as floating point left it: whoever promises more
-/// than a map checks it again.
+/// arbitrary. Should both fail, as for a few disks with hundreds of empty triangles, Tutte's map as floating point left it:
+/// whoever promises more than a map checks it again ([`is_positive`]) and cuts the disk.
 pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
     tutte_start(disk, positions)
         .or_else(|| hierarchical_start(disk, positions))
@@ -31,7 +31,7 @@ pub fn tutte_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>>
 }
 
 /// A map found coarse to fine. It takes longer than Tutte's but ends near an optimum, in the unit of [`rest_shapes`], and
-/// no disk is known for which it fails.
+/// hardly ever fails.
 pub fn hierarchical_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     let rest = rest_shapes(positions, &disk.triangles);
     let closed = ClosedDisk::new(disk, positions);
@@ -51,6 +51,11 @@ pub(super) fn tutte(closed: &ClosedDisk) -> Option<Vec<[f64; 2]>> {
         .into_iter()
         .map(|boundary| tutte_embedding(closed, boundary))
         .find(|uv| first_bad_triangle(&closed.triangles, uv).is_none())
+}
+
+/// Whether every triangle is counter-clockwise and not empty, decided exactly.
+pub fn is_positive(triangles: &[[u32; 3]], uv: &[[f64; 2]]) -> bool {
+    first_bad_triangle(triangles, uv).is_none()
 }
 
 /// The first triangle that is not exactly positive.

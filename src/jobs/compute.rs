@@ -124,9 +124,10 @@ fn unwrap(upload: &Upload, task: &Task, reporter: &Reporter) -> Attempt<Files> {
         };
         files.push((role, name, bytes));
     }
+    let drawn = outcome.pictures.draw().map_err(|e| refusal(&e))?;
     let mut add = |role: &str, bytes| files.push((role.to_owned(), role.to_owned(), bytes));
-    add("layout.png", outcome.layout_png);
-    add("heatmap.png", outcome.heatmap_png);
+    add("layout.png", drawn.layout_png);
+    add("heatmap.png", drawn.heatmap_png);
     files.push(("report".to_owned(), "report.json".to_owned(), report));
     Ok(files)
 }

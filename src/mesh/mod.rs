@@ -21,6 +21,7 @@ mod planar;
 mod surface;
 mod tets;
 mod union_find;
+mod vertex_faces;
 mod weld;
 
 pub use adjacency::Adjacency;
@@ -34,3 +35,4 @@ pub use planar::PlanarMesh;
 pub use surface::{MeshError, Surface};
 pub use tets::{TetMesh, boundary_triangles};
 pub use union_find::UnionFind;
+pub use vertex_faces::VertexFaces;

@@ -2,17 +2,22 @@
 
 use rayon::prelude::*;
 
+use super::map::{MappedChart, map_charts};
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Settings;
 use super::{PipelineError, repeated};
 use crate::atlas::{self, Atlas, AtlasOptions, ChartMap};
 use crate::charts::{self, Chart};
-use crate::embed::{self, Embedding};
 use crate::mesh::{Defects, Surface};
-use crate::solver::{self, Iterate, Summary};
+use crate::solver::Summary;
 
 /// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`].
 pub type GridCorners = [[i32; 2]; 3];
+
+/// Words that packing all meshes of a document may read, about 10⁹ a second, and the least and most of one mesh: a hundred
+/// meshes shall not take a hundred times as long, and the last per cent of fill is worth half a second.
+const SEARCH_WORDS: u64 = 2_000_000_000;
+const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 500_000_000];
 
 /// An unwrapped mesh.
 #[derive(Clone, Debug)]
@@ -106,94 +111,39 @@ pub(super) fn unwrap_all(
         .par_iter()
         .map(|surface| charts::charts(surface, settings.cut))
         .collect();
-    let maps = map_charts(&charts, settings, tracker);
+    let mapped = map_charts(charts, settings, tracker);
     tracker.stage(Stage::Pack);
-    let jobs: Vec<_> = meshes
-        .iter()
-        .zip(&surfaces)
-        .zip(charts.iter().zip(maps))
-        .collect();
-    jobs.into_par_iter()
-        .map(|((mesh, surface), (charts, maps))| assemble(*mesh, surface, charts, &maps, settings))
-        .collect()
-}
-
-/// A mapped chart and the seconds it took.
-struct Mapped {
-    embedding: Embedding,
-    seconds: f64,
-}
-
-/// Maps every chart of every mesh, the largest first.
-fn map_charts(charts: &[Vec<Chart>], settings: &Settings, tracker: &Tracker) -> Vec<Vec<Mapped>> {
-    let mut queue: Vec<(usize, usize)> = charts
-        .iter()
-        .enumerate()
-        .flat_map(|(m, of_mesh)| (0..of_mesh.len()).map(move |c| (m, c)))
-        .collect();
-    let n_faces = |&(m, c): &(usize, usize)| charts[m][c].disk.triangles.len();
-    tracker.charts(queue.len(), queue.iter().map(n_faces).sum());
-    queue.sort_by_key(|id| (std::cmp::Reverse(n_faces(id)), *id));
-    let mut mapped: Vec<((usize, usize), Mapped)> = queue
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|id| (id, map_chart(&charts[id.0][id.1], settings, tracker)))
-        .collect();
-    mapped.sort_by_key(|(id, _)| *id);
-    let mut maps: Vec<Vec<Mapped>> = charts
-        .iter()
-        .map(|of_mesh| Vec::with_capacity(of_mesh.len()))
-        .collect();
-    for ((mesh, _), map) in mapped {
-        maps[mesh].push(map);
-    }
-    maps
-}
-
-fn map_chart(chart: &Chart, settings: &Settings, tracker: &Tracker) -> Mapped {
-    let begin = tracker.elapsed();
-    let faces = chart.disk.triangles.len();
-    let options = embed::Options {
-        energy: settings.energy,
-        barrier: settings.barrier,
-        beta: settings.barrier_strength,
-        s: settings.barrier_support,
-        solver: solver::Settings::default(),
+    let options = AtlasOptions {
+        resolution: settings.resolution,
+        padding_texels: settings.padding,
+        search_words: (SEARCH_WORDS / meshes.len() as u64)
+            .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
     };
-    let watch = |iterate: &Iterate| tracker.iterate(faces, iterate);
-    let embedding = embed::parameterize(&chart.disk, &chart.positions, &options, &watch);
-    tracker.chart_done(faces);
-    Mapped {
-        embedding,
-        seconds: tracker.elapsed().saturating_sub(begin).as_secs_f64(),
-    }
+    let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
+    jobs.into_par_iter()
+        .map(|((mesh, surface), charts)| assemble(*mesh, surface, &charts, &options))
+        .collect()
 }
 
 /// Packs the charts of one mesh and hands every face of the input its corners.
 fn assemble(
     mesh: Soup,
     surface: &Surface,
-    charts: &[Chart],
-    maps: &[Mapped],
-    settings: &Settings,
+    charts: &[MappedChart],
+    options: &AtlasOptions,
 ) -> Result<Unwrapped, PipelineError> {
     let chart_maps: Vec<ChartMap> = charts
         .iter()
-        .zip(maps)
-        .map(|(chart, map)| ChartMap {
-            uv: &map.embedding.uv,
-            triangles: &chart.disk.triangles,
+        .map(|mapped| ChartMap {
+            uv: &mapped.embedding.uv,
+            triangles: &mapped.chart.disk.triangles,
         })
         .collect();
-    let options = AtlasOptions {
-        resolution: settings.resolution,
-        padding_texels: settings.padding,
-    };
-    let atlas = atlas::pack(&chart_maps, &options)?;
-    let records = charts.iter().zip(maps).map(|(chart, map)| ChartRecord {
-        faces: chart.disk.triangles.len(),
-        summary: map.embedding.summary,
-        seconds: map.seconds,
+    let atlas = atlas::pack(&chart_maps, options)?;
+    let records = charts.iter().map(|mapped| ChartRecord {
+        faces: mapped.chart.disk.triangles.len(),
+        summary: mapped.embedding.summary,
+        seconds: mapped.seconds,
     });
     Ok(Unwrapped {
         grid: face_corners(mesh, surface, charts, &atlas),
@@ -207,11 +157,11 @@ fn assemble(
 fn face_corners(
     mesh: Soup,
     surface: &Surface,
-    charts: &[Chart],
+    charts: &[MappedChart],
     atlas: &Atlas,
 ) -> Vec<GridCorners> {
     let mut grid = vec![[[0; 2]; 3]; mesh.triangles.len()];
-    for (chart, placed) in charts.iter().zip(&atlas.placed) {
+    for (MappedChart { chart, .. }, placed) in charts.iter().zip(&atlas.placed) {
         for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
             for (&vertex, &corner) in triangle.iter().zip(corners) {
                 let face = surface.faces[corner as usize / 3] as usize;

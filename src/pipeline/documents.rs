@@ -5,7 +5,7 @@ use super::arrays::{Soup, Unwrapped, in_pool, unwrap_all};
 use super::judge::WrittenUvs;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
-use super::pictures;
+use super::pictures::Pictures;
 use super::report::{AtlasReport, GroupReport, Report, Seconds};
 use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
@@ -20,10 +20,8 @@ pub struct Outcome {
     pub files: Vec<(String, Vec<u8>)>,
     /// What they are worth.
     pub report: Report,
-    /// The UV layout, as the texture lies.
-    pub layout_png: Vec<u8>,
-    /// The distortion, as the texture lies.
-    pub heatmap_png: Vec<u8>,
+    /// Draws the UV layout and the distortion.
+    pub pictures: Pictures,
 }
 
 /// Unwraps every mesh of a document and judges the bytes it writes.
@@ -71,20 +69,26 @@ fn unwrap_in_pool(
     let uvs = WrittenUvs::read(&written, group_by)?;
     let mut groups = uvs.judge();
     add_history(&mut groups, &atlases);
-    let (layout_png, heatmap_png) = pictures::draw(&uvs, options.heatmap_measure);
     seconds.judge = watch.lap();
 
     let mut report = Report::new(groups);
     report.options = Some(options.clone());
     report.limits = Some(options.limits);
-    report.certified &= options.barrier != BarrierKind::None;
+    let is_promised = options.barrier != BarrierKind::None;
+    if is_promised && !report.certified {
+        return Err(PipelineError::NotCertified);
+    }
+    report.certified &= is_promised;
     report.written = Some(written.notes);
     report.seconds = Some(seconds);
     Ok(Outcome {
         files: written.files,
         report,
-        layout_png,
-        heatmap_png,
+        pictures: Pictures {
+            uvs,
+            shown: options.heatmap_measure,
+            threads: options.settings().threads,
+        },
     })
 }
 

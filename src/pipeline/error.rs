@@ -40,6 +40,10 @@ pub enum PipelineError {
     /// The charts do not fit on the grid.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
+    /// The UVs that were written are not those that were promised: a mistake of this program, found by the certificate.
+    #[cfg(feature = "files")]
+    #[error("a face is flipped or degenerate in the bytes that were to be written")]
+    NotCertified,
     /// The worker threads could not be started.
     #[error("cannot start worker threads: {0}")]
     Threads(String),
@@ -58,6 +62,8 @@ impl PipelineError {
             Self::NoTriangles => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
             Self::Atlas(_) => "no_valid_result",
+            #[cfg(feature = "files")]
+            Self::NotCertified => "no_valid_result",
             Self::Threads(_) => "internal",
         }
     }
@@ -73,6 +79,8 @@ impl PipelineError {
             #[cfg(feature = "files")]
             Self::Document(_) => 3,
             Self::Atlas(_) => 4,
+            #[cfg(feature = "files")]
+            Self::NotCertified => 4,
             Self::Threads(_) => 1,
         }
     }

@@ -11,12 +11,14 @@ use crate::document::{Document, Group, GroupBy, Upload, Written};
 use crate::measure::{self, Measures, VAxis};
 
 /// The UVs of every group of a file with the meshes they belong to, in the numbers of the file.
+#[derive(Clone, Debug)]
 pub(super) struct WrittenUvs {
     pub(super) groups: Vec<GroupUvs>,
     pub(super) v_axis: VAxis,
 }
 
 /// The UVs of one group with its mesh.
+#[derive(Clone, Debug)]
 pub(super) struct GroupUvs {
     pub(super) name: String,
     pub(super) positions: Vec<[f64; 3]>,

@@ -10,6 +10,7 @@
 
 mod arrays;
 mod error;
+mod map;
 mod observer;
 mod options;
 mod repeated;
@@ -38,5 +39,7 @@ pub use judge::{measure_document, verify_document};
 pub use limits::Limits;
 #[cfg(feature = "files")]
 pub use options::{MeasureOptions, Options};
+#[cfg(feature = "files")]
+pub use pictures::{Drawn, Pictures};
 #[cfg(feature = "files")]
 pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};

@@ -5,7 +5,9 @@
 
 The judge is a program `JUDGE FILE --texcoord N --group-by mesh --json` that prints its measures as JSON. Prints a line
 per file and mode and a summary; exits with 1 if any output is missing, loses a face, or has a flipped, degenerate or
-collapsed one, or if the report and the judge differ by more than 1e-3.
+collapsed one, if two charts overlap, if the judge cannot read it, if the report and the judge differ by more than 1e-3,
+or if a run takes longer than the limit. A judge that crashes says nothing about what it was given: the line and the
+summary tell it apart. On a busy machine the processors' seconds say more than those of the wall.
 """
 import argparse
 import json
@@ -14,6 +16,7 @@ import os
 import statistics
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -25,14 +28,19 @@ COUNTED = """faces charts seam_edges flipped uv_degenerate uv_collapsed faces_de
 overlap_pairs_exact edges_nonmanifold""".split()
 
 
-def run(command):
-    """Exit status, seconds, peak memory in MiB, standard error."""
+def run(command, limit):
+    """Exit status (negative if killed, as at the limit), seconds, those of the processors, peak memory in MiB, standard
+    error."""
     begin = time.perf_counter()
     child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    alarm = threading.Timer(limit, child.kill)
+    alarm.start()
     error = child.stderr.read()
     _, status, usage = os.wait4(child.pid, 0)
+    alarm.cancel()
     child.returncode = os.waitstatus_to_exitcode(status)
-    return child.returncode, time.perf_counter() - begin, usage.ru_maxrss / 1024, error.strip().splitlines()
+    seconds, cpu = time.perf_counter() - begin, usage.ru_utime + usage.ru_stime
+    return child.returncode, seconds, cpu, usage.ru_maxrss / 1024, error.strip().splitlines()
 
 
 def judge(program, path, texcoord, group_by):
@@ -40,7 +48,10 @@ def judge(program, path, texcoord, group_by):
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode == 2:
         return {"error": done.stderr.strip()}
-    return json.loads(done.stdout)
+    try:
+        return json.loads(done.stdout)
+    except json.JSONDecodeError:
+        return {"crash": (done.stderr.strip() or "no output").splitlines()[-1]}
 
 
 def differences(ours, theirs):
@@ -61,9 +72,9 @@ def one(arguments, path, mode):
     out, report = arguments.out / (name + suffix), arguments.out / (name + ".json")
     for old in (out, report):
         old.unlink(missing_ok=True)
-    status, seconds, memory, error = run(
-        [arguments.unwrapd, "unwrap", path, "-o", out, "--cut", mode, "--report", report])
-    row = {"file": str(path), "mode": mode, "exit": status, "seconds": seconds, "mib": memory}
+    status, seconds, cpu, memory, error = run(
+        [arguments.unwrapd, "unwrap", path, "-o", out, "--cut", mode, "--report", report], arguments.limit)
+    row = {"file": str(path), "mode": mode, "exit": status, "seconds": seconds, "cpu": cpu, "mib": memory}
     if status != 0:
         row["error"] = error[-1] if error else ""
         return row
@@ -71,7 +82,8 @@ def one(arguments, path, mode):
     row["verify"] = verified.returncode
     data = json.loads(report.read_text())
     sums = dict.fromkeys(
-        ["faces", "charts", "flipped", "uv_degenerate", "uv_collapsed", "overlap_pairs_exact", "mirrored_charts"], 0)
+        ["faces", "charts", "flipped", "uv_degenerate", "uv_collapsed", "overlap_pairs_exact", "overlap_pairs_between_charts",
+         "mirrored_charts", "winding_inconsistent_faces"], 0)
     row["differs"] = []
     row["iterations"] = sum(c["iterations"] for g in data["groups"] for c in g["atlas"]["charts"])
     row["factorizations"] = sum(c["factorizations"] for g in data["groups"] for c in g["atlas"]["charts"])
@@ -86,6 +98,9 @@ def one(arguments, path, mode):
         theirs = theirs if "faces" in theirs else theirs.get(group["name"], theirs)
         if "error" in theirs:
             row["error"] = theirs["error"]
+            return row
+        if "crash" in theirs:
+            row["judge_crash"] = theirs["crash"]
             return row
         row["differs"] += differences(group["measures"], theirs)
         for key in sums:
@@ -110,7 +125,10 @@ def texcoords(report):
 def faults(row):
     if row["exit"] != 0:
         return [] if "no_triangles" in row.get("error", "") else [f"exit {row['exit']}: {row.get('error', '')}"]
-    found = [f"{k}={row[k]}" for k in ("flipped", "uv_degenerate", "uv_collapsed", "mirrored_charts") if row.get(k)]
+    wrong = ["flipped", "uv_degenerate", "uv_collapsed", "overlap_pairs_between_charts"]
+    if not row.get("winding_inconsistent_faces"):
+        wrong.append("mirrored_charts")  # where half of a chart is wound the other way, either side is its back
+    found = [f"{k}={row[k]}" for k in wrong if row.get(k)]
     if row.get("verify"):
         found.append(f"verify exits {row['verify']}")
     if "error" in row:
@@ -127,6 +145,7 @@ def main():
     parser.add_argument("--unwrapd", default="target/release/unwrapd")
     parser.add_argument("--out", default=Path("/tmp/unwrapd-corpus"), type=Path)
     parser.add_argument("--modes", nargs="+", default=["auto", "disk"])
+    parser.add_argument("--limit", type=float, default=300, help="seconds after which a run is killed")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     files = [f for i in arguments.inputs for f in (sorted(i.rglob("*")) if i.is_dir() else [i])
@@ -138,12 +157,19 @@ def main():
             rows.append(row)
             wrong = faults(row)
             bad += bool(wrong)
-            text = (f"{row['charts']:6} charts {row['iterations']:5} it {row['seconds']:7.2f} s {row['mib']:6.0f} MiB  "
+            text = (f"{row['charts']:6} charts {row['iterations']:5} it {row['seconds']:7.2f} s ({row['cpu']:6.2f} cpu) {row['mib']:6.0f} MiB  "
                     f"sd {row['sym_dirichlet'] or 0:8.4f} overlaps {row['overlap_pairs_exact']:6}"
                     if "charts" in row else f"exit {row['exit']} in {row['seconds']:.2f} s {row.get('error', '')}")
+            if "judge_crash" in row:
+                text += f"the judge crashed: {row['judge_crash']}"
             print(f"{path.parent.name + '/' + path.name:45} {mode:4} {text}  {'; '.join(wrong)}", flush=True)
-    seconds = [row["seconds"] for row in rows]
-    print(f"{len(rows)} runs, {bad} at fault; seconds median {statistics.median(seconds):.2f}, max {max(seconds):.2f}; "
+    seconds, cpu = [row["seconds"] for row in rows], [row["cpu"] for row in rows]
+    refused = sum("no_triangles" in row.get("error", "") for row in rows)
+    crashes = sum("judge_crash" in row for row in rows)
+    print(f"{len(files)} files, {len(rows)} runs, {refused} refused for having no triangle, {bad} at fault, "
+          f"{crashes} not judged because the judge crashed; "
+          f"seconds median {statistics.median(seconds):.2f}, max {max(seconds):.2f} "
+          f"(of the processors {statistics.median(cpu):.2f} and {max(cpu):.2f}); "
           f"peak {max(row['mib'] for row in rows):.0f} MiB")
     (arguments.out / "rows.json").write_text(json.dumps(rows, indent=1))
     sys.exit(bool(bad))

@@ -118,6 +118,7 @@ fn one_triangle_fills_half_of_its_square() {
         &AtlasOptions {
             resolution: 1024,
             padding_texels: 0,
+            ..AtlasOptions::default()
         },
     )
     .unwrap();
@@ -194,6 +195,7 @@ fn padding_shrinks_when_it_leaves_no_room() {
     let options = AtlasOptions {
         resolution: 64,
         padding_texels: 32,
+        ..AtlasOptions::default()
     };
     let atlas = pack(&maps(&charts), &options).unwrap();
     assert_positive_and_inside(&charts, &atlas);
@@ -243,6 +245,17 @@ fn a_hole_receives_a_small_chart() {
     let charts = [(uv, triangles.collect()), square];
     let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
     assert!(atlas.utilization > 0.8, "{}", atlas.utilization);
+    assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+/// A map without a barrier may lie on itself upside down; the room below is taken all the same.
+#[test]
+fn a_folded_chart_keeps_its_room() {
+    let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.5]];
+    let folded = (square, vec![[0, 1, 2], [0, 2, 3], [2, 1, 4]]);
+    let mut charts = vec![folded];
+    charts.extend((0..8).map(|_| blob(0.05, 3, 0.1)));
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
     assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
 }
 
@@ -354,7 +367,7 @@ proptest! {
         padding_texels in 0u32..6,
     ) {
         let charts: Vec<Chart> = shapes.iter().map(|&(size, waves, depth)| blob(size.exp(), waves, depth)).collect();
-        let atlas = pack(&maps(&charts), &AtlasOptions { resolution, padding_texels }).unwrap();
+        let atlas = pack(&maps(&charts), &AtlasOptions { resolution, padding_texels, ..AtlasOptions::default() }).unwrap();
         assert_positive_and_inside(&charts, &atlas);
         let gap = smallest_gap(&charts, &atlas, resolution);
         prop_assert!(gap >= atlas.padding_texels, "{gap} < {}", atlas.padding_texels);

@@ -3,7 +3,7 @@
 use crate::cut::few_vertices;
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
-use unwrapd::charts::{Chart, Cut, charts};
+use unwrapd::charts::{Chart, Cut, charts, halves};
 use unwrapd::mesh::{Disk, Surface};
 use unwrapd::numerics::vec3::{area_vector, dot, norm};
 
@@ -44,6 +44,32 @@ fn checked(surface: &Surface, cut: Cut) -> Vec<Chart> {
     }
     assert!(seen.iter().all(|&s| s), "a triangle is in no chart");
     charts
+}
+
+#[test]
+fn halves_have_each_triangle_once() {
+    for mesh in zoo::zoo() {
+        let surface = surface(&mesh);
+        let charts = charts(&surface, Cut::Disk);
+        for chart in charts.iter().filter(|c| c.corners.len() > 1) {
+            let n = chart.disk.triangles.len();
+            let parts = halves(chart);
+            let sizes: Vec<usize> = parts.iter().map(|part| part.corners.len()).collect();
+            assert!(sizes.contains(&(n / 2)) && sizes.iter().sum::<usize>() == n);
+            let mut corners: Vec<[u32; 3]> = parts.iter().flat_map(|p| p.corners.clone()).collect();
+            let mut expected = chart.corners.clone();
+            corners.sort_unstable();
+            expected.sort_unstable();
+            assert_eq!(corners, expected, "{}", mesh.name);
+            for part in &parts {
+                for (triangle, corners) in part.disk.triangles.iter().zip(&part.corners) {
+                    let welded = corners.map(|c| surface.triangles[c as usize / 3][c as usize % 3]);
+                    let positions = welded.map(|v| surface.positions[v as usize]);
+                    assert_eq!(triangle.map(|v| part.positions[v as usize]), positions);
+                }
+            }
+        }
+    }
 }
 
 #[test]

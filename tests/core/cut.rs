@@ -24,7 +24,7 @@ fn sheets(mesh: &Mesh) -> Vec<Sheet> {
     let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
     let adjacency = surface.adjacency();
     Sheet::divide(
-        &surface,
+        (&surface.triangles, &surface.positions),
         &adjacency.twin,
         &adjacency.piece,
         adjacency.n_pieces,
@@ -45,7 +45,7 @@ fn opened(mesh: &Mesh) -> (f64, usize) {
         twin[h as usize] = CUT;
     }
     let whole = vec![0; sheet.triangles.len()];
-    let open = Sheet::divide(&surface, &twin, &whole, 1).remove(0);
+    let open = Sheet::divide((&surface.triangles, &surface.positions), &twin, &whole, 1).remove(0);
     let triangles = open.vertex.chunks(3).map(|t| [t[0], t[1], t[2]]).collect();
     let disk = Disk::new(open.positions.len(), triangles).expect("a disk");
     (length, disk.loops.len())

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use unwrapd::certificate::{Overlap, certify};
+use unwrapd::certificate::{Overlap, certify, chart_ids};
 use unwrapd::charts::Cut;
 use unwrapd::energy::EnergyKind;
 use unwrapd::pipeline::{Observer, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap};
@@ -38,6 +38,19 @@ fn assert_certified(mesh: &Mesh, unwrapped: &Unwrapped) {
     );
     let certificate = certify(&positions, &mesh.triangles, &uvs, Overlap::Skip);
     assert!(certificate.is_valid(), "{}: {certificate:?}", mesh.name);
+    // Of each chart the larger part, in the plane, is seen from the front; [front less back, both].
+    let mut areas = vec![[0.0; 2]; uvs.len()];
+    for (chart, [a, b, c]) in chart_ids(&positions, &mesh.triangles, &uvs)
+        .into_iter()
+        .zip(&uvs)
+    {
+        let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let [front, all] = &mut areas[chart as usize];
+        *front += doubled;
+        *all += doubled.abs();
+    }
+    let is_mirrored = |[front, all]: &[f64; 2]| *front < -1e-5 * all;
+    assert!(!areas.iter().any(is_mirrored), "{}", mesh.name);
 }
 
 #[test]

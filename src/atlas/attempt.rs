@@ -1,0 +1,129 @@
+//! All charts placed at one scale.
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+use super::GRID_SIDE;
+use super::layout::SLACK;
+use super::mask::{Distances, Mask};
+use super::outline::Outline;
+use super::sheet::{Sheet, Spot, Turned};
+
+/// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
+/// A smaller chart, far below a texel, is enlarged to that: nothing smaller can be represented.
+const CELLS_PER_TRIANGLE: f64 = 16.0;
+/// What rastering a piece of boundary, and turning and placing a chart, cost in words.
+const WORK_PER_EDGE: u64 = 100;
+const WORK_PER_CHART: u64 = 10_000;
+/// With more charts than this the square has its full width from the start, and a row where one
+/// chart found no place is not searched again for another of the same size.
+const MANY: usize = 400;
+/// Charts whose masks are made at a time.
+const BATCH: usize = 4096;
+
+/// What is to be packed, and the distances to be kept.
+pub(super) struct Packing<'a> {
+    pub outlines: &'a [Outline<'a>],
+    /// For each chart, how far its vertices may be moved afterwards, in cells.
+    pub slack: &'a [f64],
+    /// Indices of the charts that have triangles, by falling size.
+    pub order: Vec<usize>,
+    /// Cells along a side of the square.
+    pub cells: u32,
+    /// Cells kept free between charts, and at each border.
+    pub padding: f64,
+    pub border: f64,
+    /// Sum of the charts' areas, in mesh units.
+    pub area: f64,
+}
+
+/// A place for every chart.
+pub(super) struct Attempt {
+    /// For each chart its place, and the factor by which it exceeds the common scale.
+    pub spots: Vec<(Spot, f64)>,
+    /// Side of the used square and its highest row.
+    pub side: u32,
+    pub top: u32,
+}
+
+impl Packing<'_> {
+    /// Cells of the square that charts may use.
+    pub(super) fn target(&self) -> f64 {
+        (f64::from(self.cells) - 2.0 * self.border).floor()
+    }
+
+    /// Whether the square has its full width from the start.
+    pub(super) fn is_crowded(&self) -> bool {
+        self.order.len() > MANY
+    }
+
+    /// All charts placed at one scale, or the share of their area that was placed.
+    pub(super) fn attempt(&self, scale: f64, work: &mut u64) -> Result<Attempt, f64> {
+        let target = self.target().max(1.0) as u32;
+        let (capacity, side) = if self.is_crowded() {
+            (target, target)
+        } else {
+            (target + target / 4, 0)
+        };
+        let padding = self.padding + 2.0 * SLACK;
+        let mut sheet = Sheet::new(capacity, padding.ceil() as u32 + 1, side);
+        let mut spots = vec![(Spot::default(), 1.0); self.outlines.len()];
+        let mut lowest: HashMap<[u32; 2], u32> = HashMap::new();
+        let mut placed = 0.0;
+        for batch in self.order.chunks(BATCH) {
+            let masks: Vec<Option<(Vec<Turned>, f64)>> = batch
+                .par_iter()
+                .map(|&i| self.turned(i, scale, padding, capacity))
+                .collect();
+            for (&i, turned) in batch.iter().zip(masks) {
+                let (turned, stretch) = turned.ok_or(placed / self.area)?;
+                *work += WORK_PER_CHART + WORK_PER_EDGE * self.outlines[i].boundary.len() as u64;
+                let [w, h] = turned[0].size();
+                let row = lowest.entry([w.min(h), w.max(h)]).or_insert(0);
+                let before = sheet.work;
+                let spot = sheet.find(&turned, *row);
+                *work += sheet.work - before;
+                let spot = spot.ok_or(placed / self.area)?;
+                if self.is_crowded() {
+                    *row = spot.y;
+                }
+                sheet.take(&turned, spot);
+                spots[i] = (spot, stretch);
+                placed += self.outlines[i].size * self.outlines[i].size;
+            }
+        }
+        Ok(Attempt {
+            spots,
+            side: sheet.side,
+            top: sheet.top,
+        })
+    }
+
+    /// The turned masks of a chart and its stretch; none when it does not fit at all.
+    fn turned(
+        &self,
+        i: usize,
+        scale: f64,
+        padding: f64,
+        capacity: u32,
+    ) -> Option<(Vec<Turned>, f64)> {
+        let outline = &self.outlines[i];
+        let around = self.slack[i] - SLACK;
+        let unit = scale * GRID_SIDE / f64::from(self.cells);
+        let root = (outline.triangles.len() as f64 * CELLS_PER_TRIANGLE).sqrt();
+        let longest = outline.extent[0].max(outline.extent[1]);
+        let stretch = (root / (outline.size * unit))
+            .min(8.0 * root / (longest * unit))
+            .max(1.0);
+        let fits = longest * scale * stretch + 2.0 * around < f64::from(capacity);
+        fits.then(|| {
+            let mask = Mask::new(outline, scale * stretch, Distances { around, padding });
+            // The first chart goes to the corner, whichever way it is turned.
+            let turned = if self.order.first() == Some(&i) {
+                vec![Turned::unturned(mask)]
+            } else {
+                Turned::all(mask)
+            };
+            (turned, stretch)
+        })
+    }
+}
