@@ -52,11 +52,11 @@
 //!
 //! | module | what lives there |
 //! |---|---|
-//! | [`numerics`] | sparse Cholesky (symbolic once, numeric each iteration), exact predicates, small closed forms |
+//! | [`numerics`] | sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices |
 //! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; readers and writers |
 //! | [`cut`] | surfaces opened along seams to disks |
-//! | [`energy`], [`barrier`] | densities as functions of singular values, and what keeps them from inverting |
-//! | [`solver`] | projected Newton, exact largest step, line search, status |
+//! | [`energy`], [`barrier`] | densities as functions of singular values, for triangles and tetrahedra; quadratic terms; what keeps elements from inverting |
+//! | [`solver`] | projected Newton, exact largest step, line search, status; handles that travel; the paper's own iteration |
 //! | [`embed`] | a valid start for every disk and the way from it to the optimum |
 //! | [`charts`] | where to cut |
 //! | [`certificate`] | exact judgement of UVs as a file has them |
@@ -107,6 +107,16 @@
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
 //! - A chart of which floating point finds no valid map is cut into halves, even where one chart per component was asked
 //!   for: a valid atlas with a seam more is worth more than none.
+//!
+//! - A density is three functions of the signed singular values, and the smallest of these is found from the determinant:
+//!   one definition serves plane and space, and loses nothing where areas span thirty orders of magnitude.
+//! - Handles are held exactly, by elimination, where the paper has soft constraints; points inside elements are soft and harden
+//!   at the end. Substepping (the paper's equations 10 and 11) would do nothing for a projected Newton, whose shift is nearly 0:
+//!   the targets advance instead as far as inversions and the quadratic model allow. A group of handles that elements connect
+//!   travels as a rigid body, so that half a turn of a bar's end does not pass through a point.
+//! - A body that is pulled from exact rest in one jump is shaken by a thousandth of its smallest element first: a pressed bar
+//!   would otherwise end on the saddle that its symmetry keeps it on.
+//! - The inverse spline's support ends at s(λ⁰ − ε), as in the authors' code, so that it is zero at rest; the paper has sλ⁰.
 //!
 //! # Invariants
 //!

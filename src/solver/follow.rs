@@ -4,6 +4,7 @@ use super::line_search::line_search;
 use super::newton::minimize;
 use super::objective::Objective;
 use super::path::{Handles, Path, Rotation};
+use super::points::Points;
 use super::settings::{Settings, Status, Summary};
 use super::watch::{Control, Iterate, Watch};
 use crate::numerics::square::{Matrix, Square};
@@ -90,15 +91,11 @@ where
 struct Travel<'a, const D: usize> {
     handles: &'a Handles,
     path: Path<D>,
-    /// Where the points start, and by how much they have to move.
-    point_origins: Vec<f64>,
-    point_ways: Vec<f64>,
+    points: Points,
     /// How much of the path lies behind.
     s: f64,
     /// The advance to try next.
     stride: f64,
-    /// The unit of the points' strength: the energy's mean curvature at the start.
-    unit: f64,
     summary: Summary,
     newton: Vec<f64>,
     direction: Vec<f64>,
@@ -110,19 +107,12 @@ where
     Matrix<D>: Square<D> + Rotation<D>,
 {
     fn new(objective: &mut Objective, x: &[f64], handles: &'a Handles) -> Self {
-        let point_origins: Vec<f64> = objective
-            .constraints()
-            .map_or(Vec::new(), |c| c.places(x).collect());
-        objective.set_constraints(0.0, &point_origins);
-        let ways = handles.point_targets.iter().zip(&point_origins);
         Self {
             handles,
             path: Path::new(handles, x),
-            point_ways: ways.map(|(target, origin)| target - origin).collect(),
-            point_origins,
+            points: Points::new(objective, x, &handles.point_targets),
             s: 0.0,
             stride: FIRST_ADVANCE,
-            unit: 0.0,
             summary: Summary::at_start(objective.value(x)),
             newton: vec![0.0; x.len()],
             direction: vec![0.0; x.len()],
@@ -138,13 +128,10 @@ where
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Control {
+        self.points.pull(objective, x, SOFT, self.s);
         let mut stuck = 0;
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
         {
-            if objective.constraints().is_some_and(|c| c.alpha == 0.0) {
-                objective.linearize(x, 0.0);
-                self.pull(objective, SOFT, self.s);
-            }
             objective.linearize(x, 0.0);
             self.summary.factorizations += 1;
             let Ok(decrement) = objective.newton_direction(&mut self.newton) else {
@@ -176,7 +163,7 @@ where
         while self.stride > LEAST_ADVANCE {
             let to = (self.s + self.stride).min(1.0);
             self.aim(objective, x, to);
-            self.pull(objective, SOFT, to);
+            self.points.pull(objective, x, SOFT, to);
             let largest = SAFETY * objective.largest_step(x, &self.direction);
             if largest >= 1.0 && self.is_acceptable(objective, x) {
                 x.copy_from_slice(&self.trial);
@@ -186,7 +173,7 @@ where
             }
             self.stride *= 0.5 * largest.clamp(0.2, 1.0);
         }
-        self.pull(objective, SOFT, self.s);
+        self.points.pull(objective, x, SOFT, self.s);
         self.stride = 4.0 * LEAST_ADVANCE;
         false
     }
@@ -200,7 +187,7 @@ where
                 self.direction[at + k] = place[k] - x[at + k];
             }
         }
-        let moves: Vec<f64> = self.point_ways.iter().map(|w| (to - self.s) * w).collect();
+        let moves = self.points.moves(self.s, to);
         objective.follow(&mut self.direction, &moves);
         for (d, n) in self.direction.iter_mut().zip(&self.newton) {
             *d += n;
@@ -234,19 +221,6 @@ where
         }
     }
 
-    /// Sets the points' targets to where they are on their way, and their strength.
-    fn pull(&mut self, objective: &mut Objective, strength: f64, s: f64) {
-        if self.point_ways.is_empty() {
-            return;
-        }
-        if self.unit == 0.0 {
-            self.unit = objective.mean_diagonal();
-        }
-        let ways = self.point_origins.iter().zip(&self.point_ways);
-        let targets: Vec<f64> = ways.map(|(origin, way)| origin + s * way).collect();
-        objective.set_constraints(strength * self.unit, &targets);
-    }
-
     /// Makes the points meet their targets.
     fn harden(
         &mut self,
@@ -256,9 +230,9 @@ where
         watch: &dyn Watch,
     ) {
         let mut strength = SOFT;
-        while !self.point_ways.is_empty() && strength < HARD {
+        while !self.points.is_empty() && strength < HARD {
             strength *= 10.0;
-            self.pull(objective, strength, 1.0);
+            self.points.pull(objective, x, strength, 1.0);
             self.summary.energy_last = objective.value(x);
             if self.settle(objective, x, settings, watch) == Control::Finish {
                 return;

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use unwrapd::barrier::{Barrier, BarrierKind};
-use unwrapd::deform::{Body, BodyElements, DeformationEnergy, Problem};
+use unwrapd::deform::{Body, BodyElements, DeformationEnergy, Handle, Model, Problem};
 use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::solver::{Control, Handles, Iterate, LevenbergSettings, Path, Settings, Status};
 
@@ -292,4 +292,88 @@ fn a_group_travels_as_a_rigid_body() {
     for (i, target) in handles.targets.as_chunks::<3>().0.iter().enumerate() {
         assert!(distance(path.position(i, 1.0), *target) < 1e-12);
     }
+}
+
+#[test]
+fn points_inside_elements_come_to_their_targets() {
+    let body = Body::from(&strip(8, 1.0));
+    let handles = [
+        Handle::Disc {
+            center: vec![0.0, 1.0],
+            radius: 1.0,
+            to: vec![0.0, 1.0],
+            turn: 0.0,
+        },
+        Handle::Point {
+            at: vec![7.3, 1.4],
+            to: vec![5.0, 4.0],
+        },
+        Handle::Vertex {
+            vertex: 12,
+            to: vec![4.5, 0.5],
+        },
+    ];
+    let problem = Problem::new(body, &handles, &ARAP).expect("handles of the strip");
+    assert_eq!(problem.stations[0].vertices, [0, 1, 2, 12]);
+    let solution = problem
+        .solve(&Settings::follow(), &go_on)
+        .expect("a planar energy");
+    assert_eq!(solution.summary.status, Status::Converged);
+    assert!(solution.worth.residual < 1e-12, "{:?}", solution.worth);
+    assert_eq!(solution.worth.inverted, 0);
+}
+
+const ARAP: Model = Model {
+    energy: DeformationEnergy::Arap,
+    barrier: BarrierKind::InverseSpline,
+    beta: None,
+    s: 1.0,
+};
+
+#[test]
+fn handles_that_cannot_be_have_names() {
+    let vertex = |vertex, to: &[f64]| Handle::Vertex {
+        vertex,
+        to: to.to_vec(),
+    };
+    let point = |at: &[f64]| Handle::Point {
+        at: at.to_vec(),
+        to: vec![0.0, 0.0],
+    };
+    let disc = |radius, turn| Handle::Disc {
+        center: vec![50.0, 50.0],
+        radius,
+        to: vec![0.0, 0.0],
+        turn,
+    };
+    for (handles, code) in [
+        (vec![], "no_handle"),
+        (vec![vertex(99, &[0.0, 0.0])], "unknown_handle"),
+        (vec![vertex(1, &[0.0, f64::NAN])], "bad_target"),
+        (vec![vertex(1, &[0.0, 0.0, 0.0])], "bad_target"),
+        (
+            vec![vertex(1, &[0.0, 0.0]), vertex(1, &[0.0, 1.0])],
+            "contradictory_handles",
+        ),
+        (vec![point(&[100.0, 0.0])], "handle_outside"),
+        (vec![disc(1.0, 0.0)], "handle_outside"),
+        (vec![disc(-1.0, 0.0)], "bad_parameter"),
+    ] {
+        let error = Problem::new(Body::from(&strip(8, 1.0)), &handles, &ARAP).expect_err(code);
+        assert_eq!(error.code(), code);
+        assert!(!error.to_string().is_empty());
+    }
+    let strong = Model {
+        beta: Some(-1.0),
+        ..ARAP
+    };
+    let error = Problem::new(
+        Body::from(&strip(8, 1.0)),
+        &[vertex(0, &[0.0, 0.0])],
+        &strong,
+    );
+    assert_eq!(
+        error.expect_err("a negative strength").code(),
+        "bad_parameter"
+    );
 }

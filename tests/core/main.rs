@@ -28,6 +28,8 @@ mod outline;
 #[cfg(feature = "files")]
 mod picture;
 mod pipeline;
+#[cfg(feature = "files")]
+mod problem_files;
 mod solver;
 mod taylor;
 mod uv_meshes;

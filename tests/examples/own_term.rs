@@ -11,8 +11,28 @@ use unwrapd::solver::{Control, Iterate, Objective, Settings, minimize};
 
 /// ½ Σ A‖J − T‖²: every triangle wants a Jacobian of its own. Quadratic, so its Hessian needs no projection.
 struct TargetJacobians {
-    /// Vertices in increasing order, gradients of their barycentric coordinates, area, T.
-    elements: Vec<([u32; 3], [[f64; 2]; 3], f64, Matrix<2>)>,
+    elements: Vec<Element>,
+}
+
+struct Element {
+    /// In increasing order.
+    vertices: [u32; 3],
+    /// Of their barycentric coordinates.
+    gradients: [[f64; 2]; 3],
+    area: f64,
+    target: Matrix<2>,
+}
+
+impl Element {
+    /// J − T.
+    fn gap(&self, x: &[f64]) -> Matrix<2> {
+        let entry = |r: usize, c: usize| {
+            let corners = self.vertices.iter().zip(&self.gradients);
+            let sum: f64 = corners.map(|(&v, g)| x[2 * v as usize + r] * g[c]).sum();
+            sum - self.target[r][c]
+        };
+        [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
+    }
 }
 
 impl TargetJacobians {
@@ -26,28 +46,17 @@ impl TargetJacobians {
             let gradients = [[-g[0] - h[0], -g[1] - h[1]], g, h];
             let mut order = [0, 1, 2];
             order.sort_unstable_by_key(|&k: &usize| triangle[k]);
-            let sorted = order.map(|k| gradients[k]);
-            (order.map(|k| triangle[k]), sorted, rest.size, target(i))
+            Element {
+                vertices: order.map(|k| triangle[k]),
+                gradients: order.map(|k| gradients[k]),
+                area: rest.size,
+                target: target(i),
+            }
         };
         let elements = triangles.iter().zip(rest).enumerate().map(element);
         Self {
             elements: elements.collect(),
         }
-    }
-
-    /// J − T.
-    fn gap(
-        x: &[f64],
-        vertices: &[u32; 3],
-        gradients: &[[f64; 2]; 3],
-        target: &Matrix<2>,
-    ) -> Matrix<2> {
-        let entry = |r: usize, c: usize| {
-            let corners = vertices.iter().zip(gradients);
-            let sum: f64 = corners.map(|(&v, g)| x[2 * v as usize + r] * g[c]).sum();
-            sum - target[r][c]
-        };
-        [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
     }
 }
 
@@ -57,28 +66,27 @@ impl Term for TargetJacobians {
     }
 
     fn stencils(&self) -> Stencils {
-        Stencils::uniform(3, self.elements.iter().flat_map(|e| e.0))
+        Stencils::uniform(3, self.elements.iter().flat_map(|e| e.vertices))
     }
 
     fn value(&self, x: &[f64]) -> f64 {
-        let share =
-            |(vertices, gradients, area, target): &([u32; 3], [[f64; 2]; 3], f64, Matrix<2>)| {
-                let gap = Self::gap(x, vertices, gradients, target);
-                0.5 * area * gap.as_flattened().iter().map(|g| g * g).sum::<f64>()
-            };
+        let share = |e: &Element| {
+            let gap = e.gap(x);
+            0.5 * e.area * gap.as_flattened().iter().map(|g| g * g).sum::<f64>()
+        };
         self.elements.iter().map(share).sum()
     }
 
     fn add_derivatives(&self, x: &[f64], _tau: f64, assembly: &mut Assembly) {
-        for (index, (vertices, gradients, area, target)) in self.elements.iter().enumerate() {
-            let gap = Self::gap(x, vertices, gradients, target);
+        for (index, e) in self.elements.iter().enumerate() {
+            let gap = e.gap(x);
             let mut pair = 0;
-            for (j, g) in gradients.iter().enumerate() {
-                let slope = gap.map(|row| area * (row[0] * g[0] + row[1] * g[1]));
-                assembly.add_gradient(vertices[j], &slope);
-                let dot = |h: &[f64; 2]| area * (g[0] * h[0] + g[1] * h[1]);
-                assembly.add_diagonal(vertices[j], &identity::<2>(dot(g)));
-                for h in &gradients[..j] {
+            for (j, g) in e.gradients.iter().enumerate() {
+                let slope = gap.map(|row| e.area * (row[0] * g[0] + row[1] * g[1]));
+                assembly.add_gradient(e.vertices[j], &slope);
+                let dot = |h: &[f64; 2]| e.area * (g[0] * h[0] + g[1] * h[1]);
+                assembly.add_diagonal(e.vertices[j], &identity::<2>(dot(g)));
+                for h in &e.gradients[..j] {
                     assembly.add_pair(index, pair, &identity::<2>(dot(h)));
                     pair += 1;
                 }

@@ -142,3 +142,90 @@ fn flipped_uvs_do_not_verify() {
     assert_status(&output, 4);
     assert!(String::from_utf8_lossy(&output.stdout).contains("1 flipped"));
 }
+
+#[test]
+fn handles_pull_meshes_and_outlines() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("a file");
+        path(name)
+    };
+    let drawing = write(
+        "plate.svg",
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60"><rect width="100" height="60"/></svg>"#,
+    );
+    let handles = write(
+        "h.json",
+        r#"{"handles": [{"center": [0, 30], "radius": 20, "to": [0, 30]}, {"at": [90, 30], "to": [60, 90]}]}"#,
+    );
+    let (output, report, trace) = (path("o.obj"), path("r.json"), path("t.csv"));
+    let deform = |handles: &str, extra: &[&str]| {
+        let arguments = [
+            "deform",
+            &drawing,
+            "--handles",
+            handles,
+            "-o",
+            &output,
+            "--triangles",
+            "500",
+        ];
+        unwrapd(&[&arguments, extra].concat())
+    };
+    assert_status(
+        &deform(&handles, &["--report", &report, "--trace", &trace]),
+        0,
+    );
+    let text = std::fs::read(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
+    assert_eq!(report["status"], "converged");
+    assert_eq!(report["inverted"], 0);
+    assert!(report["smallest_ever"].as_f64().is_some_and(|s| s > 0.0));
+    let lines = std::fs::read_to_string(&trace)
+        .expect("a trace")
+        .lines()
+        .count();
+    assert_eq!(
+        Some(lines as u64),
+        report["iterations"].as_u64().map(|n| n + 2)
+    );
+    let outside = write(
+        "far.json",
+        r#"{"handles": [{"at": [900, 30], "to": [60, 90]}]}"#,
+    );
+    let refused = deform(&outside, &[]);
+    assert_status(&refused, 3);
+    assert!(last_error(&refused).contains("handle_outside"));
+    assert_status(&deform(&handles, &["--energy", "guesswork"]), 2);
+}
+
+#[test]
+fn a_problem_file_is_solved_by_both_methods() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let mesh = "OFF\n6 4 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n";
+    std::fs::write(folder.path().join("m.off"), mesh).expect("a mesh");
+    let problem = r#"{"mesh": "m.off", "energy": "green", "barrier": "spline", "handles": [0, 3, 2],
+        "targets": [[0, 0], [0, 1], [1.5, 0.5]]}"#;
+    std::fs::write(folder.path().join("p.json"), problem).expect("a problem");
+    let mut energies = Vec::new();
+    for method in ["projected", "levenberg"] {
+        let (problem, output, report) = (path("p.json"), path("x.txt"), path("r.json"));
+        let solved = unwrapd(&[
+            "solve", &problem, "-o", &output, "--method", method, "--report", &report,
+        ]);
+        assert_status(&solved, 0);
+        let positions = std::fs::read_to_string(&output).expect("positions");
+        assert_eq!(positions.split_ascii_whitespace().count(), 12);
+        let text = std::fs::read(&report).expect("a report");
+        let report: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
+        assert!(report["residual"].as_f64().is_some_and(|r| r < 1e-12));
+        energies.push(report["energy"].as_f64().expect("an energy"));
+    }
+    assert!((energies[0] - energies[1]).abs() < 1e-4 * energies[0]);
+    let missing = unwrapd(&["solve", &path("none.json"), "-o", &path("x.txt")]);
+    assert_status(&missing, 3);
+    let unknown = unwrapd(&["solve", &path("p.json"), "-o", &path("x.xyz")]);
+    assert_status(&unknown, 2);
+}

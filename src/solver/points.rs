@@ -1,0 +1,54 @@
+//! Points inside elements on their way to their targets: soft constraints of an objective.
+
+use super::objective::Objective;
+
+/// Points that travel straight, held by a strength relative to the energy's curvature.
+pub(super) struct Points {
+    origins: Vec<f64>,
+    ways: Vec<f64>,
+    /// The energy's mean curvature at the start; 0 before it is known.
+    unit: f64,
+}
+
+impl Points {
+    /// The constraints of `objective`, from where they are in `x` to these targets; they have no strength yet.
+    pub fn new(objective: &mut Objective, x: &[f64], targets: &[f64]) -> Self {
+        let origins: Vec<f64> = objective
+            .constraints()
+            .map_or(Vec::new(), |constraints| constraints.places(x).collect());
+        objective.set_constraints(0.0, &origins);
+        let ways = targets
+            .iter()
+            .zip(&origins)
+            .map(|(target, origin)| target - origin);
+        Self {
+            ways: ways.collect(),
+            origins,
+            unit: 0.0,
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.ways.is_empty()
+    }
+
+    /// How far the targets move between two shares of the way.
+    pub fn moves(&self, from: f64, to: f64) -> Vec<f64> {
+        self.ways.iter().map(|way| (to - from) * way).collect()
+    }
+
+    /// Sets the targets to a share `s` of their way and their strength, in units of the energy's mean curvature, which is taken
+    /// at `x` the first time.
+    pub fn pull(&mut self, objective: &mut Objective, x: &[f64], strength: f64, s: f64) {
+        if self.is_empty() {
+            return;
+        }
+        if self.unit == 0.0 {
+            objective.linearize(x, 0.0);
+            self.unit = objective.mean_diagonal();
+        }
+        let ways = self.origins.iter().zip(&self.ways);
+        let targets: Vec<f64> = ways.map(|(origin, way)| origin + s * way).collect();
+        objective.set_constraints(strength * self.unit, &targets);
+    }
+}
