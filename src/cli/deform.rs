@@ -74,7 +74,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let target = (&output, args.output.as_path());
     solve_and_write(
         &problem,
-        mesh,
+        &mesh,
         Method::Projected,
         setup_seconds,
         target,

@@ -13,6 +13,7 @@ mod progress;
 mod serve;
 mod solution;
 mod solve;
+mod trace;
 mod unwrap;
 mod words;
 

@@ -1,7 +1,5 @@
 //! What commands that solve a problem write: the map, the report, the trace.
 
-use std::cell::RefCell;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -9,9 +7,10 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::files::{json, write_atomically};
-use crate::deform::{Method, Problem, Solution, Worth};
+use super::trace::{Frames, Trace};
+use crate::deform::{Method, Problem, Worth};
 use crate::mesh::io::{ElementFormat, Elements, text_positions};
-use crate::solver::{Control, Iterate, LevenbergStep, Settings, Summary};
+use crate::solver::Summary;
 
 /// Files beside the map.
 #[derive(clap::Args)]
@@ -22,6 +21,9 @@ pub(super) struct Records {
     /// Write a line per iteration as CSV
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+    /// Folder for the map of every iteration, numbered, in the format of the result
+    #[arg(long, value_name = "DIR")]
+    frames: Option<PathBuf>,
 }
 
 /// What `--report` holds.
@@ -43,13 +45,24 @@ struct Report {
 /// Solves a problem and writes everything; exit 4 if the result has an inverted element that a barrier should have kept out.
 pub(super) fn solve_and_write(
     problem: &Problem,
-    mesh: Elements,
+    mesh: &Elements,
     method: Method,
     setup_seconds: f64,
     (output, path): (&Output, &Path),
     records: &Records,
 ) -> Result<(), Failure> {
-    let trace = Trace::default();
+    let frame = |x: &[f64]| output.text(mesh, problem, x);
+    let trace = Trace::new(records.frames.as_deref().map(|folder| {
+        Frames {
+            folder,
+            extension: path
+                .extension()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            text: &frame,
+        }
+    }));
     let clock = Instant::now();
     let solution = trace.solve(problem, method)?;
     let report = Report {
@@ -60,7 +73,7 @@ pub(super) fn solve_and_write(
         setup_seconds,
         solve_seconds: clock.elapsed().as_secs_f64(),
     };
-    write_atomically(path, output.text(mesh, problem, &solution).as_bytes())?;
+    write_atomically(path, output.text(mesh, problem, &solution.x).as_bytes())?;
     if let Some(path) = &records.report {
         write_atomically(path, &json(&report)?)?;
     }
@@ -105,71 +118,23 @@ impl Output {
         })
     }
 
-    fn text(&self, mesh: Elements, problem: &Problem, solution: &Solution) -> String {
+    fn text(&self, mesh: &Elements, problem: &Problem, x: &[f64]) -> String {
         let is_planar = problem.body.dim() == 2;
         match self {
-            Self::Positions if is_planar => text_positions::<2>(solution.x.as_chunks().0),
-            Self::Positions => text_positions::<3>(solution.x.as_chunks().0),
+            Self::Positions if is_planar => text_positions::<2>(x.as_chunks().0),
+            Self::Positions => text_positions::<3>(x.as_chunks().0),
             Self::Mesh(format) => {
                 let vertices = if is_planar {
-                    let planar: &[[f64; 2]] = solution.x.as_chunks().0;
+                    let planar: &[[f64; 2]] = x.as_chunks().0;
                     planar.iter().map(|p| [p[0], p[1], 0.0]).collect()
                 } else {
-                    solution.x.as_chunks().0.to_vec()
+                    x.as_chunks().0.to_vec()
                 };
-                format.write(&Elements { vertices, ..mesh })
+                format.write(&Elements {
+                    vertices,
+                    ..mesh.clone()
+                })
             }
         }
-    }
-}
-
-/// What happened in every iteration.
-#[derive(Default)]
-struct Trace {
-    iterates: RefCell<Vec<Iterate>>,
-    steps: RefCell<Vec<LevenbergStep>>,
-}
-
-impl Trace {
-    fn solve(&self, problem: &Problem, method: Method) -> Result<Solution, Failure> {
-        let watch = |iterate: &Iterate| {
-            self.iterates.borrow_mut().push(*iterate);
-            Control::Continue
-        };
-        let mut record = |step: &LevenbergStep| self.steps.borrow_mut().push(*step);
-        Ok(match method {
-            Method::Projected => problem.solve(&Settings::follow(), &watch)?,
-            Method::Levenberg => {
-                problem.solve_by_levenberg(&problem.levenberg, &watch, &mut record)?
-            }
-        })
-    }
-
-    fn smallest(&self) -> f64 {
-        let sizes = self.iterates.borrow();
-        sizes
-            .iter()
-            .map(|i| i.smallest)
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    fn csv(&self) -> String {
-        let (iterates, steps) = (self.iterates.borrow(), self.steps.borrow());
-        let mut text = String::from("iteration,energy,smallest,mu,sigma,alpha,residual\n");
-        for (index, i) in iterates.iter().enumerate() {
-            let step = steps.get(index).map_or(",,,".to_owned(), |step| {
-                format!(
-                    "{:e},{:e},{:e},{:e}",
-                    step.mu, step.sigma, step.alpha, step.residual
-                )
-            });
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{},{:e},{:e},{step}",
-                i.iteration, i.energy, i.smallest
-            );
-        }
-        text
     }
 }

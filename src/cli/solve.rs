@@ -34,7 +34,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let target = (&output, args.output.as_path());
     solve_and_write(
         &problem,
-        mesh,
+        &mesh,
         args.method,
         setup_seconds,
         target,

@@ -7,8 +7,8 @@ use super::problem_error::ProblemError;
 use crate::barrier::Barrier;
 use crate::energy::{Positional, Term};
 use crate::solver::{
-    Handles, LevenbergSettings, LevenbergStep, Objective, Settings, Status, Summary, Watch, follow,
-    levenberg,
+    Continued, Handles, LevenbergSettings, LevenbergStep, Objective, Settings, Status, Summary,
+    Watch, follow, levenberg,
 };
 
 /// How a problem is solved.
@@ -77,10 +77,14 @@ impl Problem {
                 },
                 ..*settings
             };
+            let watch = Continued {
+                watch,
+                before: total.iterations,
+            };
             let summary = if self.body.dim() == 2 {
-                follow::<2>(&mut objective, &mut x, handles, &settings, watch)
+                follow::<2>(&mut objective, &mut x, handles, &settings, &watch)
             } else {
-                follow::<3>(&mut objective, &mut x, handles, &settings, watch)
+                follow::<3>(&mut objective, &mut x, handles, &settings, &watch)
             };
             total = total.followed_by(&summary);
             if matches!(summary.status, Status::TargetsUnreachable | Status::Stopped) {
@@ -110,7 +114,11 @@ impl Problem {
         let mut total = Summary::at_start(objective.energy(&x));
         for handles in &self.stations {
             objective.set_constraints(settings.alpha, &handles.targets);
-            let summary = levenberg(&mut objective, &mut x, settings, watch, &mut *record);
+            let watch = Continued {
+                watch,
+                before: total.iterations,
+            };
+            let summary = levenberg(&mut objective, &mut x, settings, &watch, &mut *record);
             total = total.followed_by(&summary);
             if summary.status == Status::Stopped {
                 break;

@@ -6,7 +6,7 @@ use super::objective::Objective;
 use super::path::{Handles, Path, Rotation};
 use super::points::Points;
 use super::settings::{Settings, Status, Summary};
-use super::watch::{Control, Iterate, Watch};
+use super::watch::{Continued, Control, Watch};
 use crate::numerics::square::{Matrix, Square};
 
 /// A first advance along the path: all of it, since a small deformation needs no more.
@@ -64,6 +64,9 @@ where
     let mut travel = Travel::<D>::new(objective, x, handles);
     if !travel.summary.energy_first.is_finite() {
         return travel.summary;
+    }
+    if objective.show(x, &travel.summary, watch) == Control::Finish {
+        return travel.summary.ended(Status::Stopped);
     }
     loop {
         let before = travel.s;
@@ -144,13 +147,7 @@ where
                 self.relax(objective, x, decrement);
             }
             self.summary.iterations += 1;
-            let iterate = Iterate {
-                iteration: self.summary.iterations,
-                energy: self.summary.energy_last,
-                smallest: objective.smallest(x),
-            };
-            debug_assert!(iterate.smallest > 0.0 || !objective.forbids_flips());
-            if watch.iterate(&iterate) == Control::Finish {
+            if objective.show(x, &self.summary, watch) == Control::Finish {
                 self.summary.status = Status::Stopped;
                 return Control::Finish;
             }
@@ -249,11 +246,9 @@ where
         watch: &dyn Watch,
     ) -> Control {
         let before = self.summary;
-        let counted = |iterate: &Iterate| {
-            watch.iterate(&Iterate {
-                iteration: before.iterations + iterate.iteration,
-                ..*iterate
-            })
+        let counted = Continued {
+            watch,
+            before: before.iterations,
         };
         let settings = Settings {
             max_iterations: settings.max_iterations.saturating_sub(before.iterations),

@@ -2,7 +2,7 @@
 
 use super::objective::Objective;
 use super::settings::{Status, Summary};
-use super::watch::{Control, Iterate, Watch};
+use super::watch::{Control, Watch};
 
 /// What the paper and its authors' code leave adjustable.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,6 +89,9 @@ pub fn levenberg(
     if !run.summary.energy_first.is_finite() {
         return run.summary;
     }
+    if objective.show(x, &run.summary, watch) == Control::Finish {
+        return run.summary.ended(Status::Stopped);
+    }
     while run.summary.iterations < settings.max_iterations {
         let share = if settings.substepping {
             1.0 / (1.0 + run.mu * run.mu)
@@ -109,12 +112,7 @@ pub fn levenberg(
             alpha: run.alpha,
             residual: gap,
         });
-        let iterate = Iterate {
-            iteration: run.summary.iterations,
-            energy: run.summary.energy_last,
-            smallest: objective.smallest(x),
-        };
-        if watch.iterate(&iterate) == Control::Finish {
+        if objective.show(x, &run.summary, watch) == Control::Finish {
             return run.summary.ended(Status::Stopped);
         }
         if length < settings.min_step {

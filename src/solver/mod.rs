@@ -34,4 +34,4 @@ pub use objective::Objective;
 pub use path::{Handles, Path, Rotation};
 pub use scale::best_scale;
 pub use settings::{Projection, Settings, Status, Summary};
-pub use watch::{Control, Iterate, Watch};
+pub use watch::{Continued, Control, Iterate, Watch};

@@ -4,7 +4,7 @@ use super::line_search::line_search;
 use super::objective::Objective;
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
-use super::watch::{Control, Iterate, Watch};
+use super::watch::{Control, Watch};
 
 /// Moves `x` from a start inside the domain to a minimum of `objective` nearby.
 ///
@@ -28,7 +28,7 @@ pub fn minimize(
     if !summary.energy_first.is_finite() {
         return summary;
     }
-    if watched(objective, x, &summary, watch) == Control::Finish {
+    if objective.show(x, &summary, watch) == Control::Finish {
         return summary.ended(Status::Stopped);
     }
     while summary.iterations < settings.max_iterations {
@@ -58,7 +58,7 @@ pub fn minimize(
         summary.iterations += 1;
         summary.energy_last = step.energy;
         relaxation.after_step(step.length, (energy - step.energy) / energy.abs());
-        if watched(objective, x, &summary, watch) == Control::Finish {
+        if objective.show(x, &summary, watch) == Control::Finish {
             return summary.ended(Status::Stopped);
         }
         if small && step.length == 1.0 {
@@ -87,14 +87,4 @@ fn newton_direction(
             return None;
         }
     }
-}
-
-fn watched(objective: &Objective, x: &[f64], summary: &Summary, watch: &dyn Watch) -> Control {
-    let iterate = Iterate {
-        iteration: summary.iterations,
-        energy: summary.energy_last,
-        smallest: objective.smallest(x),
-    };
-    debug_assert!(iterate.smallest > 0.0 || !objective.forbids_flips());
-    watch.iterate(&iterate)
 }

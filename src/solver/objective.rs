@@ -1,6 +1,8 @@
 //! The function to minimize, with the memory that minimizing it takes.
 
 use super::held::{Held, form};
+use super::settings::Summary;
+use super::watch::{Control, Iterate, Watch};
 use crate::energy::{Assembly, Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
 use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
@@ -148,6 +150,18 @@ impl Objective {
     /// Does the domain exclude every inverted element?
     pub fn forbids_flips(&self) -> bool {
         self.terms.iter().any(|term| term.forbids_flips())
+    }
+
+    /// Shows an iterate to who watches.
+    pub(super) fn show(&self, x: &[f64], summary: &Summary, watch: &dyn Watch) -> Control {
+        let iterate = Iterate {
+            iteration: summary.iterations,
+            energy: summary.energy_last,
+            smallest: self.smallest(x),
+        };
+        debug_assert!(iterate.smallest > 0.0 || !self.forbids_flips());
+        watch.positions(x);
+        watch.iterate(&iterate)
     }
 
     /// What a change of energy is compared with: the energy, unless that is negligible.

@@ -24,10 +24,34 @@ pub enum Control {
 pub trait Watch {
     /// Called with the start and after every step.
     fn iterate(&self, iterate: &Iterate) -> Control;
+
+    /// Called before it with the positions of the same iterate, coordinates one after another.
+    fn positions(&self, _x: &[f64]) {}
 }
 
 impl<F: Fn(&Iterate) -> Control> Watch for F {
     fn iterate(&self, iterate: &Iterate) -> Control {
         self(iterate)
+    }
+}
+
+/// A watch that has seen iterations before.
+pub struct Continued<'a> {
+    /// Who watches.
+    pub watch: &'a dyn Watch,
+    /// How many.
+    pub before: usize,
+}
+
+impl Watch for Continued<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        self.watch.iterate(&Iterate {
+            iteration: self.before + iterate.iteration,
+            ..*iterate
+        })
+    }
+
+    fn positions(&self, x: &[f64]) {
+        self.watch.positions(x);
     }
 }
