@@ -7,6 +7,7 @@
 
 mod body;
 pub mod cage;
+mod continuation;
 mod handles;
 mod model;
 #[cfg(feature = "files")]

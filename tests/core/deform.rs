@@ -261,6 +261,22 @@ fn targets_out_of_reach_end_in_a_valid_map() {
 }
 
 #[test]
+fn a_weaker_barrier_costs_less_and_none_least() {
+    let problem = bent_strip(1.0, DeformationEnergy::Green, BarrierKind::InverseSpline);
+    let settings = Settings::follow();
+    let strong = problem.solve(&settings, &go_on).expect("a planar energy");
+    let weak = problem
+        .with_weaker_barrier(strong.clone(), &settings, &go_on)
+        .expect("a planar energy");
+    let free = problem
+        .energy_without_barrier(&weak, &settings, &go_on)
+        .expect("a planar energy");
+    assert!(weak.worth.energy < strong.worth.energy);
+    assert!(free <= weak.worth.energy * (1.0 + 1e-6));
+    assert_eq!(weak.worth.inverted, 0);
+}
+
+#[test]
 fn groups_are_connected_by_elements() {
     let body = Body::from(&strip(8, 1.0));
     let groups = body.groups(&[0, 1, 12, 26, 25]);
