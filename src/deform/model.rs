@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::body::{Body, BodyElements};
-use crate::barrier::Barrier;
+use crate::barrier::{Barrier, Bounded};
 use crate::energy::{
-    Amips, Arap, Bounded, Density, Green, Lscm, Mips, NeoHookean, RestShape, StVenantKirchhoff,
+    Amips, Arap, Density, Green, Lscm, Mips, NeoHookean, RestShape, StVenantKirchhoff,
     SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero, biharmonic, dirichlet,
     uniform_biharmonic,
 };

@@ -12,7 +12,6 @@
 //! a [`Term`] and knows no energy by name. Nothing here knows where a map comes from or how it is improved.
 
 mod arap;
-mod bounded;
 mod density;
 mod green;
 mod laplacian;
@@ -30,7 +29,6 @@ mod term;
 mod zero;
 
 pub use arap::{Arap, FrozenArap};
-pub use bounded::Bounded;
 pub use density::{Density, Guard};
 pub use green::{Green, StVenantKirchhoff};
 pub use laplacian::{biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};

@@ -4,9 +4,9 @@ use faer::{Mat, Side};
 use proptest::prelude::*;
 use unwrapd::barrier::{Barrier, BarrierKind, NoBarrier};
 use unwrapd::energy::{
-    Amips, Arap, Assembly, Bounded, Density, FrozenArap, Green, Lscm, Mips, Modes, NeoHookean,
-    Positional, RestShape, StVenantKirchhoff, SymmetricDirichlet, Term, Tetrahedra, Triangles,
-    Zero, biharmonic, dirichlet, uniform_biharmonic, voronoi_areas,
+    Amips, Arap, Assembly, Density, FrozenArap, Green, Lscm, Mips, Modes, NeoHookean, Positional,
+    RestShape, StVenantKirchhoff, SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero,
+    biharmonic, dirichlet, uniform_biharmonic, voronoi_areas,
 };
 use unwrapd::numerics::block::BlockPattern;
 use unwrapd::numerics::square::{Matrix, Square, times, transposed};
@@ -128,18 +128,6 @@ fn taylor_densities_in_space() {
     assert_space_taylor(RUBBER, Barrier::NONE);
     assert_space_taylor(Mips, Barrier::NONE);
     assert_space_taylor(Amips { s: 1.5 }, Barrier::NONE);
-}
-
-#[test]
-fn taylor_bounded() {
-    for bound in [2.5, 4.0, 100.0] {
-        let density = Bounded {
-            density: Box::new(Arap),
-            bound,
-            beta: 0.3,
-        };
-        assert_plane_taylor(density, Barrier::NONE);
-    }
 }
 
 #[test]

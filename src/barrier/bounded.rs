@@ -1,6 +1,7 @@
 //! Conformal distortion bounded from above.
 
-use super::Density;
+use super::inverse_spline::reciprocal;
+use crate::energy::Density;
 use crate::numerics::square::Matrix;
 
 /// A density of the plane with a barrier that keeps the conformal distortion q = σ₁/σ₂ below a bound K.
@@ -11,7 +12,7 @@ use crate::numerics::square::Matrix;
 /// The barrier is zero for q ≤ aK, so an ordinary triangle does not feel it, and infinite at q = K: where the inverse spline
 /// keeps triangles from inverting, this keeps them from degenerating to needles. Weighted as ψ is. Domain: that of ψ with
 /// det J > 0 and q < K, +∞ outside; the start must be inside. From: Schüller et al. 2013, section 6 (future work). Tests:
-/// `energy::taylor_bounded`, `deform::conformal_distortion_stays_below_its_bound`.
+/// `barrier::taylor_bounded`, `deform::conformal_distortion_stays_below_its_bound`.
 pub struct Bounded {
     /// ψ.
     pub density: Box<dyn Density<2>>,
@@ -25,22 +26,15 @@ pub struct Bounded {
 const ONSET: f64 = 0.7;
 
 impl Bounded {
-    /// The barrier and its first two derivatives in q; `None` where it is zero.
-    fn barrier(&self, q: f64) -> Option<[f64; 3]> {
+    /// The barrier and its first two derivatives in q; zero for q ≤ aK.
+    fn barrier(&self, q: f64) -> [f64; 3] {
         let support = (1.0 - ONSET) * self.bound;
-        let y = (self.bound - q) / support;
-        if y >= 1.0 {
-            return None;
-        }
-        let left = 1.0 - y;
-        let inverse = 1.0 / (y * (3.0 - 3.0 * y + y * y));
-        let (first, second) = (3.0 * left * left, -6.0 * left);
-        let slope = first * inverse;
-        Some([
-            self.beta * (inverse - 1.0),
-            self.beta / support * slope * inverse,
-            self.beta / (support * support) * (2.0 * slope * slope - second * inverse) * inverse,
-        ])
+        let [value, first, second] = reciprocal((self.bound - q) / support);
+        [
+            self.beta * value,
+            -self.beta / support * first,
+            self.beta / (support * support) * second,
+        ]
     }
 }
 
@@ -54,32 +48,28 @@ impl Density<2> for Bounded {
         if b <= 0.0 || a >= self.bound * b {
             return f64::INFINITY;
         }
-        self.density.value(sigma) + self.barrier(a / b).map_or(0.0, |[value, ..]| value)
+        self.density.value(sigma) + self.barrier(a / b)[0]
     }
 
     fn gradient(&self, sigma: &[f64; 2]) -> [f64; 2] {
         let mut gradient = self.density.gradient(sigma);
         let [a, b] = *sigma;
-        if let Some([_, first, _]) = self.barrier(a / b) {
-            gradient[0] += first / b;
-            gradient[1] -= first * a / (b * b);
-        }
+        let [_, first, _] = self.barrier(a / b);
+        gradient[0] += first / b;
+        gradient[1] -= first * a / (b * b);
         gradient
     }
 
     fn hessian(&self, sigma: &[f64; 2]) -> Matrix<2> {
         let mut hessian = self.density.hessian(sigma);
         let [a, b] = *sigma;
-        if let Some([_, first, second]) = self.barrier(a / b) {
-            let slope = [1.0 / b, -a / (b * b)];
-            let curvature = [
-                [0.0, -1.0 / (b * b)],
-                [-1.0 / (b * b), 2.0 * a / (b * b * b)],
-            ];
-            for i in 0..2 {
-                for j in 0..2 {
-                    hessian[i][j] += second * slope[i] * slope[j] + first * curvature[i][j];
-                }
+        let [_, first, second] = self.barrier(a / b);
+        let slope = [1.0 / b, -a / (b * b)];
+        let mixed = -1.0 / (b * b);
+        let curvature = [[0.0, mixed], [mixed, 2.0 * a / (b * b * b)]];
+        for i in 0..2 {
+            for j in 0..2 {
+                hessian[i][j] += second * slope[i] * slope[j] + first * curvature[i][j];
             }
         }
         hessian
