@@ -14,8 +14,10 @@ mod new_gltf;
 mod new_obj;
 mod notes;
 pub mod obj;
+mod obj_moved;
 mod obj_text;
 pub mod soup;
+mod space_map;
 mod texcoord_lines;
 mod upload;
 mod uvs;
@@ -25,6 +27,7 @@ use crate::measure::VAxis;
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
+pub use space_map::SpaceMap;
 pub use upload::Upload;
 pub use uvs::{NewUvs, OutputFormat, WriteOptions, Written};
 
@@ -90,6 +93,16 @@ impl Document {
             Self::Obj(document) => document.corner_uvs(primitive, set),
             Self::Soup(document) => document.corner_uvs(primitive, set),
         }
+    }
+
+    /// The document with its triangles where a map carries them: positions, normals and tangents. All else is as it was; positions
+    /// are those of the meshes, before any transform of a node, skin or morph target.
+    pub fn moved(self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
+        Ok(match self {
+            Self::Gltf(document) => Self::Gltf(document.moved(map)?),
+            Self::Obj(document) => Self::Obj(document.moved(map)?),
+            Self::Soup(document) => Self::Soup(document.moved(map)?),
+        })
     }
 
     /// The document with `uvs` as a UV set.

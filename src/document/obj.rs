@@ -5,8 +5,10 @@
 //! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along its
 //! diagonals, as a corner of a polygon has one UV.
 use super::obj_text::rewrite;
-use super::{DocumentError, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written};
-use super::{new_gltf, new_obj};
+use super::{
+    DocumentError, NewUvs, OutputFormat, Primitive, SpaceMap, Upload, WriteOptions, Written,
+};
+use super::{new_gltf, new_obj, obj_moved};
 use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
 use std::collections::BTreeMap;
@@ -27,13 +29,17 @@ pub(super) fn is_obj(upload: &Upload) -> bool {
 impl ObjDocument {
     /// Reads the main file.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
-        let mut obj = io::obj::read(&upload.bytes)?;
+        Self::parse(upload.bytes.clone(), upload.resources.clone())
+    }
+
+    fn parse(bytes: Vec<u8>, resources: BTreeMap<String, Vec<u8>>) -> Result<Self, DocumentError> {
+        let mut obj = io::obj::read(&bytes)?;
         let mesh = std::mem::take(&mut obj.mesh);
         if mesh.triangles.is_empty() {
             return Err(DocumentError::NoTriangles);
         }
         Ok(Self {
-            bytes: upload.bytes.clone(),
+            bytes,
             obj,
             primitives: vec![Primitive {
                 mesh: 0,
@@ -42,8 +48,15 @@ impl ObjDocument {
                 positions: mesh.positions,
                 triangles: mesh.triangles,
             }],
-            resources: upload.resources.clone(),
+            resources,
         })
+    }
+
+    /// The document with its triangles where a map carries them.
+    pub fn moved(self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
+        let positions = &self.primitives[0].positions;
+        let bytes = obj_moved::moved(&self.bytes, &self.obj, positions, map);
+        Self::parse(bytes, self.resources)
     }
 
     /// The triangles: all polygons of the file as one primitive.

@@ -41,7 +41,8 @@ pub(super) fn rewrite(bytes: &[u8], obj: &Obj, grid_bits: u32, uvs: &[GridCorner
     }
 }
 
-fn line_end(bytes: &[u8]) -> &'static str {
+/// How the lines of a text end.
+pub(super) fn line_end(bytes: &[u8]) -> &'static str {
     let end = bytes.iter().position(|&b| b == b'\n' || b == b'\r');
     match end.map(|e| &bytes[e..]) {
         Some(rest) if rest.starts_with(b"\r\n") => "\r\n",
@@ -56,14 +57,20 @@ fn comment<'a>(statement: &Statement<'a>) -> Option<&'a [u8]> {
 }
 
 /// Puts the comment on a line of its own, as not every reader takes one after the corners of a face.
-fn push_comment(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
+pub(super) fn push_comment(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
     if let Some(comment) = comment(statement) {
         text.extend_from_slice(comment);
         text.extend_from_slice(line_end.as_bytes());
     }
 }
 
-fn push_statement(text: &mut Vec<u8>, statement: &Statement, words: &[Vec<u8>], line_end: &str) {
+/// Writes a statement with other words, its comment behind them.
+pub(super) fn push_statement(
+    text: &mut Vec<u8>,
+    statement: &Statement,
+    words: &[Vec<u8>],
+    line_end: &str,
+) {
     text.extend_from_slice(statement.keyword);
     for word in words {
         text.push(b' ');
@@ -184,7 +191,8 @@ impl<'a> Faces<'a> {
     }
 }
 
-fn push_face<'a>(
+/// Writes a face: each corner with the number of its texture coordinate.
+pub(super) fn push_face<'a>(
     text: &mut Vec<u8>,
     corners: impl Iterator<Item = (&'a Corner, Option<u32>)>,
     line_end: &str,

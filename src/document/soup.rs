@@ -1,5 +1,5 @@
 //! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
-use super::{DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written, new_gltf};
+use super::{DocumentError, NewUvs, Primitive, SpaceMap, Upload, WriteOptions, Written, new_gltf};
 use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
 
@@ -42,6 +42,17 @@ impl SoupDocument {
     /// The triangles: all polygons of the file as one primitive.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
+    }
+
+    /// The triangles where a map carries them.
+    pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
+        let positions = &mut self.primitives[0].positions;
+        *positions = map.positions(positions);
+        let is_lost = |p: &[f32; 3]| !p.iter().all(|x| x.is_finite());
+        match positions.iter().position(is_lost) {
+            Some(vertex) => Err(DocumentError::NonFinitePosition(format!("vertex {vertex}"))),
+            None => Ok(self),
+        }
     }
 
     /// These formats have no UVs that are read here.

@@ -16,6 +16,7 @@ mod glb;
 mod images;
 mod json;
 mod meshopt;
+mod moved;
 mod positions;
 mod primitives;
 mod references;
@@ -28,7 +29,7 @@ mod uri;
 mod vertices;
 mod write;
 
-use super::{DocumentError, NewUvs, Primitive, Upload, WriteOptions, Written};
+use super::{DocumentError, NewUvs, Primitive, SpaceMap, Upload, WriteOptions, Written};
 use crate::certificate::CornerUvs;
 pub use references::references;
 
@@ -146,6 +147,13 @@ impl GltfDocument {
         )?
         .get(primitive.primitive)
         .ok_or_else(|| invalid("a primitive is gone"))
+    }
+
+    /// The document with its triangles where a map carries them.
+    pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
+        moved::move_surfaces(&mut self.body, &self.primitives, map)?;
+        (self.primitives, self.used) = primitives::collect(&self.body)?;
+        Ok(self)
     }
 
     /// The document with `uvs` as a `TEXCOORD_n`.

@@ -1,6 +1,7 @@
 //! glTF read and written.
 mod build;
 mod invalid;
+mod moved;
 mod roundtrip;
 mod survive;
 mod texcoord;
