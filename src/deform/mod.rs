@@ -9,6 +9,7 @@ mod body;
 pub mod cage;
 mod continuation;
 mod handles;
+mod idle;
 mod model;
 #[cfg(feature = "files")]
 pub mod outline;

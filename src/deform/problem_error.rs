@@ -34,6 +34,12 @@ pub enum ProblemError {
         /// Index of the handle.
         handle: usize,
     },
+    /// A handle names a vertex, but a cage's vertices have no meaning to who pulls at the surfaces in it.
+    #[error("handle {handle} names a vertex; in a cage handles are places, `at` or `center`")]
+    VertexOfCage {
+        /// Index of the handle.
+        handle: usize,
+    },
     /// A target is not a position.
     #[error("the target of handle {handle} is not {dim} finite numbers")]
     BadTarget {
@@ -99,6 +105,7 @@ impl ProblemError {
             Self::UnknownHandle { .. } => "unknown_handle",
             Self::NoHandle => "no_handle",
             Self::HandleOutside { .. } => "handle_outside",
+            Self::VertexOfCage { .. } => "vertex_of_cage",
             Self::BadTarget { .. } => "bad_target",
             Self::Unpaired { .. } => "unpaired_handles",
             Self::ContradictoryHandles { .. } => "contradictory_handles",
