@@ -1,4 +1,4 @@
-//! `unwrapd deform`: a mesh, a picture or a drawing pulled by handles.
+//! `unwrapd deform`: a mesh, a picture, a drawing or surfaces in a cage pulled by handles.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -15,17 +15,18 @@ use crate::deform::{Body, DeformationEnergy, Handle, Method, Model, Problem};
 use crate::mesh::io::{ElementFormat, Elements};
 use crate::picture::Image;
 
-/// Deforms a planar or tetrahedral mesh by handles, no element inverted.
+/// Deforms a planar or tetrahedral mesh, or surfaces in a cage of tetrahedra, by handles, no element inverted.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Mesh (.obj, .off, .msh, .mesh, .tet), or an outline to be meshed: PNG with transparency, SVG
-    input: PathBuf,
+    /// Mesh (.obj, .off, .msh, .mesh, .tet), or an outline to be meshed: PNG with transparency, SVG; with --cage surfaces: .glb,
+    /// .gltf, .obj, .off, .ply, .stl
+    pub(super) input: PathBuf,
     /// JSON: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …}, {"center": …, "radius": r, "to": …}]}
     #[arg(long, value_name = "FILE")]
-    handles: PathBuf,
-    /// Where the deformed mesh goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu
+    pub(super) handles: PathBuf,
+    /// Where the deformed mesh goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; with --cage .glb, .gltf, .obj
     #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// Deformation energy
     #[arg(long, default_value = "arap", value_parser = word::<DeformationEnergy>(DEFORMATIONS))]
     energy: DeformationEnergy,
@@ -44,8 +45,24 @@ pub(super) struct Args {
     /// About how many triangles an outline is filled with
     #[arg(long, default_value_t = 5000, value_name = "N")]
     triangles: usize,
+    /// Put all meshes of the file, each once and without the transforms of nodes, into a cage of cubes, N along its longest side,
+    /// and deform that. Handles are places ("at", "center"); connected parts of the cage without any stay at rest
+    #[arg(long, value_name = "N", conflicts_with = "frames")]
+    cage: Option<u32>,
     #[command(flatten)]
-    records: Records,
+    pub(super) records: Records,
+}
+
+impl Args {
+    pub(super) fn model(&self) -> Model {
+        Model {
+            energy: self.energy,
+            barrier: self.barrier,
+            beta: self.beta,
+            s: self.s,
+            bound: self.max_conformal,
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -56,24 +73,19 @@ struct HandleFile {
 
 /// Runs `deform`.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(n_voxels) = args.cage {
+        return super::caged::run(args, n_voxels);
+    }
     let output = Output::of(&args.output)?;
     let clock = Instant::now();
     let mesh = read_mesh(&args.input, args.triangles)?;
-    let handles: HandleFile = serde_json::from_slice(&read_file(&args.handles)?)
-        .map_err(|error| Failure::input(format!("{}: {error}", args.handles.display())))?;
+    let handles = read_handles(&args.handles)?;
     let body = if mesh.tets.is_empty() {
         Body::from(&mesh.clone().into_planar_mesh()?)
     } else {
         Body::from(&mesh.clone().into_tet_mesh()?)
     };
-    let model = Model {
-        energy: args.energy,
-        barrier: args.barrier,
-        beta: args.beta,
-        s: args.s,
-        bound: args.max_conformal,
-    };
-    let problem = Problem::new(body, &handles.handles, &model)?;
+    let problem = Problem::new(body, &handles, &args.model())?;
     let setup_seconds = clock.elapsed().as_secs_f64();
     let target = (&output, args.output.as_path());
     solve_and_write(
@@ -84,6 +96,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         target,
         &args.records,
     )
+}
+
+/// The handles of a file.
+pub(super) fn read_handles(path: &Path) -> Result<Vec<Handle>, Failure> {
+    serde_json::from_slice(&read_file(path)?)
+        .map(|file: HandleFile| file.handles)
+        .map_err(|error| Failure::input(format!("{}: {error}", path.display())))
 }
 
 /// The mesh of a file, or of the outline in a picture or drawing.

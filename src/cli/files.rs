@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use crate::document::{Upload, gltf};
+use crate::document::{OutputFormat, Upload, gltf};
 
 /// Reads a file.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
@@ -34,6 +34,20 @@ pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
         bytes,
         resources,
     })
+}
+
+/// The format of a document by the extension of its name.
+pub(super) fn output_format(path: &Path) -> Result<OutputFormat, Failure> {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match extension.to_str() {
+        Some("glb") => Ok(OutputFormat::Glb),
+        Some("gltf") => Ok(OutputFormat::Gltf),
+        Some("obj") => Ok(OutputFormat::Obj),
+        _ => Err(Failure::usage(format!(
+            "{}: OUT must end in .glb, .gltf or .obj",
+            path.display()
+        ))),
+    }
 }
 
 /// Writes the files of a result: the main one at `path`, the others beside it. Each is written whole under another

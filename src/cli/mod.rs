@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 2 usage; 3 the input cannot be used; 4 not certified or no valid result within the limits;
 //! 1 anything else.
 
+mod caged;
 mod deform;
 mod failure;
 mod files;
@@ -41,7 +42,7 @@ enum Command {
     Measure(measure::Args),
     /// Check exactly that no face of a file's UVs is flipped or degenerate: exit 0 if so, 4 if not
     Verify(measure::VerifyArgs),
-    /// Pull a mesh, a picture's outline or a drawing by handles, no element inverted
+    /// Pull a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted
     Deform(deform::Args),
     /// Solve a problem file: handles pulled to targets, no element inverted
     Solve(solve::Args),

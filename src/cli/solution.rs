@@ -8,8 +8,9 @@ use serde::Serialize;
 use super::failure::Failure;
 use super::files::{json, write_atomically};
 use super::trace::{Frames, Trace};
-use crate::deform::{Method, Problem, Worth};
+use crate::deform::{Method, Problem, Solution, Worth};
 use crate::mesh::io::{ElementFormat, Elements, text_positions};
+use crate::pipeline::CageReport;
 use crate::solver::{Control, Iterate, Settings, Summary};
 
 /// Files beside the map.
@@ -49,9 +50,12 @@ struct Report {
     setup_seconds: f64,
     /// Everything after that.
     solve_seconds: f64,
+    /// The cage and the surfaces in it, if that is what was deformed.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    cage: Option<CageReport>,
 }
 
-/// Solves a problem and writes everything; exit 4 if the result has an inverted element that a barrier should have kept out.
+/// Solves the problem of a mesh and writes everything.
 pub(super) fn solve_and_write(
     problem: &Problem,
     mesh: &Elements,
@@ -61,17 +65,37 @@ pub(super) fn solve_and_write(
     records: &Records,
 ) -> Result<(), Failure> {
     let frame = |x: &[f64]| output.text(mesh, problem, x);
-    let trace = Trace::new(records.frames.as_deref().map(|folder| {
-        Frames {
-            folder,
-            extension: path
-                .extension()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned(),
-            text: &frame,
-        }
-    }));
+    let frames = records.frames.as_deref().map(|folder| Frames {
+        folder,
+        extension: path
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned(),
+        text: &frame,
+    });
+    let solved = solve(problem, method, setup_seconds, records, frames)?;
+    write_atomically(path, frame(&solved.solution.x).as_bytes())?;
+    solved.finish(records, None)
+}
+
+/// A solution, and what will be recorded of it.
+pub(super) struct Solved<'a> {
+    pub(super) solution: Solution,
+    report: Report,
+    trace: Trace<'a>,
+    forbids_inversion: bool,
+}
+
+/// Solves a problem.
+pub(super) fn solve<'a>(
+    problem: &Problem,
+    method: Method,
+    setup_seconds: f64,
+    records: &Records,
+    frames: Option<Frames<'a>>,
+) -> Result<Solved<'a>, Failure> {
+    let trace = Trace::new(frames);
     let clock = Instant::now();
     let mut solution = trace.solve(problem, method)?;
     let settings = Settings::follow();
@@ -92,29 +116,47 @@ pub(super) fn solve_and_write(
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,
         solve_seconds: clock.elapsed().as_secs_f64(),
+        cage: None,
     };
-    write_atomically(path, output.text(mesh, problem, &solution.x).as_bytes())?;
-    if let Some(path) = &records.report {
-        write_atomically(path, &json(&report)?)?;
+    Ok(Solved {
+        solution,
+        report,
+        trace,
+        forbids_inversion: problem.forbids_inversion(),
+    })
+}
+
+impl Solved<'_> {
+    /// Writes the records, with what became of the surfaces in a cage; exit 4 if the result has an inverted element that a
+    /// barrier should have kept out.
+    pub(super) fn finish(
+        mut self,
+        records: &Records,
+        cage: Option<CageReport>,
+    ) -> Result<(), Failure> {
+        self.report.cage = cage;
+        if let Some(path) = &records.report {
+            write_atomically(path, &json(&self.report)?)?;
+        }
+        if let Some(path) = &records.trace {
+            write_atomically(path, self.trace.csv().as_bytes())?;
+        }
+        let (summary, worth) = (self.report.summary, self.report.worth);
+        println!(
+            "{:?}: {} iterations, {} factorizations, energy {:.6e}, barrier {:.3e}, residual {:.1e}, {} inverted",
+            summary.status,
+            summary.iterations,
+            summary.factorizations,
+            worth.energy,
+            worth.barrier,
+            worth.residual,
+            worth.inverted
+        );
+        if worth.inverted > 0 && self.forbids_inversion {
+            return Err(Failure::uncertified("no map without inversion"));
+        }
+        Ok(())
     }
-    if let Some(path) = &records.trace {
-        write_atomically(path, trace.csv().as_bytes())?;
-    }
-    let (summary, worth) = (report.summary, report.worth);
-    println!(
-        "{:?}: {} iterations, {} factorizations, energy {:.6e}, barrier {:.3e}, residual {:.1e}, {} inverted",
-        summary.status,
-        summary.iterations,
-        summary.factorizations,
-        worth.energy,
-        worth.barrier,
-        worth.residual,
-        worth.inverted
-    );
-    if worth.inverted > 0 && problem.forbids_inversion() {
-        return Err(Failure::uncertified("no map without inversion"));
-    }
-    Ok(())
 }
 
 /// The format of the result.

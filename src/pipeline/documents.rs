@@ -101,13 +101,13 @@ fn group_by(options: &Options) -> GroupBy {
 }
 
 /// The primitives of a group as one mesh.
-struct Merged {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
+pub(super) struct Merged {
+    pub positions: Vec<[f32; 3]>,
+    pub triangles: Vec<[u32; 3]>,
 }
 
 impl Merged {
-    fn new(primitives: &[Primitive], group: &Group) -> Self {
+    pub fn new(primitives: &[Primitive], group: &Group) -> Self {
         let mut merged = Self {
             positions: Vec::new(),
             triangles: Vec::new(),

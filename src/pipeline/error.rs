@@ -1,6 +1,8 @@
 //! Why a mesh could not be unwrapped.
 
 use crate::atlas::AtlasError;
+use crate::deform::ProblemError;
+use crate::deform::cage::CageError;
 #[cfg(feature = "files")]
 use crate::document::DocumentError;
 use crate::mesh::MeshError;
@@ -37,6 +39,12 @@ pub enum PipelineError {
         /// The set asked for.
         texcoord: u32,
     },
+    /// The surfaces get no cage.
+    #[error(transparent)]
+    Cage(#[from] CageError),
+    /// The cage cannot be deformed as asked for.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
     /// The charts do not fit on the grid.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
@@ -61,6 +69,8 @@ impl PipelineError {
             Self::Document(error) => error.code(),
             Self::NoTriangles => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
+            Self::Cage(error) => error.code(),
+            Self::Problem(error) => error.code(),
             Self::Atlas(_) => "no_valid_result",
             #[cfg(feature = "files")]
             Self::NotCertified => "no_valid_result",
@@ -75,6 +85,8 @@ impl PipelineError {
             Self::Mesh(_)
             | Self::TooManyTriangles { .. }
             | Self::NoTriangles
+            | Self::Cage(_)
+            | Self::Problem(_)
             | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
             Self::Document(_) => 3,

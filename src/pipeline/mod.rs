@@ -4,6 +4,7 @@
 //! it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and the
 //! certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same for
 //! UVs that a file already has.
+//! A [`CagedDocument`] is a file whose surfaces are deformed in a cage.
 //!
 //! The work runs on a thread pool of its own. Charts of all groups share one queue, largest first; each is mapped by
 //! one thread, so the result does not depend on their number.
@@ -15,6 +16,8 @@ mod observer;
 mod options;
 mod repeated;
 
+#[cfg(feature = "files")]
+mod caged;
 #[cfg(feature = "files")]
 mod documents;
 #[cfg(feature = "files")]
@@ -31,6 +34,8 @@ pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::Settings;
 
+#[cfg(feature = "files")]
+pub use caged::{CageOptions, CageReport, CagedDocument};
 #[cfg(feature = "files")]
 pub use documents::{Outcome, unwrap_document};
 #[cfg(feature = "files")]

@@ -38,7 +38,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "pipeline",
-        &["charts", "atlas", "document", "picture"],
+        &["charts", "atlas", "document", "deform"],
         &["serde_json", "rayon"],
     ),
     (
@@ -77,7 +77,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "cli",
-        &["http", "store", "deform"],
+        &["http", "store"],
         &[
             "clap",
             "indicatif",

@@ -3,6 +3,8 @@ mod atlas;
 mod barrier;
 mod box_tree;
 mod cage;
+#[cfg(feature = "files")]
+mod caged;
 mod certificate;
 mod charts;
 mod crossings;

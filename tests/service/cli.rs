@@ -144,6 +144,49 @@ fn flipped_uvs_do_not_verify() {
 }
 
 #[test]
+fn surfaces_are_deformed_in_a_cage() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let input = asset("MultiUVTest.glb").to_string_lossy().into_owned();
+    let (handles, report) = (path("handles.json"), path("report.json"));
+    let deform = |text: &str, output: &str| {
+        std::fs::write(&handles, text).expect("a file");
+        unwrapd(&[
+            "deform",
+            &input,
+            "--cage",
+            "6",
+            "--handles",
+            &handles,
+            "-o",
+            output,
+            "--report",
+            &report,
+        ])
+    };
+    let everything = r#"{"handles": [{"center": [0, 0, 0], "radius": 1e3, "to": [1, 2, 3]}]}"#;
+    assert_status(&deform(everything, &path("out.glb")), 0);
+    let text = std::fs::read(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_slice(&text).expect("a JSON report");
+    assert_eq!(report["inverted"], 0);
+    assert_eq!(report["tets"], 6 * report["voxels"].as_u64().expect("one"));
+    assert!(report["surface_vertices"].as_u64() > Some(0));
+    assert_eq!(report["crossings_before"]["pairs"], 0);
+    assert_eq!(report["crossings_after"]["pairs"], 0);
+    // The UVs are those of the input.
+    let measured = |file: &str| unwrapd(&["verify", file]).status.code();
+    assert_eq!(measured(&path("out.glb")), measured(&input));
+
+    let vertex = r#"{"handles": [{"vertex": 0, "to": [1, 2, 3]}]}"#;
+    let output = deform(vertex, &path("none.glb"));
+    assert_status(&output, 3);
+    assert!(last_error(&output).contains("vertex_of_cage"));
+    assert_status(&deform(everything, &path("none.off")), 2);
+    assert_status(&deform(everything, &path("none.obj")), 3);
+    assert!(!folder.path().join("none.glb").exists());
+}
+
+#[test]
 fn handles_pull_meshes_and_outlines() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();

@@ -1,0 +1,200 @@
+//! Documents whose surfaces are deformed in a cage.
+
+use super::PipelineError;
+use super::documents::Merged;
+use crate::certificate::{Crossings, crossings};
+use crate::deform::cage::{Cage, CagedSurface, Embedding};
+use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
+use crate::document::{
+    Document, DocumentError, GroupBy, NewUvs, OutputFormat, SpaceMap, Upload, WriteOptions, Written,
+};
+use serde::Serialize;
+
+/// A document with all its triangles in one cage.
+///
+/// Positions are those of the meshes, each once: transforms of nodes are not applied, so meshes that a scene sets apart may share
+/// voxels and then move together.
+pub struct CagedDocument {
+    document: Document,
+    cage: Cage,
+    problem: Problem,
+    idle_parts: usize,
+    options: CageOptions,
+}
+
+/// How to put a document into a cage, deform it, and write it.
+#[derive(Clone, Debug)]
+pub struct CageOptions {
+    /// Voxels along the longest side of all triangles' bounding box.
+    pub n_voxels: u32,
+    /// What the deformation costs.
+    pub model: Model,
+    /// What kind of file to write: glTF for a glTF document, OBJ for OBJ, either for triangles without a document.
+    pub format: OutputFormat,
+    /// Name of the main file without its extension.
+    pub stem: String,
+}
+
+/// What a cage is and what deforming it did to the surfaces in it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CageReport {
+    /// Cubes the cage consists of.
+    pub voxels: usize,
+    /// Tetrahedra, six for each.
+    pub tets: usize,
+    /// Connected parts of the cage that have no handle and stay at rest.
+    pub idle_parts: usize,
+    /// Vertices of all surfaces.
+    pub surface_vertices: usize,
+    /// Where the surfaces pass through themselves and each other at rest.
+    pub crossings_before: Crossings,
+    /// Where they do in the file written.
+    pub crossings_after: Crossings,
+}
+
+impl CagedDocument {
+    /// Reads a file, puts a cage around all triangles, and binds it to handles, which name places.
+    pub fn read(
+        upload: &Upload,
+        handles: &[Handle],
+        options: CageOptions,
+    ) -> Result<Self, PipelineError> {
+        let document = Document::read(upload)?;
+        check_format(&document, options.format)?;
+        let is_vertex = |handle: &Handle| matches!(handle, Handle::Vertex { .. });
+        if let Some(handle) = handles.iter().position(is_vertex) {
+            return Err(ProblemError::VertexOfCage { handle }.into());
+        }
+        let surfaces: Vec<Vec<[f64; 3]>> = document
+            .primitives()
+            .iter()
+            .map(|p| widened(&p.positions))
+            .collect();
+        let caged: Vec<CagedSurface> = surfaces
+            .iter()
+            .zip(document.primitives())
+            .map(|(positions, primitive)| CagedSurface {
+                positions,
+                triangles: &primitive.triangles,
+            })
+            .collect();
+        let cage = Cage::around(&caged, options.n_voxels)?;
+        let mut problem = Problem::new(Body::from(cage.mesh()), handles, &options.model)?;
+        let idle_parts = problem.hold_idle_parts();
+        Ok(Self {
+            document,
+            cage,
+            problem,
+            idle_parts,
+            options,
+        })
+    }
+
+    /// The cage as a body, with its handles.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// Writes the document with its surfaces where a solution of the problem carries them; everything else stays: nodes,
+    /// skins, morph targets, materials, UVs.
+    pub fn write(self, solution: &Solution) -> Result<(Written, CageReport), PipelineError> {
+        let crossings_before = crossings_of(&self.document);
+        let map = CageMap {
+            cage: &self.cage,
+            deformed: solution.x.as_chunks().0,
+        };
+        let moved = self.document.moved(&map)?;
+        let options = WriteOptions {
+            format: self.options.format,
+            stem: self.options.stem,
+            texcoord: None,
+            overwrite: false,
+        };
+        let no_uvs = NewUvs {
+            grid_bits: 0,
+            corners: vec![None; moved.primitives().len()],
+        };
+        let report = CageReport {
+            voxels: self.cage.mesh().tets().len() / 6,
+            tets: self.cage.mesh().tets().len(),
+            idle_parts: self.idle_parts,
+            surface_vertices: moved.primitives().iter().map(|p| p.positions.len()).sum(),
+            crossings_before,
+            crossings_after: crossings_of(&moved),
+        };
+        Ok((moved.write(&no_uvs, &options)?, report))
+    }
+}
+
+/// Refuses formats that lose UVs and materials.
+fn check_format(document: &Document, format: OutputFormat) -> Result<(), DocumentError> {
+    let lost = match (document, format) {
+        (Document::Gltf(_), OutputFormat::Obj) => "a deformed glTF document as OBJ",
+        (Document::Obj(_), OutputFormat::Glb | OutputFormat::Gltf) => "a deformed OBJ file as glTF",
+        _ => return Ok(()),
+    };
+    Err(DocumentError::UnsupportedOutput(lost.to_owned()))
+}
+
+fn crossings_of(document: &Document) -> Crossings {
+    let mut found = Crossings::default();
+    for group in document.groups(GroupBy::Scene) {
+        let merged = Merged::new(document.primitives(), &group);
+        found = crossings(&widened(&merged.positions), &merged.triangles);
+    }
+    found
+}
+
+/// The piecewise linear map of a deformed cage.
+struct CageMap<'a> {
+    cage: &'a Cage,
+    deformed: &'a [[f64; 3]],
+}
+
+impl CageMap<'_> {
+    /// Places that are not finite, which only unused vertices of shared accessors can have, are taken for the origin.
+    fn embed(&self, places: &[[f32; 3]]) -> Embedding {
+        let finite = |place: &[f64; 3]| {
+            if place.iter().all(|x| x.is_finite()) {
+                *place
+            } else {
+                [0.0; 3]
+            }
+        };
+        let places: Vec<[f64; 3]> = widened(places).iter().map(finite).collect();
+        self.cage.embed(&places).unwrap_or_default()
+    }
+}
+
+impl SpaceMap for CageMap<'_> {
+    fn positions(&self, places: &[[f32; 3]]) -> Vec<[f32; 3]> {
+        let embedding = self.embed(places);
+        rounded(&self.cage.interpolate(&embedding, self.deformed))
+    }
+
+    fn normals(&self, places: &[[f32; 3]], normals: &[[f32; 3]]) -> Vec<[f32; 3]> {
+        let embedding = self.embed(places);
+        rounded(
+            &self
+                .cage
+                .normals(&embedding, self.deformed, &widened(normals)),
+        )
+    }
+
+    fn tangents(&self, places: &[[f32; 3]], tangents: &[[f32; 3]]) -> Vec<[f32; 3]> {
+        let embedding = self.embed(places);
+        rounded(
+            &self
+                .cage
+                .tangents(&embedding, self.deformed, &widened(tangents)),
+        )
+    }
+}
+
+fn widened(vectors: &[[f32; 3]]) -> Vec<[f64; 3]> {
+    vectors.iter().map(|v| v.map(f64::from)).collect()
+}
+
+fn rounded(vectors: &[[f64; 3]]) -> Vec<[f32; 3]> {
+    vectors.iter().map(|v| v.map(|x| x as f32)).collect()
+}
