@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::files::{json, read_file, write_atomically};
-use super::words::{ALL_BARRIERS, DEFORMATIONS, word};
+use super::words::{BARRIERS, DEFORMATIONS, word};
 use crate::barrier::BarrierKind;
 use crate::deform::{
     Border, DeformationEnergy, Model, PullReport, WarpOptions, parse_handles, warp_picture,
@@ -46,7 +46,7 @@ pub(super) struct ModelArgs {
     #[arg(long, default_value = "arap", value_parser = word::<DeformationEnergy>(DEFORMATIONS))]
     energy: DeformationEnergy,
     /// Barrier against inversion; `none` is for comparison
-    #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(ALL_BARRIERS))]
+    #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(BARRIERS))]
     barrier: BarrierKind,
     /// Weight β of the barrier [default: the paper's for the energy]
     #[arg(long)]
