@@ -31,10 +31,21 @@ impl InverseSpline {
     }
 }
 
-/// g, g′ and g″. Not as 1 − (1 − y)³, which cancels where it matters, near 0.
-fn spline(y: f64) -> [f64; 3] {
+/// 1/g(y) − 1 and its first two derivatives, 0 from y = 1 on; y > 0.
+///
+/// g is y³ − 3y² + 3y, and not written as 1 − (1 − y)³, which cancels where it matters, near 0.
+pub(super) fn reciprocal(y: f64) -> [f64; 3] {
+    if y >= 1.0 {
+        return [0.0; 3];
+    }
     let left = 1.0 - y;
-    [y * (3.0 - 3.0 * y + y * y), 3.0 * left * left, -6.0 * left]
+    let inverse = 1.0 / (y * (3.0 - 3.0 * y + y * y));
+    let slope = 3.0 * left * left * inverse;
+    [
+        inverse - 1.0,
+        -slope * inverse,
+        (2.0 * slope * slope + 6.0 * left * inverse) * inverse,
+    ]
 }
 
 impl Guard for InverseSpline {
@@ -44,27 +55,19 @@ impl Guard for InverseSpline {
 
     fn value(&self, det: f64, rest_size: f64) -> f64 {
         let y = self.y(det, rest_size);
-        if y >= 1.0 {
-            0.0
-        } else if y > 0.0 {
-            self.beta * (1.0 / spline(y)[0] - 1.0)
+        if y > 0.0 {
+            self.beta * reciprocal(y)[0]
         } else {
             f64::INFINITY
         }
     }
 
     fn derivatives(&self, det: f64, rest_size: f64) -> [f64; 2] {
-        let y = self.y(det, rest_size);
-        if y >= 1.0 {
-            return [0.0; 2];
-        }
         let support = self.support(rest_size);
-        let [g, first, second] = spline(y);
-        let inverse = 1.0 / g;
-        let slope = first * inverse;
+        let [_, first, second] = reciprocal(self.y(det, rest_size));
         [
-            -self.beta / support * slope * inverse,
-            self.beta / (support * support) * (2.0 * slope * slope - second * inverse) * inverse,
+            self.beta / support * first,
+            self.beta / (support * support) * second,
         ]
     }
 }

@@ -8,12 +8,14 @@
 //! Being a function of det J a barrier is isotropic too: it joins a density as a [`Guard`](crate::energy::Guard), one projection for both.
 //! [`map_energy`] puts them together from the words of the options.
 
+mod bounded;
 mod guard;
 mod inverse_spline;
 mod log;
 mod neo_hookean;
 mod none;
 
+pub use bounded::Bounded;
 pub use guard::{Barrier, BarrierKind};
 pub use inverse_spline::InverseSpline;
 pub use log::{AugmentedLog, Log};

@@ -38,6 +38,9 @@ pub(super) struct Args {
     /// Share of its rest size below which an element feels the inverse spline
     #[arg(long, default_value_t = 1.0, value_name = "X")]
     s: f64,
+    /// Keep the conformal distortion of every triangle, its longest over its shortest stretch, below this; plane only
+    #[arg(long, value_name = "K")]
+    max_conformal: Option<f64>,
     /// About how many triangles an outline is filled with
     #[arg(long, default_value_t = 5000, value_name = "N")]
     triangles: usize,
@@ -68,6 +71,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         barrier: args.barrier,
         beta: args.beta,
         s: args.s,
+        bound: args.max_conformal,
     };
     let problem = Problem::new(body, &handles.handles, &model)?;
     let setup_seconds = clock.elapsed().as_secs_f64();

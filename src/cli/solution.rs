@@ -10,7 +10,7 @@ use super::files::{json, write_atomically};
 use super::trace::{Frames, Trace};
 use crate::deform::{Method, Problem, Worth};
 use crate::mesh::io::{ElementFormat, Elements, text_positions};
-use crate::solver::Summary;
+use crate::solver::{Control, Iterate, Settings, Summary};
 
 /// Files beside the map.
 #[derive(clap::Args)]
@@ -24,6 +24,12 @@ pub(super) struct Records {
     /// Folder for the map of every iteration, numbered, in the format of the result
     #[arg(long, value_name = "DIR")]
     frames: Option<PathBuf>,
+    /// Lower the barrier's strength while the energy without it falls
+    #[arg(long)]
+    barrier_continuation: bool,
+    /// Also minimize without a barrier and report that energy beside the solution's: the barrier's bias
+    #[arg(long)]
+    bias: bool,
 }
 
 /// What `--report` holds.
@@ -34,6 +40,9 @@ struct Report {
     summary: Summary,
     #[serde(flatten)]
     worth: Worth,
+    /// The energy that minimizing without a barrier leads to from the solution, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_without_barrier: Option<f64>,
     /// The smallest size of an element over its rest size, over all iterates.
     smallest_ever: f64,
     /// Reading and checking.
@@ -64,11 +73,22 @@ pub(super) fn solve_and_write(
         }
     }));
     let clock = Instant::now();
-    let solution = trace.solve(problem, method)?;
+    let mut solution = trace.solve(problem, method)?;
+    let settings = Settings::follow();
+    let go_on = |_: &Iterate| Control::Continue;
+    if records.barrier_continuation {
+        solution = problem.with_weaker_barrier(solution, &settings, &go_on)?;
+    }
+    let energy_without_barrier = if records.bias {
+        Some(problem.energy_without_barrier(&solution, &settings, &go_on)?)
+    } else {
+        None
+    };
     let report = Report {
         method,
         summary: solution.summary,
         worth: solution.worth,
+        energy_without_barrier,
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,
         solve_seconds: clock.elapsed().as_secs_f64(),

@@ -8,6 +8,7 @@
 mod anchors;
 mod body;
 pub mod cage;
+mod continuation;
 mod edit_error;
 mod handles;
 mod model;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::body::{Body, BodyElements};
-use crate::barrier::Barrier;
+use crate::barrier::{Barrier, Bounded};
 use crate::energy::{
     Amips, Arap, Density, Green, Lscm, Mips, NeoHookean, RestShape, StVenantKirchhoff,
     SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero, biharmonic, dirichlet,
@@ -60,36 +60,46 @@ impl DeformationEnergy {
     }
 
     /// The terms of the energy of `body` with a barrier, in which an element's size is the determinant of its edges, twice
-    /// its area or six times its volume. `None` for an energy that the body's dimension does not have.
-    pub fn terms(self, body: &Body, barrier: Barrier) -> Option<Vec<Box<dyn Term>>> {
+    /// its area or six times its volume, and with a bound of the conformal distortion if one is given. `None` for an energy or
+    /// a bound that the body's dimension does not have.
+    pub fn terms(
+        self,
+        body: &Body,
+        barrier: Barrier,
+        bound: Option<f64>,
+    ) -> Option<Vec<Box<dyn Term>>> {
         match &body.elements {
             BodyElements::Triangles { corners, rest } => {
                 let shapes = self.weighted(rest, 2.0);
-                let guarded = |density: Box<dyn Density<2>>| -> Box<dyn Term> {
-                    Box::new(Triangles::new(corners, &shapes, density, barrier))
-                };
-                let density = if self == Self::Lscm {
+                let mut density = if self == Self::Lscm {
                     Some(Box::new(Lscm) as Box<dyn Density<2>>)
                 } else {
                     self.density()
                 };
-                Some(match density {
-                    Some(density) => vec![guarded(density)],
-                    None => vec![self.quadratic(body, rest), guarded(Box::new(Zero))],
-                })
+                let quadratic = density.is_none().then(|| self.quadratic(body, rest));
+                if let Some(bound) = bound {
+                    density = Some(Box::new(Bounded {
+                        density: density.unwrap_or(Box::new(Zero)),
+                        bound,
+                        beta: barrier.beta,
+                    }));
+                }
+                let density = density.unwrap_or(Box::new(Zero));
+                let guarded: Box<dyn Term> =
+                    Box::new(Triangles::new(corners, &shapes, density, barrier));
+                Some(quadratic.into_iter().chain([guarded]).collect())
             }
             BodyElements::Tetrahedra { corners, rest } => {
-                let shapes = self.weighted(rest, 6.0);
-                let guarded = |density: Box<dyn Density<3>>| -> Box<dyn Term> {
-                    Box::new(Tetrahedra::new(corners, &shapes, density, barrier))
-                };
-                if self == Self::Lscm {
+                if self == Self::Lscm || bound.is_some() {
                     return None;
                 }
-                Some(match self.density() {
-                    Some(density) => vec![guarded(density)],
-                    None => vec![self.quadratic(body, rest), guarded(Box::new(Zero))],
-                })
+                let shapes = self.weighted(rest, 6.0);
+                let density = self.density();
+                let quadratic = density.is_none().then(|| self.quadratic(body, rest));
+                let density = density.unwrap_or(Box::new(Zero));
+                let guarded: Box<dyn Term> =
+                    Box::new(Tetrahedra::new(corners, &shapes, density, barrier));
+                Some(quadratic.into_iter().chain([guarded]).collect())
             }
         }
     }

@@ -18,6 +18,8 @@ pub struct Problem {
     pub energy: DeformationEnergy,
     /// The barrier.
     pub barrier: Barrier,
+    /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything.
+    pub bound: Option<f64>,
     /// The stations of the handles, the last of them their targets.
     pub stations: Vec<Handles>,
     /// What `levenberg` is told.
@@ -35,6 +37,8 @@ pub struct Model {
     pub beta: Option<f64>,
     /// s of the inverse spline.
     pub s: f64,
+    /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything; more than 1.
+    pub bound: Option<f64>,
 }
 
 impl Default for Model {
@@ -44,6 +48,7 @@ impl Default for Model {
             barrier: BarrierKind::default(),
             beta: None,
             s: 1.0,
+            bound: None,
         }
     }
 }
@@ -72,6 +77,13 @@ impl Model {
                 return Err(ProblemError::BadParameter { name, range });
             }
         }
+        if self
+            .bound
+            .is_some_and(|bound| !(bound > 1.0 && bound.is_finite()))
+        {
+            let (name, range) = ("max_conformal", "a number greater than 1");
+            return Err(ProblemError::BadParameter { name, range });
+        }
         if !(barrier.epsilon >= 0.0 && barrier.epsilon < smallest) {
             return Err(ProblemError::BadParameter {
                 name: "epsilon",
@@ -89,6 +101,7 @@ impl Problem {
             start: body.rest.clone(),
             energy: model.energy,
             barrier: model.barrier(&body, None)?,
+            bound: model.bound,
             stations: vec![bind(&body, handles)?],
             levenberg: LevenbergSettings::default(),
             body,
@@ -99,7 +112,7 @@ impl Problem {
     pub fn forbids_inversion(&self) -> bool {
         let terms = self
             .energy
-            .terms(&self.body, self.barrier)
+            .terms(&self.body, self.barrier, self.bound)
             .unwrap_or_default();
         terms.iter().any(|term| term.forbids_flips())
     }

@@ -98,6 +98,7 @@ impl ProblemFile {
             barrier: self.barrier,
             beta: self.beta,
             s: self.gamma,
+            bound: None,
         };
         let barrier = model.barrier(&body, self.eps)?;
         check_start(&body, &start, &barrier)?;
@@ -108,6 +109,7 @@ impl ProblemFile {
             start,
             energy: self.energy,
             barrier,
+            bound: None,
         })
     }
 

@@ -79,6 +79,7 @@ pub(super) fn pull(
     let problem = Problem {
         start: start.as_flattened().to_vec(),
         energy: model.energy,
+        bound: model.bound,
         barrier: model.barrier(&body, Some(epsilon))?,
         stations: vec![holds.handles(&body, start)?],
         levenberg: LevenbergSettings::default(),

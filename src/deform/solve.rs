@@ -145,7 +145,7 @@ impl Problem {
 
     fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
         self.energy
-            .terms(&self.body, barrier)
+            .terms(&self.body, barrier, self.bound)
             .ok_or(ProblemError::PlanarEnergy)
     }
 
@@ -184,7 +184,10 @@ impl Problem {
     /// Judges a map, whoever made it.
     pub fn worth(&self, x: &[f64]) -> Worth {
         let value = |barrier: Barrier| -> f64 {
-            let terms = self.energy.terms(&self.body, barrier).unwrap_or_default();
+            let terms = self
+                .energy
+                .terms(&self.body, barrier, None)
+                .unwrap_or_default();
             terms.iter().map(|term| term.value(x)).sum()
         };
         let energy = value(Barrier::NONE);

@@ -10,6 +10,7 @@ exits with 1 if a barrier let an element invert or a problem that the authors' c
 import argparse
 import json
 import math
+import os
 import statistics
 import subprocess
 import sys
@@ -18,13 +19,16 @@ from pathlib import Path
 
 
 def solve(program, problem, method, folder):
-    """Our report and positions of one problem; exit status 0 or a failure."""
+    """Our report, positions and processor seconds of the whole process for one problem; exit status 0 or a failure."""
     positions, report = folder / "x.txt", folder / "r.json"
     command = [program, "solve", problem, "-o", positions, "--report", report, "--method", method]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode not in (0, 4):
-        raise RuntimeError(done.stderr.strip())
-    return json.loads(report.read_text()), positions
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    error = child.stderr.read()
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode not in (0, 4):
+        raise RuntimeError(error.strip())
+    return json.loads(report.read_text()), positions, usage.ru_utime + usage.ru_stime
 
 
 def mean_edge(problem):
@@ -72,16 +76,16 @@ def main():
     if arguments.names:
         cases = [c for c in cases if any(name in c["name"] for name in arguments.names)]
     ratios, inverted, missed, above, solved = [], [], [], [], []
-    print("problem | elements | it | fact | s (set-up) | energy | residual | inverted | theirs: it | fact | s | energy | s ratio | remark")
+    print("problem | elements | it | fact | CPU s | energy | residual | inverted | theirs: it | fact | CPU s | energy | ratio | remark")
     with tempfile.TemporaryDirectory() as folder:
         for case in cases:
             problem = arguments.reference / case["problem"]
-            report, positions = solve(arguments.unwrapd, problem, arguments.method, Path(folder))
+            report, positions, seconds = solve(arguments.unwrapd, problem, arguments.method, Path(folder))
             checked = subprocess.run([sys.executable, arguments.checker, problem, positions], capture_output=True, text=True)
             ours = json.loads(checked.stdout)
             faults, energy, excess = judged(case, ours, report, 1e-8 * mean_edge(problem) ** 2)
             theirs = case["cpu_init_s"] + case["cpu_loop_s"]
-            ratio = theirs / report["solve_seconds"]
+            ratio = theirs / seconds
             if theirs > 0.1:
                 ratios.append(ratio)
             if "INVERTED" in faults:
@@ -93,7 +97,7 @@ def main():
             if "energy above" in faults:
                 above.append(f"{case['name']} {100 * excess:+.1f} %")
             print(f"{case['name']} | {case['elements']} | {report['iterations']} | {report['factorizations']} | "
-                  f"{report['solve_seconds']:.3f} ({report['setup_seconds']:.3f}) | {energy:.6g} ({100 * excess:+.2f} %) | "
+                  f"{seconds:.3f} | {energy:.6g} ({100 * excess:+.2f} %) | "
                   f"{ours['pos_err_sq']:.1e} | {ours['flips']} | {case['iterations']} | {case['n_factor']} | {theirs:.3f} | "
                   f"{case['E_total'] if case['barrier'] != 'none' else case['E_def']:.6g} | {ratio:.1f} | "
                   f"{', '.join(faults) or report['status']} [{case['compare']}]", flush=True)
@@ -101,7 +105,7 @@ def main():
     print(f"\n{len(cases)} problems; inverted: {inverted or 'none'}; energy more than 1 % above: {above or 'none'}; "
           f"targets missed: {missed or 'none'}; solved {len(solved)} of the {unsolved} that the authors' code leaves unsolved")
     if ratios:
-        print(f"seconds, theirs over ours, where theirs are above 0.1: median {statistics.median(ratios):.1f} of {len(ratios)}")
+        print(f"processor seconds, theirs (set-up and iterations) over ours (the whole process), where theirs are above 0.1: median {statistics.median(ratios):.1f} of {len(ratios)}")
     return 1 if inverted or any(rule != "unsolved" for _, rule in missed) else 0
 
 

@@ -1,7 +1,7 @@
 //! Barriers: derivatives, domain.
 
 use unwrapd::barrier::{
-    Barrier, BarrierKind, InverseSpline, MapEnergy, NoBarrier, epsilon, map_energy,
+    Barrier, BarrierKind, Bounded, InverseSpline, MapEnergy, NoBarrier, epsilon, map_energy,
 };
 use unwrapd::energy::{Arap, EnergyKind, Guard, Lscm, SymmetricDirichlet, Zero};
 
@@ -52,6 +52,18 @@ fn taylor_every_barrier_on_every_density() {
         assert_space_taylor(Arap, guard);
         assert_space_taylor(SymmetricDirichlet, guard);
         assert_space_taylor(Zero, guard);
+    }
+}
+
+#[test]
+fn taylor_bounded() {
+    for bound in [2.5, 4.0, 100.0] {
+        let density = Bounded {
+            density: Box::new(Arap),
+            bound,
+            beta: 0.3,
+        };
+        assert_plane_taylor(density, Barrier::NONE);
     }
 }
 

@@ -4,7 +4,9 @@ use std::cell::Cell;
 
 use unwrapd::barrier::{Barrier, BarrierKind};
 use unwrapd::deform::{Body, BodyElements, DeformationEnergy, Handle, Model, Problem};
+use unwrapd::energy::RestShape;
 use unwrapd::mesh::{PlanarMesh, TetMesh};
+use unwrapd::numerics::square::{Square, times, transposed};
 use unwrapd::solver::{Control, Handles, Iterate, LevenbergSettings, Path, Settings, Status};
 
 const ENERGIES: [DeformationEnergy; 10] = [
@@ -78,6 +80,7 @@ fn problem(
             s: 1.0,
             epsilon: 1e-4 * smallest,
         },
+        bound: None,
         stations: vec![Handles {
             vertices: vertices.to_vec(),
             targets,
@@ -261,6 +264,56 @@ fn targets_out_of_reach_end_in_a_valid_map() {
 }
 
 #[test]
+fn a_weaker_barrier_costs_less_and_none_least() {
+    let problem = bent_strip(1.0, DeformationEnergy::Green, BarrierKind::InverseSpline);
+    let settings = Settings::follow();
+    let strong = problem.solve(&settings, &go_on).expect("a planar energy");
+    let weak = problem
+        .with_weaker_barrier(strong.clone(), &settings, &go_on)
+        .expect("a planar energy");
+    let free = problem
+        .energy_without_barrier(&weak, &settings, &go_on)
+        .expect("a planar energy");
+    assert!(weak.worth.energy < strong.worth.energy);
+    assert!(free <= weak.worth.energy * (1.0 + 1e-6));
+    assert_eq!(weak.worth.inverted, 0);
+}
+
+#[test]
+fn conformal_distortion_stays_below_its_bound() {
+    let worst = |problem: &Problem, x: &[f64]| {
+        let BodyElements::Triangles { corners, rest } = &problem.body.elements else {
+            unreachable!("a strip");
+        };
+        let distortion = |(t, shape): (&[u32; 3], &RestShape)| {
+            let [a, b, c] = t.map(|v| [x[2 * v as usize], x[2 * v as usize + 1]]);
+            let edges = [b, c].map(|p| [p[0] - a[0], p[1] - a[1]]);
+            let j = times(&transposed(&edges), &shape.inverse);
+            let [s, t] = j.singular_values(j.det());
+            s / t
+        };
+        corners.iter().zip(rest).map(distortion).fold(1.0, f64::max)
+    };
+    let mut problem = bent_strip(1.0, DeformationEnergy::Arap, BarrierKind::InverseSpline);
+    let free = problem
+        .solve(&Settings::follow(), &go_on)
+        .expect("a planar energy");
+    let unbounded = worst(&problem, &free.x);
+    let bound = 0.8 * unbounded;
+    problem.bound = Some(bound);
+    let bounded = problem
+        .solve(&Settings::follow(), &go_on)
+        .expect("a planar energy");
+    assert_eq!(bounded.summary.status, Status::Converged);
+    assert!(bounded.worth.residual < 1e-24);
+    assert!(
+        worst(&problem, &bounded.x) < bound,
+        "{bound} of {unbounded}"
+    );
+    assert!(bounded.worth.energy > free.worth.energy);
+}
+
+#[test]
 fn groups_are_connected_by_elements() {
     let body = Body::from(&strip(8, 1.0));
     let groups = body.groups(&[0, 1, 12, 26, 25]);
@@ -328,6 +381,7 @@ const ARAP: Model = Model {
     barrier: BarrierKind::InverseSpline,
     beta: None,
     s: 1.0,
+    bound: None,
 };
 
 #[test]

@@ -4,9 +4,9 @@ use faer::{Mat, Side};
 use proptest::prelude::*;
 use unwrapd::barrier::{Barrier, BarrierKind, NoBarrier};
 use unwrapd::energy::{
-    Amips, Arap, Assembly, Density, FrozenArap, Green, Lscm, Mips, Modes, NeoHookean, RestShape,
-    StVenantKirchhoff, SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero, biharmonic,
-    dirichlet, uniform_biharmonic, voronoi_areas,
+    Amips, Arap, Assembly, Density, FrozenArap, Green, Lscm, Mips, Modes, NeoHookean, Positional,
+    RestShape, StVenantKirchhoff, SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero,
+    biharmonic, dirichlet, uniform_biharmonic, voronoi_areas,
 };
 use unwrapd::numerics::block::BlockPattern;
 use unwrapd::numerics::square::{Matrix, Square, times, transposed};
@@ -128,6 +128,17 @@ fn taylor_densities_in_space() {
     assert_space_taylor(RUBBER, Barrier::NONE);
     assert_space_taylor(Mips, Barrier::NONE);
     assert_space_taylor(Amips { s: 1.5 }, Barrier::NONE);
+}
+
+#[test]
+fn taylor_positional() {
+    let points = Positional {
+        dim: 2,
+        rows: vec![vec![(0, 1.0)], vec![(1, 0.2), (2, 0.5), (3, 0.3)]],
+        targets: vec![0.4, 0.1, -0.3, 0.8],
+        alpha: 1.7,
+    };
+    assert_term_taylor(&points, &PLANE, &PLANE_WAY);
 }
 
 #[test]

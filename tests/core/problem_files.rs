@@ -100,7 +100,7 @@ fn solutions_are_minimizers_of_the_function_of_the_file() {
         );
         let terms = problem
             .energy
-            .terms(&problem.body, problem.barrier)
+            .terms(&problem.body, problem.barrier, None)
             .expect("planar");
         let mut objective = Objective::of_terms(problem.body.n_vertices(), terms);
         objective.fix(&problem.stations[0].vertices);
