@@ -36,20 +36,6 @@ pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
     })
 }
 
-/// The format of a document by the extension of its name.
-pub(super) fn output_format(path: &Path) -> Result<OutputFormat, Failure> {
-    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    match extension.to_str() {
-        Some("glb") => Ok(OutputFormat::Glb),
-        Some("gltf") => Ok(OutputFormat::Gltf),
-        Some("obj") => Ok(OutputFormat::Obj),
-        _ => Err(Failure::usage(format!(
-            "{}: OUT must end in .glb, .gltf or .obj",
-            path.display()
-        ))),
-    }
-}
-
 /// Writes the files of a result: the main one at `path`, the others beside it. Each is written whole under another
 /// name and then moved into place, the main one last, so that an interruption leaves no half-written file.
 pub(super) fn write_outputs(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Failure> {
@@ -93,4 +79,18 @@ pub(super) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Failure>
 /// Indented JSON.
 pub(super) fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
     serde_json::to_vec_pretty(value).map_err(|error| Failure::other(error.to_string()))
+}
+
+/// The format of a mesh to write, by the extension of its name.
+pub(super) fn output_format(path: &Path) -> Result<OutputFormat, Failure> {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match extension.to_str() {
+        Some("glb") => Ok(OutputFormat::Glb),
+        Some("gltf") => Ok(OutputFormat::Gltf),
+        Some("obj") => Ok(OutputFormat::Obj),
+        _ => Err(Failure::usage(format!(
+            "{}: OUT must end in .glb, .gltf or .obj",
+            path.display()
+        ))),
+    }
 }

@@ -29,7 +29,7 @@ pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
 pub use space_map::SpaceMap;
 pub use upload::Upload;
-pub use uvs::{NewUvs, OutputFormat, WriteOptions, Written};
+pub use uvs::{Corners, Layout, NewUvs, OutputFormat, WriteOptions, Written};
 
 /// A file as it was read.
 pub enum Document {

@@ -6,7 +6,8 @@ use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, CagedSurface, Embedding};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
 use crate::document::{
-    Document, DocumentError, GroupBy, NewUvs, OutputFormat, SpaceMap, Upload, WriteOptions, Written,
+    Document, DocumentError, GroupBy, Layout, NewUvs, OutputFormat, SpaceMap, Upload, WriteOptions,
+    Written,
 };
 use serde::Serialize;
 
@@ -111,7 +112,8 @@ impl CagedDocument {
             overwrite: false,
         };
         let no_uvs = NewUvs {
-            grid_bits: 0,
+            layout: Layout::Edited,
+            v_axis: moved.v_axis(),
             corners: vec![None; moved.primitives().len()],
         };
         let report = CageReport {

@@ -1,6 +1,8 @@
 //! Why a mesh could not be unwrapped.
 
 use crate::atlas::AtlasError;
+#[cfg(feature = "files")]
+use crate::deform::EditError;
 use crate::deform::ProblemError;
 use crate::deform::cage::CageError;
 #[cfg(feature = "files")]
@@ -52,6 +54,10 @@ pub enum PipelineError {
     #[cfg(feature = "files")]
     #[error("a face is flipped or degenerate in the bytes that were to be written")]
     NotCertified,
+    /// The UVs cannot be edited.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Edit(#[from] EditError),
     /// The worker threads could not be started.
     #[error("cannot start worker threads: {0}")]
     Threads(String),
@@ -67,6 +73,8 @@ impl PipelineError {
             Self::Mesh(MeshError::TooLarge) | Self::TooManyTriangles { .. } => "limit_exceeded",
             #[cfg(feature = "files")]
             Self::Document(error) => error.code(),
+            #[cfg(feature = "files")]
+            Self::Edit(error) => error.code(),
             Self::NoTriangles => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
@@ -89,7 +97,7 @@ impl PipelineError {
             | Self::Problem(_)
             | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
-            Self::Document(_) => 3,
+            Self::Document(_) | Self::Edit(_) => 3,
             Self::Atlas(_) => 4,
             #[cfg(feature = "files")]
             Self::NotCertified => 4,

@@ -33,7 +33,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("picture", &["measure"], &["image", "rayon"]),
     (
         "deform",
-        &["solver", "picture"],
+        &["embed", "picture"],
         &["spade", "kurbo", "roxmltree", "serde_json"],
     ),
     (

@@ -2,7 +2,7 @@
 use super::build::{Builder, parts};
 use super::{files, options, reread, shared, upload};
 use serde_json::{Value, json};
-use unwrapd::document::{Document, NewUvs, OutputFormat, SpaceMap, Upload, Written};
+use unwrapd::document::{Document, Layout, NewUvs, OutputFormat, SpaceMap, Upload, Written};
 
 /// A quarter turn about z, exact in f32, and then a step along x.
 struct QuarterTurn;
@@ -32,7 +32,8 @@ impl SpaceMap for QuarterTurn {
 
 fn write(document: &Document, format: OutputFormat) -> Written {
     let no_uvs = NewUvs {
-        grid_bits: 0,
+        layout: Layout::Edited,
+        v_axis: document.v_axis(),
         corners: vec![None; document.primitives().len()],
     };
     document.write(&no_uvs, &options(format)).unwrap()
