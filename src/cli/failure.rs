@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use crate::deform::ProblemError;
 use crate::deform::outline::OutlineError;
+use crate::deform::{EditError, ProblemError, WarpError};
 use crate::mesh::ElementError;
 use crate::mesh::io::ReadError;
 use crate::picture::ImageError;
@@ -81,5 +81,7 @@ input_errors!(
     ReadError,
     ElementError,
     OutlineError,
-    ImageError
+    ImageError,
+    WarpError,
+    EditError
 );

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use crate::document::{Upload, gltf};
+use crate::document::{OutputFormat, Upload, gltf};
 
 /// Reads a file.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
@@ -79,4 +79,18 @@ pub(super) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Failure>
 /// Indented JSON.
 pub(super) fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
     serde_json::to_vec_pretty(value).map_err(|error| Failure::other(error.to_string()))
+}
+
+/// The format of a mesh to write, by the extension of its name.
+pub(super) fn output_format(path: &Path) -> Result<OutputFormat, Failure> {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match extension.to_str() {
+        Some("glb") => Ok(OutputFormat::Glb),
+        Some("gltf") => Ok(OutputFormat::Gltf),
+        Some("obj") => Ok(OutputFormat::Obj),
+        _ => Err(Failure::usage(format!(
+            "{}: OUT must end in .glb, .gltf or .obj",
+            path.display()
+        ))),
+    }
 }

@@ -4,6 +4,7 @@
 //! 1 anything else.
 
 mod deform;
+mod edit_uv;
 mod failure;
 mod files;
 mod health;
@@ -15,6 +16,7 @@ mod solution;
 mod solve;
 mod trace;
 mod unwrap;
+mod warp;
 mod words;
 
 use std::io::Write;
@@ -45,6 +47,12 @@ enum Command {
     Deform(deform::Args),
     /// Solve a problem file: handles pulled to targets, no element inverted
     Solve(solve::Args),
+    /// Warp a picture by handles without folding it
+    Warp(warp::Args),
+    /// Move anchors of a file's UVs, no face flipped
+    EditUv(edit_uv::EditArgs),
+    /// Align points of a surface with points of a texture, no face flipped
+    TextureMap(edit_uv::TextureArgs),
     /// Run the HTTP service
     Serve(Box<serve::Args>),
     /// Print the OpenAPI document of the service
@@ -67,6 +75,9 @@ pub fn run() -> ExitCode {
         Command::Verify(args) => measure::verify(&args),
         Command::Deform(args) => deform::run(&args),
         Command::Solve(args) => solve::run(&args),
+        Command::Warp(args) => warp::run(&args),
+        Command::EditUv(args) => edit_uv::edit(&args),
+        Command::TextureMap(args) => edit_uv::texture_map(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Openapi => writeln!(std::io::stdout(), "{}", crate::http::openapi())
             .map_err(|error| Failure::other(error.to_string())),

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::files::{json, read_upload, write_atomically, write_outputs};
+use super::files::{json, output_format, read_upload, write_atomically, write_outputs};
 use super::progress::Display;
 use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, word};
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
-use crate::document::{GroupBy, OutputFormat};
+use crate::document::GroupBy;
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{self, Limits, Options, Outcome};
@@ -87,31 +87,13 @@ impl Args {
             threads: self.threads,
             time_budget: self.time_budget,
             heatmap_measure: self.heatmap_measure,
-            format: self.format()?,
+            format: output_format(&self.output)?,
             stem: self
                 .output
                 .file_stem()
                 .map(|stem| stem.to_string_lossy().into_owned()),
             limits: Limits::default(),
         })
-    }
-
-    fn format(&self) -> Result<OutputFormat, Failure> {
-        let extension = self
-            .output
-            .extension()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_ascii_lowercase();
-        match extension.as_str() {
-            "glb" => Ok(OutputFormat::Glb),
-            "gltf" => Ok(OutputFormat::Gltf),
-            "obj" => Ok(OutputFormat::Obj),
-            _ => Err(Failure::usage(format!(
-                "{}: OUT must end in .glb, .gltf or .obj",
-                self.output.display()
-            ))),
-        }
     }
 }
 

@@ -25,6 +25,8 @@ pub(super) const BARRIERS: &[&str] = &[
     "neo-hookean",
     "none",
 ];
+pub(super) const UV_BOUNDARIES: &[&str] = &["free", "fixed"];
+pub(super) const UV_RESTS: &[&str] = &["present", "surface"];
 pub(super) const METHODS: &[&str] = &["projected", "levenberg"];
 pub(super) const CUTS: &[&str] = &["auto", "disk"];
 pub(super) const GROUPS: &[&str] = &["mesh", "scene", "material", "primitive"];

@@ -3,7 +3,7 @@
 use crate::energy::{RestShape, voronoi_areas};
 use crate::mesh::{PlanarMesh, TetMesh};
 use crate::numerics::square::Square;
-use crate::numerics::vec2::doubled_area;
+use crate::numerics::vec2::{doubled_area, sub};
 use crate::numerics::vec3;
 
 /// A body in the plane or in space: rest positions and elements with their rest shapes.
@@ -36,22 +36,7 @@ pub enum BodyElements {
 
 impl From<&PlanarMesh> for Body {
     fn from(mesh: &PlanarMesh) -> Self {
-        let place = |v: u32| {
-            let [x, y] = mesh.vertices()[v as usize];
-            [x, y, 0.0]
-        };
-        let shape = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(place);
-            let edge = |p: [f64; 3]| [p[0] - a[0], p[1] - a[1]];
-            RestShape::from_edges(edge(b), edge(c))
-        };
-        Self {
-            rest: mesh.vertices().as_flattened().to_vec(),
-            elements: BodyElements::Triangles {
-                rest: mesh.triangles().iter().map(shape).collect(),
-                corners: mesh.triangles().to_vec(),
-            },
-        }
+        Self::planar(mesh.vertices(), mesh.triangles())
     }
 }
 
@@ -73,6 +58,21 @@ impl From<&TetMesh> for Body {
 }
 
 impl Body {
+    /// Counter-clockwise triangles of the plane.
+    pub(super) fn planar(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> Self {
+        let shape = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| vertices[v as usize]);
+            RestShape::from_edges(sub(b, a), sub(c, a))
+        };
+        Self {
+            rest: vertices.as_flattened().to_vec(),
+            elements: BodyElements::Triangles {
+                rest: triangles.iter().map(shape).collect(),
+                corners: triangles.to_vec(),
+            },
+        }
+    }
+
     /// A surface whose triangles are laid flat one by one; its rest positions are the first two coordinates. Of a triangle
     /// without an area the index is the error.
     pub fn flattened(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, usize> {

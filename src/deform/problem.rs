@@ -41,6 +41,18 @@ pub struct Model {
     pub bound: Option<f64>,
 }
 
+impl Default for Model {
+    fn default() -> Self {
+        Self {
+            energy: DeformationEnergy::default(),
+            barrier: BarrierKind::default(),
+            beta: None,
+            s: 1.0,
+            bound: None,
+        }
+    }
+}
+
 impl Model {
     /// The barrier with its numbers; ε is the paper's share, 1e-4 as its authors have it, of the smallest element unless
     /// given.

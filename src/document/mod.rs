@@ -26,7 +26,7 @@ pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
 pub use upload::Upload;
-pub use uvs::{NewUvs, OutputFormat, WriteOptions, Written};
+pub use uvs::{Corners, Layout, NewUvs, OutputFormat, WriteOptions, Written};
 
 /// A file as it was read.
 pub enum Document {

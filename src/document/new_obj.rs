@@ -4,6 +4,7 @@ use super::{
     DocumentError, NewUvs, Primitive, PrimitiveNote, TangentsNote, WriteNotes, WriteOptions,
     Written,
 };
+use crate::measure::VAxis;
 use std::io::Write as _;
 
 /// Writes all primitives, each as a group of its mesh's object, with the names that groups have in reports. Materials
@@ -15,12 +16,13 @@ pub(super) fn write(
 ) -> Result<Written, DocumentError> {
     only_set(options)?;
     let mut text = Vec::new();
-    let mut lines = TexcoordLines::new(uvs.grid_bits);
+    let mut lines = TexcoordLines::default();
     let mut faces = Vec::new();
     let mut notes = WriteNotes::default();
     let mut first_vertex = 1;
     let mut mesh = None;
-    for (primitive, corners) in primitives.iter().zip(&uvs.corners) {
+    for (index, primitive) in primitives.iter().enumerate() {
+        let corners = uvs.toward(index, VAxis::Up);
         for position in &primitive.positions {
             let [x, y, z] = position.map(decimal);
             let _ = writeln!(text, "v {x} {y} {z}");
@@ -37,13 +39,13 @@ pub(super) fn write(
         if let Some(material) = primitive.material {
             let _ = writeln!(faces, "usemtl material{material}");
         }
-        for (index, face) in primitive.triangles.iter().enumerate() {
+        for (f, face) in primitive.triangles.iter().enumerate() {
             faces.push(b'f');
             for (k, &vertex) in face.iter().enumerate() {
                 let vertex = vertex + first_vertex;
-                let _ = match corners {
+                let _ = match &corners {
                     Some(corners) => {
-                        let number = lines.number(vertex, corners[index][k], "\n");
+                        let number = lines.number(vertex, corners[f][k], "\n");
                         write!(faces, " {vertex}/{number}")
                     }
                     None => write!(faces, " {vertex}"),

@@ -5,9 +5,12 @@
 //! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along its
 //! diagonals, as a corner of a polygon has one UV.
 use super::obj_text::rewrite;
-use super::{DocumentError, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written};
+use super::{
+    DocumentError, Layout, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
+};
 use super::{new_gltf, new_obj};
 use crate::certificate::CornerUvs;
+use crate::measure::VAxis;
 use crate::mesh::io::{self, Format};
 use std::collections::BTreeMap;
 
@@ -74,14 +77,14 @@ impl ObjDocument {
         }
         new_obj::only_set(options)?;
         let mut notes = super::WriteNotes::default();
-        let text = match uvs.corners[0] {
+        let text = match uvs.toward(0, VAxis::Up) {
             Some(corners) => {
                 let had_uvs = !self.obj.texcoords.is_empty();
                 notes
                     .primitives
                     .push(new_obj::note(&self.primitives[0], had_uvs));
-                let rewritten = rewrite(&self.bytes, &self.obj, uvs.grid_bits, corners);
-                if had_uvs {
+                let rewritten = rewrite(&self.bytes, &self.obj, &corners);
+                if had_uvs && uvs.layout == Layout::New {
                     let remark =
                         "the UVs of the file were replaced: textures made for them need a re-bake";
                     notes.remarks.push(remark.to_owned());

@@ -1,10 +1,8 @@
 //! An OBJ text with new texture coordinates.
 use super::texcoord_lines::{TexcoordLines, decimal};
+use super::uvs::Corners;
 use crate::mesh::io::obj::{Corner, Obj, Statement, statements};
 use std::io::Write as _;
-
-/// Grid coordinates of the corners of each triangle.
-type GridCorners = [[i32; 2]; 3];
 
 /// The text, and how many polygons had to be split.
 pub(super) struct Rewritten {
@@ -16,9 +14,9 @@ pub(super) struct Rewritten {
 ///
 /// The new `vt` lines stand before the first face. Positions keep their text where it says what was read, f32 by f32;
 /// otherwise ([`decimal`]) the text is that of the f32, so that vertices that are one here are one for every reader.
-pub(super) fn rewrite(bytes: &[u8], obj: &Obj, grid_bits: u32, uvs: &[GridCorners]) -> Rewritten {
+pub(super) fn rewrite(bytes: &[u8], obj: &Obj, uvs: &[Corners]) -> Rewritten {
     let line_end = line_end(bytes);
-    let mut lines = TexcoordLines::new(grid_bits);
+    let mut lines = TexcoordLines::default();
     let mut faces = Faces::new(obj, uvs, &mut lines, line_end);
     let mut texcoords = std::mem::take(&mut lines.text);
     let mut text = Vec::with_capacity(bytes.len() + texcoords.len());
@@ -130,7 +128,7 @@ struct Faces<'a> {
 impl<'a> Faces<'a> {
     fn new(
         obj: &'a Obj,
-        uvs: &[GridCorners],
+        uvs: &[Corners],
         lines: &mut TexcoordLines,
         line_end: &'static str,
     ) -> Self {

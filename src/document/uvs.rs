@@ -1,40 +1,64 @@
 use super::{DocumentError, Primitive, WriteNotes};
+use crate::measure::VAxis;
 use serde::{Deserialize, Serialize};
 
-/// A new UV set on the integer grid.
+/// The UVs of each face's three corners.
+pub type Corners = [[f32; 2]; 3];
+
+/// A UV set to write.
 #[derive(Debug, Clone)]
-pub struct NewUvs<'a> {
-    /// k: a coordinate i stands for i / 2ᵏ; at most 23, so that f32 holds it exactly.
-    pub grid_bits: u32,
-    /// Per primitive of the document the grid coordinates of each corner of each face, v up; `None` where the
-    /// primitive takes no part.
-    pub corners: Vec<Option<&'a [[[i32; 2]; 3]]>>,
+pub struct NewUvs {
+    /// What it has to do with the set that it replaces.
+    pub layout: Layout,
+    /// Where v points in these numbers; 1 − v is written where the file's points the other way.
+    pub v_axis: VAxis,
+    /// Per primitive of the document the UVs of each corner of each face; `None` where the primitive takes no part.
+    pub corners: Vec<Option<Vec<Corners>>>,
 }
 
-impl NewUvs<'_> {
-    /// Whether there is one entry per primitive, one corner triple per face, and an exact f32 for each coordinate.
+/// What a UV set has to do with the one that it replaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layout {
+    /// Nothing: textures that sampled the old one need a re-bake, and their transforms are taken off.
+    New,
+    /// It is the old one, edited: textures stay where they are.
+    Edited,
+}
+
+impl NewUvs {
+    /// Whether there is one entry per primitive and one corner triple per face, all finite and in a new layout in the unit square.
     pub(super) fn check(&self, primitives: &[Primitive]) -> Result<(), DocumentError> {
-        let fits = self.grid_bits <= 23
-            && self.corners.len() == primitives.len()
+        let fits = self.corners.len() == primitives.len()
             && self
                 .corners
                 .iter()
                 .zip(primitives)
                 .all(|(corners, primitive)| {
-                    corners.is_none_or(|corners| corners.len() == primitive.triangles.len())
+                    corners
+                        .as_ref()
+                        .is_none_or(|corners| corners.len() == primitive.triangles.len())
                 });
-        let range = 0..=(1 << self.grid_bits.min(23));
-        let on_grid = self
-            .corners
-            .iter()
-            .flatten()
-            .flat_map(|corners| corners.iter().flatten().flatten())
-            .all(|coordinate| range.contains(coordinate));
-        if fits && on_grid {
+        let is_possible = |x: &f32| match self.layout {
+            Layout::New => (0.0..=1.0).contains(x),
+            Layout::Edited => x.is_finite(),
+        };
+        let mut corners = self.corners.iter().flatten();
+        if fits && corners.all(|c| c.as_flattened().as_flattened().iter().all(is_possible)) {
             Ok(())
         } else {
             Err(DocumentError::InvalidUvs)
         }
+    }
+
+    /// The UVs of a primitive with v pointing as asked; 1 − v is exact for multiples of 2⁻²³ in the unit square.
+    pub(super) fn toward(&self, primitive: usize, v_axis: VAxis) -> Option<Vec<Corners>> {
+        let corners = self.corners[primitive].as_ref()?;
+        let turned = |[u, v]: [f32; 2]| {
+            // No −0, so that equal UVs have equal bits.
+            let v = if self.v_axis == v_axis { v } else { 1.0 - v };
+            [u + 0.0, v + 0.0]
+        };
+        Some(corners.iter().map(|face| face.map(turned)).collect())
     }
 }
 

@@ -1,7 +1,7 @@
 //! From a file's bytes to a file's bytes: read, unwrap, write, read again, judge.
 
 use super::PipelineError;
-use super::arrays::{Soup, Unwrapped, in_pool, unwrap_all};
+use super::arrays::{GridCorners, Soup, Unwrapped, in_pool, unwrap_all};
 use super::judge::WrittenUvs;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
@@ -10,8 +10,10 @@ use super::report::{AtlasReport, GroupReport, Report, Seconds};
 use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
 use crate::document::{
-    Document, Group, GroupBy, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
+    Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Primitive, Upload,
+    WriteOptions, Written,
 };
+use crate::measure::VAxis;
 
 /// Everything that comes out of unwrapping a document.
 #[derive(Clone, Debug)]
@@ -146,7 +148,7 @@ fn write(
         let mut rest = atlas.grid.as_slice();
         for &index in &group.primitives {
             let (own, others) = rest.split_at(primitives[index].triangles.len());
-            corners[index] = Some(own);
+            corners[index] = Some(own.iter().map(from_grid).collect());
             rest = others;
         }
     }
@@ -158,15 +160,21 @@ fn write(
     };
     Ok(document.write(
         &NewUvs {
-            grid_bits: GRID_BITS,
+            layout: Layout::New,
+            v_axis: VAxis::Up,
             corners,
         },
         &options,
     )?)
 }
 
+/// Exact in f32.
+fn from_grid(corners: &GridCorners) -> Corners {
+    corners.map(|uv| uv.map(|i| i as f32 / (1_u32 << GRID_BITS) as f32))
+}
+
 /// The file name without folders and extension.
-fn stem(name: &str) -> String {
+pub(super) fn stem(name: &str) -> String {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     if stem.is_empty() {

@@ -2,6 +2,8 @@
 
 use crate::atlas::AtlasError;
 #[cfg(feature = "files")]
+use crate::deform::EditError;
+#[cfg(feature = "files")]
 use crate::document::DocumentError;
 use crate::mesh::MeshError;
 
@@ -44,6 +46,10 @@ pub enum PipelineError {
     #[cfg(feature = "files")]
     #[error("a face is flipped or degenerate in the bytes that were to be written")]
     NotCertified,
+    /// The UVs cannot be edited.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Edit(#[from] EditError),
     /// The worker threads could not be started.
     #[error("cannot start worker threads: {0}")]
     Threads(String),
@@ -59,6 +65,8 @@ impl PipelineError {
             Self::Mesh(MeshError::TooLarge) | Self::TooManyTriangles { .. } => "limit_exceeded",
             #[cfg(feature = "files")]
             Self::Document(error) => error.code(),
+            #[cfg(feature = "files")]
+            Self::Edit(error) => error.code(),
             Self::NoTriangles => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
             Self::Atlas(_) => "no_valid_result",
@@ -77,7 +85,7 @@ impl PipelineError {
             | Self::NoTriangles
             | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
-            Self::Document(_) => 3,
+            Self::Document(_) | Self::Edit(_) => 3,
             Self::Atlas(_) => 4,
             #[cfg(feature = "files")]
             Self::NotCertified => 4,

@@ -3,7 +3,7 @@
 //! [`unwrap`] takes plain arrays: it welds, cuts, maps every chart and packs. [`unwrap_document`] takes a file's bytes:
 //! it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and the
 //! certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same for
-//! UVs that a file already has.
+//! UVs that a file already has; [`edit_document`] changes them.
 //!
 //! The work runs on a thread pool of its own. Charts of all groups share one queue, largest first; each is mapped by
 //! one thread, so the result does not depend on their number.
@@ -17,6 +17,8 @@ mod repeated;
 
 #[cfg(feature = "files")]
 mod documents;
+#[cfg(feature = "files")]
+mod edit;
 #[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]
@@ -33,6 +35,8 @@ pub use options::Settings;
 
 #[cfg(feature = "files")]
 pub use documents::{Outcome, unwrap_document};
+#[cfg(feature = "files")]
+pub use edit::{ChartEditReport, EditOptions, EditReport, EditedDocument, edit_document};
 #[cfg(feature = "files")]
 pub use judge::{measure_document, verify_document};
 #[cfg(feature = "files")]

@@ -33,12 +33,12 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("picture", &["measure"], &["image", "rayon"]),
     (
         "deform",
-        &["solver", "picture"],
+        &["embed", "picture"],
         &["spade", "kurbo", "roxmltree", "serde_json"],
     ),
     (
         "pipeline",
-        &["charts", "atlas", "document", "picture"],
+        &["charts", "atlas", "document", "deform"],
         &["serde_json", "rayon"],
     ),
     (

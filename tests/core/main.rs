@@ -27,11 +27,14 @@ mod obj_document;
 mod outline;
 #[cfg(feature = "files")]
 mod picture;
+#[cfg(feature = "files")]
+mod picture_warp;
 mod pipeline;
 #[cfg(feature = "files")]
 mod problem_files;
 mod solver;
 mod taylor;
+mod uv_editing;
 mod uv_meshes;
 #[cfg(feature = "files")]
 mod warp;

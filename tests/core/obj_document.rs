@@ -1,7 +1,7 @@
 //! OBJ written back, and new glTF and OBJ files for what came without a document.
 use std::collections::BTreeMap;
 use unwrapd::document::{
-    Document, GroupBy, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
+    Document, GroupBy, Layout, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
 };
 use unwrapd::measure::VAxis;
 use unwrapd::mesh::io::obj;
@@ -40,11 +40,18 @@ fn per_corner(primitive: &Primitive) -> GridFaces {
         .collect()
 }
 
+fn new_uvs(faces: &GridFaces) -> NewUvs {
+    let unit = |i: i32| i as f32 / (1_u32 << BITS) as f32;
+    let faces = faces.iter().map(|face| face.map(|uv| uv.map(unit)));
+    NewUvs {
+        layout: Layout::New,
+        v_axis: VAxis::Up,
+        corners: vec![Some(faces.collect())],
+    }
+}
+
 fn write(document: &Document, faces: &GridFaces, format: OutputFormat) -> Written {
-    let uvs = NewUvs {
-        grid_bits: BITS,
-        corners: vec![Some(faces)],
-    };
+    let uvs = new_uvs(faces);
     document.write(&uvs, &options(format)).unwrap()
 }
 
@@ -180,10 +187,7 @@ fn material_files_come_along() {
 fn obj_has_one_uv_set_and_one_group() {
     let document = read("scene.obj", SCENE);
     let faces = per_vertex(&document.primitives()[0]);
-    let uvs = NewUvs {
-        grid_bits: BITS,
-        corners: vec![Some(&faces)],
-    };
+    let uvs = new_uvs(&faces);
     let mut options = options(OutputFormat::Obj);
     options.texcoord = Some(1);
     assert_eq!(

@@ -229,3 +229,103 @@ fn a_problem_file_is_solved_by_both_methods() {
     let unknown = unwrapd(&["solve", &path("p.json"), "-o", &path("x.xyz")]);
     assert_status(&unknown, 2);
 }
+
+#[test]
+fn a_picture_is_warped_and_proven() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let picture = asset("pictures/spot.png").to_string_lossy().into_owned();
+    let warp = |handles: &str, more: &[&str]| {
+        std::fs::write(path("h.json"), handles).expect("a file");
+        let (handles, output, report) = (path("h.json"), path("out.png"), path("r.json"));
+        let arguments = [
+            "warp",
+            &picture,
+            "--handles",
+            &handles,
+            "-o",
+            &output,
+            "--report",
+            &report,
+        ];
+        let run = unwrapd(&[&arguments[..], more].concat());
+        let text = std::fs::read(&report).unwrap_or_default();
+        let report: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
+        (run, report)
+    };
+    let pulled = r#"{"handles": [{"at": [300, 300], "to": [500, 400]}, {"at": [900, 400], "to": [800, 200]}]}"#;
+    let (run, report) = warp(pulled, &["--fix-border"]);
+    assert_status(&run, 0);
+    assert_eq!(report["bijective"], true);
+    assert_eq!(report["status"], "converged");
+    assert_eq!(report["residual"], 0.0);
+    let bytes = std::fs::read(path("out.png")).expect("a picture");
+    assert!(bytes.starts_with(b"\x89PNG"));
+
+    // Two places change: without a barrier the picture folds.
+    let crossed = r#"{"handles": [{"at": [500, 300], "to": [800, 300]}, {"at": [800, 300], "to": [500, 300]}]}"#;
+    let (run, report) = warp(crossed, &["--fix-border", "--grid=20", "--barrier=none"]);
+    assert_status(&run, 4);
+    assert_eq!(report["bijective"], false);
+    let (run, report) = warp(crossed, &["--fix-border", "--grid=20"]);
+    assert_status(&run, 0);
+    assert_eq!(report["bijective"], true);
+
+    for (handles, more, words) in [
+        ("{}", "--grid=8", "malformed_handles"),
+        (r#"{"handles": []}"#, "--grid=8", "handle_count"),
+        (crossed, "--beta=-1", "bad_parameter"),
+        (crossed, "--grid=1000", "invalid_setting"),
+    ] {
+        let (run, _) = warp(handles, &[more]);
+        assert_status(&run, 3);
+        assert!(last_error(&run).contains(words), "{}", last_error(&run));
+    }
+}
+
+#[test]
+fn uvs_of_a_file_are_edited_and_proven() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let spot = asset("spot.ply").to_string_lossy().into_owned();
+    let report = |name: &str| -> serde_json::Value {
+        let text = std::fs::read(path(name)).expect("a report");
+        serde_json::from_slice(&text).expect("JSON")
+    };
+    // Anchors as far apart as UVs are, whatever the atlas looks like.
+    let anchors = r#"{"anchors": [{"at": [0.2, 0.2], "to": [0.21, 0.22]}, {"at": [0.7, 0.7], "to": [0.68, 0.7]}]}"#;
+    std::fs::write(path("a.json"), anchors).expect("a file");
+    for (first, second) in [("a.glb", "b.glb"), ("a.obj", "b.obj"), ("a.glb", "c.obj")] {
+        let (first, second) = (path(first), path(second));
+        assert_status(&unwrapd(&["unwrap", &spot, "-o", &first]), 0);
+        for command in [["edit-uv", "--anchors"], ["texture-map", "--points"]] {
+            let [command, option] = command;
+            let run = unwrapd(&[
+                command,
+                &first,
+                "-o",
+                &second,
+                option,
+                &path("a.json"),
+                "--boundary=free",
+                "--report",
+                &path("r.json"),
+            ]);
+            assert_status(&run, 0);
+            assert_eq!(report("r.json")["certified"], true);
+            assert_eq!(report("r.json")["charts"][0]["inverted"], 0);
+            assert_status(&unwrapd(&["verify", &second]), 0);
+        }
+    }
+    for (text, input, words) in [
+        ("{}", path("a.glb"), "malformed_anchors"),
+        (r#"{"anchors": []}"#, path("a.glb"), "anchor_count"),
+        (anchors, spot.clone(), "no_uvs"),
+    ] {
+        std::fs::write(path("a.json"), text).expect("a file");
+        let (anchors, output) = (path("a.json"), path("d.glb"));
+        let run = unwrapd(&["edit-uv", &input, "-o", &output, "--anchors", &anchors]);
+        assert_status(&run, 3);
+        assert!(last_error(&run).contains(words), "{}", last_error(&run));
+    }
+}

@@ -6,37 +6,18 @@ use super::split::split;
 use super::tangents::{CornerTangents, corner_tangents};
 use super::texcoord_set::Choice;
 use super::vertices::{NewIndices, gather_vertices, push_floats, write_indices};
-use crate::document::{DocumentError, PrimitiveNote, TangentsNote};
+use crate::document::{Corners, DocumentError, PrimitiveNote, TangentsNote};
 use serde_json::{Value, json};
 
-/// What must agree for corners to share a vertex: grid coordinates, and the bits of the tangent where it is new.
-type Key = ([i32; 2], [u32; 4]);
+/// What must agree for corners to share a vertex: the bits of the UV, and of the tangent where it is new.
+type Key = ([u32; 2], [u32; 4]);
 
-/// The UVs of one primitive.
-#[derive(Clone, Copy)]
-pub(super) struct PrimitiveUvs<'a> {
-    pub grid_bits: u32,
-    pub corners: &'a [[[i32; 2]; 3]],
-}
-
-impl PrimitiveUvs<'_> {
-    /// i / 2ᵏ, exact in f32.
-    fn stored(&self, coordinate: i32) -> f32 {
-        coordinate as f32 / (1u32 << self.grid_bits) as f32
-    }
-
-    /// u and v as glTF stores them: v points down.
-    fn texcoord(&self, [u, v]: [i32; 2]) -> [f32; 2] {
-        [self.stored(u), self.stored((1 << self.grid_bits) - v)]
-    }
-}
-
-/// Writes the UVs of primitive `index` into `body`, a copy of the document's.
+/// Writes the UVs of primitive `index`, v down, into `body`, a copy of the document's.
 pub(super) fn rewrite(
     document: &GltfDocument,
     body: &mut Body,
     index: usize,
-    uvs: PrimitiveUvs,
+    uvs: &[Corners],
     choice: &Choice,
 ) -> Result<PrimitiveNote, DocumentError> {
     let primitive = &document.primitives[index];
@@ -44,7 +25,7 @@ pub(super) fn rewrite(
     let split = split(
         primitive.positions.len(),
         &primitive.triangles,
-        &keys(uvs.corners, tangents.as_deref()),
+        &keys(uvs, tangents.as_deref()),
     );
     let mut changed = document.object(primitive)?.clone();
     drop_stale(&mut changed, choice, tangents_note)?;
@@ -76,7 +57,7 @@ pub(super) fn rewrite(
         gather_vertices(document, body, &mut changed, &gather)?;
     }
     let texcoords = split.keys.iter().flat_map(|key| match key {
-        Some((uv, _)) => uvs.texcoord(*uv),
+        Some((bits, _)) => bits.map(f32::from_bits),
         None => [0.0; 2],
     });
     let n_vertices = split.keys.len();
@@ -101,7 +82,7 @@ pub(super) fn rewrite(
 fn new_tangents(
     document: &GltfDocument,
     index: usize,
-    uvs: PrimitiveUvs,
+    uvs: &[Corners],
     choice: &Choice,
 ) -> Result<(Option<Vec<CornerTangents>>, TangentsNote), DocumentError> {
     let object = document.object(&document.primitives[index])?;
@@ -109,10 +90,8 @@ fn new_tangents(
     if !has_tangents || !choice.had_normal_map {
         return Ok((None, TangentsNote::Untouched));
     }
-    let upward: Vec<[[f32; 2]; 3]> = uvs
-        .corners
-        .iter()
-        .map(|corners| corners.map(|uv| uv.map(|coordinate| uvs.stored(coordinate))))
+    let upward: Vec<Corners> = (uvs.iter())
+        .map(|face| face.map(|[u, v]| [u, 1.0 - v]))
         .collect();
     let tangents = corner_tangents(document, index, &upward)?;
     let note = match tangents {
@@ -122,10 +101,10 @@ fn new_tangents(
     Ok((tangents, note))
 }
 
-fn keys(corners: &[[[i32; 2]; 3]], tangents: Option<&[CornerTangents]>) -> Vec<[Key; 3]> {
+fn keys(corners: &[Corners], tangents: Option<&[CornerTangents]>) -> Vec<[Key; 3]> {
     let key = |face: usize, corner: usize| {
         let tangent = tangents.map_or([0; 4], |tangents| tangents[face][corner].map(f32::to_bits));
-        (corners[face][corner], tangent)
+        (corners[face][corner].map(f32::to_bits), tangent)
     };
     (0..corners.len())
         .map(|face| std::array::from_fn(|corner| key(face, corner)))

@@ -1,7 +1,7 @@
 //! Which `TEXCOORD_n` the new UVs go to.
 use super::GltfDocument;
 use super::textures::{MaterialTextures, SetMask, materials};
-use crate::document::{DocumentError, NewUvs, WriteOptions};
+use crate::document::{DocumentError, Layout, NewUvs, WriteOptions};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ pub(super) fn choose(
     }
     let mut choices: Vec<Option<Choice>> = document.primitives.iter().map(|_| None).collect();
     for candidates in meshes.into_values() {
-        let set = set_for(&candidates, options)?;
+        let set = set_for(&candidates, uvs.layout, options)?;
         for candidate in candidates {
             let had_set = has(candidate.present, set);
             choices[candidate.index] = Some(Choice {
@@ -97,16 +97,21 @@ fn candidate(
     Ok(candidate)
 }
 
-fn set_for(candidates: &[Candidate], options: &WriteOptions) -> Result<u32, DocumentError> {
+fn set_for(
+    candidates: &[Candidate],
+    layout: Layout,
+    options: &WriteOptions,
+) -> Result<u32, DocumentError> {
+    let overwrite = options.overwrite || layout == Layout::Edited;
     let present = candidates.iter().fold(0, |mask, c| mask | c.present);
     let in_use = candidates
         .iter()
         .fold(0, |mask, c| mask | (c.present & c.sampled));
-    match options.texcoord.or(options.overwrite.then_some(0)) {
+    match options.texcoord.or(overwrite.then_some(0)) {
         Some(set) if set > MAX_SET => Err(DocumentError::LimitExceeded(format!(
             "TEXCOORD_{set}: sets go up to {MAX_SET}"
         ))),
-        Some(set) if options.overwrite || !has(in_use, set) => Ok(set),
+        Some(set) if overwrite || !has(in_use, set) => Ok(set),
         Some(set) => Err(DocumentError::TexcoordInUse(set)),
         None if !has(in_use, 0) => Ok(0),
         None => (1..=MAX_SET)

@@ -1,11 +1,14 @@
 //! The document with a new UV set, as files.
 use super::body::Body;
 use super::json::{item_mut, remove_extension};
-use super::rewrite::{PrimitiveUvs, rewrite};
+use super::rewrite::rewrite;
 use super::texcoord_set::{self, Choice, Textures};
 use super::textures::{affected, remove_transform};
 use super::{GltfDocument, extensions, glb, images, primitives, uri};
-use crate::document::{DocumentError, NewUvs, OutputFormat, WriteNotes, WriteOptions, Written};
+use crate::document::{
+    DocumentError, Layout, NewUvs, OutputFormat, WriteNotes, WriteOptions, Written,
+};
+use crate::measure::VAxis;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -25,15 +28,11 @@ pub(super) fn write(
         ..WriteNotes::default()
     };
     for (index, choice) in choices.iter().enumerate() {
-        let (Some(choice), Some(corners)) = (choice, uvs.corners[index]) else {
+        let (Some(choice), Some(corners)) = (choice, uvs.toward(index, VAxis::Down)) else {
             continue;
         };
         let primitive = &document.primitives[index];
-        let uvs = PrimitiveUvs {
-            grid_bits: uvs.grid_bits,
-            corners,
-        };
-        let note = rewrite(document, &mut body, index, uvs, choice)
+        let note = rewrite(document, &mut body, index, &corners, choice)
             .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
         notes.primitives.push(note);
         if !choice.missing.is_empty() {
@@ -43,7 +42,9 @@ pub(super) fn write(
             ));
         }
     }
-    release_textures(&mut body.json, &choices, &textures, &mut notes);
+    if uvs.layout == Layout::New {
+        release_textures(&mut body.json, &choices, &textures, &mut notes);
+    }
     drop_manifold(&mut body.json, &mut notes)?;
     let gone = ["KHR_texture_transform", MANIFOLD];
     let gone: Vec<&str> = gone

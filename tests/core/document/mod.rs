@@ -8,7 +8,8 @@ mod validator;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use unwrapd::document::{Document, NewUvs, OutputFormat, Upload, WriteOptions, Written};
+use unwrapd::document::{Document, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written};
+use unwrapd::measure::VAxis;
 
 /// The folder of shared meshes; `None`, with the reason printed, where it is not there.
 pub fn shared(folder: &str) -> Option<PathBuf> {
@@ -86,10 +87,17 @@ pub fn grid_uvs(document: &Document, bits: u32, period: usize) -> Vec<Vec<[[i32;
     primitives.map(|p| faces(&p.triangles)).collect()
 }
 
-pub fn new_uvs(grid: &[Vec<[[i32; 2]; 3]>], bits: u32) -> NewUvs<'_> {
+/// Grid coordinates in units of 2⁻ᵏ for k = `bits`, v up.
+pub fn new_uvs(grid: &[Vec<[[i32; 2]; 3]>], bits: u32) -> NewUvs {
+    let unit = |i: i32| i as f32 / (1_u32 << bits) as f32;
+    let corners = |faces: &Vec<[[i32; 2]; 3]>| {
+        let faces = faces.iter().map(|face| face.map(|uv| uv.map(unit)));
+        Some(faces.collect())
+    };
     NewUvs {
-        grid_bits: bits,
-        corners: grid.iter().map(|faces| Some(faces.as_slice())).collect(),
+        layout: Layout::New,
+        v_axis: VAxis::Up,
+        corners: grid.iter().map(corners).collect(),
     }
 }
 

@@ -1,0 +1,97 @@
+//! `unwrapd edit-uv` and `unwrapd texture-map`: UVs pulled by anchors.
+
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use super::files::{json, output_format, read_file, read_upload, write_atomically, write_outputs};
+use super::warp::{ModelArgs, print_pull};
+use super::words::{UV_BOUNDARIES, UV_RESTS, word};
+use crate::deform::{UvBoundary, UvEditOptions, UvRest, parse_anchors};
+use crate::pipeline::{EditOptions, Limits, edit_document};
+use crate::solver::{Control, Iterate};
+
+/// Moves anchors of a UV map, everything else as it is as far as possible and no triangle flipped.
+#[derive(clap::Args)]
+pub(super) struct EditArgs {
+    /// Anchors in the numbers of the file (glTF: v down): {"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": …}, …]};
+    /// `at` means the nearest vertex, whose target is shifted by the same offset
+    #[arg(long, value_name = "A.json")]
+    anchors: PathBuf,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Aligns points of a surface with points of a texture: `edit-uv` with boundaries fixed and the surface's shapes kept.
+#[derive(clap::Args)]
+pub(super) struct TextureArgs {
+    /// Points, as the anchors of `edit-uv`: {"points": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": …}, …]}
+    #[arg(long, value_name = "P.json")]
+    points: PathBuf,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(clap::Args)]
+struct Common {
+    /// Mesh with UVs: .glb, .gltf or .obj
+    input: PathBuf,
+    /// Where to write; .glb, .gltf or .obj decides the format
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// UV set
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    texcoord: u32,
+    /// Whether the boundaries of charts stay [default: free for edit-uv, fixed for texture-map]
+    #[arg(long, value_parser = word::<UvBoundary>(UV_BOUNDARIES))]
+    boundary: Option<UvBoundary>,
+    /// Which shapes of triangles to keep [default: present for edit-uv, surface for texture-map]
+    #[arg(long, value_parser = word::<UvRest>(UV_RESTS))]
+    rest: Option<UvRest>,
+    #[command(flatten)]
+    model: ModelArgs,
+    /// Write a JSON report: per chart status, iterations, energy, residual, what is proven
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+}
+
+/// Runs `edit-uv`.
+pub(super) fn edit(args: &EditArgs) -> Result<(), Failure> {
+    run(&args.common, &args.anchors, UvEditOptions::edit())
+}
+
+/// Runs `texture-map`.
+pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
+    run(&args.common, &args.points, UvEditOptions::texture())
+}
+
+/// Exit 4 if a chart with an anchor is not proven to be without flips.
+fn run(args: &Common, anchors: &Path, default: UvEditOptions) -> Result<(), Failure> {
+    let options = EditOptions {
+        texcoord: args.texcoord,
+        edit: UvEditOptions {
+            boundary: args.boundary.unwrap_or(default.boundary),
+            rest: args.rest.unwrap_or(default.rest),
+            model: args.model.model(),
+        },
+        format: output_format(&args.output)?,
+        stem: (args.output.file_stem()).map(|stem| stem.to_string_lossy().into_owned()),
+        limits: Limits::default(),
+    };
+    let anchors = parse_anchors(&read_file(anchors)?)?;
+    let upload = read_upload(&args.input)?;
+    let go_on = |_: &Iterate| Control::Continue;
+    let edited = edit_document(&upload, &anchors, &options, &go_on)?;
+    write_outputs(&args.output, &edited.files)?;
+    if let Some(path) = &args.report {
+        write_atomically(path, &json(&edited.report)?)?;
+    }
+    for chart in &edited.report.charts {
+        print!("chart {}: ", chart.chart);
+        print_pull(&chart.map);
+    }
+    if edited.report.certified {
+        Ok(())
+    } else {
+        Err(Failure::uncertified("a chart is not valid"))
+    }
+}

@@ -1,0 +1,126 @@
+//! Vertices of UV maps and where they go.
+
+use serde::Deserialize;
+
+use super::edit_error::EditError;
+use super::parameterization::UvMesh;
+use super::uv_chart::UvVertices;
+use crate::certificate::UvTopology;
+
+/// Anchors at most: each is compared with every vertex.
+pub(super) const MOST_ANCHORS: usize = 1000;
+/// UVs at most; no texture repeats that often.
+const FARTHEST: f64 = 1e6;
+
+/// A vertex of a UV map and where it goes, in the numbers of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Anchor {
+    /// A vertex of the mesh, which must have one UV.
+    Vertex {
+        /// Its index, from 0.
+        vertex: u32,
+        /// Its new UV.
+        to: [f64; 2],
+    },
+    /// The vertex nearest to a UV; its target is shifted by its offset from there.
+    Place {
+        /// A UV.
+        at: [f64; 2],
+        /// Where it goes.
+        to: [f64; 2],
+    },
+}
+
+/// Reads `{"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": [u, v]}, …]}`; `points` is another name of `anchors`.
+#[cfg(feature = "files")]
+pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        #[serde(alias = "points")]
+        anchors: Vec<Anchor>,
+    }
+    let file: File =
+        serde_json::from_slice(json).map_err(|error| EditError::Malformed(error.to_string()))?;
+    Ok(file.anchors)
+}
+
+/// An anchor with its vertex of the UV map.
+pub(super) struct Held {
+    /// Which anchor.
+    pub anchor: usize,
+    pub vertex: u32,
+    pub to: [f64; 2],
+}
+
+/// The vertices that anchors hold, each once.
+pub(super) fn hold(
+    mesh: &UvMesh,
+    topology: &UvTopology,
+    vertices: &UvVertices,
+    anchors: &[Anchor],
+) -> Result<Vec<Held>, EditError> {
+    if !(1..=MOST_ANCHORS).contains(&anchors.len()) {
+        return Err(EditError::AnchorCount(anchors.len()));
+    }
+    let mut held: Vec<Held> = Vec::with_capacity(anchors.len());
+    for (anchor, which) in anchors.iter().enumerate() {
+        let (at, to) = match *which {
+            Anchor::Vertex { to, .. } => ([0.0; 2], to),
+            Anchor::Place { at, to } => (at, to),
+        };
+        if !at.iter().chain(&to).all(|x| x.abs() <= FARTHEST) {
+            return Err(EditError::OutOfRange(anchor));
+        }
+        let held_one = match *which {
+            Anchor::Vertex { vertex, to } => {
+                let vertex = only_vertex(mesh, topology, vertices, (anchor, vertex))?;
+                Held { anchor, vertex, to }
+            }
+            Anchor::Place { at, to } => {
+                let nearest = nearest_vertex(topology, vertices, at);
+                let (vertex, uv) = nearest.ok_or(EditError::UnknownVertex(anchor))?;
+                let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
+                Held { anchor, vertex, to }
+            }
+        };
+        match held.iter().find(|other| other.vertex == held_one.vertex) {
+            None => held.push(held_one),
+            Some(same) if same.to == held_one.to => {}
+            Some(other) => return Err(EditError::Contradictory(other.anchor, anchor)),
+        }
+    }
+    Ok(held)
+}
+
+/// The vertex of the UV map that a vertex of the mesh is.
+fn only_vertex(
+    mesh: &UvMesh,
+    topology: &UvTopology,
+    vertices: &UvVertices,
+    (anchor, vertex): (usize, u32),
+) -> Result<u32, EditError> {
+    let corners = mesh.triangles.as_flattened().iter().enumerate();
+    let mut found = corners
+        .filter(|&(corner, &v)| v == vertex && !topology.unusable[corner / 3])
+        .map(|(corner, _)| vertices.of_corner[corner]);
+    let first = found.next().ok_or(EditError::UnknownVertex(anchor))?;
+    if found.any(|other| other != first) {
+        return Err(EditError::AmbiguousVertex(anchor));
+    }
+    Ok(first)
+}
+
+/// The vertex nearest to a UV and its own UV; the first of equally near ones.
+fn nearest_vertex(
+    topology: &UvTopology,
+    vertices: &UvVertices,
+    at: [f64; 2],
+) -> Option<(u32, [f64; 2])> {
+    let usable = (0..vertices.first_corner.len() as u32)
+        .filter(|&v| !topology.unusable[vertices.first_corner[v as usize] as usize / 3])
+        .map(|v| (v, vertices.uv(topology, v)));
+    let distance = |uv: [f64; 2]| (uv[0] - at[0]).hypot(uv[1] - at[1]);
+    usable.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
+}

@@ -1,0 +1,222 @@
+//! UV maps edited by anchors.
+//!
+//! Two uses, one function: [`UvEditOptions::edit`] keeps a map as it is but for what anchors pull (the paper's figure 16),
+//! [`UvEditOptions::texture`] aligns points of a surface with points of a texture at the least distortion of the surface (figure
+//! 17). They differ in the shapes that are kept and in whether boundaries stay. Either starts from the present UVs, which
+//! must be without flips, and never passes through one.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::anchors::{Anchor, Held, hold};
+use super::body::{Body, BodyElements};
+use super::edit_error::EditError;
+use super::problem::Model;
+use super::pull::{Holds, PullReport, boundary_vertices, pull};
+use super::uv_chart::{ChartFaces, UvChart, UvVertices};
+use crate::certificate::{CornerUvs, UvTopology};
+use crate::embed::rest_shapes;
+use crate::mesh::PlanarMesh;
+use crate::solver::Watch;
+
+/// What becomes of the boundary of a chart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum UvBoundary {
+    /// It follows the anchors.
+    #[default]
+    Free,
+    /// It stays; a chart that does not overlap itself will not afterwards.
+    Fixed,
+}
+
+/// Which shape of a triangle is without distortion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum UvRest {
+    /// The one it has: where nothing pulls, nothing moves.
+    #[default]
+    Present,
+    /// The one it has on the surface, scaled so that the chart keeps its area.
+    Surface,
+}
+
+/// How UVs are edited.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct UvEditOptions {
+    /// The boundaries.
+    pub boundary: UvBoundary,
+    /// The shapes to keep.
+    pub rest: UvRest,
+    /// What is minimized, for a mean triangle of area 1.
+    pub model: Model,
+}
+
+impl UvEditOptions {
+    /// Keeps the present shapes, boundaries free.
+    pub fn edit() -> Self {
+        Self::default()
+    }
+
+    /// Keeps the shapes of the surface, boundaries fixed.
+    pub fn texture() -> Self {
+        Self {
+            boundary: UvBoundary::Fixed,
+            rest: UvRest::Surface,
+            ..Self::default()
+        }
+    }
+}
+
+/// A mesh with UVs, one per face corner.
+#[derive(Clone, Copy, Debug)]
+pub struct UvMesh<'a> {
+    /// Positions in space.
+    pub positions: &'a [[f64; 3]],
+    /// Three vertices each.
+    pub triangles: &'a [[u32; 3]],
+    /// The UVs of each face's corners.
+    pub uvs: &'a [CornerUvs],
+}
+
+/// Edited UVs.
+#[derive(Clone, Debug)]
+pub struct EditedUvs {
+    /// The UVs of each face's corners.
+    pub uvs: Vec<CornerUvs>,
+    /// The charts that have anchors.
+    pub charts: Vec<EditedChart>,
+}
+
+/// What happened to a chart.
+#[derive(Clone, Debug)]
+pub struct EditedChart {
+    /// Its number among the charts of the mesh, in the order of their first faces.
+    pub chart: u32,
+    /// Its faces.
+    pub faces: ChartFaces,
+    /// What the map is worth.
+    pub report: PullReport,
+}
+
+/// Pulls anchors to their targets, every triangle of their charts positive at every iterate. Other charts keep their UVs, bit
+/// by bit, and so does every vertex that does not move.
+///
+/// Charts are found as [`certify`](crate::certificate::certify) finds them.
+pub fn edit_uvs(
+    mesh: &UvMesh,
+    anchors: &[Anchor],
+    options: &UvEditOptions,
+    watch: &dyn Watch,
+) -> Result<EditedUvs, EditError> {
+    let topology = UvTopology::new(mesh.positions, mesh.triangles, mesh.uvs);
+    let vertices = UvVertices::new(&topology);
+    let mut held: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
+    for anchor in hold(mesh, &topology, &vertices, anchors)? {
+        let chart = vertices.chart(&topology, anchor.vertex);
+        held.entry(chart).or_default().push(anchor);
+    }
+    let is_judged = |face: usize| !topology.unusable[face] && !topology.repeats_position(face);
+    let positive = topology.chart_orientations(is_judged);
+    let mut edited = EditedUvs {
+        uvs: mesh.uvs.to_vec(),
+        charts: Vec::new(),
+    };
+    let mut moved: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
+    for (number, held) in held {
+        let chart = UvChart::new(&topology, &vertices, number, positive[number as usize])?;
+        let (uvs, report) = edit_chart(&chart, &held, options, watch)?;
+        let changed = (0..uvs.len()).filter(|&v| uvs[v] != chart.uvs[v]);
+        moved.extend(changed.map(|v| (chart.vertices[v], uvs[v])));
+        edited.charts.push(EditedChart {
+            chart: number,
+            faces: chart.faces,
+            report,
+        });
+    }
+    let corners = edited.uvs.as_flattened_mut().iter_mut();
+    for (corner, vertex) in corners.zip(&vertices.of_corner) {
+        if let Some(uv) = moved.get(vertex) {
+            *corner = *uv;
+        }
+    }
+    Ok(edited)
+}
+
+/// The UVs of a chart's vertices after its anchors were pulled.
+fn edit_chart(
+    chart: &UvChart,
+    held: &[Held],
+    options: &UvEditOptions,
+    watch: &dyn Watch,
+) -> Result<(Vec<[f64; 2]>, PullReport), EditError> {
+    let planar = PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
+    let fixed = match options.boundary {
+        UvBoundary::Free => Vec::new(),
+        UvBoundary::Fixed => boundary_vertices(&planar),
+    };
+    let mut pulled = Vec::with_capacity(held.len());
+    for Held { anchor, vertex, to } in held {
+        // The vertex of a face left out of its chart is not there.
+        let local = chart.vertices.binary_search(vertex);
+        let local = local.map_err(|_| EditError::UnknownVertex(*anchor))?;
+        if fixed.binary_search(&(local as u32)).is_ok() {
+            if chart.uvs[local] != *to {
+                return Err(EditError::OnBoundary(*anchor));
+            }
+        } else {
+            pulled.push((local as u32, *to));
+        }
+    }
+    let (body, start, unit) = body(chart, options.rest);
+    let targets = pulled.iter().map(|&(v, to)| (v, to.map(|x| x / unit)));
+    let holds = Holds {
+        fixed,
+        pulled: targets.collect(),
+    };
+    let result = pull(body, &start, &holds, (&options.model, unit), watch)?;
+    // What did not move, and what arrived, is not rounded.
+    let uv = |v: usize| {
+        if result.vertices[v] == start[v] {
+            chart.uvs[v]
+        } else {
+            result.vertices[v].map(|x| x * unit)
+        }
+    };
+    let mut uvs: Vec<[f64; 2]> = (0..start.len()).map(uv).collect();
+    for (&(v, to), (_, target)) in pulled.iter().zip(&holds.pulled) {
+        if result.vertices[v as usize] == *target {
+            uvs[v as usize] = to;
+        }
+    }
+    Ok((uvs, result.report))
+}
+
+/// The chart as a body of mean rest area 1, its present UVs in that unit, and the unit.
+fn body(chart: &UvChart, rest: UvRest) -> (Body, Vec<[f64; 2]>, f64) {
+    let present = || {
+        let flat: Vec<[f64; 3]> = chart.uvs.iter().map(|&[u, v]| [u, v, 0.0]).collect();
+        rest_shapes(&flat, &chart.triangles)
+    };
+    let (shapes, unit) = match rest {
+        UvRest::Present => {
+            let shapes = present();
+            let unit = shapes.scale;
+            (shapes, unit)
+        }
+        UvRest::Surface => (
+            rest_shapes(&chart.positions, &chart.triangles),
+            present().scale,
+        ),
+    };
+    let start: Vec<[f64; 2]> = chart.uvs.iter().map(|p| p.map(|x| x / unit)).collect();
+    let body = Body {
+        rest: start.as_flattened().to_vec(),
+        elements: BodyElements::Triangles {
+            corners: chart.triangles.clone(),
+            rest: shapes.shapes,
+        },
+    };
+    (body, start, unit)
+}

@@ -1,0 +1,227 @@
+//! A picture pulled by handles.
+
+use serde::{Deserialize, Serialize};
+
+use super::body::Body;
+use super::problem::Model;
+use super::problem_error::ProblemError;
+use super::pull::{Holds, PullReport, boundary_vertices, pull};
+use super::warp::{GridError, picture_grid};
+use crate::mesh::PlanarMesh;
+use crate::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
+use crate::solver::Watch;
+
+/// Handles at most: each is compared with every vertex of the grid.
+const MOST_HANDLES: usize = 1000;
+/// Coordinates of targets at most, in pixels.
+const FARTHEST: f64 = 1e9;
+
+/// What becomes of the border of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Border {
+    /// It follows the handles; the result shows all of the warped picture.
+    #[default]
+    Free,
+    /// It stays, so that no two places of the picture can come to lie on each other; the result is as large as the picture.
+    Fixed,
+}
+
+/// How a picture is warped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WarpOptions {
+    /// Cells along the longer side, 1 to 512.
+    pub grid: usize,
+    /// The border.
+    pub border: Border,
+    /// What is minimized, for a mean triangle of an area from ½ to 2.
+    pub model: Model,
+}
+
+impl Default for WarpOptions {
+    fn default() -> Self {
+        Self {
+            grid: 40,
+            border: Border::Free,
+            model: Model::default(),
+        }
+    }
+}
+
+/// A place of a picture and where it goes, in pixels, (0, 0) the upper left corner, y down.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PictureHandle {
+    /// A place in the picture.
+    pub at: [f64; 2],
+    /// Where it goes.
+    pub to: [f64; 2],
+}
+
+/// Reads `{"handles": [{"at": [x, y], "to": [x, y]}, …]}`.
+pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        handles: Vec<PictureHandle>,
+    }
+    let file: File =
+        serde_json::from_slice(json).map_err(|error| WarpError::Malformed(error.to_string()))?;
+    Ok(file.handles)
+}
+
+/// Why a picture cannot be warped.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum WarpError {
+    /// The file is not a list of handles.
+    #[error("the handles: {0}")]
+    Malformed(String),
+    /// There is nothing to pull, or more than is possible.
+    #[error("{0} handles; 1 to {MOST_HANDLES} are possible")]
+    HandleCount(usize),
+    /// A handle is not in the picture, or its target is not a position.
+    #[error("handle {0} is not in the picture, or its target is beyond 1e9 pixels")]
+    OutOfRange(usize),
+    /// All vertices of the grid are on its border, which is fixed.
+    #[error("the grid has no vertex inside its border")]
+    NothingInside,
+    /// There is no such grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The picture cannot be read or is too large afterwards.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// The handles contradict each other, or a number is out of range.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+}
+
+impl WarpError {
+    /// Stable name of the cause, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed(_) => "malformed_handles",
+            Self::HandleCount(_) => "handle_count",
+            Self::OutOfRange(_) => "handle_out_of_range",
+            Self::NothingInside => "grid_too_coarse",
+            Self::Grid(error) => error.code(),
+            Self::Image(error) => error.code(),
+            Self::Problem(error) => error.code(),
+        }
+    }
+}
+
+/// A warped picture and the map that it was warped by.
+#[derive(Clone, Debug)]
+pub struct PictureWarp {
+    /// The picture.
+    pub picture: Warped,
+    /// The grid on the original, in pixels, y down.
+    pub grid: PlanarMesh,
+    /// Its vertices afterwards.
+    pub deformed: Vec<[f64; 2]>,
+    /// What the map is worth.
+    pub report: PullReport,
+}
+
+/// Warps a picture: a grid over it is deformed without inverting a triangle, the handles going to their targets.
+///
+/// A handle takes hold of the nearest vertex of the grid (inside a fixed border: the nearest inner one), whose target is the
+/// handle's shifted by the same offset. Handles that share a vertex must agree. Targets that cannot be reached end in
+/// [`Status::TargetsUnreachable`](crate::solver::Status::TargetsUnreachable) with a map that is valid all the same.
+pub fn warp_picture(
+    image: &Image,
+    handles: &[PictureHandle],
+    options: &WarpOptions,
+    watch: &dyn Watch,
+) -> Result<PictureWarp, WarpError> {
+    let grid = picture_grid(image.width, image.height, options.grid)?;
+    let (deformed, report) = warp_grid(&grid, handles, options, watch)?;
+    let deformation = Deformation {
+        rest: grid.vertices(),
+        deformed: &deformed,
+        triangles: grid.triangles(),
+    };
+    let extent = match options.border {
+        Border::Free => Extent::Mesh,
+        Border::Fixed => Extent::Source,
+    };
+    Ok(PictureWarp {
+        picture: warped(image, &deformation, extent)?,
+        grid,
+        deformed,
+        report,
+    })
+}
+
+/// Where the vertices of a picture's grid go.
+fn warp_grid(
+    grid: &PlanarMesh,
+    handles: &[PictureHandle],
+    options: &WarpOptions,
+    watch: &dyn Watch,
+) -> Result<(Vec<[f64; 2]>, PullReport), WarpError> {
+    let bound = bind(grid, handles, options.border)?;
+    // A power of two, so that nothing is rounded on the way there and back.
+    let unit = mean_area(grid).sqrt().log2().round().exp2();
+    let to_unit = |p: [f64; 2]| p.map(|x| x / unit);
+    let scaled: Vec<[f64; 2]> = grid.vertices().iter().map(|&p| to_unit(p)).collect();
+    let body = Body::planar(&scaled, grid.triangles());
+    let holds = Holds {
+        fixed: bound.fixed,
+        pulled: (bound.pulled.iter())
+            .map(|&(v, to)| (v, to_unit(to)))
+            .collect(),
+    };
+    let pulled = pull(body, &scaled, &holds, (&options.model, unit), watch)?;
+    let deformed = pulled.vertices.iter().map(|p| p.map(|x| x * unit));
+    Ok((deformed.collect(), pulled.report))
+}
+
+fn mean_area(grid: &PlanarMesh) -> f64 {
+    let size = grid.vertices().last().map_or(1.0, |p| p[0] * p[1]);
+    size / grid.triangles().len() as f64
+}
+
+/// The vertices of the grid that handles take hold of, and those of a fixed border; in pixels.
+fn bind(grid: &PlanarMesh, handles: &[PictureHandle], border: Border) -> Result<Holds, WarpError> {
+    if !(1..=MOST_HANDLES).contains(&handles.len()) {
+        return Err(WarpError::HandleCount(handles.len()));
+    }
+    let fixed = match border {
+        Border::Free => Vec::new(),
+        Border::Fixed => boundary_vertices(grid),
+    };
+    let mut is_free = vec![true; grid.vertices().len()];
+    for &v in &fixed {
+        is_free[v as usize] = false;
+    }
+    let size = grid.vertices().last().copied().unwrap_or_default();
+    let bind = |(index, handle): (usize, &PictureHandle)| {
+        let is_inside = (0..2).all(|k| (0.0..=size[k]).contains(&handle.at[k]));
+        if !is_inside || !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
+            return Err(WarpError::OutOfRange(index));
+        }
+        let vertex = nearest(grid.vertices(), &is_free, handle.at);
+        let vertex = vertex.ok_or(WarpError::NothingInside)?;
+        let place = grid.vertices()[vertex as usize];
+        let target = [0, 1].map(|k| handle.to[k] + (place[k] - handle.at[k]));
+        Ok((vertex, target))
+    };
+    let pulled = handles.iter().enumerate().map(bind);
+    Ok(Holds {
+        pulled: pulled.collect::<Result<_, _>>()?,
+        fixed,
+    })
+}
+
+/// The vertex nearest to a point among those that are free; the first of equally near ones.
+fn nearest(vertices: &[[f64; 2]], is_free: &[bool], point: [f64; 2]) -> Option<u32> {
+    let distance = |v: usize| {
+        let [dx, dy] = [0, 1].map(|k| vertices[v][k] - point[k]);
+        dx * dx + dy * dy
+    };
+    let free = (0..vertices.len()).filter(|&v| is_free[v]);
+    free.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+        .map(|v| v as u32)
+}

@@ -1,0 +1,132 @@
+//! Vertices of a map of the plane pulled to targets while others stay, and what is proven about the result.
+
+use serde::Serialize;
+
+use super::body::{Body, BodyElements};
+use super::problem::{Model, Problem, handles};
+use super::problem_error::ProblemError;
+use crate::barrier::epsilon;
+use crate::certificate::{PlanarCertificate, certify_planar};
+use crate::mesh::PlanarMesh;
+use crate::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
+
+/// A vertex counts as arrived within this distance of its target, in units of the map, where a mean triangle has area 1; it
+/// is then put on the target exactly.
+const ARRIVED: f64 = 1e-9;
+
+/// What a map that was pulled is worth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PullReport {
+    /// How it ended.
+    pub status: Status,
+    /// Steps taken.
+    pub iterations: usize,
+    /// Matrices factored.
+    pub factorizations: usize,
+    /// The energy without the barrier, for a mean triangle of area 1.
+    pub energy: f64,
+    /// The sum of the squared distances of the vertices from their targets, in the caller's unit.
+    pub residual: f64,
+    /// The smallest area of a triangle over its area at rest.
+    pub smallest: f64,
+    /// Whether every triangle is positive and no two overlap: the certificate's conclusion.
+    pub bijective: bool,
+    /// What is proven about the result by exact predicates.
+    #[serde(flatten)]
+    pub certificate: PlanarCertificate,
+}
+
+/// Vertices of a planar body that stay, and vertices that are pulled.
+pub(super) struct Holds {
+    pub fixed: Vec<u32>,
+    /// Vertices and their targets, in the unit of the body.
+    pub pulled: Vec<(u32, [f64; 2])>,
+}
+
+impl Holds {
+    /// All of them. Those that stay are a group of their own, so that no neighbour's travel moves them on the way.
+    fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
+        let pulled: Vec<u32> = self.pulled.iter().map(|hold| hold.0).collect();
+        let mut groups = vec![0; self.fixed.len()];
+        groups.extend(body.groups(&pulled).into_iter().map(|group| group + 1));
+        let stay = self.fixed.iter().map(|&v| start[v as usize]);
+        let targets = stay.chain(self.pulled.iter().map(|hold| hold.1));
+        let targets: Vec<Vec<f64>> = targets.map(Vec::from).collect();
+        handles(2, &[&self.fixed[..], &pulled].concat(), &targets, &groups)
+    }
+}
+
+/// A map of the plane after it was pulled.
+pub(super) struct Pulled {
+    /// Positions in the unit of the body.
+    pub vertices: Vec<[f64; 2]>,
+    pub report: PullReport,
+}
+
+/// Pulls vertices of a planar body whose mean triangle has area 1 or so; `unit` is its unit of length in the caller's.
+pub(super) fn pull(
+    body: Body,
+    start: &[[f64; 2]],
+    holds: &Holds,
+    (model, unit): (&Model, f64),
+    watch: &dyn Watch,
+) -> Result<Pulled, ProblemError> {
+    let smallest = |sizes: Vec<f64>| sizes.into_iter().fold(f64::INFINITY, f64::min);
+    let epsilon = epsilon(
+        smallest(body.determinants()),
+        smallest(body.determinants_at(start.as_flattened())),
+    );
+    let problem = Problem {
+        start: start.as_flattened().to_vec(),
+        energy: model.energy,
+        bound: model.bound,
+        barrier: model.barrier(&body, Some(epsilon))?,
+        stations: vec![holds.handles(&body, start)?],
+        levenberg: LevenbergSettings::default(),
+        body,
+    };
+    let solution = problem.solve(&Settings::follow(), watch)?;
+    let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
+    arrive(&mut vertices, &problem.stations[0]);
+    let certificate = certify_planar(&vertices, triangles(&problem.body));
+    let worth = problem.worth(vertices.as_flattened());
+    Ok(Pulled {
+        report: PullReport {
+            status: solution.summary.status,
+            iterations: solution.summary.iterations,
+            factorizations: solution.summary.factorizations,
+            energy: worth.energy,
+            residual: worth.residual * unit * unit,
+            smallest: worth.smallest,
+            bijective: certificate.is_bijective(),
+            certificate,
+        },
+        vertices,
+    })
+}
+
+/// Puts vertices that are at their targets but for rounding on them.
+fn arrive(vertices: &mut [[f64; 2]], handles: &Handles) {
+    let targets = handles.targets.as_chunks::<2>().0;
+    for (&v, target) in handles.vertices.iter().zip(targets) {
+        let place = &mut vertices[v as usize];
+        if (0..2).all(|k| (place[k] - target[k]).abs() <= ARRIVED * target[k].abs().max(1.0)) {
+            *place = *target;
+        }
+    }
+}
+
+fn triangles(body: &Body) -> &[[u32; 3]] {
+    match &body.elements {
+        BodyElements::Triangles { corners, .. } => corners,
+        BodyElements::Tetrahedra { .. } => &[],
+    }
+}
+
+/// The vertices of a mesh's boundary, ascending.
+pub(super) fn boundary_vertices(mesh: &PlanarMesh) -> Vec<u32> {
+    let mut boundary: Vec<u32> = mesh.boundary().iter().map(|edge| edge[0]).collect();
+    boundary.sort_unstable();
+    boundary.dedup();
+    boundary
+}

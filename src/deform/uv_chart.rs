@@ -1,0 +1,182 @@
+//! Charts of a UV map as maps of the plane.
+
+use super::edit_error::EditError;
+use crate::certificate::{CornerUvs, PlanarCertificate, Start, UvTopology, certify_planar};
+use crate::mesh::UnionFind;
+use crate::numerics::predicates::orient2d_sign;
+
+/// The vertices of a UV map: corners that lie on each other in space, in UV space and in their chart.
+pub(super) struct UvVertices {
+    /// The vertex of each corner, `3 * face + c`.
+    pub of_corner: Vec<u32>,
+    /// The first corner of each vertex.
+    pub first_corner: Vec<u32>,
+}
+
+impl UvVertices {
+    /// Corners whose UVs agree over an edge, within the tolerance of charts, are one vertex; so are those that agree exactly.
+    pub fn new(topology: &UvTopology) -> Self {
+        let mut sets = UnionFind::new(3 * topology.faces.len());
+        let starts = topology.edges.start.iter().skip(1);
+        for (pair, start) in topology.edges.order.windows(2).zip(starts) {
+            if *start == Start::Same {
+                let (a, b) = (ends(topology, pair[0]), ends(topology, pair[1]));
+                sets.unite(a[0], b[0]);
+                sets.unite(a[1], b[1]);
+            }
+        }
+        let key = |&corner: &u32| {
+            let (face, c) = (corner as usize / 3, corner as usize % 3);
+            let uv = topology.uvs[face][c].map(|x| (x + 0.0).to_bits());
+            (topology.charts.of_face[face], topology.faces[face][c], uv)
+        };
+        let mut corners: Vec<u32> = (0..3 * topology.faces.len() as u32).collect();
+        corners.sort_by_cached_key(key);
+        for pair in corners.windows(2) {
+            if key(&pair[0]) == key(&pair[1]) {
+                sets.unite(pair[0], pair[1]);
+            }
+        }
+        let (of_corner, n_vertices) = sets.labels();
+        let mut first_corner = vec![0; n_vertices];
+        for (corner, &vertex) in of_corner.iter().enumerate().rev() {
+            first_corner[vertex as usize] = corner as u32;
+        }
+        Self {
+            of_corner,
+            first_corner,
+        }
+    }
+
+    /// Where a vertex is.
+    pub fn uv(&self, topology: &UvTopology, vertex: u32) -> [f64; 2] {
+        let corner = self.first_corner[vertex as usize] as usize;
+        topology.uvs[corner / 3][corner % 3]
+    }
+
+    /// The chart that a vertex belongs to.
+    pub fn chart(&self, topology: &UvTopology, vertex: u32) -> u32 {
+        topology.charts.of_face[self.first_corner[vertex as usize] as usize / 3]
+    }
+}
+
+/// The corners of a halfedge, that at the smaller vertex first.
+fn ends(topology: &UvTopology, corner: u32) -> [u32; 2] {
+    let next = corner - corner % 3 + (corner + 1) % 3;
+    if topology.halfedge(corner).forward {
+        [corner, next]
+    } else {
+        [next, corner]
+    }
+}
+
+/// A chart, every triangle counter-clockwise.
+pub(super) struct UvChart {
+    /// The faces of the mesh that the triangles are.
+    pub faces: ChartFaces,
+    /// The vertices of the UV map, ascending.
+    pub vertices: Vec<u32>,
+    /// Their UVs.
+    pub uvs: Vec<[f64; 2]>,
+    /// Their positions in space.
+    pub positions: Vec<[f64; 3]>,
+    /// Indices into `vertices`.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl UvChart {
+    /// The chart of this number, in which `positive` is the orientation of most of its area. Faces that name a position twice
+    /// and have no area in UV space are left out.
+    pub fn new(
+        topology: &UvTopology,
+        uv_vertices: &UvVertices,
+        chart: u32,
+        positive: i8,
+    ) -> Result<Self, EditError> {
+        let faces = (0..topology.faces.len()).filter(|&f| {
+            let is_point = topology.repeats_position(f) && topology.orientation[f] == 0;
+            topology.charts.of_face[f] == chart && !topology.unusable[f] && !is_point
+        });
+        let faces = ChartFaces {
+            faces: faces
+                .map(|f| (f as u32, topology.orientation[f] < 0))
+                .collect(),
+        };
+        if topology.charts.nonorientable[chart as usize] {
+            let face = faces.faces.first().map_or(0, |face| face.0 as usize);
+            return Err(EditError::Nonorientable { face });
+        }
+        let corners: Vec<[u32; 3]> = faces.corners().collect();
+        let vertex = |corner: u32| uv_vertices.of_corner[corner as usize];
+        let mut vertices: Vec<u32> = corners.as_flattened().iter().map(|&c| vertex(c)).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let local = |corner: u32| vertices.partition_point(|&v| v < vertex(corner)) as u32;
+        let space = |&v: &u32| {
+            let corner = uv_vertices.first_corner[v as usize] as usize;
+            topology.points[topology.faces[corner / 3][corner % 3] as usize]
+        };
+        let uv = |&v: &u32| uv_vertices.uv(topology, v);
+        let chart = Self {
+            triangles: corners.iter().map(|c| c.map(local)).collect(),
+            uvs: vertices.iter().map(uv).collect(),
+            positions: vertices.iter().map(space).collect(),
+            vertices,
+            faces,
+        };
+        chart.check(topology, positive)?;
+        Ok(chart)
+    }
+
+    /// Every triangle must be positive, as the file has it and with its vertices joined.
+    fn check(&self, topology: &UvTopology, positive: i8) -> Result<(), EditError> {
+        for (&(face, _), triangle) in self.faces.faces.iter().zip(&self.triangles) {
+            let [a, b, c] = triangle.map(|v| self.uvs[v as usize]);
+            let face = face as usize;
+            if topology.orientation_in_chart(face) != positive || orient2d_sign(a, b, c) <= 0 {
+                return Err(EditError::Flipped { face });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which faces of a mesh form a chart, and which of them have to be turned over to be counter-clockwise in UV space.
+#[derive(Clone, Debug, Default)]
+pub struct ChartFaces {
+    faces: Vec<(u32, bool)>,
+}
+
+impl ChartFaces {
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.faces.is_empty()
+    }
+
+    /// The corners `3 * face + c`, counter-clockwise.
+    fn corners(&self) -> impl Iterator<Item = [u32; 3]> {
+        self.faces.iter().map(|&(face, is_turned)| {
+            let [a, b, c] = [0, 1, 2].map(|c| 3 * face + c);
+            if is_turned { [a, c, b] } else { [a, b, c] }
+        })
+    }
+
+    /// Judges the chart by other numbers for the same faces: those of a file that was written. `flip_v` says whether v points the
+    /// other way in them.
+    pub fn certify(&self, uvs: &[CornerUvs], flip_v: bool) -> PlanarCertificate {
+        let place = |corner: u32| {
+            let [u, v] = uvs[corner as usize / 3][corner as usize % 3];
+            [u, if flip_v { -v } else { v }]
+        };
+        let places: Vec<[f64; 2]> = self.corners().flatten().map(place).collect();
+        let triangles: Vec<[u32; 3]> = (0..self.len() as u32)
+            .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+            .collect();
+        certify_planar(&places, &triangles)
+    }
+}

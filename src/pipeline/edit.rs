@@ -1,0 +1,198 @@
+//! UVs of a document edited by anchors, and judged in the bytes that are written.
+
+use serde::Serialize;
+
+use super::PipelineError;
+use super::arrays::in_pool;
+use super::documents::stem;
+use super::limits::Limits;
+use crate::certificate::CornerUvs;
+use crate::deform::{Anchor, EditedUvs, PullReport, UvEditOptions, UvMesh, UvRest, edit_uvs};
+use crate::document::{
+    Corners, Document, DocumentError, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+};
+use crate::solver::Watch;
+
+/// How the UVs of a document are edited.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EditOptions {
+    /// The UV set, read and written.
+    pub texcoord: u32,
+    /// How.
+    pub edit: UvEditOptions,
+    /// Format of the result.
+    pub format: OutputFormat,
+    /// Name of the written files without extension; the input's if absent.
+    pub stem: Option<String>,
+    /// What may be used.
+    pub limits: Limits,
+}
+
+/// A document with edited UVs.
+#[derive(Clone, Debug)]
+pub struct EditedDocument {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What was done.
+    pub report: EditReport,
+}
+
+/// What was done to the UVs of a document.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EditReport {
+    /// Whether every chart with an anchor is proven to be without flips in the bytes written.
+    pub certified: bool,
+    /// Whether, beyond that, none of them overlaps itself.
+    pub bijective: bool,
+    /// The shapes that were kept.
+    pub rest: UvRest,
+    /// The charts with anchors.
+    pub charts: Vec<ChartEditReport>,
+}
+
+/// What was done to a chart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ChartEditReport {
+    /// Its number among the charts of the document, in the order of their first faces.
+    pub chart: u32,
+    /// What the map is worth; the certificate is about the bytes written.
+    #[serde(flatten)]
+    pub map: PullReport,
+}
+
+/// Pulls anchors of a document's UVs to their targets and judges the bytes it writes. UVs are in the numbers of the file, in
+/// glTF with v down; vertices count through all triangle primitives in file order.
+pub fn edit_document(
+    upload: &Upload,
+    anchors: &[Anchor],
+    options: &EditOptions,
+    watch: &(dyn Watch + Sync),
+) -> Result<EditedDocument, PipelineError> {
+    in_pool(options.limits.threads, || {
+        let document = Document::read(upload)?;
+        options.limits.check(&document)?;
+        let whole = Whole::gather(&document, options.texcoord)?;
+        let edited = edit_uvs(&whole.mesh(), anchors, &options.edit, watch)?;
+        let written = write(&document, &whole, &edited, upload, options)?;
+        let report = judge(&document, &edited, &written, options)?;
+        Ok(EditedDocument {
+            files: written.files,
+            report,
+        })
+    })?
+}
+
+/// All primitives of a document as one mesh; those without UVs have vertices only.
+struct Whole {
+    positions: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    uvs: Vec<CornerUvs>,
+    /// The number of faces of each primitive that has UVs.
+    n_faces: Vec<Option<usize>>,
+}
+
+impl Whole {
+    fn gather(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
+        let mut whole = Self {
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            uvs: Vec::new(),
+            n_faces: Vec::new(),
+        };
+        for (index, primitive) in document.primitives().iter().enumerate() {
+            let uvs = document.corner_uvs(index, texcoord)?;
+            whole.n_faces.push(uvs.as_ref().map(Vec::len));
+            let first = whole.positions.len() as u32;
+            let positions = primitive.positions.iter().map(|p| p.map(f64::from));
+            whole.positions.extend(positions);
+            if let Some(uvs) = uvs {
+                let triangles = primitive.triangles.iter().map(|t| t.map(|v| v + first));
+                whole.triangles.extend(triangles);
+                whole.uvs.extend(uvs);
+            }
+        }
+        if whole.triangles.is_empty() {
+            let group = "the file".to_owned();
+            return Err(PipelineError::NoUvs { group, texcoord });
+        }
+        Ok(whole)
+    }
+
+    fn mesh(&self) -> UvMesh<'_> {
+        UvMesh {
+            positions: &self.positions,
+            triangles: &self.triangles,
+            uvs: &self.uvs,
+        }
+    }
+}
+
+fn write(
+    document: &Document,
+    whole: &Whole,
+    edited: &EditedUvs,
+    upload: &Upload,
+    options: &EditOptions,
+) -> Result<Written, PipelineError> {
+    let mut rest = edited.uvs.as_slice();
+    let mut next = |n: usize| -> Vec<Corners> {
+        let (own, others) = rest.split_at(n);
+        rest = others;
+        own.iter()
+            .map(|face| face.map(|uv| uv.map(|x| x as f32)))
+            .collect()
+    };
+    let uvs = NewUvs {
+        layout: Layout::Edited,
+        v_axis: document.v_axis(),
+        corners: whole.n_faces.iter().map(|n| n.map(&mut next)).collect(),
+    };
+    let options = WriteOptions {
+        format: options.format,
+        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
+        texcoord: Some(options.texcoord),
+        overwrite: false,
+    };
+    Ok(document.write(&uvs, &options)?)
+}
+
+/// Reads the written bytes again and judges the charts in them.
+fn judge(
+    document: &Document,
+    edited: &EditedUvs,
+    written: &Written,
+    options: &EditOptions,
+) -> Result<EditReport, PipelineError> {
+    let mut files = written.files.iter().cloned();
+    let (name, bytes) = files.next().unwrap_or_default();
+    let resources = files.collect();
+    let again = Document::read(&Upload {
+        name,
+        bytes,
+        resources,
+    })?;
+    let found = Whole::gather(&again, options.texcoord)?;
+    if found.uvs.len() != edited.uvs.len() {
+        return Err(DocumentError::InvalidUvs.into());
+    }
+    let flip_v = again.v_axis() != document.v_axis();
+    let charts = edited.charts.iter().map(|chart| {
+        let certificate = chart.faces.certify(&found.uvs, flip_v);
+        let map = PullReport {
+            bijective: certificate.is_bijective(),
+            certificate,
+            ..chart.report.clone()
+        };
+        ChartEditReport {
+            chart: chart.chart,
+            map,
+        }
+    });
+    let charts: Vec<ChartEditReport> = charts.collect();
+    Ok(EditReport {
+        certified: charts.iter().all(|c| c.map.certificate.is_valid()),
+        bijective: charts.iter().all(|c| c.map.bijective),
+        rest: options.edit.rest,
+        charts,
+    })
+}

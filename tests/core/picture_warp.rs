@@ -1,0 +1,238 @@
+//! Pictures pulled by handles: bijective with a fixed border whatever the handles ask, exact where nothing moves.
+
+use unwrapd::barrier::BarrierKind;
+use unwrapd::certificate::certify_planar;
+use unwrapd::deform::{
+    Border, DeformationEnergy, Model, PictureHandle, PictureWarp, WarpError, WarpOptions,
+    parse_handles, warp_picture,
+};
+use unwrapd::picture::Image;
+use unwrapd::solver::{Control, Iterate, Status};
+
+fn go_on(_: &Iterate) -> Control {
+    Control::Continue
+}
+
+/// A picture whose colour tells the place.
+fn ramp(width: usize, height: usize) -> Image {
+    let mut image = Image::transparent(width, height);
+    for (k, pixel) in image.pixels.iter_mut().enumerate() {
+        let (x, y) = (k % width * 255 / width, k / width * 255 / height);
+        *pixel = [x as u8, y as u8, 0, 255];
+    }
+    image
+}
+
+fn options(grid: usize, border: Border) -> WarpOptions {
+    WarpOptions {
+        grid,
+        border,
+        ..WarpOptions::default()
+    }
+}
+
+/// A multiplicative generator of numbers below 1 (Lehmer 1951).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0 * 48_271 % 0x7fff_ffff;
+        self.0 as f64 / f64::from(0x7fff_ffff)
+    }
+
+    fn place(&mut self, size: [f64; 2]) -> [f64; 2] {
+        [self.next() * size[0], self.next() * size[1]]
+    }
+}
+
+/// The exact judgement, made here of the numbers that came out.
+#[track_caller]
+fn assert_bijective(warp: &PictureWarp, context: &str) {
+    let certificate = certify_planar(&warp.deformed, warp.grid.triangles());
+    assert!(
+        certificate.is_bijective() && warp.report.bijective,
+        "{context}: {certificate:?}"
+    );
+}
+
+#[test]
+fn with_a_fixed_border_extreme_moves_are_bijective() {
+    const RUNS: usize = 200;
+    let energies = [
+        DeformationEnergy::Arap,
+        DeformationEnergy::Arap,
+        DeformationEnergy::SymmetricDirichlet,
+        DeformationEnergy::Laplacian,
+        DeformationEnergy::Green,
+    ];
+    let (width, height) = (32, 24);
+    let image = ramp(width, height);
+    let size = [width as f64, height as f64];
+    let mut random = Random(20_131);
+    let (mut reached, mut unreachable) = (0, 0);
+    for run in 0..RUNS {
+        let n_handles = 1 + run % 4;
+        let handles: Vec<PictureHandle> = (0..n_handles)
+            .map(|_| PictureHandle {
+                at: random.place(size),
+                to: random.place(size),
+            })
+            .collect();
+        let options = WarpOptions {
+            model: Model {
+                energy: energies[run % energies.len()],
+                ..Model::default()
+            },
+            ..options(8, Border::Fixed)
+        };
+        let warp = match warp_picture(&image, &handles, &options, &go_on) {
+            Ok(warp) => warp,
+            Err(error) => {
+                assert_eq!(error.code(), "contradictory_handles");
+                continue;
+            }
+        };
+        let context = format!("run {run}: {handles:?} {:?}", warp.report);
+        assert_bijective(&warp, &context);
+        for (p, q) in warp.grid.vertices().iter().zip(&warp.deformed) {
+            let on_border = (0..2).any(|k| p[k] == 0.0 || p[k] == size[k]);
+            assert!(!on_border || p == q, "{context}");
+        }
+        if warp.report.residual == 0.0 {
+            reached += 1;
+        } else {
+            assert_eq!(warp.report.status, Status::TargetsUnreachable, "{context}");
+            unreachable += 1;
+        }
+    }
+    // Handles move on straight lines: two that change places, or one that meets another's, stop short.
+    assert!(reached >= RUNS / 3, "{reached} reached");
+    assert!(unreachable >= 1 && reached + unreachable >= RUNS * 9 / 10);
+}
+
+#[test]
+fn a_target_outside_a_fixed_border_is_out_of_reach() {
+    let handle = PictureHandle {
+        at: [16.0, 12.0],
+        to: [100.0, 12.0],
+    };
+    let image = ramp(32, 24);
+    let options = options(8, Border::Fixed);
+    let warp = warp_picture(&image, &[handle], &options, &go_on).expect("a warp");
+    assert_eq!(warp.report.status, Status::TargetsUnreachable);
+    assert_bijective(&warp, "outside");
+    assert!(warp.report.residual > 68.0 * 68.0);
+    assert_eq!(
+        (warp.picture.image.width, warp.picture.image.height),
+        (32, 24)
+    );
+}
+
+#[test]
+fn a_free_border_travels_with_its_handles() {
+    // Every corner shifted: the picture is the same, elsewhere.
+    let image = ramp(40, 20);
+    let at = [[0.0, 0.0], [40.0, 0.0], [0.0, 20.0], [40.0, 20.0]];
+    let handles = at.map(|at| PictureHandle {
+        at,
+        to: [at[0] - 7.0, at[1] + 12.0],
+    });
+    let warp = warp_picture(&image, &handles, &options(10, Border::Free), &go_on).expect("a warp");
+    assert_eq!(warp.report.status, Status::Converged);
+    assert_eq!(warp.report.residual, 0.0);
+    for (p, q) in warp.grid.vertices().iter().zip(&warp.deformed) {
+        assert!((q[0] - p[0] + 7.0).abs() < 1e-2 && (q[1] - p[1] - 12.0).abs() < 1e-2);
+    }
+    assert!(warp.report.energy < 1e-6 && (warp.report.smallest - 1.0).abs() < 1e-2);
+    assert!((-8..=-7).contains(&warp.picture.origin[0]));
+}
+
+#[test]
+fn a_handle_keeps_its_offset_from_the_vertex() {
+    let image = ramp(40, 20);
+    // Grid vertices are 4 pixels apart; (13, 9) is nearest to (12, 8).
+    let handle = PictureHandle {
+        at: [13.0, 9.0],
+        to: [16.0, 11.0],
+    };
+    let options = options(10, Border::Fixed);
+    let warp = warp_picture(&image, &[handle], &options, &go_on).expect("a warp");
+    let vertex = (warp.grid.vertices().iter())
+        .position(|p| *p == [12.0, 8.0])
+        .expect("a grid vertex");
+    assert_eq!(warp.deformed[vertex], [15.0, 10.0]);
+}
+
+#[test]
+fn without_a_barrier_the_map_may_fold_and_the_report_says_so() {
+    let image = ramp(32, 32);
+    let handle = PictureHandle {
+        at: [8.0, 16.0],
+        to: [28.0, 16.0],
+    };
+    let fold = |barrier| {
+        let options = WarpOptions {
+            model: Model {
+                barrier,
+                ..Model::default()
+            },
+            ..options(8, Border::Fixed)
+        };
+        warp_picture(&image, &[handle], &options, &go_on).expect("a warp")
+    };
+    let without = fold(BarrierKind::None);
+    assert!(without.report.certificate.inverted > 0 && !without.report.bijective);
+    assert_bijective(&fold(BarrierKind::InverseSpline), "with a barrier");
+}
+
+#[test]
+fn what_cannot_be_warped_has_a_code() {
+    let image = ramp(32, 24);
+    let handle = |at: [f64; 2], to: [f64; 2]| PictureHandle { at, to };
+    let middle = [16.0, 12.0];
+    let code = |handles: &[PictureHandle], options: &WarpOptions| {
+        warp_picture(&image, handles, options, &go_on)
+            .expect_err("an error")
+            .code()
+    };
+    let fixed = options(8, Border::Fixed);
+    assert_eq!(code(&[], &fixed), "handle_count");
+    assert_eq!(
+        code(&vec![handle(middle, middle); 1001], &fixed),
+        "handle_count"
+    );
+    for bad in [
+        handle([33.0, 3.0], middle),
+        handle([f64::NAN, 3.0], middle),
+        handle(middle, [f64::INFINITY, 0.0]),
+        handle(middle, [0.0, 1e10]),
+    ] {
+        assert_eq!(code(&[bad], &fixed), "handle_out_of_range");
+    }
+    let two = [handle(middle, middle), handle(middle, [17.0, 12.0])];
+    assert_eq!(code(&two, &fixed), "contradictory_handles");
+    let one = [handle(middle, middle)];
+    assert_eq!(code(&one, &options(1, Border::Fixed)), "grid_too_coarse");
+    assert_eq!(code(&one, &options(0, Border::Fixed)), "invalid_setting");
+    for beta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let model = Model {
+            beta: Some(beta),
+            ..Model::default()
+        };
+        assert_eq!(code(&one, &WarpOptions { model, ..fixed }), "bad_parameter");
+    }
+    let empty = Image::transparent(0, 5);
+    let error = warp_picture(&empty, &one, &fixed, &go_on).expect_err("no pixels");
+    assert_eq!(error.code(), "empty_image");
+    for text in [
+        "",
+        "[]",
+        "{\"handles\": [{\"at\": [1, 2]}]}",
+        "{\"handles\": 1}",
+    ] {
+        let error = parse_handles(text.as_bytes()).expect_err("no handles");
+        assert!(matches!(error, WarpError::Malformed(_)));
+    }
+    let parsed = parse_handles(b"{\"handles\": [{\"at\": [1, 2], \"to\": [3, 4.5]}]}");
+    assert_eq!(parsed, Ok(vec![handle([1.0, 2.0], [3.0, 4.5])]));
+}

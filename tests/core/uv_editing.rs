@@ -1,0 +1,261 @@
+//! UVs pulled by anchors: no flip, untouched charts bit by bit, bijective where boundaries stay.
+
+use unwrapd::certificate::{CornerUvs, Overlap, certify};
+#[cfg(feature = "files")]
+use unwrapd::deform::parse_anchors;
+use unwrapd::deform::{Anchor, EditedUvs, UvBoundary, UvEditOptions, UvMesh, UvRest, edit_uvs};
+use unwrapd::solver::{Control, Iterate, Status};
+
+const SIDE: u32 = 8;
+
+/// Two sheets of 8 × 8 cells, hills in space; the UVs of the second are mirrored, right of those of the first.
+struct Sheets {
+    positions: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    uvs: Vec<CornerUvs>,
+}
+
+impl Sheets {
+    fn new() -> Self {
+        let n = SIDE + 1;
+        let mut sheets = Self {
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            uvs: Vec::new(),
+        };
+        for sheet in 0..2 {
+            let first = sheet * n * n;
+            for v in 0..n * n {
+                let [x, y] = [v % n, v / n].map(|i| f64::from(i) / f64::from(SIDE));
+                let height = x * (1.0 - x) * y * (1.0 - y) * 8.0;
+                sheets
+                    .positions
+                    .push([x, y, height + 3.0 * f64::from(sheet)]);
+            }
+            for j in 0..SIDE {
+                for i in 0..SIDE {
+                    let a = first + j * n + i;
+                    let corners = [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]];
+                    sheets.triangles.extend(corners);
+                }
+            }
+        }
+        let uv = |v: u32| {
+            let [x, y, z] = sheets.positions[v as usize];
+            let right = if z >= 3.0 {
+                0.95 - 0.4 * x
+            } else {
+                0.05 + 0.4 * x
+            };
+            // As a file has them.
+            [right, 0.1 + 0.8 * y].map(|x| f64::from(x as f32))
+        };
+        sheets.uvs = sheets.triangles.iter().map(|t| t.map(uv)).collect();
+        sheets
+    }
+
+    fn mesh(&self) -> UvMesh<'_> {
+        UvMesh {
+            positions: &self.positions,
+            triangles: &self.triangles,
+            uvs: &self.uvs,
+        }
+    }
+
+    fn edit(&self, anchors: &[Anchor], options: &UvEditOptions) -> EditedUvs {
+        edit_uvs(&self.mesh(), anchors, options, &go_on).expect("anchors that can be pulled")
+    }
+
+    #[track_caller]
+    fn assert_valid(&self, edited: &EditedUvs) {
+        let certificate = certify(&self.positions, &self.triangles, &edited.uvs, Overlap::Test);
+        assert!(certificate.is_valid(), "{certificate:?}");
+        for chart in &edited.charts {
+            let again = chart.faces.certify(&edited.uvs, false);
+            assert!(again.is_valid());
+            assert_eq!(again.is_bijective(), chart.report.bijective);
+        }
+    }
+
+    /// The UV of a vertex, which has one.
+    fn uv(&self, edited: &EditedUvs, vertex: u32) -> [f64; 2] {
+        let corners = self.triangles.as_flattened().iter();
+        let corner = corners
+            .zip(edited.uvs.as_flattened())
+            .find(|c| *c.0 == vertex);
+        *corner.expect("a used vertex").1
+    }
+}
+
+fn go_on(_: &Iterate) -> Control {
+    Control::Continue
+}
+
+fn to(vertex: u32, to: [f64; 2]) -> Anchor {
+    Anchor::Vertex { vertex, to }
+}
+
+#[test]
+fn anchors_arrive_and_other_charts_stay() {
+    let sheets = Sheets::new();
+    let second = (SIDE + 1) * (SIDE + 1);
+    for (chart, anchors) in [
+        (0, [to(0, [0.05, 0.1]), to(second - 1, [0.3, 0.6])]),
+        (1, [to(second, [0.95, 0.1]), to(second + 40, [0.6, 0.3])]),
+    ] {
+        let edited = sheets.edit(&anchors, &UvEditOptions::edit());
+        sheets.assert_valid(&edited);
+        assert_eq!(edited.charts.len(), 1);
+        assert_eq!(edited.charts[0].chart, chart);
+        assert_eq!(edited.charts[0].report.status, Status::Converged);
+        for anchor in &anchors {
+            if let Anchor::Vertex { vertex, to } = anchor {
+                assert_eq!(sheets.uv(&edited, *vertex), *to);
+            }
+        }
+        let half = sheets.uvs.len() / 2;
+        let others = if chart == 0 { half..2 * half } else { 0..half };
+        assert_eq!(edited.uvs[others.clone()], sheets.uvs[others]);
+    }
+}
+
+#[test]
+fn anchors_that_pull_nowhere_move_nothing_much() {
+    let sheets = Sheets::new();
+    let anchors = [to(0, [0.05_f32, 0.1].map(f64::from))];
+    let edited = sheets.edit(&anchors, &UvEditOptions::edit());
+    for (a, b) in edited
+        .uvs
+        .as_flattened()
+        .iter()
+        .zip(sheets.uvs.as_flattened())
+    {
+        assert!((0..2).all(|k| (a[k] - b[k]).abs() < 1e-3), "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn fixed_boundaries_stay_and_the_map_is_bijective() {
+    let sheets = Sheets::new();
+    let middle = SIDE / 2 * (SIDE + 1) + SIDE / 2;
+    let mut reached = 0;
+    for k in 0..24 {
+        let angle = f64::from(k);
+        // Up to beyond the boundary.
+        let radius = 0.02 * f64::from(k);
+        let target = [0.25 + radius * angle.cos(), 0.5 + radius * angle.sin()];
+        let edited = sheets.edit(&[to(middle, target)], &UvEditOptions::texture());
+        sheets.assert_valid(&edited);
+        let report = &edited.charts[0].report;
+        assert!(report.bijective, "{report:?}");
+        let has_arrived = sheets.uv(&edited, middle) == target;
+        assert!(has_arrived || report.status == Status::TargetsUnreachable);
+        reached += u32::from(has_arrived);
+        for v in 0..=SIDE {
+            let uv = |edited: &[CornerUvs]| {
+                let corners = sheets.triangles.as_flattened().iter();
+                let mut found = corners.zip(edited.as_flattened()).filter(|c| *c.0 == v);
+                found.next().map(|c| *c.1)
+            };
+            assert_eq!(uv(&edited.uvs), uv(&sheets.uvs));
+        }
+    }
+    assert!((8..24).contains(&reached), "{reached}");
+}
+
+#[test]
+fn an_anchor_by_its_uv_keeps_its_offset() {
+    let sheets = Sheets::new();
+    let anchor = Anchor::Place {
+        at: [0.251, 0.502],
+        to: [0.281, 0.522],
+    };
+    let options = UvEditOptions {
+        rest: UvRest::Present,
+        ..UvEditOptions::texture()
+    };
+    let edited = sheets.edit(&[anchor], &options);
+    let middle = SIDE / 2 * (SIDE + 1) + SIDE / 2;
+    let uv = sheets.uv(&edited, middle);
+    assert!(
+        (uv[0] - 0.28).abs() < 1e-7 && (uv[1] - 0.52).abs() < 1e-7,
+        "{uv:?}"
+    );
+}
+
+#[test]
+fn what_cannot_be_edited_has_a_code() {
+    let sheets = Sheets::new();
+    let texture = UvEditOptions::texture();
+    let code = |sheets: &Sheets, anchors: &[Anchor], options: &UvEditOptions| {
+        edit_uvs(&sheets.mesh(), anchors, options, &go_on)
+            .expect_err("an error")
+            .code()
+    };
+    let middle = to(40, [0.25, 0.5]);
+    assert_eq!(code(&sheets, &[], &texture), "anchor_count");
+    let far = to(40, [f64::NAN, 0.0]);
+    assert_eq!(code(&sheets, &[far], &texture), "anchor_out_of_range");
+    let unknown = to(100_000, [0.0; 2]);
+    assert_eq!(code(&sheets, &[unknown], &texture), "unknown_vertex");
+    let border = to(0, [0.3, 0.3]);
+    assert_eq!(code(&sheets, &[border], &texture), "anchor_on_boundary");
+    let two = [middle, to(40, [0.26, 0.5])];
+    assert_eq!(code(&sheets, &two, &texture), "contradictory_anchors");
+
+    let mut flipped = Sheets::new();
+    let corners = flipped.triangles.as_flattened().iter();
+    for (uv, _) in flipped
+        .uvs
+        .as_flattened_mut()
+        .iter_mut()
+        .zip(corners)
+        .filter(|c| *c.1 == 30)
+    {
+        uv[0] = 0.4;
+    }
+    assert_eq!(code(&flipped, &[middle], &texture), "flipped_uvs");
+    // The other chart has no flip.
+    let other = to(121, [0.75, 0.5]);
+    assert!(edit_uvs(&flipped.mesh(), &[other], &texture, &go_on).is_ok());
+
+    let mut cut = Sheets::new();
+    for face in cut.uvs.iter_mut().take(SIDE as usize * 8) {
+        *face = face.map(|uv| [uv[0], uv[1] + 2.0]);
+    }
+    let seam = to(4 * (SIDE + 1) + 4, [0.25, 0.5]);
+    assert_eq!(code(&cut, &[seam], &texture), "ambiguous_vertex");
+    let free = UvEditOptions {
+        boundary: UvBoundary::Free,
+        ..texture
+    };
+    let by_place = Anchor::Place {
+        at: [0.25, 0.5],
+        to: [0.27, 0.5],
+    };
+    assert_eq!(cut.edit(&[by_place], &free).charts.len(), 1);
+}
+
+#[cfg(feature = "files")]
+#[test]
+fn anchors_are_read_by_either_name() {
+    for name in ["anchors", "points"] {
+        let text = format!(
+            "{{\"{name}\": [{{\"vertex\": 3, \"to\": [0, 1]}}, {{\"at\": [0.5, 1], \"to\": [1, 0]}}]}}"
+        );
+        let place = Anchor::Place {
+            at: [0.5, 1.0],
+            to: [1.0, 0.0],
+        };
+        let expected = vec![to(3, [0.0, 1.0]), place];
+        assert_eq!(parse_anchors(text.as_bytes()), Ok(expected));
+    }
+    for text in [
+        "",
+        "{\"anchors\": [{\"to\": [0, 1]}]}",
+        "{\"anchors\": [{\"vertex\": -1, \"to\": [0, 1]}]}",
+    ] {
+        let error = parse_anchors(text.as_bytes()).expect_err("no anchors");
+        assert_eq!(error.code(), "malformed_anchors");
+    }
+}
