@@ -31,7 +31,6 @@ mod rounding;
 mod topology;
 mod weld;
 
-#[cfg(feature = "files")]
 pub(crate) use box_tree::enlarged;
 pub(crate) use box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
 pub use crossings::{Crossings, crossings};

@@ -7,7 +7,7 @@
 //! non-manifold edges part are joined again at single edges. [`Cut::Auto`] first divides the surface into regions whose
 //! normals lie within a cone, so that each chart is nearly flat and hardly ever overlaps itself.
 //!
-//! A chart that turns out not to be mappable is cut into [`halves`].
+//! A chart that turns out not to be mappable is cut into [`halves()`].
 
 mod chart;
 mod cone;

@@ -108,6 +108,24 @@ impl Problem {
         })
     }
 
+    /// With a barrier no element of the start may be at ε or below.
+    pub fn check_start(&self) -> Result<(), ProblemError> {
+        if self.barrier.kind == BarrierKind::None {
+            return Ok(());
+        }
+        let epsilon = self.barrier.epsilon;
+        let determinants = self.body.determinants_at(&self.start);
+        let is_outside = |&d: &f64| d <= epsilon || d.is_nan();
+        match determinants.iter().position(is_outside) {
+            Some(element) => Err(ProblemError::InfeasibleStart {
+                element,
+                determinant: determinants[element],
+                epsilon,
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// Does the energy or the barrier keep every element from inverting?
     pub fn forbids_inversion(&self) -> bool {
         let terms = self
@@ -149,27 +167,4 @@ pub(super) fn handles(
         groups: order.iter().map(|&i| groups[i]).collect(),
         ..Handles::default()
     })
-}
-
-/// With a barrier no element may be at ε from the beginning.
-pub(super) fn check_start(
-    body: &Body,
-    start: &[f64],
-    barrier: &Barrier,
-) -> Result<(), ProblemError> {
-    if barrier.kind == BarrierKind::None {
-        return Ok(());
-    }
-    let determinants = body.determinants_at(start);
-    match determinants
-        .iter()
-        .position(|&d| d <= barrier.epsilon || d.is_nan())
-    {
-        Some(element) => Err(ProblemError::InfeasibleStart {
-            element,
-            determinant: determinants[element],
-            epsilon: barrier.epsilon,
-        }),
-        None => Ok(()),
-    }
 }

@@ -1,6 +1,7 @@
 //! Why a problem cannot be solved.
 
 use crate::mesh::ElementError;
+#[cfg(feature = "files")]
 use crate::mesh::io::ReadError;
 
 /// Why a problem cannot be solved.
@@ -10,6 +11,7 @@ pub enum ProblemError {
     #[error("the problem file: {0}")]
     Malformed(String),
     /// The mesh cannot be read.
+    #[cfg(feature = "files")]
     #[error(transparent)]
     Read(#[from] ReadError),
     /// The mesh cannot be deformed.
@@ -100,6 +102,7 @@ impl ProblemError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Malformed(_) => "malformed_problem",
+            #[cfg(feature = "files")]
             Self::Read(error) => error.code(),
             Self::Element(error) => error.code(),
             Self::UnknownHandle { .. } => "unknown_handle",

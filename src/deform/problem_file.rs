@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::body::Body;
 use super::model::DeformationEnergy;
-use super::problem::{Model, Problem, check_start, handles};
+use super::problem::{Model, Problem, handles};
 use super::problem_error::ProblemError;
 use crate::barrier::BarrierKind;
 use crate::mesh::ElementError;
@@ -101,8 +101,7 @@ impl ProblemFile {
             bound: None,
         };
         let barrier = model.barrier(&body, self.eps)?;
-        check_start(&body, &start, &barrier)?;
-        Ok(Problem {
+        let problem = Problem {
             stations: self.stations(&body)?,
             levenberg: self.levenberg(),
             body,
@@ -110,7 +109,9 @@ impl ProblemFile {
             energy: self.energy,
             barrier,
             bound: None,
-        })
+        };
+        problem.check_start()?;
+        Ok(problem)
     }
 
     fn levenberg(&self) -> LevenbergSettings {

@@ -6,13 +6,13 @@
 //! ([`Settings::projection`]), which is what ends the slow tail. The step is never longer than 0.95 of the way to the
 //! first element that would leave the domain, found exactly, then halved until the energy falls enough.
 //!
-//! [`follow`] pulls handles to targets in the same way, the other vertices following each advance. [`levenberg`] is the iteration
-//! of the paper itself, kept for comparison: it shifts the Hessian until it factors instead of projecting it, and holds
-//! handles by soft constraints.
+//! [`follow()`] pulls handles to targets in the same way, the other vertices following each advance. [`levenberg()`] is the
+//! iteration of the paper itself, kept for comparison: it shifts the Hessian until it factors instead of projecting it,
+//! and holds handles by soft constraints.
 //!
 //! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has
-//! det J > 0 in every element, and while nothing travels the energy falls from iterate to iterate. The solver knows no energy by name, has no
-//! clock and no randomness; who watches may end it early ([`Watch`]).
+//! det J > 0 in every element, and while nothing travels the energy falls from iterate to iterate. The solver knows no
+//! energy by name, has no clock and no randomness; who watches may end it early ([`Watch`]).
 
 mod follow;
 mod held;
