@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::deform::{Args, read_handles};
 use super::failure::Failure;
-use super::files::{output_format, read_upload, write_outputs};
+use super::files::{output_format, read_upload, say, write_outputs};
 use super::solution::solve;
 use crate::deform::Method;
 use crate::pipeline::{CageOptions, CagedDocument};
@@ -34,15 +34,15 @@ pub(super) fn run(args: &Args, n_voxels: u32) -> Result<(), Failure> {
     let (written, report) = caged.write(&solved.solution)?;
     write_outputs(&args.output, &written.files)?;
     for remark in &written.notes.remarks {
-        println!("{remark}");
+        say(format_args!("{remark}"));
     }
-    println!(
+    say(format_args!(
         "{} voxels, {} tetrahedra, {} surface vertices, crossings {} before, {} after",
         report.voxels,
         report.tets,
         report.surface_vertices,
         report.crossings_before.pairs,
         report.crossings_after.pairs
-    );
+    ));
     solved.finish(records, Some(report))
 }

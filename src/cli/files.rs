@@ -1,8 +1,9 @@
 //! Files in and out of the command line: an input with what it references, outputs that are never half-written.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
@@ -74,6 +75,11 @@ pub(super) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Failure>
         let _ = fs::remove_file(&part);
         Failure::other(format!("{}: {error}", path.display()))
     })
+}
+
+/// Prints a line on standard output. That a reader has gone away, as `head` does, is no failure.
+pub(super) fn say(line: impl Display) {
+    let _ = writeln!(io::stdout(), "{line}");
 }
 
 /// Indented JSON.

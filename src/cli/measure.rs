@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::files::{json, read_upload};
+use super::files::{json, read_upload, say};
 use super::words::{GROUPS, word};
 use crate::certificate::{Certificate, Overlap};
 use crate::document::GroupBy;
@@ -57,7 +57,7 @@ pub(super) fn measure(args: &Args) -> Result<(), Failure> {
     let upload = read_upload(&args.which.input)?;
     let report = pipeline::measure_document(&upload, &args.which.options())?;
     if args.json {
-        println!("{}", String::from_utf8_lossy(&json(&report)?));
+        say(format_args!("{}", String::from_utf8_lossy(&json(&report)?)));
     } else {
         report.groups.iter().for_each(print_group);
     }
@@ -74,13 +74,13 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
     };
     let certificates = pipeline::verify_document(&upload, &args.which.options(), overlap)?;
     for (name, certificate) in &certificates {
-        println!("{name}: {}", certificate_text(certificate));
+        say(format_args!("{name}: {}", certificate_text(certificate)));
     }
     if certificates
         .iter()
         .all(|(_, certificate)| certificate.is_valid())
     {
-        println!("valid");
+        say(format_args!("valid"));
         Ok(())
     } else {
         Err(Failure::uncertified("not valid"))
@@ -91,7 +91,7 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
 pub(super) fn print_group(group: &GroupReport) {
     let m = &group.measures;
     let number = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.4}"));
-    println!(
+    say(format_args!(
         "{}: {} faces, {} charts, seam/√area {}, symmetric Dirichlet {}, packed {}; {}",
         group.name,
         m.size.faces,
@@ -100,7 +100,7 @@ pub(super) fn print_group(group: &GroupReport) {
         number(m.distortion.sym_dirichlet_mean),
         number(m.packing.pack_unit),
         certificate_text(&group.certificate)
-    );
+    ));
 }
 
 fn certificate_text(certificate: &Certificate) -> String {

@@ -20,7 +20,6 @@ mod unwrap;
 mod warp;
 mod words;
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -80,8 +79,10 @@ pub fn run() -> ExitCode {
         Command::EditUv(args) => edit_uv::edit(&args),
         Command::TextureMap(args) => edit_uv::texture_map(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
-        Command::Openapi => writeln!(std::io::stdout(), "{}", crate::http::openapi())
-            .map_err(|error| Failure::other(error.to_string())),
+        Command::Openapi => {
+            files::say(crate::http::openapi());
+            Ok(())
+        }
         Command::Health(args) => health::run(&args).map_err(Failure::other),
         Command::Compute { folder } => return crate::jobs::compute::run(&folder),
     };

@@ -6,7 +6,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::failure::Failure;
-use super::files::{json, write_atomically};
+use super::files::{json, say, write_atomically};
 use super::trace::{Frames, Trace};
 use crate::deform::{Method, Problem, Solution, Worth};
 use crate::mesh::io::{ElementFormat, Elements, text_positions};
@@ -142,7 +142,7 @@ impl Solved<'_> {
             write_atomically(path, self.trace.csv().as_bytes())?;
         }
         let (summary, worth) = (self.report.summary, self.report.worth);
-        println!(
+        say(format_args!(
             "{:?}: {} iterations, {} factorizations, energy {:.6e}, barrier {:.3e}, residual {:.1e}, {} inverted",
             summary.status,
             summary.iterations,
@@ -151,7 +151,7 @@ impl Solved<'_> {
             worth.barrier,
             worth.residual,
             worth.inverted
-        );
+        ));
         if worth.inverted > 0 && self.forbids_inversion {
             return Err(Failure::uncertified("no map without inversion"));
         }

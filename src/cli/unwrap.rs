@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::files::{json, output_format, read_upload, write_atomically, write_outputs};
+use super::files::{json, output_format, read_upload, say, write_atomically, write_outputs};
 use super::progress::Display;
 use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, word};
 use crate::barrier::BarrierKind;
@@ -129,12 +129,12 @@ fn summarize(outcome: &Outcome) {
     for group in &outcome.report.groups {
         super::measure::print_group(group);
     }
-    println!(
+    say(format_args!(
         "{}",
         if outcome.report.certified {
             "certified"
         } else {
             "not certified"
         }
-    );
+    ));
 }

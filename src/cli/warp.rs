@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::failure::Failure;
-use super::files::{json, read_file, write_atomically};
+use super::files::{json, read_file, say, write_atomically};
 use super::words::{BARRIERS, DEFORMATIONS, word};
 use crate::barrier::BarrierKind;
 use crate::deform::{
@@ -108,7 +108,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// One line about a map.
 pub(super) fn print_pull(report: &PullReport) {
-    println!(
+    say(format_args!(
         "{:?}: {} iterations, {} factorizations, energy {:.6e}, residual {:.1e}, {} inverted, {}",
         report.status,
         report.iterations,
@@ -121,5 +121,5 @@ pub(super) fn print_pull(report: &PullReport) {
         } else {
             "not bijective"
         }
-    );
+    ));
 }

@@ -1,7 +1,7 @@
 //! The command line: exit statuses, one-line errors, files whole or absent.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn asset(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -371,4 +371,16 @@ fn uvs_of_a_file_are_edited_and_proven() {
         assert_status(&run, 3);
         assert!(last_error(&run).contains(words), "{}", last_error(&run));
     }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
+        .arg("openapi")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    drop(child.stdout.take());
+    assert_status(&child.wait_with_output().expect("an end"), 0);
 }
