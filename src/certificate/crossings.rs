@@ -2,8 +2,8 @@
 
 use super::overlap::interiors_intersect;
 use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
-use crate::mesh::orient3d_sign;
 use crate::numerics::predicates::orient2d_sign;
+use crate::numerics::predicates::orient3d_sign;
 use serde::Serialize;
 
 /// How many crossing pairs are named.

@@ -16,7 +16,6 @@ mod edges;
 mod element_error;
 #[cfg(feature = "files")]
 pub mod io;
-mod orientation;
 mod planar;
 mod surface;
 mod tets;
@@ -30,7 +29,6 @@ pub use disk::{Disk, NotADisk};
 pub use edges::{CUT, Edges, next, origin, same_direction};
 pub use element_error::ElementError;
 pub(crate) use element_error::validate;
-pub use orientation::orient3d_sign;
 pub use planar::PlanarMesh;
 pub use surface::{MeshError, Surface};
 pub use tets::{TetMesh, boundary_triangles};

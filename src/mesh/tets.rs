@@ -1,7 +1,7 @@
 //! Tetrahedral meshes.
 
 use super::element_error::{ElementError, validate};
-use super::orientation::orient3d_sign;
+use crate::numerics::predicates::orient3d_sign;
 
 /// The faces of a positive tetrahedron by its corners, wound so that their normals point outwards; face k lies opposite of
 /// corner k.

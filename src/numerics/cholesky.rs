@@ -13,8 +13,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
-/// Work per stored entry, as a share of the library's own threshold, from which columns are factored in groups. At a tenth of
-/// it 5,000 unknowns of a planar mesh factor 1.5 times as fast as one column at a time, and nothing is slower.
+/// Work per stored entry, as a share of the library's own threshold, from which columns are factored in groups. That threshold
+/// leaves planar meshes of some thousand vertices to a column at a time, which is slower there.
 const SUPERNODAL_FROM: SupernodalThreshold = SupernodalThreshold(0.1);
 
 /// Where a symmetric matrix may be nonzero: its lower triangle in compressed columns.

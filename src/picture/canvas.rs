@@ -1,6 +1,8 @@
 //! Pixels: blending, lines, copying, and the PNG they end in.
+
 use super::colour::{BACKGROUND, Rgb, mix};
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use super::png::png;
+use image::ExtendedColorType;
 
 /// A picture, row 0 at the top.
 pub(super) struct Canvas {
@@ -51,16 +53,8 @@ impl Canvas {
 
     /// The PNG file.
     pub fn png(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let written = PngEncoder::new(&mut bytes).write_image(
-            self.pixels.as_flattened(),
-            self.width as u32,
-            self.height as u32,
-            ExtendedColorType::Rgb8,
-        );
-        // Writing to memory fails for wrong dimensions only.
-        debug_assert!(written.is_ok());
-        bytes
+        let bytes = self.pixels.as_flattened();
+        png(bytes, self.width, self.height, ExtendedColorType::Rgb8)
     }
 }
 

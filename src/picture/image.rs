@@ -1,7 +1,7 @@
 //! Pictures with transparency, from and to files.
 
-use image::codecs::png::PngEncoder;
-use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageReader, Limits};
+use super::png::png;
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageReader, Limits};
 use std::io::Cursor;
 
 /// Pixels of a picture at most; more is refused before anything is decoded.
@@ -89,16 +89,8 @@ impl Image {
 
     /// The PNG file.
     pub fn png(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let written = PngEncoder::new(&mut bytes).write_image(
-            self.pixels.as_flattened(),
-            self.width as u32,
-            self.height as u32,
-            ExtendedColorType::Rgba8,
-        );
-        // Writing to memory fails for wrong dimensions only.
-        debug_assert!(written.is_ok());
-        bytes
+        let bytes = self.pixels.as_flattened();
+        png(bytes, self.width, self.height, ExtendedColorType::Rgba8)
     }
 }
 

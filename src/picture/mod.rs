@@ -13,6 +13,7 @@ mod layout;
 mod legend;
 mod mipmaps;
 mod panel;
+mod png;
 mod raster;
 mod text;
 mod warp;

@@ -15,8 +15,8 @@ const FIRST_ADVANCE: f64 = 1.0;
 /// Advances shorter than this are not tried: the vertices in the way have to move first.
 const LEAST_ADVANCE: f64 = 1e-4;
 
-/// Share of the way to the first inversion that an advance may take. With 0.5 the 119 reference problems take a third more
-/// iterations.
+/// Share of the way to the first inversion that an advance may take. Less of it means more and shorter
+/// advances.
 const SAFETY: f64 = 0.9;
 
 /// How far the energy may rise above twice what the quadratic model promises, as a share of the energy.

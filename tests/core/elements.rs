@@ -2,7 +2,8 @@
 
 use std::path::Path;
 use unwrapd::mesh::io::{ElementFormat, Elements, ReadError, text_positions};
-use unwrapd::mesh::{ElementError, PlanarMesh, TetMesh, boundary_triangles, orient3d_sign};
+use unwrapd::mesh::{ElementError, PlanarMesh, TetMesh, boundary_triangles};
+use unwrapd::numerics::predicates::orient3d_sign;
 
 const CORNERS: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],

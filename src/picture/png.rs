@@ -1,0 +1,14 @@
+//! Pixels as a PNG file.
+
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+
+/// The file of `width` × `height` pixels, row by row from the top, `bytes` as `colour` says.
+pub(super) fn png(bytes: &[u8], width: usize, height: usize, colour: ExtendedColorType) -> Vec<u8> {
+    let mut file = Vec::new();
+    let written =
+        PngEncoder::new(&mut file).write_image(bytes, width as u32, height as u32, colour);
+    // Writing to memory fails for wrong dimensions only.
+    debug_assert!(written.is_ok());
+    file
+}
