@@ -41,7 +41,7 @@ impl Default for LevenbergSettings {
 /// What one iteration did, for plots and tests.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct LevenbergStep {
-    /// The shift that factored.
+    /// μ as the step leaves it: by it the next targets retreat, and a factorization that fails tries it first.
     pub mu: f64,
     /// The length of the step as a share of the direction.
     pub sigma: f64,
@@ -65,8 +65,8 @@ const LARGEST_MU: f64 = 1e17;
 /// Minimizes energy + α‖Cx − d‖² of an [`Objective::constrained`] as section 3.2 of the paper does, from an `x` inside the
 /// domain; d are the targets that it was made with.
 ///
-/// The Hessian is not projected: μ is added to its diagonal, ten times as much after each failed factorization, a tenth after
-/// one that succeeded at once. The step σ starts from the last one, doubles on success and halves until the function falls
+/// The Hessian is not projected: μ is added to its diagonal once it fails to factor, ten times as much each time it fails
+/// again; a first try that succeeds leaves the least μ, a second a tenth. The step σ starts from the last one, doubles on success and halves until the function falls
 /// and the point is inside the domain; between the end points a step may pass through an inversion, as in the paper. Every
 /// iterate is inside. From: Schüller et al. 2013, section 3.2, with the constants of the authors' code; a shift replaces
 /// the one before instead of adding to it.
