@@ -13,6 +13,7 @@ mod edit_error;
 mod handles;
 mod idle;
 mod model;
+mod numbers;
 #[cfg(feature = "files")]
 pub mod outline;
 mod parameterization;
@@ -32,8 +33,12 @@ pub use anchors::Anchor;
 pub use anchors::parse_anchors;
 pub use body::{Body, BodyElements};
 pub use edit_error::EditError;
+#[cfg(feature = "files")]
+pub use handles::parse_body_handles;
 pub use handles::{Handle, bind};
 pub use model::DeformationEnergy;
+#[cfg(feature = "files")]
+pub use numbers::from_json;
 pub use parameterization::{
     EditedChart, EditedUvs, UvBoundary, UvEditOptions, UvMesh, UvRest, edit_uvs,
 };
