@@ -8,8 +8,9 @@ use super::model::ModelArgs;
 use super::progress::Display;
 use super::records::stem;
 use super::warp::print_pull;
-use super::words::{UV_BOUNDARIES, UV_RESTS, word};
-use crate::deform::{UvBoundary, UvRest, parse_anchors};
+use super::words::{BOUNDARIES, UV_RESTS, word};
+use crate::deform::Boundary;
+use crate::deform::uv::{UvRest, parse_anchors};
 use crate::pipeline::{EditOptions, Editing, Limits, edit_document};
 
 /// Moves anchors of a UV map, everything else as it is as far as possible and no triangle flipped.
@@ -44,8 +45,8 @@ struct Common {
     #[arg(long, default_value_t = 0, value_name = "N")]
     texcoord: u32,
     /// Whether the boundaries of charts stay [default: free for edit-uv, fixed for texture-map]
-    #[arg(long, value_parser = word::<UvBoundary>(UV_BOUNDARIES))]
-    boundary: Option<UvBoundary>,
+    #[arg(long, value_parser = word::<Boundary>(BOUNDARIES))]
+    boundary: Option<Boundary>,
     /// Which shapes of triangles to keep [default: present for edit-uv, surface for texture-map]
     #[arg(long, value_parser = word::<UvRest>(UV_RESTS))]
     rest: Option<UvRest>,

@@ -2,7 +2,9 @@
 
 use std::process::ExitCode;
 
-use crate::deform::{EditError, ProblemError, WarpError};
+use crate::deform::ProblemError;
+use crate::deform::uv::EditError;
+use crate::deform::warp::WarpError;
 use crate::pipeline::PipelineError;
 
 /// Why a command ended, in one line, and its exit status.

@@ -7,7 +7,8 @@ use super::files::{json, read_file, read_upload, say, write_atomically, write_ou
 use super::model::ModelArgs;
 use super::progress::Display;
 use super::records::stem;
-use crate::deform::{PullReport, parse_handles};
+use crate::deform::PullReport;
+use crate::deform::warp::parse_handles;
 use crate::pipeline::{Limits, WarpOptions, warp_file};
 
 /// Warps a picture by handles without folding it.

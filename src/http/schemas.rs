@@ -111,17 +111,22 @@ pub(super) fn parameters(schemas: &Value, options: &[&str]) -> Vec<Value> {
 
 /// A list in the query is its JSON text.
 fn parameter(name: &str, mut schema: Value) -> Value {
-    let description = schema
-        .as_object_mut()
-        .and_then(|keys| keys.remove("description"));
-    let mut parameter =
-        json!({ "name": name, "in": "query", "required": false, "description": description });
+    let mut parameter = json!({ "name": name, "in": "query", "required": false });
+    if let Some(description) = take_description(&mut schema) {
+        parameter["description"] = description;
+    }
     if schema["type"] == "array" {
         parameter["content"]["application/json"]["schema"] = schema;
     } else {
         parameter["schema"] = schema;
     }
     parameter
+}
+
+/// The description of a member; that of one that may be absent stands in its first choice.
+fn take_description(schema: &mut Value) -> Option<Value> {
+    let from = |schema: &mut Value| schema.as_object_mut()?.remove("description");
+    from(schema).or_else(|| from(schema.get_mut("oneOf")?.get_mut(0)?))
 }
 
 fn schema_of(parameter: &mut Value) -> &mut Value {

@@ -62,8 +62,8 @@ impl Work {
     }
 }
 
-fn unwrap(upload: &Upload, options: Options, limits: Limits, observer: &dyn Observer) -> Made {
-    let options = Options { limits, ..options };
+fn unwrap(upload: &Upload, mut options: Options, limits: Limits, observer: &dyn Observer) -> Made {
+    options.limits = limits;
     let outcome = pipeline::unwrap_document(upload, &options, observer)?;
     let drawn = outcome.pictures.draw()?;
     let mut files = result(outcome.files);
@@ -74,24 +74,29 @@ fn unwrap(upload: &Upload, options: Options, limits: Limits, observer: &dyn Obse
     Ok(files)
 }
 
-fn measure(upload: &Upload, options: MeasureOptions, limits: Limits, _: &dyn Observer) -> Made {
-    let options = MeasureOptions { limits, ..options };
+fn measure(upload: &Upload, mut options: MeasureOptions, limits: Limits, _: &dyn Observer) -> Made {
+    options.limits = limits;
     let measured = pipeline::measure_document(upload, &options)?;
     Ok(vec![report(&measured)])
 }
 
-fn solve(upload: &Upload, options: SolveOptions, limits: Limits, observer: &dyn Observer) -> Made {
-    let options = SolveOptions { limits, ..options };
+fn solve(
+    upload: &Upload,
+    mut options: SolveOptions,
+    limits: Limits,
+    observer: &dyn Observer,
+) -> Made {
+    options.limits = limits;
     pipeline::solve_file(upload, &options, observer).map(body)
 }
 
 fn deform(
     upload: &Upload,
-    options: DeformOptions,
+    mut options: DeformOptions,
     limits: Limits,
     observer: &dyn Observer,
 ) -> Made {
-    let options = DeformOptions { limits, ..options };
+    options.limits = limits;
     pipeline::deform_file(upload, &options, observer).map(body)
 }
 
@@ -103,39 +108,41 @@ fn body(deformed: Deformed) -> Files {
     files
 }
 
-fn warp(upload: &Upload, options: WarpOptions, limits: Limits, observer: &dyn Observer) -> Made {
-    let options = WarpOptions { limits, ..options };
+fn warp(
+    upload: &Upload,
+    mut options: WarpOptions,
+    limits: Limits,
+    observer: &dyn Observer,
+) -> Made {
+    options.limits = limits;
     let warped = pipeline::warp_file(upload, &options, observer)?;
     let mut files = result(warped.files);
     files.push(report(&warped.report));
     Ok(files)
 }
 
-fn edit_uv(upload: &Upload, options: EditOptions, limits: Limits, observer: &dyn Observer) -> Made {
-    edit(
-        upload,
-        Editing::Map,
-        EditOptions { limits, ..options },
-        observer,
-    )
+fn edit_uv(
+    upload: &Upload,
+    mut options: EditOptions,
+    limits: Limits,
+    observer: &dyn Observer,
+) -> Made {
+    options.limits = limits;
+    edit(upload, Editing::Map, &options, observer)
 }
 
 fn texture_map(
     upload: &Upload,
-    options: EditOptions,
+    mut options: EditOptions,
     limits: Limits,
     observer: &dyn Observer,
 ) -> Made {
-    edit(
-        upload,
-        Editing::Texture,
-        EditOptions { limits, ..options },
-        observer,
-    )
+    options.limits = limits;
+    edit(upload, Editing::Texture, &options, observer)
 }
 
-fn edit(upload: &Upload, editing: Editing, options: EditOptions, observer: &dyn Observer) -> Made {
-    let edited = pipeline::edit_document(upload, editing, &options, observer)?;
+fn edit(upload: &Upload, editing: Editing, options: &EditOptions, observer: &dyn Observer) -> Made {
+    let edited = pipeline::edit_document(upload, editing, options, observer)?;
     let mut files = result(edited.files);
     files.push(report(&edited.report));
     Ok(files)

@@ -9,7 +9,8 @@ use super::edit_options::{EditOptions, Editing};
 use super::observer::{Observer, Stage, Tracker};
 use crate::barrier::BarrierKind;
 use crate::certificate::CornerUvs;
-use crate::deform::{EditedUvs, PullReport, UvMesh, UvRest, edit_uvs};
+use crate::deform::PullReport;
+use crate::deform::uv::{EditedUvs, UvMesh, UvRest, edit_uvs};
 use crate::document::{
     Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
 };

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
 use super::limits::{Limits, check_time_budget};
-use crate::deform::{Anchor, Model, UvBoundary, UvEditOptions, UvRest};
+use crate::deform::uv::{Anchor, UvEditOptions, UvRest};
+use crate::deform::{Boundary, Model};
 use crate::document::OutputFormat;
 
 /// What UVs are edited for.
@@ -29,7 +30,7 @@ pub struct EditOptions {
     /// The UV set, read and written.
     pub texcoord: u32,
     /// Whether the boundaries of charts stay; if absent they do for `texture_map` and do not for `edit_uv`.
-    pub boundary: Option<UvBoundary>,
+    pub boundary: Option<Boundary>,
     /// Which shapes of triangles to keep; if absent the surface's for `texture_map` and the present ones for `edit_uv`.
     pub rest: Option<UvRest>,
     /// What the deformation costs, for a mean triangle of area 1.

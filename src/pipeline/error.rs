@@ -6,7 +6,9 @@ use crate::deform::cage::CageError;
 #[cfg(feature = "files")]
 use crate::deform::outline::OutlineError;
 #[cfg(feature = "files")]
-use crate::deform::{EditError, WarpError};
+use crate::deform::uv::EditError;
+#[cfg(feature = "files")]
+use crate::deform::warp::WarpError;
 #[cfg(feature = "files")]
 use crate::document::DocumentError;
 #[cfg(feature = "files")]

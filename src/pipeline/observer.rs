@@ -163,6 +163,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Shows the map of an iteration.
+    #[cfg(feature = "files")]
     pub(super) fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
         self.observer.frame(number, file);
     }

@@ -58,6 +58,9 @@ pub(super) struct Plan {
     pub bias: bool,
 }
 
+/// Writes a map as the result will be.
+type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
+
 /// A solution, its report, its trace.
 pub(super) struct Solved {
     pub solution: Solution,
@@ -65,12 +68,12 @@ pub(super) struct Solved {
     pub trace: String,
 }
 
-/// Solves a problem; `file` writes a map as the result will be, for those who look at every iteration.
+/// Solves a problem; `file` serves those who look at every iteration.
 pub(super) fn solve(
     problem: &Problem,
     plan: Plan,
     tracker: &Tracker,
-    file: Option<&dyn Fn(&[f64]) -> Vec<u8>>,
+    file: Option<&WriteMap>,
 ) -> Result<Solved, PipelineError> {
     let setup_seconds = tracker.elapsed().as_secs_f64();
     let trace = Trace {
@@ -118,7 +121,7 @@ pub(super) fn solve(
 /// What happened in every iteration.
 struct Trace<'a> {
     tracker: &'a Tracker<'a>,
-    file: Option<&'a dyn Fn(&[f64]) -> Vec<u8>>,
+    file: Option<&'a WriteMap<'a>>,
     iterates: RefCell<Vec<Iterate>>,
     steps: RefCell<Vec<LevenbergStep>>,
 }

@@ -8,7 +8,8 @@ use super::documents::stem;
 use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
 use crate::barrier::BarrierKind;
-use crate::deform::{self, Border, Model, PictureHandle, PullReport, warp_picture};
+use crate::deform::warp::{self, PictureHandle, warp_picture};
+use crate::deform::{Boundary, Model, PullReport};
 use crate::document::Upload;
 use crate::picture::Image;
 
@@ -43,7 +44,7 @@ impl Default for WarpOptions {
     fn default() -> Self {
         Self {
             handles: Vec::new(),
-            grid: deform::WarpOptions::default().grid,
+            grid: warp::WarpOptions::default().grid,
             fix_border: false,
             model: Model::default(),
             time_budget: None,
@@ -60,11 +61,11 @@ impl WarpOptions {
         check_time_budget(self.time_budget)
     }
 
-    fn border(&self) -> Border {
+    fn boundary(&self) -> Boundary {
         if self.fix_border {
-            Border::Fixed
+            Boundary::Fixed
         } else {
-            Border::Free
+            Boundary::Free
         }
     }
 }
@@ -102,15 +103,15 @@ pub fn warp_file(
     in_pool(options.limits.threads, || {
         tracker.stage(Stage::Read);
         let image = Image::decode(&upload.bytes)?;
-        let warp = deform::WarpOptions {
+        let how = warp::WarpOptions {
             grid: options.grid,
-            border: options.border(),
+            boundary: options.boundary(),
             model: options.model,
         };
-        let warped = warp_picture(&image, &options.handles, &warp, &tracker)?;
-        let certified = match warp.border {
-            Border::Free => warped.report.certificate.is_valid(),
-            Border::Fixed => warped.report.bijective,
+        let warped = warp_picture(&image, &options.handles, &how, &tracker)?;
+        let certified = match how.boundary {
+            Boundary::Free => warped.report.certificate.is_valid(),
+            Boundary::Fixed => warped.report.bijective,
         };
         if !certified && options.model.barrier != BarrierKind::None {
             return Err(PipelineError::Inverted);

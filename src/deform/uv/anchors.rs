@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::edit_error::EditError;
-use super::numbers;
-use super::parameterization::UvMesh;
-use super::uv_chart::UvVertices;
+use super::chart::UvVertices;
+use super::{EditError, UvMesh};
 use crate::certificate::UvTopology;
+use crate::deform::numbers;
 
 /// Anchors at most: each is compared with every vertex.
 pub(super) const MOST_ANCHORS: usize = 1000;
