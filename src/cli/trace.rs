@@ -7,7 +7,7 @@ use std::path::Path;
 use super::failure::Failure;
 use super::files::write_atomically;
 use crate::deform::{Method, Problem, Solution};
-use crate::solver::{Control, Iterate, LevenbergStep, Settings, Watch};
+use crate::solver::{Control, Iterate, Settings, Watch};
 
 /// A file for the map of every iteration.
 pub(super) struct Frames<'a> {
@@ -22,7 +22,6 @@ pub(super) struct Frames<'a> {
 /// What happened in every iteration.
 pub(super) struct Trace<'a> {
     iterates: RefCell<Vec<Iterate>>,
-    steps: RefCell<Vec<LevenbergStep>>,
     frames: Option<Frames<'a>>,
     failure: RefCell<Option<Failure>>,
 }
@@ -57,7 +56,6 @@ impl<'a> Trace<'a> {
     pub(super) fn new(frames: Option<Frames<'a>>) -> Self {
         Self {
             iterates: RefCell::default(),
-            steps: RefCell::default(),
             frames,
             failure: RefCell::default(),
         }
@@ -65,12 +63,9 @@ impl<'a> Trace<'a> {
 
     /// Solves the problem; an error also where a frame could not be written.
     pub(super) fn solve(&self, problem: &Problem, method: Method) -> Result<Solution, Failure> {
-        let mut record = |step: &LevenbergStep| self.steps.borrow_mut().push(*step);
         let solution = match method {
             Method::Projected => problem.solve(&Settings::follow(), self)?,
-            Method::Levenberg => {
-                problem.solve_by_levenberg(&problem.levenberg, self, &mut record)?
-            }
+            Method::Levenberg => problem.solve_by_levenberg(&problem.levenberg, self)?,
         };
         match self.failure.take() {
             Some(failure) => Err(failure),
@@ -87,27 +82,24 @@ impl<'a> Trace<'a> {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// A line per iteration.
+    /// A line per iteration; `energy` is that without the barrier.
     pub(super) fn csv(&self) -> String {
-        let (iterates, steps) = (self.iterates.borrow(), self.steps.borrow());
-        let mut text = String::from("iteration,energy,smallest,mu,sigma,alpha,residual\n");
-        for (index, i) in iterates.iter().enumerate() {
-            let step =
-                index
-                    .checked_sub(1)
-                    .and_then(|i| steps.get(i))
-                    .map_or(",,,".to_owned(), |step| {
-                        format!(
-                            "{:e},{:e},{:e},{:e}",
-                            step.mu, step.sigma, step.alpha, step.residual
-                        )
-                    });
+        let mut text =
+            String::from("iteration,energy,barrier,constraint,smallest,mu,sigma,alpha,residual\n");
+        for i in self.iterates.borrow().iter() {
+            let numbers = [
+                i.energy - i.barrier,
+                i.barrier,
+                i.constraint,
+                i.smallest,
+                i.mu,
+                i.sigma,
+                i.alpha,
+                i.residual,
+            ];
+            let numbers = numbers.map(|x| format!("{x:e}")).join(",");
             // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{},{:e},{:e},{step}",
-                i.iteration, i.energy, i.smallest
-            );
+            let _ = writeln!(text, "{},{numbers}", i.iteration);
         }
         text
     }
