@@ -71,7 +71,7 @@
     doc = "| [`picture`] | UV layouts and distortion as PNG, pictures with transparency |"
 )]
 //! | [`deform`] | bodies of the plane and of space pulled by handles; from pictures, drawings and surfaces in cages |
-//! | [`pipeline`] | from arrays or a document to an atlas and its report |
+//! | [`pipeline`] | every application as a function from arrays or a file's bytes to files' bytes and a report |
 #![cfg_attr(
     feature = "service",
     doc = "| [`jobs`], [`store`], [`http`] | queue and compute child, SQLite and blob files, routes |"

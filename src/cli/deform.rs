@@ -47,15 +47,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         split: args.split,
         barrier_continuation: args.records.barrier_continuation,
         bias: args.records.bias,
+        frames: args.records.frames.is_some(),
         time_budget: args.records.time_budget,
         format: Some(body_format(&args.output)?),
         stem: stem(&args.output),
         limits: Limits::default(),
     };
     options.check()?;
+    let display = args.records.display(&args.output);
     options.handles = parse_body_handles(&read_file(&args.handles)?)?;
     let upload = read_upload(&args.input)?;
-    let display = args.records.display(&args.output);
     let deformed = deform_file(&upload, &options, &display);
     display.finish()?;
     args.records.write(&args.output, &deformed?)

@@ -18,7 +18,7 @@ pub(super) struct Records {
     trace: Option<PathBuf>,
     /// Folder for the map of every iteration, numbered, in the format of the result
     #[arg(long, value_name = "DIR")]
-    frames: Option<PathBuf>,
+    pub(super) frames: Option<PathBuf>,
     /// Lower the barrier's strength while the energy without it falls
     #[arg(long)]
     pub(super) barrier_continuation: bool,

@@ -30,14 +30,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         method: args.method,
         barrier_continuation: args.records.barrier_continuation,
         bias: args.records.bias,
+        frames: args.records.frames.is_some(),
         time_budget: args.records.time_budget,
         format: body_format(&args.output)?,
         stem: stem(&args.output),
         limits: Limits::default(),
     };
+    let display = args.records.display(&args.output);
     let problem = ProblemFile::parse(&read_file(&args.problem)?)?;
     let upload = read_upload_with(&args.problem, problem.references())?;
-    let display = args.records.display(&args.output);
     let solved = solve_file(&upload, &options, &display);
     display.finish()?;
     args.records.write(&args.output, &solved?)

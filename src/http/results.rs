@@ -94,7 +94,7 @@ pub(super) async fn get_heatmap(
         ("name" = String, Path, description = "Its name, as the result references it"),
     ),
     responses(
-        (status = 200, description = "The file", content((Vec<u8> = "application/octet-stream"), (Vec<u8> = "text/csv"), (Vec<u8> = "image/png"))),
+        (status = 200, description = "The file", content((Vec<u8> = "application/octet-stream"), (Vec<u8> = "text/csv"), (Vec<u8> = "text/plain"), (Vec<u8> = "model/obj"), (Vec<u8> = "image/png"))),
         FileAnswers,
     )
 )]

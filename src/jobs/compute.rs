@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 use nix::sys::resource::{Resource, setrlimit};
 use nix::sys::signal::{SigSet, Signal};
 
+use super::frames::Frames;
 use super::job::{Failure, OutputFile};
 use super::progress::Progress;
 use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
@@ -51,6 +52,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
         start: Instant::now(),
         finish,
         told: Mutex::new(None),
+        frames: Mutex::new(Frames::new(folder)),
     };
     tell(&Message::Ready);
     let upload = read_upload(folder, &task.input).map_err(internal)?;
@@ -67,6 +69,9 @@ fn attempt(folder: &Path) -> Attempt<()> {
             bytes: bytes.len() as u64,
         });
     }
+    let frames = reporter.frames.into_inner();
+    let frames = frames.unwrap_or_else(PoisonError::into_inner);
+    frames.into_output(&mut output).map_err(internal)?;
     task::write_json(folder, OUTCOME, &Outcome { output }).map_err(internal)
 }
 
@@ -124,6 +129,7 @@ struct Reporter {
     finish: Arc<AtomicBool>,
     /// When something was told last, and of which stage.
     told: Mutex<Option<(Instant, Stage)>>,
+    frames: Mutex<Frames>,
 }
 
 /// Writes one line to the server. Nobody listens any more if this fails: there is no reason to go on.
@@ -165,5 +171,10 @@ impl Observer for Reporter {
 
     fn elapsed(&self) -> Duration {
         self.start.elapsed()
+    }
+
+    fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
+        let mut frames = self.frames.lock().unwrap_or_else(PoisonError::into_inner);
+        frames.add(number, file);
     }
 }

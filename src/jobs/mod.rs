@@ -23,6 +23,7 @@ mod attempt;
 mod child;
 pub mod compute;
 mod events;
+mod frames;
 mod job;
 mod progress;
 mod queue;

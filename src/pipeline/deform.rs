@@ -9,7 +9,7 @@ use super::caged;
 use super::documents::stem;
 use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
-use super::solution::{Deformed, Plan, solve};
+use super::solution::{Deformed, Plan, WriteMap, solve};
 use crate::deform::{Handle, Method, Model, Problem};
 use crate::document::Upload;
 
@@ -36,6 +36,9 @@ pub struct DeformOptions {
     pub barrier_continuation: bool,
     /// Also minimize without a barrier and report that energy beside the solution's: the barrier's bias.
     pub bias: bool,
+    /// Show the observer the map of every iteration; over HTTP they become files beside the result, 256 MiB of them at most. Not in a
+    /// cage.
+    pub frames: bool,
     /// Seconds after which the current valid map is taken as it is.
     #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
     pub time_budget: Option<f64>,
@@ -59,6 +62,7 @@ impl Default for DeformOptions {
             split: false,
             barrier_continuation: false,
             bias: false,
+            frames: false,
             time_budget: None,
             format: None,
             stem: None,
@@ -74,6 +78,10 @@ impl DeformOptions {
         check_time_budget(self.time_budget)?;
         if self.split && self.cage.is_none() {
             let text = "split: there is no cage".to_owned();
+            return Err(PipelineError::InvalidOptions(text));
+        }
+        if self.frames && self.cage.is_some() {
+            let text = "frames: a cage has none".to_owned();
             return Err(PipelineError::InvalidOptions(text));
         }
         match (self.format, self.cage) {
@@ -130,7 +138,8 @@ fn deform_body(
             .unwrap_or(BodyFormat::Obj)
     });
     let file = |x: &[f64]| format.write(&elements, dim, x);
-    let solved = solve(&problem, options.plan(), tracker, Some(&file))?;
+    let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
+    let solved = solve(&problem, options.plan(), tracker, frames)?;
     tracker.stage(Stage::Write);
     let name = format!("{}.{}", options.stem(upload), format.extension());
     Ok(Deformed {

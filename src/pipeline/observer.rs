@@ -56,7 +56,7 @@ pub trait Observer: Sync {
     fn progress(&self, progress: &Progress) -> Control;
     /// Time since the work began.
     fn elapsed(&self) -> Duration;
-    /// Shows the map of an iteration while handles are pulled, counted from 1. `file` writes it as the result will be.
+    /// Shows the map of an iteration while handles are pulled, that of the start as number 0. `file` writes it as the result will be.
     fn frame(&self, _number: usize, _file: &dyn Fn() -> Vec<u8>) {}
 }
 

@@ -60,7 +60,7 @@ pub(super) struct Plan {
 }
 
 /// Writes a map as the result will be.
-type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
+pub(super) type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
 
 /// A solution, its report, its trace.
 pub(super) struct Solved {
@@ -80,6 +80,7 @@ pub(super) fn solve(
     let trace = Trace {
         tracker,
         file,
+        x: RefCell::default(),
         iterates: RefCell::default(),
     };
     let settings = Settings::follow();
@@ -119,6 +120,8 @@ pub(super) fn solve(
 struct Trace<'a> {
     tracker: &'a Tracker<'a>,
     file: Option<&'a WriteMap<'a>>,
+    /// The positions of the iterate that comes next.
+    x: RefCell<Vec<f64>>,
     iterates: RefCell<Vec<Iterate>>,
 }
 
@@ -131,14 +134,17 @@ impl Watch for Trace<'_> {
             .is_none_or(|last| last.iteration < iterate.iteration)
         {
             iterates.push(*iterate);
+            if let Some(file) = self.file {
+                let x = self.x.borrow();
+                self.tracker.frame(iterate.iteration, &|| file(&x));
+            }
         }
         Watch::iterate(self.tracker, iterate)
     }
 
     fn positions(&self, x: &[f64]) {
-        if let Some(file) = self.file {
-            let number = self.iterates.borrow().len();
-            self.tracker.frame(number, &|| file(x));
+        if self.file.is_some() {
+            self.x.replace(x.to_vec());
         }
     }
 }

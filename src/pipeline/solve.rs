@@ -8,7 +8,7 @@ use super::bodies::BodyFormat;
 use super::documents::stem;
 use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
-use super::solution::{Deformed, Plan, solve};
+use super::solution::{Deformed, Plan, WriteMap, solve};
 use crate::deform::{Method, Problem, ProblemError, ProblemFile};
 use crate::document::{DocumentError, Upload};
 use crate::mesh::io::{ElementFormat, Elements};
@@ -24,6 +24,8 @@ pub struct SolveOptions {
     pub barrier_continuation: bool,
     /// Also minimize without a barrier and report that energy beside the solution's: the barrier's bias.
     pub bias: bool,
+    /// Show the observer the map of every iteration; over HTTP they become files beside the result, 256 MiB of them at most.
+    pub frames: bool,
     /// Seconds after which the current valid map is taken as it is.
     #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
     pub time_budget: Option<f64>,
@@ -43,6 +45,7 @@ impl Default for SolveOptions {
             method: Method::Projected,
             barrier_continuation: false,
             bias: false,
+            frames: false,
             time_budget: None,
             format: BodyFormat::Txt,
             stem: None,
@@ -76,7 +79,8 @@ pub fn solve_file(
             bias: options.bias,
         };
         let file = |x: &[f64]| options.format.write(&elements, problem.body.dim(), x);
-        let solved = solve(&problem, plan, &tracker, Some(&file))?;
+        let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
+        let solved = solve(&problem, plan, &tracker, frames)?;
         tracker.stage(Stage::Write);
         let stem = options.stem.clone().unwrap_or_else(|| stem(&upload.name));
         Ok(Deformed {

@@ -70,8 +70,8 @@ pub async fn outcome(server: &Server, form: Form) -> (Value, String, Vec<u8>) {
 async fn bodies_are_pulled() {
     let server = Server::start();
     let plate = Part::text(PLATE).file_name("plate.off");
-    let problem = form("solve", "{}", ("p.json", PROBLEM.into())).part("resource", plate);
-    let (report, media_type, text) = outcome(&server, problem).await;
+    let problem = form("solve", r#"{"frames": true}"#, ("p.json", PROBLEM.into()));
+    let (report, media_type, text) = outcome(&server, problem.part("resource", plate)).await;
     assert!(
         report["residual"].as_f64().is_some_and(|r| r < 1e-12),
         "{report}"
@@ -83,6 +83,24 @@ async fn bodies_are_pulled() {
             .count(),
         12
     );
+
+    let jobs = json(server.get("/v1/jobs").send().await.expect("an answer")).await;
+    let files = jobs["jobs"][0]["links"]["files"].as_array().expect("files");
+    // The result, the report, the trace, the start, and every iteration.
+    let iterations = report["iterations"].as_u64().expect("a number");
+    assert_eq!(files.len() as u64, iterations + 4, "{jobs}");
+    let last = files
+        .last()
+        .and_then(|file| file["href"].as_str())
+        .expect("a frame");
+    let last = server
+        .get(last)
+        .send()
+        .await
+        .expect("an answer")
+        .text()
+        .await;
+    assert_eq!(last.expect("text").as_bytes(), text);
 
     let ends = r#"{"handles": [{"center": [0, 0.5, 0.5], "radius": 0.8, "to": [0, 0.5, 0.5]},
         {"center": [6, 0.5, 0.5], "radius": 0.8, "to": [4, 3, 0.5]}]}"#;
