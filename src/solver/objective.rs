@@ -76,7 +76,7 @@ impl Objective {
             .collect();
         let (pattern, slots) = BlockPattern::new(dim, n_vertices, &stencils);
         Self {
-            cholesky: Cholesky::analyze(pattern.scalar()),
+            cholesky: Cholesky::analyze(pattern.scalar(), dim),
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             scale: terms.iter().map(|term| term.scale()).sum(),
