@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::files::{json, output_format, read_file, read_upload, write_atomically, write_outputs};
 use super::warp::{ModelArgs, print_pull};
-use super::words::{UV_BOUNDARIES, UV_RESTS, word};
-use crate::deform::{UvBoundary, UvEditOptions, UvRest, parse_anchors};
+use super::words::{BOUNDARIES, UV_RESTS, word};
+use crate::deform::Boundary;
+use crate::deform::uv::{UvEditOptions, UvRest, parse_anchors};
 use crate::pipeline::{EditOptions, Limits, edit_document};
 use crate::solver::{Control, Iterate};
 
@@ -42,8 +43,8 @@ struct Common {
     #[arg(long, default_value_t = 0, value_name = "N")]
     texcoord: u32,
     /// Whether the boundaries of charts stay [default: free for edit-uv, fixed for texture-map]
-    #[arg(long, value_parser = word::<UvBoundary>(UV_BOUNDARIES))]
-    boundary: Option<UvBoundary>,
+    #[arg(long, value_parser = word::<Boundary>(BOUNDARIES))]
+    boundary: Option<Boundary>,
     /// Which shapes of triangles to keep [default: present for edit-uv, surface for texture-map]
     #[arg(long, value_parser = word::<UvRest>(UV_RESTS))]
     rest: Option<UvRest>,

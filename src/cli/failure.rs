@@ -2,8 +2,10 @@
 
 use std::process::ExitCode;
 
+use crate::deform::ProblemError;
 use crate::deform::outline::OutlineError;
-use crate::deform::{EditError, ProblemError, WarpError};
+use crate::deform::uv::EditError;
+use crate::deform::warp::WarpError;
 use crate::mesh::ElementError;
 use crate::mesh::io::ReadError;
 use crate::picture::ImageError;

@@ -8,9 +8,8 @@ use super::failure::Failure;
 use super::files::{json, read_file, say, write_atomically};
 use super::words::{BARRIERS, DEFORMATIONS, word};
 use crate::barrier::BarrierKind;
-use crate::deform::{
-    Border, DeformationEnergy, Model, PullReport, WarpOptions, parse_handles, warp_picture,
-};
+use crate::deform::warp::{WarpOptions, parse_handles, warp_picture};
+use crate::deform::{Boundary, DeformationEnergy, Model, PullReport};
 use crate::picture::Image;
 use crate::solver::{Control, Iterate};
 
@@ -76,10 +75,10 @@ struct Report {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let options = WarpOptions {
         grid: args.grid,
-        border: if args.fix_border {
-            Border::Fixed
+        boundary: if args.fix_border {
+            Boundary::Fixed
         } else {
-            Border::Free
+            Boundary::Free
         },
         model: args.model.model(),
     };
@@ -95,9 +94,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         write_atomically(path, &json(&report)?)?;
     }
     print_pull(&warp.report);
-    let is_proven = match options.border {
-        Border::Free => warp.report.certificate.is_valid(),
-        Border::Fixed => warp.report.bijective,
+    let is_proven = match options.boundary {
+        Boundary::Free => warp.report.certificate.is_valid(),
+        Boundary::Fixed => warp.report.bijective,
     };
     if is_proven {
         Ok(())

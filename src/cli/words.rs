@@ -25,7 +25,7 @@ pub(super) const BARRIERS: &[&str] = &[
     "neo-hookean",
     "none",
 ];
-pub(super) const UV_BOUNDARIES: &[&str] = &["free", "fixed"];
+pub(super) const BOUNDARIES: &[&str] = &["free", "fixed"];
 pub(super) const UV_RESTS: &[&str] = &["present", "surface"];
 pub(super) const METHODS: &[&str] = &["projected", "levenberg"];
 pub(super) const CUTS: &[&str] = &["auto", "disk"];

@@ -7,7 +7,6 @@ use super::problem::{Model, Problem, handles};
 use super::problem_error::ProblemError;
 use crate::barrier::epsilon;
 use crate::certificate::{PlanarCertificate, certify_planar};
-use crate::mesh::PlanarMesh;
 use crate::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
 
 /// A vertex counts as arrived within this distance of its target, in units of the map, where a mean triangle has area 1; it
@@ -121,12 +120,4 @@ fn triangles(body: &Body) -> &[[u32; 3]] {
         BodyElements::Triangles { corners, .. } => corners,
         BodyElements::Tetrahedra { .. } => &[],
     }
-}
-
-/// The vertices of a mesh's boundary, ascending.
-pub(super) fn boundary_vertices(mesh: &PlanarMesh) -> Vec<u32> {
-    let mut boundary: Vec<u32> = mesh.boundary().iter().map(|edge| edge[0]).collect();
-    boundary.sort_unstable();
-    boundary.dedup();
-    boundary
 }

@@ -7,7 +7,8 @@ use super::arrays::in_pool;
 use super::documents::stem;
 use super::limits::Limits;
 use crate::certificate::CornerUvs;
-use crate::deform::{Anchor, EditedUvs, PullReport, UvEditOptions, UvMesh, UvRest, edit_uvs};
+use crate::deform::PullReport;
+use crate::deform::uv::{Anchor, EditedUvs, UvEditOptions, UvMesh, UvRest, edit_uvs};
 use crate::document::{
     Corners, Document, DocumentError, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
 };

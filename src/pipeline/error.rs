@@ -1,10 +1,10 @@
 //! Why a mesh could not be unwrapped.
 
 use crate::atlas::AtlasError;
-#[cfg(feature = "files")]
-use crate::deform::EditError;
 use crate::deform::ProblemError;
 use crate::deform::cage::CageError;
+#[cfg(feature = "files")]
+use crate::deform::uv::EditError;
 #[cfg(feature = "files")]
 use crate::document::DocumentError;
 use crate::mesh::MeshError;

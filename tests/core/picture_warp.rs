@@ -2,10 +2,10 @@
 
 use unwrapd::barrier::BarrierKind;
 use unwrapd::certificate::certify_planar;
-use unwrapd::deform::{
-    Border, DeformationEnergy, Model, PictureHandle, PictureWarp, WarpError, WarpOptions,
-    parse_handles, warp_picture,
+use unwrapd::deform::warp::{
+    PictureHandle, PictureWarp, WarpError, WarpOptions, parse_handles, warp_picture,
 };
+use unwrapd::deform::{Boundary, DeformationEnergy, Model};
 use unwrapd::picture::Image;
 use unwrapd::solver::{Control, Iterate, Status};
 
@@ -23,10 +23,10 @@ fn ramp(width: usize, height: usize) -> Image {
     image
 }
 
-fn options(grid: usize, border: Border) -> WarpOptions {
+fn options(grid: usize, boundary: Boundary) -> WarpOptions {
     WarpOptions {
         grid,
-        border,
+        boundary,
         ..WarpOptions::default()
     }
 }
@@ -83,7 +83,7 @@ fn with_a_fixed_border_extreme_moves_are_bijective() {
                 energy: energies[run % energies.len()],
                 ..Model::default()
             },
-            ..options(8, Border::Fixed)
+            ..options(8, Boundary::Fixed)
         };
         let warp = match warp_picture(&image, &handles, &options, &go_on) {
             Ok(warp) => warp,
@@ -117,7 +117,7 @@ fn a_target_outside_a_fixed_border_is_out_of_reach() {
         to: [100.0, 12.0],
     };
     let image = ramp(32, 24);
-    let options = options(8, Border::Fixed);
+    let options = options(8, Boundary::Fixed);
     let warp = warp_picture(&image, &[handle], &options, &go_on).expect("a warp");
     assert_eq!(warp.report.status, Status::TargetsUnreachable);
     assert_bijective(&warp, "outside");
@@ -137,7 +137,8 @@ fn a_free_border_travels_with_its_handles() {
         at,
         to: [at[0] - 7.0, at[1] + 12.0],
     });
-    let warp = warp_picture(&image, &handles, &options(10, Border::Free), &go_on).expect("a warp");
+    let warp =
+        warp_picture(&image, &handles, &options(10, Boundary::Free), &go_on).expect("a warp");
     assert_eq!(warp.report.status, Status::Converged);
     assert_eq!(warp.report.residual, 0.0);
     for (p, q) in warp.grid.vertices().iter().zip(&warp.deformed) {
@@ -155,7 +156,7 @@ fn a_handle_keeps_its_offset_from_the_vertex() {
         at: [13.0, 9.0],
         to: [16.0, 11.0],
     };
-    let options = options(10, Border::Fixed);
+    let options = options(10, Boundary::Fixed);
     let warp = warp_picture(&image, &[handle], &options, &go_on).expect("a warp");
     let vertex = (warp.grid.vertices().iter())
         .position(|p| *p == [12.0, 8.0])
@@ -176,7 +177,7 @@ fn without_a_barrier_the_map_may_fold_and_the_report_says_so() {
                 barrier,
                 ..Model::default()
             },
-            ..options(8, Border::Fixed)
+            ..options(8, Boundary::Fixed)
         };
         warp_picture(&image, &[handle], &options, &go_on).expect("a warp")
     };
@@ -195,7 +196,7 @@ fn what_cannot_be_warped_has_a_code() {
             .expect_err("an error")
             .code()
     };
-    let fixed = options(8, Border::Fixed);
+    let fixed = options(8, Boundary::Fixed);
     assert_eq!(code(&[], &fixed), "handle_count");
     assert_eq!(
         code(&vec![handle(middle, middle); 1001], &fixed),
@@ -212,8 +213,8 @@ fn what_cannot_be_warped_has_a_code() {
     let two = [handle(middle, middle), handle(middle, [17.0, 12.0])];
     assert_eq!(code(&two, &fixed), "contradictory_handles");
     let one = [handle(middle, middle)];
-    assert_eq!(code(&one, &options(1, Border::Fixed)), "grid_too_coarse");
-    assert_eq!(code(&one, &options(0, Border::Fixed)), "invalid_setting");
+    assert_eq!(code(&one, &options(1, Boundary::Fixed)), "grid_too_coarse");
+    assert_eq!(code(&one, &options(0, Boundary::Fixed)), "invalid_setting");
     for beta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let model = Model {
             beta: Some(beta),

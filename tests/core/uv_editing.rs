@@ -2,8 +2,10 @@
 
 use unwrapd::certificate::{CornerUvs, Overlap, certify};
 #[cfg(feature = "files")]
-use unwrapd::deform::parse_anchors;
-use unwrapd::deform::{Anchor, EditedUvs, UvBoundary, UvEditOptions, UvMesh, UvRest, edit_uvs};
+use unwrapd::deform::Boundary;
+use unwrapd::deform::uv::{
+    Anchor, EditedUvs, UvEditOptions, UvMesh, UvRest, edit_uvs, parse_anchors,
+};
 use unwrapd::solver::{Control, Iterate, Status};
 
 const SIDE: u32 = 8;
@@ -226,7 +228,7 @@ fn what_cannot_be_edited_has_a_code() {
     let seam = to(4 * (SIDE + 1) + 4, [0.25, 0.5]);
     assert_eq!(code(&cut, &[seam], &texture), "ambiguous_vertex");
     let free = UvEditOptions {
-        boundary: UvBoundary::Free,
+        boundary: Boundary::Free,
         ..texture
     };
     let by_place = Anchor::Place {

@@ -2,9 +2,8 @@
 
 use serde::Deserialize;
 
-use super::edit_error::EditError;
-use super::parameterization::UvMesh;
-use super::uv_chart::UvVertices;
+use super::chart::UvVertices;
+use super::{EditError, UvMesh};
 use crate::certificate::UvTopology;
 
 /// Anchors at most: each is compared with every vertex.

@@ -5,31 +5,30 @@
 //! 17). They differ in the shapes that are kept and in whether boundaries stay. Either starts from the present UVs, which
 //! must be without flips, and never passes through one.
 
+mod anchors;
+mod chart;
+mod error;
+
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::anchors::{Anchor, Held, hold};
-use super::body::{Body, BodyElements};
-use super::edit_error::EditError;
-use super::problem::Model;
-use super::pull::{Holds, PullReport, boundary_vertices, pull};
-use super::uv_chart::{ChartFaces, UvChart, UvVertices};
+use self::anchors::{Held, hold};
+use self::chart::{UvChart, UvVertices};
 use crate::certificate::{CornerUvs, UvTopology};
+use crate::deform::body::{Body, BodyElements};
+use crate::deform::boundary::Boundary;
+use crate::deform::problem::Model;
+use crate::deform::pull::{Holds, PullReport, pull};
 use crate::embed::rest_shapes;
 use crate::mesh::PlanarMesh;
 use crate::solver::Watch;
 
-/// What becomes of the boundary of a chart.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum UvBoundary {
-    /// It follows the anchors.
-    #[default]
-    Free,
-    /// It stays; a chart that does not overlap itself will not afterwards.
-    Fixed,
-}
+pub use anchors::Anchor;
+#[cfg(feature = "files")]
+pub use anchors::parse_anchors;
+pub use chart::ChartFaces;
+pub use error::EditError;
 
 /// Which shape of a triangle is without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,7 +45,7 @@ pub enum UvRest {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UvEditOptions {
     /// The boundaries.
-    pub boundary: UvBoundary,
+    pub boundary: Boundary,
     /// The shapes to keep.
     pub rest: UvRest,
     /// What is minimized, for a mean triangle of area 1.
@@ -62,7 +61,7 @@ impl UvEditOptions {
     /// Keeps the shapes of the surface, boundaries fixed.
     pub fn texture() -> Self {
         Self {
-            boundary: UvBoundary::Fixed,
+            boundary: Boundary::Fixed,
             rest: UvRest::Surface,
             ..Self::default()
         }
@@ -152,10 +151,7 @@ fn edit_chart(
     watch: &dyn Watch,
 ) -> Result<(Vec<[f64; 2]>, PullReport), EditError> {
     let planar = PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
-    let fixed = match options.boundary {
-        UvBoundary::Free => Vec::new(),
-        UvBoundary::Fixed => boundary_vertices(&planar),
-    };
+    let fixed = options.boundary.held(&planar);
     let mut pulled = Vec::with_capacity(held.len());
     for Held { anchor, vertex, to } in held {
         // The vertex of a face left out of its chart is not there.

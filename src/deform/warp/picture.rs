@@ -1,12 +1,13 @@
 //! A picture pulled by handles.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use super::body::Body;
-use super::problem::Model;
-use super::problem_error::ProblemError;
-use super::pull::{Holds, PullReport, boundary_vertices, pull};
-use super::warp::{GridError, picture_grid};
+use super::{GridError, picture_grid};
+use crate::deform::body::Body;
+use crate::deform::boundary::Boundary;
+use crate::deform::problem::Model;
+use crate::deform::problem_error::ProblemError;
+use crate::deform::pull::{Holds, PullReport, pull};
 use crate::mesh::PlanarMesh;
 use crate::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
 use crate::solver::Watch;
@@ -16,24 +17,14 @@ const MOST_HANDLES: usize = 1000;
 /// Coordinates of targets at most, in pixels.
 const FARTHEST: f64 = 1e9;
 
-/// What becomes of the border of a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Border {
-    /// It follows the handles; the result shows all of the warped picture.
-    #[default]
-    Free,
-    /// It stays, so that no two places of the picture can come to lie on each other; the result is as large as the picture.
-    Fixed,
-}
-
 /// How a picture is warped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WarpOptions {
     /// Cells along the longer side, 1 to 512.
     pub grid: usize,
-    /// The border.
-    pub border: Border,
+    /// The border of the picture. Where it is free, the result shows all of the warped picture; where it stays, no two places
+    /// of the picture can come to lie on each other, and the result is as large as the picture.
+    pub boundary: Boundary,
     /// What is minimized, for a mean triangle of an area from ½ to 2.
     pub model: Model,
 }
@@ -42,7 +33,7 @@ impl Default for WarpOptions {
     fn default() -> Self {
         Self {
             grid: 40,
-            border: Border::Free,
+            boundary: Boundary::Free,
             model: Model::default(),
         }
     }
@@ -142,9 +133,9 @@ pub fn warp_picture(
         deformed: &deformed,
         triangles: grid.triangles(),
     };
-    let extent = match options.border {
-        Border::Free => Extent::Mesh,
-        Border::Fixed => Extent::Source,
+    let extent = match options.boundary {
+        Boundary::Free => Extent::Mesh,
+        Boundary::Fixed => Extent::Source,
     };
     Ok(PictureWarp {
         picture: warped(image, &deformation, extent)?,
@@ -161,7 +152,7 @@ fn warp_grid(
     options: &WarpOptions,
     watch: &dyn Watch,
 ) -> Result<(Vec<[f64; 2]>, PullReport), WarpError> {
-    let bound = bind(grid, handles, options.border)?;
+    let bound = bind(grid, handles, options.boundary)?;
     // A power of two, so that nothing is rounded on the way there and back.
     let unit = mean_area(grid).sqrt().log2().round().exp2();
     let to_unit = |p: [f64; 2]| p.map(|x| x / unit);
@@ -184,14 +175,15 @@ fn mean_area(grid: &PlanarMesh) -> f64 {
 }
 
 /// The vertices of the grid that handles take hold of, and those of a fixed border; in pixels.
-fn bind(grid: &PlanarMesh, handles: &[PictureHandle], border: Border) -> Result<Holds, WarpError> {
+fn bind(
+    grid: &PlanarMesh,
+    handles: &[PictureHandle],
+    boundary: Boundary,
+) -> Result<Holds, WarpError> {
     if !(1..=MOST_HANDLES).contains(&handles.len()) {
         return Err(WarpError::HandleCount(handles.len()));
     }
-    let fixed = match border {
-        Border::Free => Vec::new(),
-        Border::Fixed => boundary_vertices(grid),
-    };
+    let fixed = boundary.held(grid);
     let mut is_free = vec![true; grid.vertices().len()];
     for &v in &fixed {
         is_free[v as usize] = false;

@@ -1,6 +1,6 @@
 //! Charts of a UV map as maps of the plane.
 
-use super::edit_error::EditError;
+use super::EditError;
 use crate::certificate::{CornerUvs, PlanarCertificate, Start, UvTopology, certify_planar};
 use crate::mesh::UnionFind;
 use crate::numerics::predicates::orient2d_sign;

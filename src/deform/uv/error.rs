@@ -1,7 +1,7 @@
 //! Why UVs cannot be edited.
 
 use super::anchors::MOST_ANCHORS;
-use super::problem_error::ProblemError;
+use crate::deform::problem_error::ProblemError;
 use crate::mesh::ElementError;
 
 /// Why UVs cannot be edited.

@@ -1,11 +1,4 @@
 //! The mesh on which a picture is deformed.
-//!
-//! [`picture_grid`] makes it; what the picture looks like afterwards is drawn by
-#![cfg_attr(
-    feature = "files",
-    doc = "[`picture::warped`](crate::picture::warped)."
-)]
-#![cfg_attr(not(feature = "files"), doc = "the feature `files`.")]
 
 use crate::mesh::PlanarMesh;
 
