@@ -33,7 +33,7 @@ impl Branch {
             let k = k as usize;
             let front = &plan.fronts.list[k];
             let place = &plan.places[k];
-            let (mine, theirs) = if front.depth % 2 == 0 {
+            let (mine, theirs) = if front.depth.is_multiple_of(2) {
                 (&mut *even, &*odd)
             } else {
                 (&mut *odd, &*even)

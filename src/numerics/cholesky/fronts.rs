@@ -65,7 +65,7 @@ impl Front {
 
     /// From column to column of the panel: an odd multiple of [`LANES`], so that a row does not fall into one set of the cache.
     pub fn stride(&self) -> usize {
-        LANES * (self.height() / LANES | 1)
+        LANES * ((self.height() / LANES) | 1)
     }
 
     /// From column to column of the update.

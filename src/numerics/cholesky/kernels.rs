@@ -3,6 +3,9 @@
 //! Written with vectors of whatever width the processor has (pulp chooses at run time). A tile of eight columns is held in
 //! registers while all columns to its left are subtracted from it, so that the panel is written once.
 
+// What is not inlined into the function that pulp compiles for the processor at hand is compiled for the oldest one.
+#![expect(clippy::inline_always)]
+
 use faer::traits::pulp::{Simd, WithSimd};
 
 /// Columns of a tile, and rows of the smallest strip.

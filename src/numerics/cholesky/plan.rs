@@ -39,7 +39,7 @@ impl Plan {
     pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<Branch>) {
         let graph = Graph::new(pattern, block);
         let order = fill_reducing_order(&graph);
-        let (order, parent) = in_postorder(&graph, order);
+        let (order, parent) = in_postorder(&graph, &order);
         let counts = tree::column_counts(&graph.reordered(&order), &parent);
         let supernodes = supernodes(&parent, &counts, block);
         let order = composed(&order, &supernodes.order);
@@ -69,11 +69,11 @@ impl Plan {
 }
 
 /// The order changed to a postorder of its elimination tree, which costs and fills the same, and that tree.
-fn in_postorder(graph: &Graph, order: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
-    let parent = tree::elimination_tree(&graph.reordered(&order));
+fn in_postorder(graph: &Graph, order: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let parent = tree::elimination_tree(&graph.reordered(order));
     let postorder = tree::postorder(&parent);
     (
-        composed(&order, &postorder),
+        composed(order, &postorder),
         tree::reordered(&parent, &postorder),
     )
 }
@@ -124,7 +124,7 @@ fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Branch>) {
 /// The branch of each front: the largest subtrees that are small enough are one each, the rest is the trunk, the last.
 fn branches(fronts: &Fronts) -> Vec<u32> {
     let n = fronts.list.len();
-    let mut work: Vec<f64> = fronts.list.iter().map(|front| front.flops()).collect();
+    let mut work: Vec<f64> = fronts.list.iter().map(Front::flops).collect();
     for k in 0..n {
         let parent = fronts.list[k].parent;
         if parent != NONE {

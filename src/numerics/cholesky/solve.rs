@@ -1,5 +1,8 @@
 //! Solving with the factor.
 
+// What is not inlined into the function that pulp compiles for the processor at hand is compiled for the oldest one.
+#![expect(clippy::inline_always)]
+
 use faer::traits::pulp::{Simd, WithSimd};
 
 use super::branch::Branch;
