@@ -32,6 +32,7 @@ pub use error::EditError;
 
 /// Which shape of a triangle is without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum UvRest {
     /// The one it has: where nothing pulls, nothing moves.
@@ -156,7 +157,7 @@ fn edit_chart(
     for Held { anchor, vertex, to } in held {
         // The vertex of a face left out of its chart is not there.
         let local = chart.vertices.binary_search(vertex);
-        let local = local.map_err(|_| EditError::UnknownVertex(*anchor))?;
+        let local = local.map_err(|_| EditError::UnknownHandle(*anchor))?;
         if fixed.binary_search(&(local as u32)).is_ok() {
             if chart.uvs[local] != *to {
                 return Err(EditError::OnBoundary(*anchor));
