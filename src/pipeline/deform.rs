@@ -17,6 +17,10 @@ use crate::document::Upload;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "switches of the command line"
+)]
 pub struct DeformOptions {
     /// What is pulled, and where to: vertices, points inside elements, discs of vertices.
     pub handles: Vec<Handle>,
