@@ -34,8 +34,10 @@ mod picture_warp;
 mod pipeline;
 #[cfg(feature = "files")]
 mod problem_files;
+mod random;
 mod solver;
 mod taylor;
+mod texture_mapping;
 mod uv_editing;
 mod uv_meshes;
 #[cfg(feature = "files")]

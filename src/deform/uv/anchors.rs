@@ -5,8 +5,9 @@ use serde::Deserialize;
 use super::chart::UvVertices;
 use super::{EditError, UvMesh};
 use crate::certificate::UvTopology;
+use crate::numerics::predicates::orient2d_sign;
 
-/// Anchors at most: each is compared with every vertex.
+/// Anchors at most: each is compared with every face.
 pub(super) const MOST_ANCHORS: usize = 1000;
 /// UVs at most; no texture repeats that often.
 const FARTHEST: f64 = 1e6;
@@ -22,7 +23,8 @@ pub enum Anchor {
         /// Its new UV.
         to: [f64; 2],
     },
-    /// The vertex nearest to a UV; its target is shifted by its offset from there.
+    /// The point of the surface that has a UV, a vertex if it is one. Where no face has the UV, and next to a boundary that stays,
+    /// the nearest vertex, whose target is shifted by the same offset.
     Place {
         /// A UV.
         at: [f64; 2],
@@ -45,15 +47,24 @@ pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
     Ok(file.anchors)
 }
 
-/// An anchor with its vertex of the UV map.
+/// An anchor with what it holds of the UV map.
 pub(super) struct Held {
     /// Which anchor.
     pub anchor: usize,
-    pub vertex: u32,
+    pub spot: Spot,
     pub to: [f64; 2],
 }
 
-/// The vertices that anchors hold, each once.
+/// What an anchor holds.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Spot {
+    /// A vertex of the UV map.
+    Vertex(u32),
+    /// A UV in a chart.
+    Place { chart: u32, at: [f64; 2] },
+}
+
+/// What anchors hold, each spot once.
 pub(super) fn hold(
     mesh: &UvMesh,
     topology: &UvTopology,
@@ -75,16 +86,24 @@ pub(super) fn hold(
         let held_one = match *which {
             Anchor::Vertex { vertex, to } => {
                 let vertex = only_vertex(mesh, topology, vertices, (anchor, vertex))?;
-                Held { anchor, vertex, to }
+                let spot = Spot::Vertex(vertex);
+                Held { anchor, spot, to }
             }
-            Anchor::Place { at, to } => {
-                let nearest = nearest_vertex(topology, vertices, at);
-                let (vertex, uv) = nearest.ok_or(EditError::UnknownVertex(anchor))?;
-                let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
-                Held { anchor, vertex, to }
-            }
+            Anchor::Place { at, to } => match chart_at(topology, at) {
+                Some(chart) => {
+                    let spot = Spot::Place { chart, at };
+                    Held { anchor, spot, to }
+                }
+                None => {
+                    let nearest = nearest_vertex(topology, vertices, at);
+                    let (vertex, uv) = nearest.ok_or(EditError::UnknownVertex(anchor))?;
+                    let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
+                    let spot = Spot::Vertex(vertex);
+                    Held { anchor, spot, to }
+                }
+            },
         };
-        match held.iter().find(|other| other.vertex == held_one.vertex) {
+        match held.iter().find(|other| other.spot == held_one.spot) {
             None => held.push(held_one),
             Some(same) if same.to == held_one.to => {}
             Some(other) => return Err(EditError::Contradictory(other.anchor, anchor)),
@@ -122,4 +141,18 @@ fn nearest_vertex(
         .map(|v| (v, vertices.uv(topology, v)));
     let distance = |uv: [f64; 2]| (uv[0] - at[0]).hypot(uv[1] - at[1]);
     usable.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
+}
+
+/// The chart of the first face that has a UV.
+fn chart_at(topology: &UvTopology, at: [f64; 2]) -> Option<u32> {
+    let holds = |face: &usize| {
+        let [a, b, c] = topology.uvs[*face];
+        let orientation = topology.orientation[*face];
+        let is_on_side = |(p, q)| orient2d_sign(p, q, at) * orientation >= 0;
+        !topology.unusable[*face]
+            && orientation != 0
+            && [(a, b), (b, c), (c, a)].into_iter().all(is_on_side)
+    };
+    let face = (0..topology.faces.len()).find(holds)?;
+    Some(topology.charts.of_face[face])
 }
