@@ -31,6 +31,7 @@ mod outline;
 mod picture;
 #[cfg(feature = "files")]
 mod picture_warp;
+mod pins;
 mod pipeline;
 #[cfg(feature = "files")]
 mod problem_files;
