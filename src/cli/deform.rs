@@ -1,47 +1,28 @@
 //! `unwrapd deform`: a mesh, a picture, a drawing or surfaces in a cage pulled by handles.
 
-use std::path::{Path, PathBuf};
-use std::time::Instant;
-
-use serde::Deserialize;
+use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::files::read_file;
-use super::solution::{Output, Records, solve_and_write};
-use super::words::{BARRIERS, DEFORMATIONS, word};
-use crate::barrier::BarrierKind;
-use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
-use crate::deform::{Body, DeformationEnergy, Handle, Method, Model, Problem};
-use crate::mesh::io::{ElementFormat, Elements};
-use crate::picture::Image;
+use super::files::{read_file, read_upload};
+use super::model::ModelArgs;
+use super::records::{Records, body_format, stem};
+use crate::deform::parse_body_handles;
+use crate::pipeline::{DeformOptions, Limits, deform_file};
 
 /// Deforms a planar or tetrahedral mesh, or surfaces in a cage of tetrahedra, by handles, no element inverted.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Mesh (.obj, .off, .msh, .mesh, .tet), or an outline to be meshed: PNG with transparency, SVG; with --cage surfaces: .glb,
-    /// .gltf, .obj, .off, .ply, .stl
-    pub(super) input: PathBuf,
+    /// Mesh (.obj, .off, .msh, .mesh, .tet; planar also .glb, .gltf, .ply, .stl), or an outline to be meshed: PNG with
+    /// transparency, SVG; with --cage surfaces: .glb, .gltf, .obj, .off, .ply, .stl
+    input: PathBuf,
     /// JSON: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …}, {"center": …, "radius": r, "to": …}]}
     #[arg(long, value_name = "FILE")]
-    pub(super) handles: PathBuf,
+    handles: PathBuf,
     /// Where the deformed mesh goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; with --cage .glb, .gltf, .obj
     #[arg(short, long, value_name = "FILE")]
-    pub(super) output: PathBuf,
-    /// Deformation energy
-    #[arg(long, default_value = "arap", value_parser = word::<DeformationEnergy>(DEFORMATIONS))]
-    energy: DeformationEnergy,
-    /// Barrier
-    #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(BARRIERS))]
-    barrier: BarrierKind,
-    /// Strength of the barrier; by default the paper's, 100 for green and 0.01 for the others
-    #[arg(long, value_name = "X")]
-    beta: Option<f64>,
-    /// Share of its rest size below which an element feels the inverse spline
-    #[arg(long, default_value_t = 1.0, value_name = "X")]
-    s: f64,
-    /// Keep the conformal distortion of every triangle, its longest over its shortest stretch, below this; plane only
-    #[arg(long, value_name = "K")]
-    max_conformal: Option<f64>,
+    output: PathBuf,
+    #[command(flatten)]
+    model: ModelArgs,
     /// About how many triangles an outline is filled with
     #[arg(long, default_value_t = 5000, value_name = "N")]
     triangles: usize,
@@ -50,78 +31,28 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", conflicts_with = "frames")]
     cage: Option<u32>,
     #[command(flatten)]
-    pub(super) records: Records,
-}
-
-impl Args {
-    pub(super) fn model(&self) -> Model {
-        Model {
-            energy: self.energy,
-            barrier: self.barrier,
-            beta: self.beta,
-            s: self.s,
-            bound: self.max_conformal,
-        }
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct HandleFile {
-    handles: Vec<Handle>,
+    records: Records,
 }
 
 /// Runs `deform`.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    if let Some(n_voxels) = args.cage {
-        return super::caged::run(args, n_voxels);
-    }
-    let output = Output::of(&args.output)?;
-    let clock = Instant::now();
-    let mesh = read_mesh(&args.input, args.triangles)?;
-    let handles = read_handles(&args.handles)?;
-    let body = if mesh.tets.is_empty() {
-        Body::from(&mesh.clone().into_planar_mesh()?)
-    } else {
-        Body::from(&mesh.clone().into_tet_mesh()?)
+    let mut options = DeformOptions {
+        handles: Vec::new(),
+        model: args.model.model(),
+        triangles: args.triangles,
+        cage: args.cage,
+        barrier_continuation: args.records.barrier_continuation,
+        bias: args.records.bias,
+        time_budget: args.records.time_budget,
+        format: Some(body_format(&args.output)?),
+        stem: stem(&args.output),
+        limits: Limits::default(),
     };
-    let problem = Problem::new(body, &handles, &args.model())?;
-    let setup_seconds = clock.elapsed().as_secs_f64();
-    let target = (&output, args.output.as_path());
-    solve_and_write(
-        &problem,
-        &mesh,
-        Method::Projected,
-        setup_seconds,
-        target,
-        &args.records,
-    )
-}
-
-/// The handles of a file.
-pub(super) fn read_handles(path: &Path) -> Result<Vec<Handle>, Failure> {
-    serde_json::from_slice(&read_file(path)?)
-        .map(|file: HandleFile| file.handles)
-        .map_err(|error| Failure::input(format!("{}: {error}", path.display())))
-}
-
-/// The mesh of a file, or of the outline in a picture or drawing.
-fn read_mesh(path: &Path, triangles: usize) -> Result<Elements, Failure> {
-    let bytes = read_file(path)?;
-    let name = path.to_string_lossy();
-    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let outline = match extension.to_str() {
-        Some("svg") => outline::of_svg(&String::from_utf8_lossy(&bytes), &SvgSettings::default())?,
-        Some("png") => outline::of_image(&Image::decode(&bytes)?, &ImageSettings::default())?,
-        _ => {
-            let format = ElementFormat::of_name(&name)
-                .ok_or_else(|| Failure::input(format!("{name}: not a format that is read")))?;
-            return Ok(format.read(&bytes)?);
-        }
-    };
-    let settings = MeshSettings {
-        resolution: Resolution::Triangles(triangles),
-        ..MeshSettings::default()
-    };
-    Ok(Elements::from(&outline::triangulate(&outline, &settings)?))
+    options.check()?;
+    options.handles = parse_body_handles(&read_file(&args.handles)?)?;
+    let upload = read_upload(&args.input)?;
+    let display = args.records.display(&args.output);
+    let deformed = deform_file(&upload, &options, &display);
+    display.finish()?;
+    args.records.write(&args.output, &deformed?)
 }

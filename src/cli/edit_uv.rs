@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::files::{json, output_format, read_file, read_upload, write_atomically, write_outputs};
-use super::warp::{ModelArgs, print_pull};
+use super::model::ModelArgs;
+use super::progress::Display;
+use super::records::stem;
+use super::warp::print_pull;
 use super::words::{BOUNDARIES, UV_RESTS, word};
 use crate::deform::Boundary;
-use crate::deform::uv::{UvEditOptions, UvRest, parse_anchors};
-use crate::pipeline::{EditOptions, Limits, edit_document};
-use crate::solver::{Control, Iterate};
+use crate::deform::uv::{UvRest, parse_anchors};
+use crate::pipeline::{EditOptions, Editing, Limits, edit_document};
 
 /// Moves anchors of a UV map, everything else as it is as far as possible and no triangle flipped.
 #[derive(clap::Args)]
@@ -50,6 +52,9 @@ struct Common {
     rest: Option<UvRest>,
     #[command(flatten)]
     model: ModelArgs,
+    /// End with the current valid map after this many seconds
+    #[arg(long, value_name = "SECONDS")]
+    time_budget: Option<f64>,
     /// Write a JSON report: per chart status, iterations, energy, residual, what is proven
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -57,38 +62,38 @@ struct Common {
 
 /// Runs `edit-uv`.
 pub(super) fn edit(args: &EditArgs) -> Result<(), Failure> {
-    run(&args.common, &args.anchors, UvEditOptions::edit())
+    run(&args.common, &args.anchors, Editing::Map)
 }
 
 /// Runs `texture-map`.
 pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
-    run(&args.common, &args.points, UvEditOptions::texture())
+    run(&args.common, &args.points, Editing::Texture)
 }
 
 /// Exit 4 if a chart with an anchor is not proven to be without flips.
-fn run(args: &Common, anchors: &Path, default: UvEditOptions) -> Result<(), Failure> {
+fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     let options = EditOptions {
+        anchors: parse_anchors(&read_file(anchors)?)?,
         texcoord: args.texcoord,
-        edit: UvEditOptions {
-            boundary: args.boundary.unwrap_or(default.boundary),
-            rest: args.rest.unwrap_or(default.rest),
-            model: args.model.model(),
-        },
+        boundary: args.boundary,
+        rest: args.rest,
+        model: args.model.model(),
+        time_budget: args.time_budget,
         format: output_format(&args.output)?,
-        stem: (args.output.file_stem()).map(|stem| stem.to_string_lossy().into_owned()),
+        stem: stem(&args.output),
         limits: Limits::default(),
     };
-    let anchors = parse_anchors(&read_file(anchors)?)?;
     let upload = read_upload(&args.input)?;
-    let go_on = |_: &Iterate| Control::Continue;
-    let edited = edit_document(&upload, &anchors, &options, &go_on)?;
+    let display = Display::new();
+    let edited = edit_document(&upload, editing, &options, &display);
+    display.finish()?;
+    let edited = edited?;
     write_outputs(&args.output, &edited.files)?;
     if let Some(path) = &args.report {
         write_atomically(path, &json(&edited.report)?)?;
     }
     for chart in &edited.report.charts {
-        print!("chart {}: ", chart.chart);
-        print_pull(&chart.map);
+        print_pull(&format!("chart {}: ", chart.chart), &chart.map);
     }
     if edited.report.certified {
         Ok(())

@@ -3,12 +3,8 @@
 use std::process::ExitCode;
 
 use crate::deform::ProblemError;
-use crate::deform::outline::OutlineError;
 use crate::deform::uv::EditError;
 use crate::deform::warp::WarpError;
-use crate::mesh::ElementError;
-use crate::mesh::io::ReadError;
-use crate::picture::ImageError;
 use crate::pipeline::PipelineError;
 
 /// Why a command ended, in one line, and its exit status.
@@ -67,23 +63,15 @@ impl From<PipelineError> for Failure {
     }
 }
 
-/// An input that cannot be used: the error's line and its code.
+/// Handles or a problem file that cannot be read.
 macro_rules! input_errors {
     ($($error:ty),*) => {
         $(impl From<$error> for Failure {
             fn from(error: $error) -> Self {
-                Self::input(format!("{error} ({})", error.code()))
+                PipelineError::from(error).into()
             }
         })*
     };
 }
 
-input_errors!(
-    ProblemError,
-    ReadError,
-    ElementError,
-    OutlineError,
-    ImageError,
-    WarpError,
-    EditError
-);
+input_errors!(ProblemError, WarpError, EditError);

@@ -17,6 +17,15 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
 /// Reads a file and the files beside it that it references by relative URI. A missing one is left to the document,
 /// which knows whether it is needed.
 pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
+    let references = gltf::references(&read_file(path)?);
+    read_upload_with(path, references)
+}
+
+/// Reads a file and those of the files that it references that are there.
+pub(super) fn read_upload_with(
+    path: &Path,
+    references: impl IntoIterator<Item = String>,
+) -> Result<Upload, Failure> {
     let bytes = read_file(path)?;
     let name = path
         .file_name()
@@ -25,9 +34,9 @@ pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
         .into_owned();
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut resources = BTreeMap::new();
-    for path in gltf::references(&bytes) {
-        if let Ok(content) = fs::read(folder.join(&path)) {
-            resources.insert(path, content);
+    for reference in references {
+        if let Ok(content) = fs::read(folder.join(&reference)) {
+            resources.insert(reference, content);
         }
     }
     Ok(Upload {

@@ -3,7 +3,6 @@
 //! Exit codes: 0 done; 2 usage; 3 the input cannot be used; 4 not certified or no valid result within the limits;
 //! 1 anything else.
 
-mod caged;
 mod deform;
 mod edit_uv;
 mod failure;
@@ -11,11 +10,11 @@ mod files;
 mod health;
 mod listen;
 mod measure;
+mod model;
 mod progress;
+mod records;
 mod serve;
-mod solution;
 mod solve;
-mod trace;
 mod unwrap;
 mod warp;
 mod words;
@@ -44,7 +43,7 @@ enum Command {
     /// Check exactly that no face of a file's UVs is flipped or degenerate: exit 0 if so, 4 if not
     Verify(measure::VerifyArgs),
     /// Pull a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted
-    Deform(deform::Args),
+    Deform(Box<deform::Args>),
     /// Solve a problem file: handles pulled to targets, no element inverted
     Solve(solve::Args),
     /// Warp a picture by handles without folding it

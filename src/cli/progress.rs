@@ -1,22 +1,33 @@
 //! Progress of a command: a bar on a terminal, plain lines otherwise, both on standard error.
 
 use std::io::{IsTerminal, stderr};
-use std::sync::Mutex;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::failure::Failure;
+use super::files::write_atomically;
 use crate::pipeline::{Observer, Progress, Stage};
 use crate::solver::Control;
 
 /// Steps of the bar.
 const STEPS: u64 = 1000;
 
-/// Shows progress and tells the time.
+/// Shows progress, tells the time, and writes frames.
 pub(super) struct Display {
     begin: Instant,
     bar: Option<ProgressBar>,
     last_stage: Mutex<Option<Stage>>,
+    frames: Option<Frames>,
+}
+
+/// A file for the map of every iteration.
+struct Frames {
+    folder: PathBuf,
+    extension: String,
+    failure: Mutex<Option<Failure>>,
 }
 
 impl Display {
@@ -32,20 +43,45 @@ impl Display {
             begin: Instant::now(),
             bar,
             last_stage: Mutex::new(None),
+            frames: None,
         }
     }
 
-    pub(super) fn finish(&self) {
+    /// Also writes every map into a folder.
+    pub(super) fn with_frames(folder: PathBuf, extension: String) -> Self {
+        let failure = Mutex::new(None);
+        Self {
+            frames: Some(Frames {
+                folder,
+                extension,
+                failure,
+            }),
+            ..Self::new()
+        }
+    }
+
+    /// Takes the bar away; an error if a frame could not be written.
+    pub(super) fn finish(self) -> Result<(), Failure> {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+        let failure = self.frames.and_then(|frames| {
+            let failure = frames.failure.into_inner();
+            failure.unwrap_or_else(PoisonError::into_inner)
+        });
+        failure.map_or(Ok(()), Err)
+    }
+
+    fn has_failed(&self) -> bool {
+        let failure = self.frames.as_ref().map(|frames| frames.failure.lock());
+        failure.is_some_and(|failure| failure.unwrap_or_else(PoisonError::into_inner).is_some())
     }
 
     fn line(&self, progress: &Progress) {
         let mut last = self
             .last_stage
             .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
+            .unwrap_or_else(PoisonError::into_inner);
         if last.replace(progress.stage) != Some(progress.stage) {
             eprintln!(
                 "{:7.2} s  {}",
@@ -65,11 +101,27 @@ impl Observer for Display {
             }
             None => self.line(progress),
         }
-        Control::Continue
+        if self.has_failed() {
+            Control::Finish
+        } else {
+            Control::Continue
+        }
     }
 
     fn elapsed(&self) -> Duration {
         self.begin.elapsed()
+    }
+
+    fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
+        if let Some(frames) = &self.frames {
+            let name = format!("{number:05}.{}", frames.extension);
+            let written = write_atomically(&frames.folder.join(name), &file());
+            let mut failure = frames
+                .failure
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
+            *failure = failure.take().or(written.err());
+        }
     }
 }
 
@@ -86,6 +138,10 @@ fn stage_text(progress: &Progress) -> String {
             progress.charts,
             progress.iteration,
             progress.energy
+        ),
+        Stage::Deform => format!(
+            "pull, iteration {}, energy {:.6}",
+            progress.iteration, progress.energy
         ),
         Stage::Pack => format!("pack {} charts", progress.charts),
         Stage::Write => "write".into(),

@@ -1,14 +1,13 @@
 //! `unwrapd solve`: a problem file of handles and targets.
 
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::files::read_file;
-use super::solution::{Output, Records, solve_and_write};
+use super::files::{read_file, read_upload_with};
+use super::records::{Records, body_format, stem};
 use super::words::{METHODS, word};
-use crate::deform::{Method, Problem, ProblemFile};
-use crate::mesh::io::{ElementFormat, Elements};
+use crate::deform::{Method, ProblemFile};
+use crate::pipeline::{Limits, SolveOptions, solve_file};
 
 /// Solves a problem file: handles pulled to targets, no element inverted.
 #[derive(clap::Args)]
@@ -27,40 +26,19 @@ pub(super) struct Args {
 
 /// Runs `solve`.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let output = Output::of(&args.output)?;
-    let clock = Instant::now();
-    let (problem, mesh) = read(&args.problem)?;
-    let setup_seconds = clock.elapsed().as_secs_f64();
-    let target = (&output, args.output.as_path());
-    solve_and_write(
-        &problem,
-        &mesh,
-        args.method,
-        setup_seconds,
-        target,
-        &args.records,
-    )
-}
-
-/// The problem and the mesh that its file names.
-fn read(path: &Path) -> Result<(Problem, Elements), Failure> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let file = ProblemFile::parse(&read_file(path)?)?;
-    let format = ElementFormat::of_name(&file.mesh)
-        .ok_or_else(|| Failure::input(format!("{}: not a mesh format that is read", file.mesh)))?;
-    let mesh = format.read(&read_file(&folder.join(&file.mesh))?)?;
-    let start = file.initial.as_ref().map(|initial| {
-        let bytes = read_file(&folder.join(initial))?;
-        numbers(&bytes).ok_or_else(|| Failure::input(format!("{initial}: not numbers")))
-    });
-    let problem = file.with(mesh.clone(), start.transpose()?)?;
-    Ok((problem, mesh))
-}
-
-/// Numbers separated by blanks.
-fn numbers(bytes: &[u8]) -> Option<Vec<f64>> {
-    let text = std::str::from_utf8(bytes).ok()?;
-    text.split_ascii_whitespace()
-        .map(|word| word.parse().ok())
-        .collect()
+    let options = SolveOptions {
+        method: args.method,
+        barrier_continuation: args.records.barrier_continuation,
+        bias: args.records.bias,
+        time_budget: args.records.time_budget,
+        format: body_format(&args.output)?,
+        stem: stem(&args.output),
+        limits: Limits::default(),
+    };
+    let problem = ProblemFile::parse(&read_file(&args.problem)?)?;
+    let upload = read_upload_with(&args.problem, problem.references())?;
+    let display = args.records.display(&args.output);
+    let solved = solve_file(&upload, &options, &display);
+    display.finish()?;
+    args.records.write(&args.output, &solved?)
 }

@@ -104,11 +104,11 @@ impl Args {
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let options = args.options()?;
-    options.validate().map_err(Failure::usage)?;
+    options.check()?;
     let upload = read_upload(&args.input)?;
     let display = Display::new();
     let outcome = pipeline::unwrap_document(&upload, &options, &display);
-    display.finish();
+    display.finish()?;
     let outcome = outcome?;
     write_outputs(&args.output, &outcome.files)?;
     if let Some(path) = &args.report {

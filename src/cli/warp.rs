@@ -2,16 +2,14 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
-
 use super::failure::Failure;
-use super::files::{json, read_file, say, write_atomically};
-use super::words::{BARRIERS, DEFORMATIONS, word};
-use crate::barrier::BarrierKind;
-use crate::deform::warp::{WarpOptions, parse_handles, warp_picture};
-use crate::deform::{Boundary, DeformationEnergy, Model, PullReport};
-use crate::picture::Image;
-use crate::solver::{Control, Iterate};
+use super::files::{json, read_file, read_upload, say, write_atomically, write_outputs};
+use super::model::ModelArgs;
+use super::progress::Display;
+use super::records::stem;
+use crate::deform::PullReport;
+use crate::deform::warp::parse_handles;
+use crate::pipeline::{Limits, WarpOptions, warp_file};
 
 /// Warps a picture by handles without folding it.
 #[derive(clap::Args)]
@@ -33,72 +31,36 @@ pub(super) struct Args {
     fix_border: bool,
     #[command(flatten)]
     model: ModelArgs,
+    /// End with the current valid map after this many seconds
+    #[arg(long, value_name = "SECONDS")]
+    time_budget: Option<f64>,
     /// Write a JSON report: status, iterations, energy, residual, what is proven
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 }
 
-/// What is minimized while vertices are pulled.
-#[derive(clap::Args)]
-pub(super) struct ModelArgs {
-    /// Deformation energy
-    #[arg(long, default_value = "arap", value_parser = word::<DeformationEnergy>(DEFORMATIONS))]
-    energy: DeformationEnergy,
-    /// Barrier against inversion; `none` is for comparison
-    #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(BARRIERS))]
-    barrier: BarrierKind,
-    /// Weight β of the barrier [default: the paper's for the energy]
-    #[arg(long)]
-    beta: Option<f64>,
-}
-
-impl ModelArgs {
-    pub(super) fn model(&self) -> Model {
-        Model {
-            energy: self.energy,
-            barrier: self.barrier,
-            beta: self.beta,
-            ..Model::default()
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct Report {
-    /// Where the upper left corner of the result lies, in pixels of the original.
-    origin: [i64; 2],
-    #[serde(flatten)]
-    map: PullReport,
-}
-
 /// Runs `warp`; exit 4 if the map has an inverted triangle, or with a fixed border is not bijective.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let options = WarpOptions {
+        handles: parse_handles(&read_file(&args.handles)?)?,
         grid: args.grid,
-        boundary: if args.fix_border {
-            Boundary::Fixed
-        } else {
-            Boundary::Free
-        },
+        fix_border: args.fix_border,
         model: args.model.model(),
+        time_budget: args.time_budget,
+        stem: stem(&args.output),
+        limits: Limits::default(),
     };
-    let image = Image::decode(&read_file(&args.input)?)?;
-    let handles = parse_handles(&read_file(&args.handles)?)?;
-    let warp = warp_picture(&image, &handles, &options, &|_: &Iterate| Control::Continue)?;
-    write_atomically(&args.output, &warp.picture.image.png())?;
+    let upload = read_upload(&args.input)?;
+    let display = Display::new();
+    let warped = warp_file(&upload, &options, &display);
+    display.finish()?;
+    let warped = warped?;
+    write_outputs(&args.output, &warped.files)?;
     if let Some(path) = &args.report {
-        let report = Report {
-            origin: warp.picture.origin,
-            map: warp.report.clone(),
-        };
-        write_atomically(path, &json(&report)?)?;
+        write_atomically(path, &json(&warped.report)?)?;
     }
-    print_pull(&warp.report);
-    let is_proven = match options.boundary {
-        Boundary::Free => warp.report.certificate.is_valid(),
-        Boundary::Fixed => warp.report.bijective,
-    };
-    if is_proven {
+    print_pull("", &warped.report.map);
+    if warped.report.certified {
         Ok(())
     } else {
         Err(Failure::uncertified("the map is not valid"))
@@ -106,9 +68,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// One line about a map.
-pub(super) fn print_pull(report: &PullReport) {
+pub(super) fn print_pull(name: &str, report: &PullReport) {
     say(format_args!(
-        "{:?}: {} iterations, {} factorizations, energy {:.6e}, residual {:.1e}, {} inverted, {}",
+        "{name}{:?}: {} iterations, {} factorizations, energy {:.6e}, residual {:.1e}, {} inverted, {}",
         report.status,
         report.iterations,
         report.factorizations,

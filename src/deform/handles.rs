@@ -1,9 +1,10 @@
 //! Handles as a user names them.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::body::{Body, BodyElements};
 use super::locate::{locate, sole_vertex};
+use super::numbers;
 use super::problem::with_points;
 use super::problem_error::ProblemError;
 use crate::energy::Row;
@@ -11,7 +12,7 @@ use crate::numerics::square::{Matrix, Square};
 use crate::solver::Handles;
 
 /// One handle; positions have as many coordinates as the body.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Handle {
@@ -20,15 +21,18 @@ pub enum Handle {
         /// Its index, from 0.
         vertex: u32,
         /// Where it goes.
+        #[serde(deserialize_with = "numbers::position")]
         to: Vec<f64>,
     },
     /// Every vertex in a ball around a point, moved as a rigid body.
     Disc {
         /// The centre at rest.
+        #[serde(deserialize_with = "numbers::position")]
         center: Vec<f64>,
         /// The radius.
         radius: f64,
         /// Where the centre goes.
+        #[serde(deserialize_with = "numbers::position")]
         to: Vec<f64>,
         /// A turn about the centre in degrees, counter-clockwise; in the plane only.
         #[serde(default)]
@@ -37,10 +41,25 @@ pub enum Handle {
     /// A point of an element at rest, a vertex if it is one.
     Point {
         /// The point.
+        #[serde(deserialize_with = "numbers::position")]
         at: Vec<f64>,
         /// Where it goes.
+        #[serde(deserialize_with = "numbers::position")]
         to: Vec<f64>,
     },
+}
+
+/// Reads `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d}, …]}`.
+#[cfg(feature = "files")]
+pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        handles: Vec<Handle>,
+    }
+    let file: File = numbers::from_json(json)
+        .map_err(|error| ProblemError::MalformedHandles(error.to_string()))?;
+    Ok(file.handles)
 }
 
 /// Finds the vertices and elements of a body that handles name.

@@ -13,6 +13,7 @@ mod handles;
 mod idle;
 mod locate;
 mod model;
+mod numbers;
 #[cfg(feature = "files")]
 pub mod outline;
 mod problem;
@@ -26,8 +27,12 @@ pub mod warp;
 
 pub use body::{Body, BodyElements};
 pub use boundary::Boundary;
+#[cfg(feature = "files")]
+pub use handles::parse_body_handles;
 pub use handles::{Handle, bind};
 pub use model::DeformationEnergy;
+#[cfg(feature = "files")]
+pub use numbers::from_json;
 pub use problem::{Model, Problem};
 pub use problem_error::ProblemError;
 #[cfg(feature = "files")]

@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use serde::{Deserialize, Serialize};
+
 use super::body::Body;
 use super::handles::{Handle, bind};
 use super::model::DeformationEnergy;
@@ -30,7 +32,9 @@ pub struct Problem {
 }
 
 /// What a deformation costs, as a user says it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(default)]
 pub struct Model {
     /// The energy.
     pub energy: DeformationEnergy,
@@ -38,9 +42,10 @@ pub struct Model {
     pub barrier: BarrierKind,
     /// β; the paper's for the energy if absent.
     pub beta: Option<f64>,
-    /// s of the inverse spline.
+    /// s of the inverse spline: the share of its rest size below which an element feels the barrier.
     pub s: f64,
-    /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything; more than 1.
+    /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything; more than 1, in the plane only.
+    #[serde(rename = "max_conformal")]
     pub bound: Option<f64>,
 }
 
@@ -57,6 +62,22 @@ impl Default for Model {
 }
 
 impl Model {
+    /// Checks every number against its range.
+    pub fn check(&self) -> Result<(), ProblemError> {
+        let is_positive = |x: f64| x > 0.0 && x.is_finite();
+        for (name, value) in [("beta", self.beta), ("s", Some(self.s))] {
+            if !value.is_none_or(is_positive) {
+                let range = "a positive number";
+                return Err(ProblemError::BadParameter { name, range });
+            }
+        }
+        if !self.bound.is_none_or(|bound| is_positive(bound - 1.0)) {
+            let (name, range) = ("max_conformal", "a number greater than 1");
+            return Err(ProblemError::BadParameter { name, range });
+        }
+        Ok(())
+    }
+
     /// The barrier with its numbers; ε is the paper's share, 1e-4 as its authors have it, of the smallest element unless
     /// given.
     pub(super) fn barrier(
@@ -64,6 +85,7 @@ impl Model {
         body: &Body,
         epsilon: Option<f64>,
     ) -> Result<Barrier, ProblemError> {
+        self.check()?;
         let smallest = body
             .determinants()
             .into_iter()
@@ -74,19 +96,6 @@ impl Model {
             s: self.s,
             epsilon: epsilon.unwrap_or(1e-4 * smallest),
         };
-        for (name, value) in [("beta", barrier.beta), ("s", barrier.s)] {
-            if !(value > 0.0 && value.is_finite()) {
-                let range = "a positive number";
-                return Err(ProblemError::BadParameter { name, range });
-            }
-        }
-        if self
-            .bound
-            .is_some_and(|bound| !(bound > 1.0 && bound.is_finite()))
-        {
-            let (name, range) = ("max_conformal", "a number greater than 1");
-            return Err(ProblemError::BadParameter { name, range });
-        }
         if !(barrier.epsilon >= 0.0 && barrier.epsilon < smallest) {
             return Err(ProblemError::BadParameter {
                 name: "epsilon",

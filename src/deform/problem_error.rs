@@ -10,6 +10,9 @@ pub enum ProblemError {
     /// The file is not a problem.
     #[error("the problem file: {0}")]
     Malformed(String),
+    /// The file is not a list of handles.
+    #[error("the handles: {0}")]
+    MalformedHandles(String),
     /// The mesh cannot be read.
     #[cfg(feature = "files")]
     #[error(transparent)]
@@ -105,6 +108,7 @@ impl ProblemError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Malformed(_) => "malformed_problem",
+            Self::MalformedHandles(_) => "malformed_handles",
             #[cfg(feature = "files")]
             Self::Read(error) => error.code(),
             Self::Element(error) => error.code(),

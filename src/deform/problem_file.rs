@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::body::Body;
 use super::model::DeformationEnergy;
+use super::numbers;
 use super::problem::{Model, Problem, handles};
 use super::problem_error::ProblemError;
 use crate::barrier::BarrierKind;
@@ -24,6 +25,7 @@ pub struct ProblemFile {
     /// Vertex ids.
     pub handles: Vec<u32>,
     /// Where they should come, one position each.
+    #[serde(deserialize_with = "numbers::positions")]
     pub targets: Vec<Vec<f64>>,
     /// Target sets to go through one after another, the last of them [`targets`](Self::targets).
     #[serde(default)]
@@ -73,7 +75,12 @@ pub enum Rest {
 impl ProblemFile {
     /// Parses JSON.
     pub fn parse(json: &[u8]) -> Result<Self, ProblemError> {
-        serde_json::from_slice(json).map_err(|error| ProblemError::Malformed(error.to_string()))
+        numbers::from_json(json).map_err(|error| ProblemError::Malformed(error.to_string()))
+    }
+
+    /// The files that it names.
+    pub fn references(&self) -> impl Iterator<Item = String> {
+        std::iter::once(self.mesh.clone()).chain(self.initial.clone())
     }
 
     /// The problem on this mesh, starting from these positions or from rest.

@@ -17,6 +17,7 @@ const ARRIVED: f64 = 1e-9;
 
 /// What a map that was pulled is worth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct PullReport {
     /// How it ended.
     pub status: Status,

@@ -1,3 +1,5 @@
+use super::DocumentError;
+use crate::mesh::io::IndexedTriangles;
 use serde::{Deserialize, Serialize};
 
 /// The triangles of one primitive, as the file has them.
@@ -15,6 +17,22 @@ pub struct Primitive {
     pub positions: Vec<[f32; 3]>,
     /// Vertex indices of the faces.
     pub triangles: Vec<[u32; 3]>,
+}
+
+impl Primitive {
+    /// All triangles of a file whose format knows no meshes.
+    pub(super) fn of_file(mesh: IndexedTriangles) -> Result<Self, DocumentError> {
+        if mesh.triangles.is_empty() {
+            return Err(DocumentError::NoTriangles);
+        }
+        Ok(Self {
+            mesh: 0,
+            primitive: 0,
+            material: None,
+            positions: mesh.positions,
+            triangles: mesh.triangles,
+        })
+    }
 }
 
 /// Which primitives share one atlas.

@@ -35,20 +35,11 @@ impl ObjDocument {
 
     fn parse(bytes: Vec<u8>, resources: BTreeMap<String, Vec<u8>>) -> Result<Self, DocumentError> {
         let mut obj = io::obj::read(&bytes)?;
-        let mesh = std::mem::take(&mut obj.mesh);
-        if mesh.triangles.is_empty() {
-            return Err(DocumentError::NoTriangles);
-        }
+        let primitive = Primitive::of_file(std::mem::take(&mut obj.mesh))?;
         Ok(Self {
             bytes,
             obj,
-            primitives: vec![Primitive {
-                mesh: 0,
-                primitive: 0,
-                material: None,
-                positions: mesh.positions,
-                triangles: mesh.triangles,
-            }],
+            primitives: vec![primitive],
             resources,
         })
     }

@@ -25,17 +25,8 @@ impl SoupDocument {
             Some(Format::Stl) => io::stl::read(&upload.bytes),
             Some(Format::Obj) | None => return Err(DocumentError::UnknownFormat),
         }?;
-        if mesh.triangles.is_empty() {
-            return Err(DocumentError::NoTriangles);
-        }
         Ok(Self {
-            primitives: vec![Primitive {
-                mesh: 0,
-                primitive: 0,
-                material: None,
-                positions: mesh.positions,
-                triangles: mesh.triangles,
-            }],
+            primitives: vec![Primitive::of_file(mesh)?],
         })
     }
 

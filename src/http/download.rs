@@ -107,6 +107,8 @@ fn content_type(name: &str) -> &'static str {
         "obj" => "model/obj",
         "json" => "application/json",
         "png" => "image/png",
+        "txt" => "text/plain; charset=utf-8",
+        "csv" => "text/csv; charset=utf-8",
         _ => "application/octet-stream",
     }
 }

@@ -1,4 +1,4 @@
-//! Whether a received file is a mesh file at all: looked at before a job is accepted.
+//! Whether a received file is one that a kind of job works on at all: looked at before a job is accepted.
 //!
 //! This knows the outermost layer of each format and nothing of what is inside; a file that passes may still turn out
 //! to be unusable, which then is the job's failure.
@@ -11,38 +11,88 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::problem::{Code, Problem};
-use crate::jobs::Failure;
+use crate::jobs::{Failure, Kind};
 
 /// How much of a text is searched for the words of its format.
 const SEARCHED_BYTES: u64 = 1 << 20;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// The file name extension of the format that the file is in.
-pub(super) fn extension(path: &Path) -> Result<&'static str, Problem> {
+/// The formats that a kind of job reads, as file name extensions.
+fn formats(kind: Kind) -> &'static [&'static str] {
+    match kind {
+        Kind::Unwrap | Kind::Measure | Kind::EditUv | Kind::TextureMap => {
+            &["glb", "gltf", "obj", "off", "ply", "stl"]
+        }
+        Kind::Solve => &["json"],
+        Kind::Deform => &[
+            "glb", "gltf", "obj", "off", "ply", "stl", "msh", "mesh", "tet", "png", "svg",
+        ],
+        Kind::Warp => &["png", "jpg", "jpeg"],
+    }
+}
+
+/// Whether a name ends like those of a kind's files.
+pub(super) fn is_named(name: &str, kind: Kind) -> bool {
+    let extension = name.rsplit_once('.').map(|(_, e)| e.to_ascii_lowercase());
+    extension.is_some_and(|extension| formats(kind).contains(&extension.as_str()))
+}
+
+/// The file name extension of the format that the file is in, one of those that the kind reads.
+pub(super) fn extension(path: &Path, kind: Kind) -> Result<&'static str, Problem> {
     let mut file = File::open(path)?;
     let size = file.metadata()?.len();
     let mut head = Vec::new();
     (&mut file).take(SEARCHED_BYTES).read_to_end(&mut head)?;
-    let is_marked = head.starts_with(BYTE_ORDER_MARK);
-    let text = head[if is_marked { 3 } else { 0 }..].trim_ascii_start();
-    if head.starts_with(b"glTF") {
-        glb(&mut file, size).map(|()| "glb")
-    } else if text.starts_with(b"{") {
-        file.seek(SeekFrom::Start(if is_marked { 3 } else { 0 }))?;
-        json(BufReader::new(file)).map(|()| "gltf")
-    } else if text.starts_with(b"ply") {
-        Ok("ply")
-    } else if is_off(text) {
-        Ok("off")
-    } else if is_stl(&head, size) {
-        Ok("stl")
-    } else if is_obj(text) {
-        Ok("obj")
-    } else {
-        let detail = "neither glTF nor OBJ, OFF, PLY or STL";
-        Err(Problem::new(Code::UnknownFormat, detail))
+    let format = format(&head, size, kind).filter(|format| formats(kind).contains(format));
+    match format {
+        Some("glb") => glb(&mut file, size)?,
+        Some("gltf") => {
+            file.seek(SeekFrom::Start(if is_marked(&head) { 3 } else { 0 }))?;
+            json(BufReader::new(file))?;
+        }
+        _ => {}
     }
+    format.ok_or_else(|| {
+        let detail = format!("{} reads {}", kind.word(), formats(kind).join(", "));
+        Problem::new(Code::UnknownFormat, detail)
+    })
+}
+
+/// The format by the first bytes of a file and its size.
+fn format(head: &[u8], size: u64, kind: Kind) -> Option<&'static str> {
+    let text = head[if is_marked(head) { 3 } else { 0 }..].trim_ascii_start();
+    Some(if head.starts_with(b"glTF") {
+        "glb"
+    } else if head.starts_with(b"\x89PNG") {
+        "png"
+    } else if head.starts_with(b"\xff\xd8\xff") {
+        "jpg"
+    } else if text.starts_with(b"{") {
+        if kind == Kind::Solve { "json" } else { "gltf" }
+    } else if text.starts_with(b"<") && contains(text, b"<svg") {
+        "svg"
+    } else if text.starts_with(b"$MeshFormat") {
+        "msh"
+    } else if text.starts_with(b"MeshVersionFormatted") {
+        "mesh"
+    } else if text.starts_with(b"ply") {
+        "ply"
+    } else if is_off(text) {
+        "off"
+    } else if is_stl(head, size) {
+        "stl"
+    } else if is_tet(text) {
+        "tet"
+    } else if is_obj(text) {
+        "obj"
+    } else {
+        return None;
+    })
+}
+
+fn is_marked(head: &[u8]) -> bool {
+    head.starts_with(BYTE_ORDER_MARK)
 }
 
 fn invalid(detail: impl Into<String>) -> Problem {
@@ -94,6 +144,14 @@ fn is_stl(head: &[u8], size: u64) -> bool {
     head.get(80..84)
         .and_then(|count| count.try_into().ok())
         .is_some_and(|count| size == 84 + 50 * u64::from(u32::from_le_bytes(count)))
+}
+
+/// A first line of two numbers: how many vertices, how many tetrahedra.
+fn is_tet(text: &[u8]) -> bool {
+    let line = text.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let words = line.split(u8::is_ascii_whitespace);
+    let words: Vec<&[u8]> = words.filter(|word| !word.is_empty()).collect();
+    words.len() == 2 && words.concat().iter().all(u8::is_ascii_digit)
 }
 
 /// Text with a line that is a vertex.

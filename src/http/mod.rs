@@ -5,6 +5,7 @@
 //! answered with an RFC 9457 problem that carries a stable code (`problem.rs` has the table).
 
 mod answers;
+mod causes;
 mod download;
 mod events;
 mod extract;
@@ -17,6 +18,7 @@ mod probes;
 mod problem;
 mod receiver;
 mod results;
+mod schemas;
 mod settings;
 mod synchronous;
 mod upload;

@@ -1,17 +1,20 @@
 //! The OpenAPI document: what the handlers say, and what several of them have in common.
 
-use serde_json::{Map, Value, json};
-use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder, RefOr, Schema};
-use utoipa::{PartialSchema, ToSchema};
+use std::collections::BTreeSet;
 
+use serde_json::{Map, Value, json};
+use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
+
+use super::causes::CAUSES;
 use super::problem::Code;
-use super::upload::MEDIA_TYPES;
-use crate::jobs::Event;
-use crate::pipeline::{MeasureOptions, Options};
+use super::schemas::{self, bytes, reference};
+use super::upload::{MESH_TYPES, OTHER_TYPES};
+use crate::jobs::Kind;
 
 const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
-    distortion report out. Errors are RFC 9457 problems with a stable `code`; `x-problems` lists the codes of the \
-    service, others come from the mesh and have status 422.";
+    distortion report out. Pulls meshes, pictures and UVs by handles, no element inverted. Errors are RFC 9457 problems with \
+    a stable `code`; `x-problems` lists them all. Those that come from the input have status 422 and are what a failed job \
+    has as its `error`; the command line prints the same codes.";
 
 /// What stands above the paths.
 pub(super) fn preamble() -> OpenApi {
@@ -30,39 +33,22 @@ pub(super) fn preamble() -> OpenApi {
 
 /// The document as text.
 pub(super) fn document(mut api: OpenApi) -> String {
-    let mut schemas = Vec::new();
-    add_schema::<Options>(&mut schemas);
-    add_schema::<MeasureOptions>(&mut schemas);
-    add_schema::<Event>(&mut schemas);
     api.components
         .get_or_insert_default()
         .schemas
-        .extend(schemas);
-
+        .extend(schemas::schemas());
     let mut document = serde_json::to_value(api).unwrap_or_default();
     document["x-problems"] = problems();
-    let unwrap = parameters::<Options>();
-    let measure = parameters::<MeasureOptions>();
-    let mut either = unwrap.clone();
-    either.extend(
-        measure
-            .iter()
-            .filter(|p| !unwrap.iter().any(|q| q["name"] == p["name"]))
-            .cloned(),
-    );
+    schemas::merge_parts(&mut document["components"]["schemas"]);
+
+    let all = Kind::ALL.map(schemas::options);
+    let all: BTreeSet<&str> = all.into_iter().collect();
+    describe_upload(&mut document, "/v1/jobs", &Vec::from_iter(all));
+    describe_upload(&mut document, "/v1/unwrap", &["Options"]);
+    describe_upload(&mut document, "/v1/measure", &["MeasureOptions"]);
     let paths = &mut document["paths"];
-    let both = json!({ "anyOf": [reference("Options"), reference("MeasureOptions")] });
-    describe_upload(&mut paths["/v1/jobs"]["post"], either, &both);
-    describe_upload(
-        &mut paths["/v1/unwrap"]["post"],
-        unwrap,
-        &reference("Options"),
-    );
-    describe_upload(
-        &mut paths["/v1/measure"]["post"],
-        measure,
-        &reference("MeasureOptions"),
-    );
+    let report = &mut paths["/v1/jobs/{id}/report"]["get"]["responses"]["200"];
+    report["content"]["application/json"]["schema"] = schemas::any_report();
     paths["/v1/jobs"]["post"]["requestBody"]["content"]["multipart/form-data"]["schema"]["properties"]
         ["kind"] = reference("Kind");
     for status in ["200", "202"] {
@@ -72,11 +58,6 @@ pub(super) fn document(mut api: OpenApi) -> String {
         members(operations).for_each(complete);
     }
     serde_json::to_string_pretty(&document).unwrap_or_default()
-}
-
-fn add_schema<T: ToSchema>(schemas: &mut Vec<(String, RefOr<Schema>)>) {
-    schemas.push((T::name().into_owned(), T::schema()));
-    T::schemas(schemas);
 }
 
 /// The values of an object.
@@ -146,68 +127,61 @@ fn links() -> Value {
     Value::Object(operations.into_iter().map(link).collect())
 }
 
-fn bytes() -> Value {
-    json!({ "type": "string", "format": "binary" })
-}
-
-fn reference(schema: &str) -> Value {
-    json!({ "$ref": format!("#/components/schemas/{schema}") })
-}
-
 /// The table of codes.
 fn problems() -> Value {
     let row = |code: Code| {
         let (word, status, title) = code.row();
         json!({ "code": word, "status": status, "title": title })
     };
-    Code::ALL.into_iter().map(row).collect()
+    let cause =
+        |&(word, title): &(&str, &str)| json!({ "code": word, "status": 422, "title": title });
+    let own = Code::ALL.into_iter().map(row);
+    own.chain(CAUSES.iter().map(cause)).collect()
 }
 
-/// The members of an options struct as query parameters.
-fn parameters<T: PartialSchema>() -> Vec<Value> {
-    let schema = serde_json::to_value(T::schema()).unwrap_or_default();
-    let properties = schema["properties"]
-        .as_object()
-        .cloned()
-        .unwrap_or_default();
-    let parameter = |(name, mut schema): (String, Value)| {
-        let description = schema
-            .as_object_mut()
-            .and_then(|keys| keys.remove("description"));
-        json!({ "name": name, "in": "query", "required": false, "description": description, "schema": schema })
-    };
-    properties.into_iter().map(parameter).collect()
-}
-
-/// What the three uploads share: the body as a form or raw, options in the form or the query.
-fn describe_upload(operation: &mut Value, options: Vec<Value>, form_options: &Value) {
-    if let Some(parameters) = operation["parameters"].as_array_mut() {
-        parameters.extend(options);
+/// What the uploads share: the body as a form or raw, options in the form or the query.
+fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
+    let is_job = path == "/v1/jobs";
+    let parameters = schemas::parameters(&document["components"]["schemas"], options);
+    let options: Vec<Value> = options.iter().map(|name| reference(name)).collect();
+    let operation = &mut document["paths"][path]["post"];
+    if let Some(known) = operation["parameters"].as_array_mut() {
+        known.extend(parameters);
     }
-    let mut content = Map::new();
-    content.insert("multipart/form-data".to_owned(), json!({
-        "schema": {
-            "type": "object",
-            "required": ["mesh"],
-            "properties": {
-                "mesh": { "type": "string", "format": "binary", "description": "The mesh file, with its file name" },
-                "options": form_options,
-                "resource": {
-                    "type": "array",
-                    "items": bytes(),
-                    "description": "Files that the mesh references (buffers, images); the file name of each is the \
-                        relative path used in the mesh",
-                },
+    let input = json!({ "type": "string", "format": "binary", "description": "The input, with its file name" });
+    let mut schema = json!({
+        "type": "object",
+        "properties": {
+            "mesh": input,
+            "options": { "anyOf": options },
+            "resource": {
+                "type": "array",
+                "items": bytes(),
+                "description": "Files that the input references (buffers, images, the mesh of a problem); the file name of \
+                    each is the relative path used in the input",
             },
         },
-        "encoding": { "options": { "contentType": "application/json" } },
-    }));
-    for (media_type, _) in MEDIA_TYPES {
-        content.insert(media_type.to_owned(), json!({ "schema": bytes() }));
+    });
+    if is_job {
+        schema["properties"]["image"] = input.clone();
+        schema["properties"]["problem"] = input;
+        schema["oneOf"] = json!([{ "required": ["mesh"] }, { "required": ["image"] }, { "required": ["problem"] }]);
+    } else {
+        schema["required"] = json!(["mesh"]);
+    }
+    let mut content = Map::new();
+    let encoding = json!({ "options": { "contentType": "application/json" } });
+    content.insert(
+        "multipart/form-data".to_owned(),
+        json!({ "schema": schema, "encoding": encoding }),
+    );
+    let others = OTHER_TYPES.iter().filter(|_| is_job);
+    for (media_type, _) in MESH_TYPES.iter().chain(others) {
+        content.insert((*media_type).to_owned(), json!({ "schema": bytes() }));
     }
     operation["requestBody"] = json!({
         "required": true,
-        "description": "The mesh as a form with the files it references, or the bytes of one file",
+        "description": "The input as a form with the files it references, or the bytes of one file",
         "content": content,
     });
 }

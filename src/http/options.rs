@@ -5,8 +5,8 @@ use axum::http::Uri;
 use serde_json::{Map, Value};
 
 use super::problem::{Code, Problem};
-use crate::jobs::Kind;
-use crate::pipeline;
+use crate::deform::from_json;
+use crate::jobs::{Failure, Kind, Work};
 
 /// What the query of an upload says.
 #[derive(Default)]
@@ -20,7 +20,7 @@ pub(super) struct UploadQuery {
 }
 
 impl UploadQuery {
-    /// Reads the query. Numbers and truth values are taken as such, everything else is text.
+    /// Reads the query.
     pub fn read(uri: &Uri) -> Result<Self, Problem> {
         let Query(pairs) = Query::<Vec<(String, String)>>::try_from_uri(uri)
             .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
@@ -43,34 +43,23 @@ impl UploadQuery {
 /// The kind of job that a word names.
 pub(super) fn kind(text: &str) -> Result<Kind, Problem> {
     serde_json::from_value(text.into()).map_err(|_| {
-        let detail = format!("there is no kind {text:?}: unwrap or measure");
+        let words = Kind::ALL.map(Kind::word).join(", ");
+        let detail = format!("there is no kind {text:?}: one of {words}");
         Problem::new(Code::InvalidRequest, detail)
     })
 }
 
+/// Numbers, truth values and lists as JSON, everything else as text.
 fn value(text: String) -> Value {
-    match serde_json::from_str(&text) {
-        Ok(value @ (Value::Number(_) | Value::Bool(_))) => value,
+    match from_json(text.as_bytes()) {
+        Ok(value @ (Value::Number(_) | Value::Bool(_) | Value::Array(_))) => value,
         _ => Value::String(text),
     }
 }
 
 /// Checks options, and completes them with defaults.
 pub(super) fn complete(kind: Kind, given: Map<String, Value>) -> Result<Value, Problem> {
-    let refused = |detail: String| Problem::new(Code::InvalidOptions, detail);
-    let given = Value::Object(given);
-    let complete = match kind {
-        Kind::Unwrap => {
-            let options: pipeline::Options =
-                serde_json::from_value(given).map_err(|e| refused(e.to_string()))?;
-            options.validate().map_err(refused)?;
-            serde_json::to_value(options)
-        }
-        Kind::Measure => {
-            let options: pipeline::MeasureOptions =
-                serde_json::from_value(given).map_err(|e| refused(e.to_string()))?;
-            serde_json::to_value(options)
-        }
-    };
-    complete.map_err(|error| Problem::internal(&error))
+    let work = Work::new(kind, Value::Object(given));
+    work.map(Work::into_options)
+        .map_err(|error| Problem::of_failure(&Failure::new(error.code(), error.to_string())))
 }

@@ -4,6 +4,7 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 
+use super::causes;
 use crate::jobs::{Failure, StoreError};
 
 /// What went wrong (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
@@ -26,7 +27,7 @@ pub(super) struct Problem {
     limit: Option<u64>,
 }
 
-/// Codes of the service itself. Those of meshes that cannot be used come from the pipeline and have status 422.
+/// Codes of the service itself. Those of inputs that cannot be used are [`causes`], and have status 422.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Code {
     InvalidRequest,
@@ -98,7 +99,7 @@ impl Code {
                 400,
                 "An option is unknown or has no such value",
             ),
-            Self::MissingMesh => ("missing_mesh", 400, "The upload has no part named mesh"),
+            Self::MissingMesh => ("missing_mesh", 400, "The upload has no input"),
             Self::NeedsJob => ("needs_job", 400, "The result needs a job"),
             Self::NotFound => ("not_found", 404, "No such path"),
             Self::JobNotFound => ("job_not_found", 404, "No job has this id"),
@@ -111,14 +112,18 @@ impl Code {
             Self::UnsupportedMediaType => (
                 "unsupported_media_type",
                 415,
-                "The content type is not one of a mesh file",
+                "The content type is not one of an input",
             ),
             Self::RangeNotSatisfiable => (
                 "range_not_satisfiable",
                 416,
                 "The file has no bytes in this range",
             ),
-            Self::UnknownFormat => ("unknown_format", 422, "The file is not a mesh file"),
+            Self::UnknownFormat => (
+                "unknown_format",
+                422,
+                "The file is of no format that the kind of job reads",
+            ),
             Self::InvalidGltf => ("invalid_gltf", 422, "The file is not valid glTF 2.0"),
             Self::IdempotencyKeyReused => (
                 "idempotency_key_reused",
@@ -133,7 +138,7 @@ impl Code {
             Self::OutOfMemory => (
                 "out_of_memory",
                 422,
-                "The mesh needs more memory than a job may use",
+                "The input needs more memory than a job may use",
             ),
             Self::InternalError => ("internal_error", 500, "The service failed"),
             Self::Crashed => (
@@ -175,12 +180,16 @@ impl Problem {
         Self::new(Code::InternalError, "see the log of the service")
     }
 
-    /// Why a job failed. A code that is not in the table belongs to the mesh.
+    /// Why a job failed. A code that is not in the table belongs to the input.
     pub fn of_failure(failure: &Failure) -> Self {
         let known = Code::ALL.into_iter().find(|c| c.row().0 == failure.code);
-        let (status, title) = known.map_or((422, "The mesh cannot be used"), |code| {
-            (code.row().1, code.row().2)
-        });
+        let (status, title) = known.map_or_else(
+            || {
+                let meaning = causes::meaning(&failure.code);
+                (422, meaning.unwrap_or("The input cannot be used"))
+            },
+            |code| (code.row().1, code.row().2),
+        );
         Self {
             kind: format!("/docs#{}", failure.code),
             title: title.to_owned(),

@@ -12,10 +12,13 @@ use tokio::io::AsyncWriteExt;
 use super::framing;
 use super::options::{self, UploadQuery};
 use super::problem::{Code, Problem};
+use crate::deform::from_json;
 use crate::jobs::{IdempotencyKey, InputFile, Kind, Submission};
 
-/// Bytes of a text part.
-const MAX_TEXT_BYTES: u64 = 64 << 10;
+/// Names of the part that holds the input.
+const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
+/// Bytes of a text part: options with some thousand handles.
+const MAX_TEXT_BYTES: u64 = 256 << 10;
 /// Files of an upload.
 const MAX_FILES: usize = 4096;
 /// Characters of a file name.
@@ -66,7 +69,7 @@ pub(super) struct Receiver {
     folder: Folder,
     left: u64,
     limit: u64,
-    mesh: Option<(InputFile, PathBuf, [u8; 32])>,
+    input: Option<(InputFile, PathBuf, [u8; 32])>,
     resources: Vec<(InputFile, PathBuf, [u8; 32])>,
     kind: Option<Kind>,
     options: Map<String, Value>,
@@ -80,17 +83,17 @@ impl Receiver {
             folder: Folder(folder),
             left: limit,
             limit,
-            mesh: None,
+            input: None,
             resources: Vec::new(),
             kind: None,
             options: Map::new(),
         })
     }
 
-    /// Takes a body that is the mesh.
+    /// Takes a body that is the input.
     pub async fn body(&mut self, name: String, body: Body) -> Result<(), Problem> {
         let stream = body.into_data_stream();
-        self.mesh = Some(self.store(name, stream, |e| broken(&e)).await?);
+        self.input = Some(self.store(name, stream, |e| broken(&e)).await?);
         Ok(())
     }
 
@@ -98,18 +101,18 @@ impl Receiver {
     pub async fn form(&mut self, mut form: Multipart) -> Result<(), Problem> {
         while let Some(field) = form.next_field().await.map_err(|e| malformed(&e))? {
             match field.name().unwrap_or_default() {
-                "mesh" => {
-                    if self.mesh.is_some() {
-                        let detail = "there are two parts named mesh";
+                part if INPUT_PARTS.contains(&part) => {
+                    if self.input.is_some() {
+                        let detail = "there are two inputs: parts named mesh, image or problem";
                         return Err(Problem::new(Code::InvalidRequest, detail));
                     }
                     let name = field.file_name().unwrap_or_default().to_owned();
-                    self.mesh = Some(self.store(name, field, |e| malformed(&e)).await?);
+                    self.input = Some(self.store(name, field, |e| malformed(&e)).await?);
                 }
                 "kind" => self.kind = Some(options::kind(&text(field).await?)?),
                 "options" => {
                     let text = text(field).await?;
-                    self.options = serde_json::from_str(&text).map_err(|error| {
+                    self.options = from_json(text.as_bytes()).map_err(|error| {
                         let detail = format!("options are not a JSON object: {error}");
                         Problem::new(Code::InvalidOptions, detail)
                     })?;
@@ -123,7 +126,7 @@ impl Receiver {
     async fn resource(&mut self, field: Field<'_>) -> Result<(), Problem> {
         let Some(name) = field.file_name().map(str::to_owned) else {
             let part = field.name().unwrap_or_default();
-            let detail = format!("part {part:?} is neither mesh, options nor kind, nor a file");
+            let detail = format!("part {part:?} is neither input, options nor kind, nor a file");
             return Err(Problem::new(Code::InvalidRequest, detail));
         };
         if MAX_FILES <= self.resources.len() {
@@ -148,7 +151,7 @@ impl Receiver {
         }
         let path = self.folder.0.join(format!(
             "file-{}",
-            self.resources.len() + usize::from(self.mesh.is_some())
+            self.resources.len() + usize::from(self.input.is_some())
         ));
         let mut file = tokio::fs::File::create(&path).await?;
         let (mut hash, mut bytes) = (Sha256::new(), 0);
@@ -170,8 +173,9 @@ impl Receiver {
 
     /// Checks what came. The query wins over the form, and `kind` over both.
     pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
-        let Some((mut mesh, path, mesh_hash)) = self.mesh else {
-            return Err(Problem::new(Code::MissingMesh, "send it as part `mesh`"));
+        let Some((mut input, path, input_hash)) = self.input else {
+            let detail = "send it as part `mesh`, `image` or `problem`";
+            return Err(Problem::new(Code::MissingMesh, detail));
         };
         let kind = kind.or(query.kind).or(self.kind).unwrap_or_default();
         let mut given = self.options;
@@ -179,15 +183,16 @@ impl Receiver {
         let options = options::complete(kind, given)?;
 
         let checked = path.clone();
-        let extension = tokio::task::spawn_blocking(move || framing::extension(&checked))
+        let extension = tokio::task::spawn_blocking(move || framing::extension(&checked, kind))
             .await
             .map_err(|error| Problem::internal(&error))??;
-        mesh.name = file_name(query.filename.as_deref().unwrap_or(&mesh.name), extension);
+        let name = query.filename.as_deref().unwrap_or(&input.name);
+        input.name = file_name(name, kind, extension);
 
         let mut hash = Sha256::new();
-        hash.update(format!("{kind:?}\n{options}\n{}\n", mesh.name));
-        hash.update(mesh_hash);
-        let mut files = vec![(mesh, path)];
+        hash.update(format!("{kind:?}\n{options}\n{}\n", input.name));
+        hash.update(input_hash);
+        let mut files = vec![(input, path)];
         for (file, path, file_hash) in self.resources {
             hash.update(format!("{}\n", file.name));
             hash.update(file_hash);
@@ -203,14 +208,17 @@ impl Receiver {
     }
 }
 
-/// A name for the mesh file: what the client calls it, without folders and control characters.
-fn file_name(given: &str, extension: &str) -> String {
+/// A name for the input: what the client calls it, without folders and control characters, with an extension that is one of
+/// the kind's.
+fn file_name(given: &str, kind: Kind, extension: &str) -> String {
     let name = given.rsplit(['/', '\\']).next().unwrap_or_default();
     let name: String = name.chars().filter(|c| !c.is_control()).collect();
     if name.is_empty() {
-        format!("mesh.{extension}")
-    } else {
+        format!("input.{extension}")
+    } else if framing::is_named(&name, kind) {
         name
+    } else {
+        format!("{name}.{extension}")
     }
 }
 

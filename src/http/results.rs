@@ -10,7 +10,7 @@ use super::problem::{Code, Problem};
 use super::{App, Shared, download};
 use crate::jobs::{JobId, State as JobState};
 
-/// Get the mesh with its new UVs.
+/// Get the result: the mesh with its new UVs, the deformed body, the warped picture.
 ///
 /// In the format that the option `format` named. What belongs to it (the `.bin` of a `.gltf`) is listed in the job's
 /// `links.files`. Ranges and `If-None-Match` are understood.
@@ -18,7 +18,7 @@ use crate::jobs::{JobId, State as JobState};
     get, path = "/v1/jobs/{id}/result", operation_id = "getResult", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
-        (status = 200, description = "The file", content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/gltf+json"), (Vec<u8> = "model/obj"))),
+        (status = 200, description = "The file", content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/gltf+json"), (Vec<u8> = "model/obj"), (Vec<u8> = "image/png"), (Vec<u8> = "text/plain"), (Vec<u8> = "application/octet-stream"))),
         FileAnswers,
     )
 )]
@@ -30,7 +30,10 @@ pub(super) async fn get_result(
     file(&app, id, "result", &headers).await
 }
 
-/// Get the report: distortion, seams, packing, the certificate, what was changed.
+/// Get the report: what was done, what the result is worth, what is proven about it.
+///
+/// `Report` of `unwrap` and `measure`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of `edit_uv`
+/// and `texture_map`.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/report", operation_id = "getReport", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
@@ -91,7 +94,7 @@ pub(super) async fn get_heatmap(
         ("name" = String, Path, description = "Its name, as the result references it"),
     ),
     responses(
-        (status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"),
+        (status = 200, description = "The file", content((Vec<u8> = "application/octet-stream"), (Vec<u8> = "text/csv"), (Vec<u8> = "image/png"))),
         FileAnswers,
     )
 )]

@@ -17,8 +17,8 @@ use crate::jobs::{JobId, Kind};
 /// How long the rest of a refused body is waited for.
 const DRAIN_TIME: Duration = Duration::from_secs(5);
 
-/// Media types of raw bodies, and the format that they name; an empty one leaves it to the content.
-pub(super) const MEDIA_TYPES: [(&str, &str); 11] = [
+/// Media types of raw bodies that are meshes, and the format that they name; an empty one leaves it to the content.
+pub(super) const MESH_TYPES: [(&str, &str); 11] = [
     ("model/gltf-binary", "glb"),
     ("model/gltf+json", "gltf"),
     ("model/obj", "obj"),
@@ -30,6 +30,14 @@ pub(super) const MEDIA_TYPES: [(&str, &str); 11] = [
     ("model/off", "off"),
     ("text/plain", ""),
     ("application/octet-stream", ""),
+];
+
+/// Those of pictures, drawings and problem files.
+pub(super) const OTHER_TYPES: [(&str, &str); 4] = [
+    ("image/png", "png"),
+    ("image/jpeg", "jpg"),
+    ("image/svg+xml", "svg"),
+    ("application/json", "json"),
 ];
 
 /// Receives an upload to disk and checks what can be checked without computing: size, framing, options. `kind` is
@@ -84,14 +92,17 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
             .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
         receiver.form(form).await?;
     } else {
-        let format = MEDIA_TYPES.iter().find(|(name, _)| *name == media_type);
+        let mut types = MESH_TYPES.iter().chain(&OTHER_TYPES);
+        let format = types.find(|(name, _)| *name == media_type);
         let Some((_, extension)) = format else {
-            let detail = format!("{media_type:?} is not the type of a mesh file");
+            let detail = format!(
+                "{media_type:?} is not the type of a mesh, a picture, a drawing or a problem"
+            );
             return Err(Problem::new(Code::UnsupportedMediaType, detail));
         };
         let name = disposition_name(request.headers()).unwrap_or_else(|| match *extension {
             "" => String::new(),
-            extension => format!("mesh.{extension}"),
+            extension => format!("input.{extension}"),
         });
         receiver.body(name, request.into_body()).await?;
     }

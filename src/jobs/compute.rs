@@ -15,9 +15,10 @@ use std::time::{Duration, Instant};
 use nix::sys::resource::{Resource, setrlimit};
 use nix::sys::signal::{SigSet, Signal};
 
-use super::job::{Failure, Kind, OutputFile};
+use super::job::{Failure, OutputFile};
 use super::progress::Progress;
 use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
+use super::work::Work;
 use crate::document::Upload;
 use crate::pipeline::{self, Observer, PipelineError, Stage};
 use crate::solver::Control;
@@ -53,10 +54,10 @@ fn attempt(folder: &Path) -> Attempt<()> {
     };
     tell(&Message::Ready);
     let upload = read_upload(folder, &task.input).map_err(internal)?;
-    let files = match task.kind {
-        Kind::Unwrap => unwrap(&upload, &task, &reporter)?,
-        Kind::Measure => measure(&upload, &task)?,
-    };
+    let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
+    let files = work
+        .run(&upload, task.limits, &reporter)
+        .map_err(|e| refusal(&e))?;
     let mut output = Vec::new();
     for (index, (role, name, bytes)) in files.into_iter().enumerate() {
         std::fs::write(folder.join(task::output_file(index)), &bytes).map_err(internal)?;
@@ -104,45 +105,6 @@ fn read_upload(folder: &Path, names: &[String]) -> std::io::Result<Upload> {
         bytes,
         resources,
     })
-}
-
-/// What a job leaves: role, name and content of each file.
-type Files = Vec<(String, String, Vec<u8>)>;
-
-fn unwrap(upload: &Upload, task: &Task, reporter: &Reporter) -> Attempt<Files> {
-    let mut options: pipeline::Options =
-        serde_json::from_value(task.options.clone()).map_err(internal)?;
-    options.limits = task.limits;
-    let outcome = pipeline::unwrap_document(upload, &options, reporter).map_err(|e| refusal(&e))?;
-    let report = serde_json::to_vec_pretty(&outcome.report).map_err(internal)?;
-    let mut files: Files = Vec::new();
-    for (name, bytes) in outcome.files {
-        let role = if files.is_empty() {
-            "result".to_owned()
-        } else {
-            format!("files/{name}")
-        };
-        files.push((role, name, bytes));
-    }
-    let drawn = outcome.pictures.draw().map_err(|e| refusal(&e))?;
-    let mut add = |role: &str, bytes| files.push((role.to_owned(), role.to_owned(), bytes));
-    add("layout.png", drawn.layout_png);
-    add("heatmap.png", drawn.heatmap_png);
-    files.push(("report".to_owned(), "report.json".to_owned(), report));
-    Ok(files)
-}
-
-fn measure(upload: &Upload, task: &Task) -> Attempt<Files> {
-    let mut options: pipeline::MeasureOptions =
-        serde_json::from_value(task.options.clone()).map_err(internal)?;
-    options.limits = task.limits;
-    let report = pipeline::measure_document(upload, &options).map_err(|e| refusal(&e))?;
-    let report = serde_json::to_vec_pretty(&report).map_err(internal)?;
-    Ok(vec![(
-        "report".to_owned(),
-        "report.json".to_owned(),
-        report,
-    )])
 }
 
 fn refusal(error: &PipelineError) -> (u8, Failure) {

@@ -40,7 +40,7 @@ impl Serialize for JobId {
     }
 }
 
-/// What a job does with its mesh.
+/// What a job does with its file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -49,14 +49,40 @@ pub enum Kind {
     Unwrap,
     /// Measures the UV map that the file already has.
     Measure,
+    /// Solves a problem file: handles pulled to targets, no element inverted.
+    Solve,
+    /// Pulls a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted.
+    Deform,
+    /// Warps a picture by handles without folding it.
+    Warp,
+    /// Moves anchors of a file's UVs, no face flipped.
+    EditUv,
+    /// Aligns points of a surface with points of a texture, no face flipped.
+    TextureMap,
 }
 
 impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 7] = [
+        Self::Unwrap,
+        Self::Measure,
+        Self::Solve,
+        Self::Deform,
+        Self::Warp,
+        Self::EditUv,
+        Self::TextureMap,
+    ];
+
     /// The word used in JSON and in the store.
     pub fn word(self) -> &'static str {
         match self {
             Self::Unwrap => "unwrap",
             Self::Measure => "measure",
+            Self::Solve => "solve",
+            Self::Deform => "deform",
+            Self::Warp => "warp",
+            Self::EditUv => "edit_uv",
+            Self::TextureMap => "texture_map",
         }
     }
 }

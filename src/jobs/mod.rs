@@ -32,6 +32,7 @@ mod storage;
 mod submit;
 mod task;
 mod timestamp;
+mod work;
 
 pub use events::{LocalEvents, Subscription};
 pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, State};
@@ -43,3 +44,4 @@ pub use storage::{
 };
 pub use submit::{Submission, SubmitError, Submitted};
 pub use timestamp::Timestamp;
+pub use work::Work;

@@ -38,7 +38,9 @@ pub enum ElementError {
         elements: [usize; 2],
     },
     /// A mesh of the plane leaves it.
-    #[error("vertex {vertex} has z = {z}, not {plane} as the first: the mesh is not planar")]
+    #[error(
+        "vertex {vertex} has z = {z}, not {plane} as the first: the mesh is not planar and has no tetrahedra"
+    )]
     NotPlanar {
         /// The first such vertex, from 0.
         vertex: usize,

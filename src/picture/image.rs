@@ -4,6 +4,8 @@ use super::png::png;
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageReader, Limits};
 use std::io::Cursor;
 
+/// Bytes of a file at most: those of a photograph are a tenth of it.
+const MOST_FILE_BYTES: usize = 64 << 20;
 /// Pixels of a picture at most; more is refused before anything is decoded.
 const MOST_PIXELS: u64 = 100_000_000;
 /// Bytes that a decoder may allocate: the picture at 16 bits per channel, and as much again.
@@ -15,6 +17,9 @@ pub enum ImageError {
     /// Neither PNG nor JPEG.
     #[error("not a PNG or JPEG picture")]
     UnknownFormat,
+    /// The file has more bytes than are read.
+    #[error("a picture of {0} bytes; at most 64 MiB are read")]
+    TooManyBytes(usize),
     /// The picture has more pixels than are read.
     #[error("{width} × {height} pixels are more than 100 megapixels")]
     TooLarge {
@@ -33,7 +38,7 @@ impl ImageError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::UnknownFormat => "unknown_format",
-            Self::TooLarge { .. } => "image_too_large",
+            Self::TooManyBytes(_) | Self::TooLarge { .. } => "image_too_large",
             Self::Invalid(_) => "invalid_image",
         }
     }
@@ -62,6 +67,9 @@ impl Image {
 
     /// Decodes a PNG or JPEG file, upright as its metadata says; more than 8 bits per channel are rounded.
     pub fn decode(bytes: &[u8]) -> Result<Self, ImageError> {
+        if bytes.len() > MOST_FILE_BYTES {
+            return Err(ImageError::TooManyBytes(bytes.len()));
+        }
         let mut reader = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(|error| unreadable(error.into()))?;

@@ -1,7 +1,12 @@
 //! Documents whose surfaces are deformed in a cage.
 
 use super::PipelineError;
+use super::bodies::BodyFormat;
+use super::deform::DeformOptions;
 use super::documents::Merged;
+use super::limits::Limits;
+use super::observer::{Stage, Tracker};
+use super::solution::{Deformed, solve};
 use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, CagedSurface, Embedding};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
@@ -34,10 +39,13 @@ pub struct CageOptions {
     pub format: OutputFormat,
     /// Name of the main file without its extension.
     pub stem: String,
+    /// What may be used.
+    pub limits: Limits,
 }
 
 /// What a cage is and what deforming it did to the surfaces in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct CageReport {
     /// Cubes the cage consists of.
     pub voxels: usize,
@@ -51,6 +59,43 @@ pub struct CageReport {
     pub crossings_before: Crossings,
     /// Where they do in the file written.
     pub crossings_after: Crossings,
+    /// What the writer changed beside that, one sentence each.
+    pub remarks: Vec<String>,
+}
+
+/// Deforms the surfaces of a file in a cage.
+pub(super) fn deform(
+    upload: &Upload,
+    options: &DeformOptions,
+    n_voxels: u32,
+    tracker: &Tracker,
+) -> Result<Deformed, PipelineError> {
+    tracker.stage(Stage::Read);
+    let format = options.format.and_then(BodyFormat::of_document);
+    let caged = CagedDocument::read(
+        upload,
+        &options.handles,
+        CageOptions {
+            n_voxels,
+            model: options.model,
+            format: format.unwrap_or(match upload.extension().as_str() {
+                "obj" => OutputFormat::Obj,
+                _ => OutputFormat::Glb,
+            }),
+            stem: options.stem(upload),
+            limits: options.limits,
+        },
+    )?;
+    let solved = solve(caged.problem(), options.plan(), tracker, None)?;
+    tracker.stage(Stage::Write);
+    let (written, cage) = caged.write(&solved.solution)?;
+    let mut report = solved.report;
+    report.cage = Some(cage);
+    Ok(Deformed {
+        files: written.files,
+        report,
+        trace: solved.trace,
+    })
 }
 
 impl CagedDocument {
@@ -61,6 +106,7 @@ impl CagedDocument {
         options: CageOptions,
     ) -> Result<Self, PipelineError> {
         let document = Document::read(upload)?;
+        options.limits.check(&document)?;
         check_format(&document, options.format)?;
         let is_vertex = |handle: &Handle| matches!(handle, Handle::Vertex { .. });
         if let Some(handle) = handles.iter().position(is_vertex) {
@@ -116,6 +162,7 @@ impl CagedDocument {
             v_axis: moved.v_axis(),
             corners: vec![None; moved.primitives().len()],
         };
+        let written = moved.write(&no_uvs, &options)?;
         let report = CageReport {
             voxels: self.cage.mesh().tets().len() / 6,
             tets: self.cage.mesh().tets().len(),
@@ -123,8 +170,9 @@ impl CagedDocument {
             surface_vertices: moved.primitives().iter().map(|p| p.positions.len()).sum(),
             crossings_before,
             crossings_after: crossings_of(&moved),
+            remarks: written.notes.remarks.clone(),
         };
-        Ok((moved.write(&no_uvs, &options)?, report))
+        Ok((written, report))
     }
 }
 

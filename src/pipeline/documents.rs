@@ -32,7 +32,7 @@ pub fn unwrap_document(
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Outcome, PipelineError> {
-    options.validate().map_err(PipelineError::InvalidOptions)?;
+    options.check()?;
     let settings = options.settings();
     let tracker = Tracker::new(observer, settings.time_budget);
     in_pool(settings.threads, || {

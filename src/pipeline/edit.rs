@@ -5,29 +5,15 @@ use serde::Serialize;
 use super::PipelineError;
 use super::arrays::in_pool;
 use super::documents::stem;
-use super::limits::Limits;
+use super::edit_options::{EditOptions, Editing};
+use super::observer::{Observer, Stage, Tracker};
+use crate::barrier::BarrierKind;
 use crate::certificate::CornerUvs;
 use crate::deform::PullReport;
-use crate::deform::uv::{Anchor, EditedUvs, UvEditOptions, UvMesh, UvRest, edit_uvs};
+use crate::deform::uv::{EditedUvs, UvMesh, UvRest, edit_uvs};
 use crate::document::{
-    Corners, Document, DocumentError, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
 };
-use crate::solver::Watch;
-
-/// How the UVs of a document are edited.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EditOptions {
-    /// The UV set, read and written.
-    pub texcoord: u32,
-    /// How.
-    pub edit: UvEditOptions,
-    /// Format of the result.
-    pub format: OutputFormat,
-    /// Name of the written files without extension; the input's if absent.
-    pub stem: Option<String>,
-    /// What may be used.
-    pub limits: Limits,
-}
 
 /// A document with edited UVs.
 #[derive(Clone, Debug)]
@@ -40,6 +26,7 @@ pub struct EditedDocument {
 
 /// What was done to the UVs of a document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct EditReport {
     /// Whether every chart with an anchor is proven to be without flips in the bytes written.
     pub certified: bool,
@@ -53,6 +40,7 @@ pub struct EditReport {
 
 /// What was done to a chart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct ChartEditReport {
     /// Its number among the charts of the document, in the order of their first faces.
     pub chart: u32,
@@ -65,17 +53,26 @@ pub struct ChartEditReport {
 /// glTF with v down; vertices count through all triangle primitives in file order.
 pub fn edit_document(
     upload: &Upload,
-    anchors: &[Anchor],
+    editing: Editing,
     options: &EditOptions,
-    watch: &(dyn Watch + Sync),
+    observer: &dyn Observer,
 ) -> Result<EditedDocument, PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.limits.time_budget(options.time_budget));
     in_pool(options.limits.threads, || {
+        tracker.stage(Stage::Read);
         let document = Document::read(upload)?;
         options.limits.check(&document)?;
         let whole = Whole::gather(&document, options.texcoord)?;
-        let edited = edit_uvs(&whole.mesh(), anchors, &options.edit, watch)?;
+        let how = options.of_map(editing);
+        let edited = edit_uvs(&whole.mesh(), &options.anchors, &how, &tracker)?;
+        tracker.stage(Stage::Write);
         let written = write(&document, &whole, &edited, upload, options)?;
-        let report = judge(&document, &edited, &written, options)?;
+        tracker.stage(Stage::Judge);
+        let report = judge(&document, &edited, &written, (options.texcoord, how.rest))?;
+        if !report.certified && options.model.barrier != BarrierKind::None {
+            return Err(PipelineError::NotCertified);
+        }
         Ok(EditedDocument {
             files: written.files,
             report,
@@ -162,7 +159,7 @@ fn judge(
     document: &Document,
     edited: &EditedUvs,
     written: &Written,
-    options: &EditOptions,
+    (texcoord, rest): (u32, UvRest),
 ) -> Result<EditReport, PipelineError> {
     let mut files = written.files.iter().cloned();
     let (name, bytes) = files.next().unwrap_or_default();
@@ -172,7 +169,7 @@ fn judge(
         bytes,
         resources,
     })?;
-    let found = Whole::gather(&again, options.texcoord)?;
+    let found = Whole::gather(&again, texcoord)?;
     if found.uvs.len() != edited.uvs.len() {
         return Err(DocumentError::InvalidUvs.into());
     }
@@ -193,7 +190,7 @@ fn judge(
     Ok(EditReport {
         certified: charts.iter().all(|c| c.map.certificate.is_valid()),
         bijective: charts.iter().all(|c| c.map.bijective),
-        rest: options.edit.rest,
+        rest,
         charts,
     })
 }

@@ -1,15 +1,23 @@
-//! Why a mesh could not be unwrapped.
+//! Why a file could not be worked on.
 
 use crate::atlas::AtlasError;
 use crate::deform::ProblemError;
 use crate::deform::cage::CageError;
 #[cfg(feature = "files")]
+use crate::deform::outline::OutlineError;
+#[cfg(feature = "files")]
 use crate::deform::uv::EditError;
 #[cfg(feature = "files")]
+use crate::deform::warp::WarpError;
+#[cfg(feature = "files")]
 use crate::document::DocumentError;
-use crate::mesh::MeshError;
+#[cfg(feature = "files")]
+use crate::mesh::io::ReadError;
+use crate::mesh::{ElementError, MeshError};
+#[cfg(feature = "files")]
+use crate::picture::ImageError;
 
-/// Why a mesh could not be unwrapped. Every variant has a stable [`code`](Self::code).
+/// Why a file could not be worked on. Every variant has a stable [`code`](Self::code).
 #[derive(Debug, thiserror::Error)]
 pub enum PipelineError {
     /// An option is out of its range.
@@ -44,7 +52,7 @@ pub enum PipelineError {
     /// The surfaces get no cage.
     #[error(transparent)]
     Cage(#[from] CageError),
-    /// The cage cannot be deformed as asked for.
+    /// What was given cannot be deformed as asked for.
     #[error(transparent)]
     Problem(#[from] ProblemError),
     /// The charts do not fit on the grid.
@@ -58,6 +66,17 @@ pub enum PipelineError {
     #[cfg(feature = "files")]
     #[error(transparent)]
     Edit(#[from] EditError),
+    /// The picture or drawing gives no mesh.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
+    /// The picture cannot be warped.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Warp(#[from] WarpError),
+    /// Handles were pulled to a map with an inverted element.
+    #[error("no map without inversion was found")]
+    Inverted,
     /// The worker threads could not be started.
     #[error("cannot start worker threads: {0}")]
     Threads(String),
@@ -75,14 +94,18 @@ impl PipelineError {
             Self::Document(error) => error.code(),
             #[cfg(feature = "files")]
             Self::Edit(error) => error.code(),
+            #[cfg(feature = "files")]
+            Self::Outline(error) => error.code(),
+            #[cfg(feature = "files")]
+            Self::Warp(error) => error.code(),
             Self::NoTriangles => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
-            Self::Atlas(_) => "no_valid_result",
+            Self::Atlas(_) | Self::Inverted => "no_valid_result",
             #[cfg(feature = "files")]
             Self::NotCertified => "no_valid_result",
-            Self::Threads(_) => "internal",
+            Self::Threads(_) => "internal_error",
         }
     }
 
@@ -97,11 +120,34 @@ impl PipelineError {
             | Self::Problem(_)
             | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
-            Self::Document(_) | Self::Edit(_) => 3,
-            Self::Atlas(_) => 4,
+            Self::Document(_) | Self::Edit(_) | Self::Outline(_) | Self::Warp(_) => 3,
+            Self::Atlas(_) | Self::Inverted => 4,
             #[cfg(feature = "files")]
             Self::NotCertified => 4,
             Self::Threads(_) => 1,
         }
+    }
+}
+
+/// A mesh that cannot be deformed.
+impl From<ElementError> for PipelineError {
+    fn from(error: ElementError) -> Self {
+        ProblemError::from(error).into()
+    }
+}
+
+/// A file of elements that cannot be read.
+#[cfg(feature = "files")]
+impl From<ReadError> for PipelineError {
+    fn from(error: ReadError) -> Self {
+        ProblemError::from(error).into()
+    }
+}
+
+/// A picture that cannot be read.
+#[cfg(feature = "files")]
+impl From<ImageError> for PipelineError {
+    fn from(error: ImageError) -> Self {
+        WarpError::from(error).into()
     }
 }

@@ -10,7 +10,7 @@ use crate::document::Document;
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(default)]
 pub struct Limits {
-    /// Triangles of the document; one with more is refused.
+    /// Triangles or tetrahedra of the document; one with more is refused.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub triangles: Option<u64>,
     /// Threads.
@@ -25,7 +25,12 @@ impl Limits {
     /// Refuses a document with too many triangles.
     pub(super) fn check(&self, document: &Document) -> Result<(), PipelineError> {
         let faces = document.primitives().iter().map(|p| p.triangles.len());
-        let triangles = faces.sum::<usize>() as u64;
+        self.check_count(faces.sum())
+    }
+
+    /// Refuses too many triangles or tetrahedra.
+    pub(super) fn check_count(&self, elements: usize) -> Result<(), PipelineError> {
+        let triangles = elements as u64;
         match self.triangles {
             Some(limit) if limit < triangles => {
                 Err(PipelineError::TooManyTriangles { triangles, limit })
@@ -42,5 +47,15 @@ impl Limits {
     /// The time budget asked for, as far as it is allowed.
     pub(super) fn time_budget(&self, asked: Option<f64>) -> Option<f64> {
         asked.into_iter().chain(self.seconds).reduce(f64::min)
+    }
+}
+
+/// Checks the seconds that a caller gives.
+pub(super) fn check_time_budget(seconds: Option<f64>) -> Result<(), PipelineError> {
+    match seconds {
+        Some(seconds) if !(0.0..=1e6).contains(&seconds) => Err(PipelineError::InvalidOptions(
+            format!("time_budget must lie between 0 and 1000000, not {seconds}"),
+        )),
+        _ => Ok(()),
     }
 }

@@ -3,7 +3,11 @@
 //! [`unwrap`] takes plain arrays: it welds, cuts, maps every chart and packs. [`unwrap_document`] takes a file's bytes:
 //! it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and the
 //! certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same for
-//! UVs that a file already has; [`edit_document`] changes them. A [`CagedDocument`] is a file whose surfaces are deformed in a cage.
+//! UVs that a file already has; [`edit_document`] changes them.
+//!
+//! The other applications are a function from a file's bytes to files' bytes each: [`solve_file`], [`deform_file`], [`warp_file`].
+//! All take options of their own, [`Limits`] that their caller sets, and an [`Observer`]; the command line and the service are
+//! two ways to call them.
 //!
 //! The work runs on a thread pool of its own. Charts of all groups share one queue, largest first; each is mapped by
 //! one thread, so the result does not depend on their number.
@@ -16,11 +20,17 @@ mod options;
 mod repeated;
 
 #[cfg(feature = "files")]
+mod bodies;
+#[cfg(feature = "files")]
 mod caged;
+#[cfg(feature = "files")]
+mod deform;
 #[cfg(feature = "files")]
 mod documents;
 #[cfg(feature = "files")]
 mod edit;
+#[cfg(feature = "files")]
+mod edit_options;
 #[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]
@@ -29,6 +39,12 @@ mod limits;
 mod pictures;
 #[cfg(feature = "files")]
 mod report;
+#[cfg(feature = "files")]
+mod solution;
+#[cfg(feature = "files")]
+mod solve;
+#[cfg(feature = "files")]
+mod warp;
 
 pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap};
 pub use error::PipelineError;
@@ -36,11 +52,17 @@ pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::Settings;
 
 #[cfg(feature = "files")]
+pub use bodies::BodyFormat;
+#[cfg(feature = "files")]
 pub use caged::{CageOptions, CageReport, CagedDocument};
+#[cfg(feature = "files")]
+pub use deform::{DeformOptions, deform_file};
 #[cfg(feature = "files")]
 pub use documents::{Outcome, unwrap_document};
 #[cfg(feature = "files")]
-pub use edit::{ChartEditReport, EditOptions, EditReport, EditedDocument, edit_document};
+pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document};
+#[cfg(feature = "files")]
+pub use edit_options::{EditOptions, Editing};
 #[cfg(feature = "files")]
 pub use judge::{measure_document, verify_document};
 #[cfg(feature = "files")]
@@ -51,3 +73,9 @@ pub use options::{MeasureOptions, Options};
 pub use pictures::{Drawn, Pictures};
 #[cfg(feature = "files")]
 pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
+#[cfg(feature = "files")]
+pub use solution::{DeformReport, Deformed};
+#[cfg(feature = "files")]
+pub use solve::{SolveOptions, solve_file};
+#[cfg(feature = "files")]
+pub use warp::{WarpOptions, WarpReport, WarpedPicture, warp_file};

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "files")]
-use super::Limits;
+use super::{Limits, PipelineError};
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 #[cfg(feature = "files")]
@@ -188,8 +188,12 @@ impl Options {
         }
     }
 
-    /// Checks every number against its range; the text names the option.
-    pub fn validate(&self) -> Result<(), String> {
+    /// Checks every number against its range; the error names the option.
+    pub fn check(&self) -> Result<(), PipelineError> {
+        self.validate().map_err(PipelineError::InvalidOptions)
+    }
+
+    fn validate(&self) -> Result<(), String> {
         self.settings().validate()?;
         match self.texcoord {
             Some(set) if set > MAX_TEXCOORD => Err(format!(

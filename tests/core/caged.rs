@@ -5,7 +5,7 @@ use std::fmt::Write;
 use unwrapd::barrier::BarrierKind;
 use unwrapd::deform::{DeformationEnergy, Handle, Model, Solution};
 use unwrapd::document::{Document, OutputFormat, Upload, Written};
-use unwrapd::pipeline::{CageOptions, CageReport, CagedDocument, PipelineError};
+use unwrapd::pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError};
 use unwrapd::solver::{Control, Iterate, Settings};
 
 fn upload(mesh: &zoo::Mesh) -> Upload {
@@ -42,6 +42,7 @@ fn options(n_voxels: u32, format: OutputFormat) -> CageOptions {
         },
         format,
         stem: "out".to_owned(),
+        limits: Limits::default(),
     }
 }
 

@@ -104,7 +104,7 @@ fn extreme_moves_within_a_fixed_boundary_are_bijective() {
         }) {
             Ok(edited) => edited,
             Err(error) => {
-                let known = ["contradictory_anchors", "anchor_on_boundary"];
+                let known = ["contradictory_handles", "anchor_on_boundary"];
                 assert!(known.contains(&error.code()), "run {run}: {error}");
                 continue;
             }

@@ -211,15 +211,15 @@ fn what_cannot_be_edited_has_a_code() {
             .code()
     };
     let middle = to(40, [0.25, 0.5]);
-    assert_eq!(code(&sheets, &[], &texture), "anchor_count");
+    assert_eq!(code(&sheets, &[], &texture), "handle_count");
     let far = to(40, [f64::NAN, 0.0]);
-    assert_eq!(code(&sheets, &[far], &texture), "anchor_out_of_range");
+    assert_eq!(code(&sheets, &[far], &texture), "bad_target");
     let unknown = to(100_000, [0.0; 2]);
-    assert_eq!(code(&sheets, &[unknown], &texture), "unknown_vertex");
+    assert_eq!(code(&sheets, &[unknown], &texture), "unknown_handle");
     let border = to(0, [0.3, 0.3]);
     assert_eq!(code(&sheets, &[border], &texture), "anchor_on_boundary");
     let two = [middle, to(40, [0.26, 0.5])];
-    assert_eq!(code(&sheets, &two, &texture), "contradictory_anchors");
+    assert_eq!(code(&sheets, &two, &texture), "contradictory_handles");
 
     let mut flipped = Sheets::new();
     let corners = flipped.triangles.as_flattened().iter();
@@ -274,6 +274,6 @@ fn anchors_are_read_by_either_name() {
         "{\"anchors\": [{\"vertex\": -1, \"to\": [0, 1]}]}",
     ] {
         let error = parse_anchors(text.as_bytes()).expect_err("no anchors");
-        assert_eq!(error.code(), "malformed_anchors");
+        assert_eq!(error.code(), "malformed_handles");
     }
 }

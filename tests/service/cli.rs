@@ -9,7 +9,7 @@ fn asset(name: &str) -> PathBuf {
         .join(name)
 }
 
-fn unwrapd(arguments: &[&str]) -> Output {
+pub fn unwrapd(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_unwrapd"))
         .args(arguments)
         .output()
@@ -361,8 +361,8 @@ fn uvs_of_a_file_are_edited_and_proven() {
         }
     }
     for (text, input, words) in [
-        ("{}", path("a.glb"), "malformed_anchors"),
-        (r#"{"anchors": []}"#, path("a.glb"), "anchor_count"),
+        ("{}", path("a.glb"), "malformed_handles"),
+        (r#"{"anchors": []}"#, path("a.glb"), "handle_count"),
         (anchors, spot.clone(), "no_uvs"),
     ] {
         std::fs::write(path("a.json"), text).expect("a file");

@@ -1,5 +1,7 @@
 //! Tests of the service: a real server on a free port, with its data in a folder that goes with it.
 
+mod applications;
+mod bad_inputs;
 mod cli;
 mod failures;
 mod jobs;

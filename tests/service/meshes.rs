@@ -1,5 +1,7 @@
 //! Meshes to send.
 
+use std::fmt::Write as _;
+
 use serde_json::json;
 
 /// A GLB with one sheet of n × n × 2 triangles with hills of various heights in it.
@@ -76,4 +78,40 @@ pub fn small() -> Vec<u8> {
 /// Takes seconds to unwrap, so that something can happen meanwhile.
 pub fn large() -> Vec<u8> {
     hills(400)
+}
+
+/// Two squares side by side.
+pub const PLATE: &str =
+    "OFF\n6 4 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n";
+
+/// A bar of `n` cubes, six tetrahedra each.
+pub fn bar(n: usize) -> String {
+    let mut text = format!("{} {}\n", 4 * (n + 1), 6 * n);
+    for x in 0..=n {
+        for (y, z) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            writeln!(text, "{x} {y} {z}").expect("memory");
+        }
+    }
+    // The ways from one corner of a cube to the opposite one along its edges.
+    for axes in [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ] {
+        for x in 0..n {
+            let (mut corner, mut corners) = (4 * x, vec![4 * x]);
+            for axis in axes {
+                corner += [4, 1, 2][axis];
+                corners.push(corner);
+            }
+            let [a, b, c, d] = corners[..] else {
+                unreachable!("four corners")
+            };
+            writeln!(text, "{a} {b} {c} {d}").expect("memory");
+        }
+    }
+    text
 }

@@ -1,5 +1,8 @@
 //! The OpenAPI document.
 
+use std::collections::BTreeSet;
+use std::path::Path;
+
 use serde_json::Value;
 
 use crate::server::{Server, json};
@@ -44,6 +47,46 @@ fn every_operation_says_what_it_answers() {
     ids.sort_unstable();
     ids.dedup();
     assert_eq!(ids.len(), count, "each has its own id");
+}
+
+/// The words of every `fn code(&self)` in the sources.
+fn codes(folder: &Path, found: &mut BTreeSet<String>) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            codes(&path, found);
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("text");
+        let bodies = text.split("fn code(&self) -> &'static str {").skip(1);
+        let bodies = bodies.map(|rest| rest.split("\n    }\n").next().unwrap_or_default());
+        let words = bodies.flat_map(|body| body.split("=> \"").skip(1));
+        let words = words.filter_map(|rest| rest.split_once('"'));
+        found.extend(words.map(|(word, _)| word.to_owned()));
+    }
+}
+
+#[test]
+fn every_code_of_an_input_is_in_the_table() {
+    let document: Value = serde_json::from_str(STORED).expect("JSON");
+    let table = document["x-problems"].as_array().expect("a table").iter();
+    let table: Vec<&str> = table.filter_map(|row| row["code"].as_str()).collect();
+    let mut found = BTreeSet::new();
+    codes(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
+        &mut found,
+    );
+    assert!(
+        found.contains("unknown_handle") && found.contains("folded_mesh"),
+        "{found:?}"
+    );
+    let missing: Vec<_> = found
+        .iter()
+        .filter(|word| !table.contains(&word.as_str()))
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    let distinct: BTreeSet<_> = table.iter().collect();
+    assert_eq!(distinct.len(), table.len(), "a code has one meaning");
 }
 
 #[tokio::test]

@@ -22,7 +22,7 @@ fn raw(
 async fn what_is_not_a_mesh_is_refused_before_202() {
     let server = Server::start();
     let bytes = "application/octet-stream";
-    let cases: [(&str, &str, Vec<u8>, u16, &str); 13] = [
+    let cases: [(&str, &str, Vec<u8>, u16, &str); 16] = [
         ("", bytes, b"hello, world".to_vec(), 422, "unknown_format"),
         ("", bytes, Vec::new(), 422, "unknown_format"),
         (
@@ -55,7 +55,7 @@ async fn what_is_not_a_mesh_is_refused_before_202() {
         ),
         (
             "",
-            "image/png",
+            "image/gif",
             meshes::small(),
             415,
             "unsupported_media_type",
@@ -76,6 +76,15 @@ async fn what_is_not_a_mesh_is_refused_before_202() {
             "invalid_options",
         ),
         ("kind=fold", bytes, meshes::small(), 400, "invalid_request"),
+        ("kind=warp", bytes, meshes::small(), 422, "unknown_format"),
+        ("kind=solve", bytes, meshes::small(), 422, "unknown_format"),
+        (
+            "kind=warp&grid=[",
+            "image/png",
+            b"\x89PNG\r\n\x1a\n".to_vec(),
+            400,
+            "invalid_options",
+        ),
         (
             "cut=disk&cut=auto",
             bytes,

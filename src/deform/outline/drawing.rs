@@ -1,11 +1,11 @@
 //! The outline of a drawing's filled shapes.
 
+use super::flatten::{PathError, polygons};
 use super::nesting::Windings;
 use super::simple::meeting_point;
-use super::{
-    Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, doubled_area, shape, transform,
-};
-use kurbo::{Affine, BezPath, PathEl};
+use super::style::{Rule, Style};
+use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, doubled_area, shape};
+use kurbo::BezPath;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Elements of a document at most.
@@ -56,75 +56,8 @@ pub fn of_svg(text: &str, settings: &SvgSettings) -> Result<Outline, OutlineErro
         n_vertices: 0,
         loops: Vec::new(),
     };
-    let initial = Style {
-        map: Affine::IDENTITY,
-        is_filled: true,
-        rule: Rule::NonZero,
-    };
-    drawing.visit(root, initial, 0)?;
+    drawing.visit(root, Style::INITIAL, 0)?;
     Outline::new(drawing.boundary()?)
-}
-
-/// Which parts of a shape that winds around them several times are inside.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Rule {
-    NonZero,
-    EvenOdd,
-}
-
-impl Rule {
-    fn is_inside(self, winding: i32) -> bool {
-        match self {
-            Self::NonZero => winding != 0,
-            Self::EvenOdd => winding % 2 != 0,
-        }
-    }
-}
-
-/// What an element hands down to those within it.
-#[derive(Clone, Copy)]
-struct Style {
-    map: Affine,
-    is_filled: bool,
-    rule: Rule,
-}
-
-impl Style {
-    /// The style of an element; `None` where it is not shown.
-    fn of(node: Node, outer: Style) -> Result<Option<Style>, OutlineError> {
-        if property(node, "display") == Some("none")
-            || property(node, "visibility") == Some("hidden")
-        {
-            return Ok(None);
-        }
-        let mut style = outer;
-        if let Some(text) = node.attribute("transform") {
-            let map = transform::parse(text)
-                .ok_or_else(|| OutlineError::InvalidSvg(format!("transform: {text}")))?;
-            style.map *= map;
-        }
-        if let Some(fill) = property(node, "fill") {
-            style.is_filled = fill != "none";
-        }
-        if let Some(rule) = property(node, "fill-rule") {
-            style.rule = if rule == "evenodd" {
-                Rule::EvenOdd
-            } else {
-                Rule::NonZero
-            };
-        }
-        Ok(Some(style))
-    }
-}
-
-/// A presentation property, from the `style` attribute or one of its own.
-fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
-    let declarations = node.attribute("style").unwrap_or_default().split(';');
-    declarations
-        .filter_map(|declaration| declaration.split_once(':'))
-        .find(|(key, _)| key.trim() == name)
-        .map(|(_, value)| value.trim())
-        .or_else(|| node.attribute(name).map(str::trim))
 }
 
 /// A closed polygon of one shape.
@@ -166,48 +99,18 @@ impl Drawing {
 
     /// Adds the closed polygons of a path.
     fn push_path(&mut self, path: BezPath, rule: Rule) -> Result<(), OutlineError> {
-        let finite = |p: kurbo::Point| p.is_finite() && p.x.abs() < 1e9 && p.y.abs() < 1e9;
-        if !path
-            .elements()
-            .iter()
-            .all(|e| e.end_point().is_none_or(finite) && e.is_finite())
-        {
-            return Err(OutlineError::InvalidSvg(
-                "a coordinate is out of range".into(),
-            ));
-        }
-        let mut open: Vec<[f64; 2]> = Vec::new();
-        let mut polygons = Vec::new();
-        let mut is_open = false;
-        let mut n_vertices = self.n_vertices;
-        kurbo::flatten(path, self.tolerance, |element| {
-            n_vertices += 1;
-            match element {
-                _ if n_vertices > MOST_VERTICES => {}
-                PathEl::MoveTo(p) => {
-                    is_open |= open.len() > 1 && open.first() != open.last();
-                    polygons.push(std::mem::replace(&mut open, vec![[p.x, p.y]]));
-                }
-                PathEl::LineTo(p) => open.push([p.x, p.y]),
-                // The next part begins where this one did, if it has no beginning of its own.
-                _ => {
-                    let first = open.first().copied();
-                    polygons.push(std::mem::replace(&mut open, first.into_iter().collect()));
-                }
+        let polygons = match polygons(path, self.tolerance, MOST_VERTICES - self.n_vertices) {
+            Ok(polygons) => polygons,
+            Err(PathError::OutOfRange) => {
+                let reason = "a coordinate is out of range";
+                return Err(OutlineError::InvalidSvg(reason.into()));
             }
-        });
-        is_open |= open.len() > 1 && open.first() != open.last();
-        polygons.push(open);
-        self.n_vertices = n_vertices;
-        if n_vertices > MOST_VERTICES {
-            return Err(OutlineError::TooDetailed);
-        }
-        if is_open {
-            return Err(OutlineError::OpenPath { path: self.n_paths });
-        }
+            Err(PathError::TooDetailed) => return Err(OutlineError::TooDetailed),
+            Err(PathError::Open) => return Err(OutlineError::OpenPath { path: self.n_paths }),
+        };
+        self.n_vertices += polygons.iter().map(Vec::len).sum::<usize>();
         let shape = self.n_paths;
-        let polygons = polygons.into_iter().filter(|vertices| vertices.len() > 1);
-        self.loops.extend(polygons.map(|vertices| Loop {
+        self.loops.extend(polygons.into_iter().map(|vertices| Loop {
             vertices,
             shape,
             rule,

@@ -6,11 +6,13 @@
 mod contour;
 mod drawing;
 mod error;
+mod flatten;
 mod frame;
 mod nesting;
 mod shape;
 mod simple;
 mod simplify;
+mod style;
 mod transform;
 mod triangulate;
 

@@ -1,10 +1,11 @@
 //! Vertices of UV maps and where they go.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::chart::UvVertices;
 use super::{EditError, UvMesh};
 use crate::certificate::UvTopology;
+use crate::deform::numbers;
 use crate::numerics::predicates::orient2d_sign;
 
 /// Anchors at most: each is compared with every face.
@@ -13,7 +14,8 @@ pub(super) const MOST_ANCHORS: usize = 1000;
 const FARTHEST: f64 = 1e6;
 
 /// A vertex of a UV map and where it goes, in the numbers of the map.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Anchor {
     /// A vertex of the mesh, which must have one UV.
@@ -21,14 +23,17 @@ pub enum Anchor {
         /// Its index, from 0.
         vertex: u32,
         /// Its new UV.
+        #[serde(deserialize_with = "numbers::planar")]
         to: [f64; 2],
     },
     /// The point of the surface that has a UV, a vertex if it is one. Where no face has the UV, and next to a boundary that stays,
     /// the nearest vertex, whose target is shifted by the same offset.
     Place {
         /// A UV.
+        #[serde(deserialize_with = "numbers::planar")]
         at: [f64; 2],
         /// Where it goes.
+        #[serde(deserialize_with = "numbers::planar")]
         to: [f64; 2],
     },
 }
@@ -43,7 +48,7 @@ pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
         anchors: Vec<Anchor>,
     }
     let file: File =
-        serde_json::from_slice(json).map_err(|error| EditError::Malformed(error.to_string()))?;
+        numbers::from_json(json).map_err(|error| EditError::Malformed(error.to_string()))?;
     Ok(file.anchors)
 }
 
@@ -72,7 +77,7 @@ pub(super) fn hold(
     anchors: &[Anchor],
 ) -> Result<Vec<Held>, EditError> {
     if !(1..=MOST_ANCHORS).contains(&anchors.len()) {
-        return Err(EditError::AnchorCount(anchors.len()));
+        return Err(EditError::HandleCount(anchors.len()));
     }
     let mut held: Vec<Held> = Vec::with_capacity(anchors.len());
     for (anchor, which) in anchors.iter().enumerate() {
@@ -81,7 +86,7 @@ pub(super) fn hold(
             Anchor::Place { at, to } => (at, to),
         };
         if !at.iter().chain(&to).all(|x| x.abs() <= FARTHEST) {
-            return Err(EditError::OutOfRange(anchor));
+            return Err(EditError::BadTarget(anchor));
         }
         let held_one = match *which {
             Anchor::Vertex { vertex, to } => {
@@ -96,7 +101,7 @@ pub(super) fn hold(
                 }
                 None => {
                     let nearest = nearest_vertex(topology, vertices, at);
-                    let (vertex, uv) = nearest.ok_or(EditError::UnknownVertex(anchor))?;
+                    let (vertex, uv) = nearest.ok_or(EditError::UnknownHandle(anchor))?;
                     let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
                     let spot = Spot::Vertex(vertex);
                     Held { anchor, spot, to }
@@ -123,7 +128,7 @@ fn only_vertex(
     let mut found = corners
         .filter(|&(corner, &v)| v == vertex && !topology.unusable[corner / 3])
         .map(|(corner, _)| vertices.of_corner[corner]);
-    let first = found.next().ok_or(EditError::UnknownVertex(anchor))?;
+    let first = found.next().ok_or(EditError::UnknownHandle(anchor))?;
     if found.any(|other| other != first) {
         return Err(EditError::AmbiguousVertex(anchor));
     }

@@ -12,18 +12,18 @@ pub enum EditError {
     Malformed(String),
     /// There is nothing to pull, or more than is possible.
     #[error("{0} anchors; 1 to {MOST_ANCHORS} are possible")]
-    AnchorCount(usize),
+    HandleCount(usize),
     /// A number of an anchor is not finite or beyond 1e6.
-    #[error("anchor {0} is beyond 1e6")]
-    OutOfRange(usize),
+    #[error("anchor {0} has a number that is not finite or beyond 1e6")]
+    BadTarget(usize),
     /// An anchor's vertex has no UV.
     #[error("anchor {0} names no vertex of a face with UVs")]
-    UnknownVertex(usize),
+    UnknownHandle(usize),
     /// An anchor's vertex has several UVs.
     #[error("anchor {0} names a vertex on a seam; name it by its UV")]
     AmbiguousVertex(usize),
-    /// Two anchors pull one vertex to two places.
-    #[error("anchors {0} and {1} pull the same vertex to different places")]
+    /// Two anchors pull one vertex or point to two places.
+    #[error("anchors {0} and {1} pull one place of the map to different places")]
     Contradictory(usize, usize),
     /// An anchor pulls at a boundary that stays.
     #[error("anchor {0} pulls at a vertex of a boundary, which is fixed")]
@@ -52,12 +52,12 @@ impl EditError {
     /// Stable name of the cause, for programs.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Malformed(_) => "malformed_anchors",
-            Self::AnchorCount(_) => "anchor_count",
-            Self::OutOfRange(_) => "anchor_out_of_range",
-            Self::UnknownVertex(_) => "unknown_vertex",
+            Self::Malformed(_) => "malformed_handles",
+            Self::HandleCount(_) => "handle_count",
+            Self::BadTarget(_) => "bad_target",
+            Self::UnknownHandle(_) => "unknown_handle",
             Self::AmbiguousVertex(_) => "ambiguous_vertex",
-            Self::Contradictory(..) => "contradictory_anchors",
+            Self::Contradictory(..) => "contradictory_handles",
             Self::OnBoundary(_) => "anchor_on_boundary",
             Self::Flipped { .. } => "flipped_uvs",
             Self::Nonorientable { .. } => "nonorientable_chart",

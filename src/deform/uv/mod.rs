@@ -33,6 +33,7 @@ pub use error::EditError;
 
 /// Which shape of a triangle is without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum UvRest {
     /// The one it has: where nothing pulls, nothing moves.
@@ -187,7 +188,7 @@ fn take_hold(
     (body, unit): (&Body, f64),
     &Held { anchor, spot, to }: &Held,
 ) -> Result<Option<[f64; 2]>, EditError> {
-    let unknown = EditError::UnknownVertex(anchor);
+    let unknown = EditError::UnknownHandle(anchor);
     let (at, grip) = match spot {
         Spot::Vertex(vertex) => {
             // The vertex of a face left out of its chart is not there.

@@ -1,11 +1,12 @@
 //! A picture pulled by handles.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{GridError, picture_grid};
 use crate::deform::body::Body;
 use crate::deform::boundary::Boundary;
 use crate::deform::locate::locate;
+use crate::deform::numbers;
 use crate::deform::problem::Model;
 use crate::deform::problem_error::ProblemError;
 use crate::deform::pull::{Grip, Holds, PullReport, pull};
@@ -41,12 +42,15 @@ impl Default for WarpOptions {
 }
 
 /// A place of a picture and where it goes, in pixels, (0, 0) the upper left corner, y down.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PictureHandle {
     /// A place in the picture.
+    #[serde(deserialize_with = "numbers::planar")]
     pub at: [f64; 2],
     /// Where it goes.
+    #[serde(deserialize_with = "numbers::planar")]
     pub to: [f64; 2],
 }
 
@@ -58,7 +62,7 @@ pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
         handles: Vec<PictureHandle>,
     }
     let file: File =
-        serde_json::from_slice(json).map_err(|error| WarpError::Malformed(error.to_string()))?;
+        numbers::from_json(json).map_err(|error| WarpError::Malformed(error.to_string()))?;
     Ok(file.handles)
 }
 
@@ -71,9 +75,12 @@ pub enum WarpError {
     /// There is nothing to pull, or more than is possible.
     #[error("{0} handles; 1 to {MOST_HANDLES} are possible")]
     HandleCount(usize),
-    /// A handle is not in the picture, or its target is not a position.
-    #[error("handle {0} is not in the picture, or its target is beyond 1e9 pixels")]
-    OutOfRange(usize),
+    /// A handle is not in the picture.
+    #[error("handle {0} is not in the picture")]
+    HandleOutside(usize),
+    /// The target of a handle is not a position.
+    #[error("the target of handle {0} is not two finite numbers, or beyond 1e9 pixels")]
+    BadTarget(usize),
     /// All vertices of the grid are on its border, which is fixed.
     #[error("the grid has no vertex inside its border")]
     NothingInside,
@@ -94,7 +101,8 @@ impl WarpError {
         match self {
             Self::Malformed(_) => "malformed_handles",
             Self::HandleCount(_) => "handle_count",
-            Self::OutOfRange(_) => "handle_out_of_range",
+            Self::HandleOutside(_) => "handle_outside",
+            Self::BadTarget(_) => "bad_target",
             Self::NothingInside => "grid_too_coarse",
             Self::Grid(error) => error.code(),
             Self::Image(error) => error.code(),
@@ -166,8 +174,11 @@ fn warp_grid(
     let mut holds = Holds::new(options.boundary.held(grid));
     for (index, handle) in handles.iter().enumerate() {
         let is_inside = (0..2).all(|k| (0.0..=size[k]).contains(&handle.at[k]));
-        if !is_inside || !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
-            return Err(WarpError::OutOfRange(index));
+        if !is_inside {
+            return Err(WarpError::HandleOutside(index));
+        }
+        if !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
+            return Err(WarpError::BadTarget(index));
         }
         take_hold(&mut holds, &body, to_unit(handle.at), to_unit(handle.to))?;
     }

@@ -9,8 +9,8 @@ function element(tag, properties = {}, ...children) {
 }
 
 // Text in which `words between backticks` are code and empty lines divide paragraphs.
-function prose(text = "") {
-  return text.split("\n\n").filter(Boolean).map((paragraph) => {
+function prose(text) {
+  return (text ?? "").split("\n\n").filter(Boolean).map((paragraph) => {
     const parts = paragraph.split("`").map((part, index) => (index % 2 ? element("code", { textContent: part }) : part));
     return element("p", {}, ...parts);
   });
@@ -26,6 +26,11 @@ function typeOf(schema = {}) {
   return schema.items ? `${type} of ${typeOf(schema.items)}` : type;
 }
 
+// A parameter that is a list comes as its JSON text.
+function schemaOf(parameter) {
+  return parameter.schema ?? parameter.content["application/json"].schema;
+}
+
 function table(rows) {
   return element("table", {}, element("tbody", {}, ...rows.map((cells) => element("tr", {}, ...cells.map((cell) => element("td", {}, ...[cell].flat()))))));
 }
@@ -33,7 +38,7 @@ function table(rows) {
 function operation(method, path, described) {
   const parts = [...prose(described.description)];
   if (described.parameters?.length) {
-    const rows = described.parameters.map((one) => [element("code", { textContent: one.name }), `${one.in}, ${typeOf(one.schema)}`, prose(one.description)]);
+    const rows = described.parameters.map((one) => [element("code", { textContent: one.name }), `${one.in}, ${typeOf(schemaOf(one))}`, prose(one.description)]);
     parts.push(element("h3", { textContent: "Parameters" }), table(rows));
   }
   if (described.requestBody) {

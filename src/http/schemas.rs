@@ -1,0 +1,155 @@
+//! Schemas of options and reports, as the OpenAPI document has them.
+
+use serde_json::{Map, Value, json};
+use utoipa::ToSchema;
+use utoipa::openapi::{RefOr, Schema};
+
+use crate::jobs::{Event, Kind};
+use crate::pipeline::{
+    DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, Report,
+    SolveOptions, WarpOptions, WarpReport,
+};
+
+/// Schemas that no handler names, with those that they refer to.
+pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {
+    let mut schemas = Vec::new();
+    add::<Options>(&mut schemas);
+    add::<MeasureOptions>(&mut schemas);
+    add::<SolveOptions>(&mut schemas);
+    add::<DeformOptions>(&mut schemas);
+    add::<WarpOptions>(&mut schemas);
+    add::<EditOptions>(&mut schemas);
+    add::<Report>(&mut schemas);
+    add::<DeformReport>(&mut schemas);
+    add::<WarpReport>(&mut schemas);
+    add::<EditReport>(&mut schemas);
+    add::<Event>(&mut schemas);
+    schemas
+}
+
+fn add<T: ToSchema>(schemas: &mut Vec<(String, RefOr<Schema>)>) {
+    schemas.push((T::name().into_owned(), T::schema()));
+    T::schemas(schemas);
+}
+
+/// The schema of a kind's options.
+pub(super) fn options(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Unwrap => "Options",
+        Kind::Measure => "MeasureOptions",
+        Kind::Solve => "SolveOptions",
+        Kind::Deform => "DeformOptions",
+        Kind::Warp => "WarpOptions",
+        Kind::EditUv | Kind::TextureMap => "EditOptions",
+    }
+}
+
+/// What a report may be.
+pub(super) fn any_report() -> Value {
+    let reports = ["Report", "DeformReport", "WarpReport", "EditReport"];
+    json!({ "anyOf": reports.map(reference) })
+}
+
+/// A schema of the document.
+pub(super) fn reference(schema: &str) -> Value {
+    json!({ "$ref": format!("#/components/schemas/{schema}") })
+}
+
+/// A file.
+pub(super) fn bytes() -> Value {
+    json!({ "type": "string", "format": "binary" })
+}
+
+/// Options that consist of parts become one object: of parts that each refuse what they do not know, none knows all.
+pub(super) fn merge_parts(schemas: &mut Value) {
+    let names: Vec<String> = ["DeformOptions", "WarpOptions", "EditOptions"]
+        .map(str::to_owned)
+        .into();
+    for name in names {
+        let Some(parts) = schemas[&name]["allOf"].as_array().cloned() else {
+            continue;
+        };
+        let mut properties = Map::new();
+        for part in parts {
+            let part = match part["$ref"].as_str().and_then(|r| r.rsplit('/').next()) {
+                Some(target) => schemas[target].clone(),
+                None => part,
+            };
+            properties.extend(part["properties"].as_object().cloned().unwrap_or_default());
+        }
+        let description = schemas[&name]["description"].clone();
+        schemas[&name] = json!({
+            "type": "object",
+            "description": description,
+            "properties": properties,
+            "additionalProperties": false,
+        });
+    }
+}
+
+/// The members of options as query parameters. Kinds may mean different things by one name.
+pub(super) fn parameters(schemas: &Value, options: &[&str]) -> Vec<Value> {
+    let mut parameters: Map<String, Value> = Map::new();
+    for name in options {
+        let properties = schemas[*name]["properties"].as_object();
+        for (name, schema) in properties.into_iter().flatten() {
+            let parameter = parameter(name, schema.clone());
+            match parameters.get_mut(name) {
+                None => {
+                    parameters.insert(name.clone(), parameter);
+                }
+                Some(known) if without_default(known) == without_default(&parameter) => {}
+                Some(known) => join(known, &parameter),
+            }
+        }
+    }
+    parameters
+        .into_iter()
+        .map(|(_, parameter)| parameter)
+        .collect()
+}
+
+/// A list in the query is its JSON text.
+fn parameter(name: &str, mut schema: Value) -> Value {
+    let mut parameter = json!({ "name": name, "in": "query", "required": false });
+    if let Some(description) = take_description(&mut schema) {
+        parameter["description"] = description;
+    }
+    if schema["type"] == "array" {
+        parameter["content"]["application/json"]["schema"] = schema;
+    } else {
+        parameter["schema"] = schema;
+    }
+    parameter
+}
+
+/// The description of a member; that of one that may be absent stands in its first choice.
+fn take_description(schema: &mut Value) -> Option<Value> {
+    let from = |schema: &mut Value| schema.as_object_mut()?.remove("description");
+    from(schema).or_else(|| from(schema.get_mut("oneOf")?.get_mut(0)?))
+}
+
+fn schema_of(parameter: &mut Value) -> &mut Value {
+    if parameter["schema"].is_null() {
+        &mut parameter["content"]["application/json"]["schema"]
+    } else {
+        &mut parameter["schema"]
+    }
+}
+
+fn without_default(parameter: &Value) -> Value {
+    let mut schema = schema_of(&mut parameter.clone()).clone();
+    schema.as_object_mut().map(|keys| keys.remove("default"));
+    schema
+}
+
+/// Has a parameter accept what another does, too.
+fn join(parameter: &mut Value, other: &Value) {
+    let other = without_default(other);
+    let schema = schema_of(parameter);
+    match schema["anyOf"].as_array_mut() {
+        Some(choices) if choices.contains(&other) => {}
+        Some(choices) => choices.push(other),
+        None => *schema = json!({ "anyOf": [schema, other] }),
+    }
+}

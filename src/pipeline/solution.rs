@@ -1,0 +1,175 @@
+//! Problems solved under observation: the map, a report, a line per iteration.
+
+use std::cell::RefCell;
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::PipelineError;
+use super::caged::CageReport;
+use super::observer::Tracker;
+use crate::deform::{Method, Problem, Solution, Worth};
+use crate::solver::{Control, Iterate, LevenbergStep, Settings, Summary, Watch};
+
+/// What a body became.
+#[derive(Clone, Debug)]
+pub struct Deformed {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What the map is worth.
+    pub report: DeformReport,
+    /// A line per iteration as CSV: energy, smallest element, and of the paper's iteration μ, σ, α and the residual.
+    pub trace: String,
+}
+
+/// What a deformation is worth and how it was found.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct DeformReport {
+    /// How it was solved.
+    pub method: Method,
+    /// What the solver did.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// What the map is worth.
+    #[serde(flatten)]
+    pub worth: Worth,
+    /// The energy that minimizing without a barrier leads to from the solution, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_without_barrier: Option<f64>,
+    /// The smallest size of an element over its rest size, over all iterates.
+    pub smallest_ever: f64,
+    /// Seconds of reading and checking.
+    pub setup_seconds: f64,
+    /// Seconds of everything after that, but for writing.
+    pub solve_seconds: f64,
+    /// The cage and the surfaces in it, if that is what was deformed.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub cage: Option<CageReport>,
+}
+
+/// What is done beside minimizing once.
+#[derive(Clone, Copy)]
+pub(super) struct Plan {
+    pub method: Method,
+    /// Lower the barrier's strength while the energy without it falls.
+    pub barrier_continuation: bool,
+    /// Also minimize without a barrier.
+    pub bias: bool,
+}
+
+/// Writes a map as the result will be.
+type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
+
+/// A solution, its report, its trace.
+pub(super) struct Solved {
+    pub solution: Solution,
+    pub report: DeformReport,
+    pub trace: String,
+}
+
+/// Solves a problem; `file` serves those who look at every iteration.
+pub(super) fn solve(
+    problem: &Problem,
+    plan: Plan,
+    tracker: &Tracker,
+    file: Option<&WriteMap>,
+) -> Result<Solved, PipelineError> {
+    let setup_seconds = tracker.elapsed().as_secs_f64();
+    let trace = Trace {
+        tracker,
+        file,
+        iterates: RefCell::default(),
+        steps: RefCell::default(),
+    };
+    let settings = Settings::follow();
+    let mut solution = match plan.method {
+        Method::Projected => problem.solve(&settings, &trace)?,
+        Method::Levenberg => {
+            let mut record = |step: &LevenbergStep| trace.steps.borrow_mut().push(*step);
+            problem.solve_by_levenberg(&problem.levenberg, &trace, &mut record)?
+        }
+    };
+    if plan.barrier_continuation {
+        solution = problem.with_weaker_barrier(solution, &settings, tracker)?;
+    }
+    let energy_without_barrier = if plan.bias {
+        Some(problem.energy_without_barrier(&solution, &settings, tracker)?)
+    } else {
+        None
+    };
+    if solution.worth.inverted > 0 && problem.forbids_inversion() {
+        return Err(PipelineError::Inverted);
+    }
+    let report = DeformReport {
+        method: plan.method,
+        summary: solution.summary,
+        worth: solution.worth,
+        energy_without_barrier,
+        smallest_ever: trace.smallest().min(solution.worth.smallest),
+        setup_seconds,
+        solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
+        cage: None,
+    };
+    Ok(Solved {
+        solution,
+        report,
+        trace: trace.csv(),
+    })
+}
+
+/// What happened in every iteration.
+struct Trace<'a> {
+    tracker: &'a Tracker<'a>,
+    file: Option<&'a WriteMap<'a>>,
+    iterates: RefCell<Vec<Iterate>>,
+    steps: RefCell<Vec<LevenbergStep>>,
+}
+
+impl Watch for Trace<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        // Where one stage follows another the last iterate is shown again.
+        let mut iterates = self.iterates.borrow_mut();
+        if iterates
+            .last()
+            .is_none_or(|last| last.iteration < iterate.iteration)
+        {
+            iterates.push(*iterate);
+        }
+        Watch::iterate(self.tracker, iterate)
+    }
+
+    fn positions(&self, x: &[f64]) {
+        if let Some(file) = self.file {
+            let number = self.iterates.borrow().len();
+            self.tracker.frame(number, &|| file(x));
+        }
+    }
+}
+
+impl Trace<'_> {
+    /// The smallest size of an element over its rest size, over all iterates.
+    fn smallest(&self) -> f64 {
+        let iterates = self.iterates.borrow();
+        let sizes = iterates.iter().map(|i| i.smallest);
+        sizes.fold(f64::INFINITY, f64::min)
+    }
+
+    fn csv(&self) -> String {
+        let (iterates, steps) = (self.iterates.borrow(), self.steps.borrow());
+        let mut text = String::from("iteration,energy,smallest,mu,sigma,alpha,residual\n");
+        for (index, i) in iterates.iter().enumerate() {
+            let step = index.checked_sub(1).and_then(|i| steps.get(i));
+            let step = step.map_or(",,,".to_owned(), |s| {
+                format!("{:e},{:e},{:e},{:e}", s.mu, s.sigma, s.alpha, s.residual)
+            });
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{},{:e},{:e},{step}",
+                i.iteration, i.energy, i.smallest
+            );
+        }
+        text
+    }
+}

@@ -1,0 +1,253 @@
+//! Every application as a job: its result on a real file.
+
+use std::path::Path;
+
+use reqwest::multipart::{Form, Part};
+use serde_json::Value;
+
+use crate::meshes::{self, PLATE, bar};
+use crate::server::{Server, json};
+
+const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60"><rect width="100" height="60"/></svg>"#;
+pub const PROBLEM: &str = r#"{"mesh": "plate.off", "energy": "green", "barrier": "spline", "handles": [0, 3, 2],
+    "targets": [[0, 0], [0, 1], [1.5, 0.5]]}"#;
+
+pub fn asset(name: &str) -> Vec<u8> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/assets")
+        .join(name);
+    std::fs::read(path).expect("an asset")
+}
+
+/// The job after its end, or the problem that it was refused with.
+pub async fn ended(server: &Server, form: Form) -> Value {
+    let answer = server
+        .post("/v1/jobs")
+        .multipart(form)
+        .send()
+        .await
+        .expect("an answer");
+    let job = json(answer).await;
+    if job["links"].is_null() {
+        job
+    } else {
+        server.ended(&job).await
+    }
+}
+
+pub fn form(kind: &str, options: &str, (name, bytes): (&str, Vec<u8>)) -> Form {
+    let input = Part::bytes(bytes).file_name(name.to_owned());
+    Form::new()
+        .text("kind", kind.to_owned())
+        .text("options", options.to_owned())
+        .part("mesh", input)
+}
+
+/// The files of a job that succeeded: its report, and its result.
+pub async fn outcome(server: &Server, form: Form) -> (Value, String, Vec<u8>) {
+    let job = ended(server, form).await;
+    assert_eq!(job["state"], "succeeded", "{job}");
+    let path = job["links"]["self"].as_str().expect("a link");
+    let report = server
+        .get(&format!("{path}/report"))
+        .send()
+        .await
+        .expect("an answer");
+    let result = server
+        .get(&format!("{path}/result"))
+        .send()
+        .await
+        .expect("an answer");
+    let media_type = result.headers()["content-type"]
+        .to_str()
+        .expect("text")
+        .to_owned();
+    let bytes = result.bytes().await.expect("bytes").to_vec();
+    (json(report).await, media_type, bytes)
+}
+
+#[tokio::test]
+async fn bodies_are_pulled() {
+    let server = Server::start();
+    let plate = Part::text(PLATE).file_name("plate.off");
+    let problem = form("solve", "{}", ("p.json", PROBLEM.into())).part("resource", plate);
+    let (report, media_type, text) = outcome(&server, problem).await;
+    assert!(
+        report["residual"].as_f64().is_some_and(|r| r < 1e-12),
+        "{report}"
+    );
+    assert_eq!(media_type, "text/plain; charset=utf-8");
+    assert_eq!(
+        String::from_utf8_lossy(&text)
+            .split_ascii_whitespace()
+            .count(),
+        12
+    );
+
+    let ends = r#"{"handles": [{"center": [0, 0.5, 0.5], "radius": 0.8, "to": [0, 0.5, 0.5]},
+        {"center": [6, 0.5, 0.5], "radius": 0.8, "to": [4, 3, 0.5]}]}"#;
+    let plate = r#"{"handles": [{"center": [0, 30], "radius": 20, "to": [0, 30]}, {"at": [90, 30], "to": [60, 90]}],
+        "triangles": 500, "bias": true, "barrier_continuation": true}"#;
+    let everything =
+        r#"{"handles": [{"center": [0, 0, 0], "radius": 1e3, "to": [1, 2, 3]}], "cage": 6}"#;
+    let cases: [(&str, &str, Vec<u8>, &str); 3] = [
+        (
+            ends,
+            "bar.tet",
+            bar(6).into_bytes(),
+            "application/octet-stream",
+        ),
+        (plate, "plate.svg", DRAWING.into(), "model/obj"),
+        (
+            everything,
+            "surfaces.glb",
+            asset("MultiUVTest.glb"),
+            "model/gltf-binary",
+        ),
+    ];
+    for (options, name, bytes, expected) in cases {
+        let (report, media_type, result) =
+            outcome(&server, form("deform", options, (name, bytes))).await;
+        assert_eq!(
+            (&report["inverted"], &report["status"]),
+            (&0.into(), &"converged".into()),
+            "{name}: {report}"
+        );
+        assert!(
+            report["smallest_ever"].as_f64().is_some_and(|s| s > 0.0),
+            "{report}"
+        );
+        assert_eq!(media_type, expected);
+        assert!(!result.is_empty());
+        assert_eq!(
+            report["crossings_after"].is_object(),
+            name == "surfaces.glb",
+            "{report}"
+        );
+        assert_eq!(
+            report["energy_without_barrier"].is_number(),
+            name == "plate.svg",
+            "{report}"
+        );
+    }
+}
+
+#[tokio::test]
+async fn pictures_are_warped_and_uvs_are_edited() {
+    let server = Server::start();
+    let pulled = r#"{"handles": [{"at": [300, 300], "to": [500, 400]}, {"at": [900, 400], "to": [800, 200]}], "fix_border": true}"#;
+    let picture = form("warp", pulled, ("spot.png", asset("pictures/spot.png")));
+    let (report, media_type, png) = outcome(&server, picture).await;
+    assert_eq!(
+        (&report["bijective"], &report["certified"]),
+        (&true.into(), &true.into()),
+        "{report}"
+    );
+    assert_eq!(
+        (media_type.as_str(), &png[..4]),
+        ("image/png", &b"\x89PNG"[..])
+    );
+
+    let (_, _, mapped) = outcome(
+        &server,
+        form("unwrap", "{}", ("hills.glb", meshes::small())),
+    )
+    .await;
+    let (at, to) = ("[0.5, 0.5]", "[0.52, 0.49]");
+    for (kind, list) in [("edit_uv", "anchors"), ("texture_map", "points")] {
+        let options = format!(r#"{{"{list}": [{{"at": {at}, "to": {to}}}], "boundary": "free"}}"#);
+        let edit = form(kind, &options, ("mapped.glb", mapped.clone()));
+        let (report, media_type, glb) = outcome(&server, edit).await;
+        assert_eq!(report["certified"], true, "{report}");
+        assert_eq!(media_type, "model/gltf-binary");
+        assert_ne!(glb, mapped);
+    }
+}
+
+#[tokio::test]
+async fn a_body_stops_early_with_a_valid_map() {
+    let server = Server::start();
+    let swung = r#"{"handles": [{"center": [0, 0.5, 0.5], "radius": 0.8, "to": [0, 0.5, 0.5]},
+        {"center": [3000, 0.5, 0.5], "radius": 0.8, "to": [-900, 1500, 400]}]}"#;
+    let job = form("deform", swung, ("bar.tet", bar(3000).into_bytes()));
+    let job = json(
+        server
+            .post("/v1/jobs")
+            .multipart(job)
+            .send()
+            .await
+            .expect("an answer"),
+    )
+    .await;
+    let event = server.mapping(&job).await;
+    assert_eq!(event["stage"], "deform", "{event}");
+    assert!(
+        event["smallest"].as_f64().is_some_and(|s| s > 0.0),
+        "{event}"
+    );
+    let path = job["links"]["self"].as_str().expect("a link");
+    let answer = server
+        .post(&format!("{path}/finish"))
+        .send()
+        .await
+        .expect("an answer");
+    assert_eq!(answer.status(), 202);
+    assert_eq!(server.ended(&job).await["state"], "succeeded");
+    let report = json(
+        server
+            .get(&format!("{path}/report"))
+            .send()
+            .await
+            .expect("an answer"),
+    )
+    .await;
+    assert_eq!(
+        (&report["status"], &report["inverted"]),
+        (&"stopped".into(), &0.into()),
+        "{report}"
+    );
+
+    let at_once = swung.replace("}]}", "}], \"time_budget\": 0}");
+    let (report, _, _) = outcome(
+        &server,
+        form("deform", &at_once, ("bar.tet", bar(3000).into_bytes())),
+    )
+    .await;
+    assert_eq!(
+        (&report["status"], &report["iterations"]),
+        (&"stopped".into(), &0.into()),
+        "{report}"
+    );
+}
+
+/// Real problems in the plane and in space, where the shared ones are.
+#[tokio::test]
+async fn shared_problems_are_solved() {
+    let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/reference/problems");
+    if !problems.exists() {
+        eprintln!("skipped: {} is absent", problems.display());
+        return;
+    }
+    let server = Server::start();
+    for name in [
+        "woody-lo_pt_bend_arap_spline.json",
+        "bar_c_bend_arap_spline.json",
+    ] {
+        let problem = std::fs::read(problems.join(name)).expect("a problem");
+        let parsed: Value = serde_json::from_slice(&problem).expect("JSON");
+        let mut request = form("solve", "{}", (name, problem));
+        for name in ["mesh", "initial"]
+            .into_iter()
+            .filter_map(|key| parsed[key].as_str())
+        {
+            let bytes = std::fs::read(problems.join(name)).expect("what the problem names");
+            request = request.part("resource", Part::bytes(bytes).file_name(name.to_owned()));
+        }
+        let (report, _, _) = outcome(&server, request).await;
+        assert_eq!(
+            (&report["status"], &report["inverted"]),
+            (&"converged".into(), &0.into()),
+            "{name}: {report}"
+        );
+    }
+}
