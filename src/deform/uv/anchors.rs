@@ -88,29 +88,18 @@ pub(super) fn hold(
         if !at.iter().chain(&to).all(|x| x.abs() <= FARTHEST) {
             return Err(EditError::BadTarget(anchor));
         }
-        let held_one = match *which {
+        let (spot, to) = match *which {
             Anchor::Vertex { vertex, to } => {
                 let vertex = only_vertex(mesh, topology, vertices, (anchor, vertex))?;
-                let spot = Spot::Vertex(vertex);
-                Held { anchor, spot, to }
+                (Spot::Vertex(vertex), to)
             }
-            Anchor::Place { at, to } => match chart_at(topology, at) {
-                Some(chart) => {
-                    let spot = Spot::Place { chart, at };
-                    Held { anchor, spot, to }
-                }
-                None => {
-                    let nearest = nearest_vertex(topology, vertices, at);
-                    let (vertex, uv) = nearest.ok_or(EditError::UnknownHandle(anchor))?;
-                    let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
-                    let spot = Spot::Vertex(vertex);
-                    Held { anchor, spot, to }
-                }
-            },
+            Anchor::Place { at, to } => {
+                place(topology, vertices, at, to).ok_or(EditError::UnknownHandle(anchor))?
+            }
         };
-        match held.iter().find(|other| other.spot == held_one.spot) {
-            None => held.push(held_one),
-            Some(same) if same.to == held_one.to => {}
+        match held.iter().find(|other| other.spot == spot) {
+            None => held.push(Held { anchor, spot, to }),
+            Some(same) if same.to == to => {}
             Some(other) => return Err(EditError::Contradictory(other.anchor, anchor)),
         }
     }
@@ -133,6 +122,21 @@ fn only_vertex(
         return Err(EditError::AmbiguousVertex(anchor));
     }
     Ok(first)
+}
+
+/// What is pulled at a UV, and where to: the point itself, or the nearest vertex where no face has the UV.
+fn place(
+    topology: &UvTopology,
+    vertices: &UvVertices,
+    at: [f64; 2],
+    to: [f64; 2],
+) -> Option<(Spot, [f64; 2])> {
+    if let Some(chart) = chart_at(topology, at) {
+        return Some((Spot::Place { chart, at }, to));
+    }
+    let (vertex, uv) = nearest_vertex(topology, vertices, at)?;
+    let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
+    Some((Spot::Vertex(vertex), to))
 }
 
 /// The vertex nearest to a UV and its own UV; the first of equally near ones.

@@ -173,7 +173,7 @@ FIGURES = [
     ),
     Figure(
         17, "Constrained texture mapping",
-        "Eyes, nose and mouth of a face (51712 triangles; the paper has 46384) aligned with a drawing, the boundary fixed.",
+        "Sixteen points at the eyes, nose and mouth of a face (51712 triangles; the paper has 46384) aligned with a drawing, the boundary fixed.",
         [Command("unwrap {data}/disk/face.obj --cut disk -o face.obj"),
          Command("texture-map face.obj --points p.json -o aligned.obj")],
         {"texture": picture("face.png"), "before": surface("face.obj", (0, 0), texture="face.png"), "aligned": surface("aligned.obj", (0, 0), texture="face.png")},

@@ -112,10 +112,17 @@ def drawn_face(_):
     return png(np.clip(rgb, 0, 1))
 
 
+# Vertices of the face, corners and lids of the eyes, brows, nose, corners and lips of the mouth, and where the drawing has them.
+FEATURES = {
+    1809: (-0.66, 0.25), 13910: (-0.34, 0.25), 10039: (-0.5, 0.33), 2047: (-0.5, 0.17), 22644: (-0.5, 0.45),
+    1808: (0.66, 0.25), 13908: (0.34, 0.25), 6794: (0.5, 0.33), 2046: (0.5, 0.17), 19969: (0.5, 0.45),
+    2874: (0, 0), 326: (0, 0.11), 7389: (-0.27, -0.4), 10631: (0.27, -0.4), 2357: (0, -0.33), 724: (0, -0.47),
+}
+
+
 def face_points():
-    """Vertices of the face: eyes, tip of the nose, corners and middle of the mouth, and where the drawing has them."""
-    places = {13214: (-0.5, 0.25), 13211: (0.5, 0.25), 2874: (0, 0), 7389: (-0.3, -0.4), 10631: (0.3, -0.4), 11052: (0, -0.4)}
-    return {"points": [{"vertex": v, "to": list(map(float, MIDDLE + x * RIGHT + y * UP))} for v, (x, y) in places.items()]}
+    to = lambda x, y: list(map(float, MIDDLE + x * RIGHT + y * UP))
+    return {"points": [{"vertex": v, "to": to(*at)} for v, at in FEATURES.items()]}
 
 
 def turned_disk():
