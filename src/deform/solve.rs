@@ -7,8 +7,8 @@ use super::problem_error::ProblemError;
 use crate::barrier::Barrier;
 use crate::energy::{Positional, Term};
 use crate::solver::{
-    Continued, Handles, LevenbergSettings, LevenbergStep, Objective, Settings, Status, Summary,
-    Watch, follow, levenberg,
+    Continued, Handles, LevenbergSettings, Objective, Settings, Status, Summary, Watch, follow,
+    levenberg,
 };
 
 /// How a problem is solved.
@@ -99,7 +99,6 @@ impl Problem {
         &self,
         settings: &LevenbergSettings,
         watch: &dyn Watch,
-        record: &mut dyn FnMut(&LevenbergStep),
     ) -> Result<Solution, ProblemError> {
         let terms = self.terms(self.barrier)?;
         let first = self.stations.first().cloned().unwrap_or_default();
@@ -118,7 +117,7 @@ impl Problem {
                 watch,
                 before: total.iterations,
             };
-            let summary = levenberg(&mut objective, &mut x, settings, &watch, &mut *record);
+            let summary = levenberg(&mut objective, &mut x, settings, &watch);
             total = total.followed_by(&summary);
             if summary.status == Status::Stopped {
                 break;
@@ -183,22 +182,17 @@ impl Problem {
 
     /// Judges a map, whoever made it.
     pub fn worth(&self, x: &[f64]) -> Worth {
-        let value = |barrier: Barrier| -> f64 {
-            let terms = self
-                .energy
-                .terms(&self.body, barrier, None)
-                .unwrap_or_default();
-            terms.iter().map(|term| term.value(x)).sum()
-        };
-        let energy = value(Barrier::NONE);
+        let terms = |barrier| self.energy.terms(&self.body, barrier, None);
+        let unmodified = terms(Barrier::NONE).unwrap_or_default();
+        let guarded = terms(self.barrier).unwrap_or_default();
         let now = self.body.determinants_at(x);
         let ratios = now
             .iter()
             .zip(self.body.determinants())
             .map(|(now, rest)| now / rest);
         Worth {
-            energy,
-            barrier: value(self.barrier) - energy,
+            energy: unmodified.iter().map(|term| term.value(x)).sum(),
+            barrier: guarded.iter().map(|term| term.barrier(x)).sum(),
             residual: self
                 .stations
                 .last()

@@ -136,6 +136,11 @@ where
         dets.fold(f64::INFINITY, f64::min)
     }
 
+    fn barrier(&self, x: &[f64]) -> f64 {
+        let guard = |e: &Simplex<D>| self.guard.value(e.det(x), e.size);
+        self.elements.iter().map(guard).sum()
+    }
+
     fn forbids_flips(&self) -> bool {
         self.elements.iter().all(|e| e.floor >= 0.0)
     }

@@ -39,6 +39,11 @@ pub trait Term: Send + Sync {
         f64::INFINITY
     }
 
+    /// The share of the value that is there only to keep elements from inverting.
+    fn barrier(&self, _x: &[f64]) -> f64 {
+        0.0
+    }
+
     /// Does the domain exclude every inverted element?
     fn forbids_flips(&self) -> bool {
         false

@@ -9,7 +9,7 @@ use super::PipelineError;
 use super::caged::CageReport;
 use super::observer::Tracker;
 use crate::deform::{Method, Problem, Solution, Worth};
-use crate::solver::{Control, Iterate, LevenbergStep, Settings, Summary, Watch};
+use crate::solver::{Control, Iterate, Settings, Summary, Watch};
 
 /// What a body became.
 #[derive(Clone, Debug)]
@@ -18,7 +18,8 @@ pub struct Deformed {
     pub files: Vec<(String, Vec<u8>)>,
     /// What the map is worth.
     pub report: DeformReport,
-    /// A line per iteration as CSV: energy, smallest element, and of the paper's iteration μ, σ, α and the residual.
+    /// A line per iteration as CSV: energy without the barrier, the barrier's and the constraints' share, smallest element, μ, σ,
+    /// α and the residual, as in [`Iterate`].
     pub trace: String,
 }
 
@@ -80,15 +81,11 @@ pub(super) fn solve(
         tracker,
         file,
         iterates: RefCell::default(),
-        steps: RefCell::default(),
     };
     let settings = Settings::follow();
     let mut solution = match plan.method {
         Method::Projected => problem.solve(&settings, &trace)?,
-        Method::Levenberg => {
-            let mut record = |step: &LevenbergStep| trace.steps.borrow_mut().push(*step);
-            problem.solve_by_levenberg(&problem.levenberg, &trace, &mut record)?
-        }
+        Method::Levenberg => problem.solve_by_levenberg(&problem.levenberg, &trace)?,
     };
     if plan.barrier_continuation {
         solution = problem.with_weaker_barrier(solution, &settings, tracker)?;
@@ -123,7 +120,6 @@ struct Trace<'a> {
     tracker: &'a Tracker<'a>,
     file: Option<&'a WriteMap<'a>>,
     iterates: RefCell<Vec<Iterate>>,
-    steps: RefCell<Vec<LevenbergStep>>,
 }
 
 impl Watch for Trace<'_> {
@@ -156,19 +152,22 @@ impl Trace<'_> {
     }
 
     fn csv(&self) -> String {
-        let (iterates, steps) = (self.iterates.borrow(), self.steps.borrow());
-        let mut text = String::from("iteration,energy,smallest,mu,sigma,alpha,residual\n");
-        for (index, i) in iterates.iter().enumerate() {
-            let step = index.checked_sub(1).and_then(|i| steps.get(i));
-            let step = step.map_or(",,,".to_owned(), |s| {
-                format!("{:e},{:e},{:e},{:e}", s.mu, s.sigma, s.alpha, s.residual)
-            });
+        let mut text =
+            String::from("iteration,energy,barrier,constraint,smallest,mu,sigma,alpha,residual\n");
+        for i in self.iterates.borrow().iter() {
+            let numbers = [
+                i.energy - i.barrier,
+                i.barrier,
+                i.constraint,
+                i.smallest,
+                i.mu,
+                i.sigma,
+                i.alpha,
+                i.residual,
+            ];
+            let numbers = numbers.map(|x| format!("{x:e}")).join(",");
             // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{},{:e},{:e},{step}",
-                i.iteration, i.energy, i.smallest
-            );
+            let _ = writeln!(text, "{},{numbers}", i.iteration);
         }
         text
     }

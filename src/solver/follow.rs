@@ -6,7 +6,7 @@ use super::objective::Objective;
 use super::path::{Handles, Path, Rotation};
 use super::points::Points;
 use super::settings::{Settings, Status, Summary};
-use super::watch::{Continued, Control, Watch};
+use super::watch::{Continued, Control, Taken, Watch};
 use crate::numerics::square::{Matrix, Square};
 
 /// A first advance along the path: all of it, since a small deformation needs no more.
@@ -72,7 +72,7 @@ where
     if !travel.summary.energy_first.is_finite() {
         return travel.summary;
     }
-    if objective.show(x, &travel.summary, watch) == Control::Finish {
+    if objective.show(x, &travel.summary, Taken::default(), watch) == Control::Finish {
         return travel.summary.ended(Status::Stopped);
     }
     loop {
@@ -147,14 +147,16 @@ where
             let Ok(decrement) = objective.newton_direction(&mut self.newton) else {
                 break;
             };
-            if self.step(objective, x) {
+            let sigma = if self.step(objective, x) {
                 stuck = 0;
+                1.0
             } else {
                 stuck += 1;
-                self.relax(objective, x, decrement);
-            }
+                self.relax(objective, x, decrement)
+            };
             self.summary.iterations += 1;
-            if objective.show(x, &self.summary, watch) == Control::Finish {
+            let mu = objective.shift();
+            if objective.show(x, &self.summary, Taken { mu, sigma }, watch) == Control::Finish {
                 self.summary.status = Status::Stopped;
                 return Control::Finish;
             }
@@ -216,13 +218,14 @@ where
         is_acceptable
     }
 
-    /// The Newton step alone, with a line search.
-    fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) {
+    /// The Newton step alone, with a line search; its length, 0 if none helps.
+    fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
         let from = (self.summary.energy_last, decrement);
-        if let Some(step) = line_search(objective, x, &self.newton, from, &mut self.trial) {
+        line_search(objective, x, &self.newton, from, &mut self.trial).map_or(0.0, |step| {
             x.copy_from_slice(&self.trial);
             self.summary.energy_last = step.energy;
-        }
+            step.length
+        })
     }
 
     /// Makes the points meet their targets; says so if they do not.

@@ -2,7 +2,7 @@
 
 use super::objective::Objective;
 use super::settings::{Status, Summary};
-use super::watch::{Control, Watch};
+use super::watch::{Control, Iterate, Taken, Watch};
 
 /// What the paper and its authors' code leave adjustable.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,19 +38,6 @@ impl Default for LevenbergSettings {
     }
 }
 
-/// What one iteration did, for plots and tests.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
-pub struct LevenbergStep {
-    /// μ as the step leaves it: by it the next targets retreat, and a factorization that fails tries it first.
-    pub mu: f64,
-    /// The length of the step as a share of the direction.
-    pub sigma: f64,
-    /// The strength of the constraints.
-    pub alpha: f64,
-    /// ‖Cx − d‖² after the step.
-    pub residual: f64,
-}
-
 /// t of the paper: the largest α.
 const LARGEST_ALPHA: f64 = 1e16;
 /// The smallest α that an update gives.
@@ -68,14 +55,14 @@ const LARGEST_MU: f64 = 1e17;
 /// The Hessian is not projected: μ is added to its diagonal once it fails to factor, ten times as much each time it fails
 /// again; a first try that succeeds leaves the least μ, a second a tenth. The step σ starts from the last one, doubles on success and halves until the function falls
 /// and the point is inside the domain; between the end points a step may pass through an inversion, as in the paper. Every
-/// iterate is inside. From: Schüller et al. 2013, section 3.2, with the constants of the authors' code; a shift replaces
+/// iterate is inside. [`Iterate::mu`] is μ as the step leaves it: by it the next targets retreat, and a factorization that fails
+/// tries it first. From: Schüller et al. 2013, section 3.2, with the constants of the authors' code; a shift replaces
 /// the one before instead of adding to it.
 pub fn levenberg(
     objective: &mut Objective,
     x: &mut [f64],
     settings: &LevenbergSettings,
     watch: &dyn Watch,
-    mut record: impl FnMut(&LevenbergStep),
 ) -> Summary {
     let destinations = objective
         .constraints()
@@ -89,7 +76,7 @@ pub fn levenberg(
     if !run.summary.energy_first.is_finite() {
         return run.summary;
     }
-    if objective.show(x, &run.summary, watch) == Control::Finish {
+    if objective.show(x, &run.summary, Taken::default(), watch) == Control::Finish {
         return run.summary.ended(Status::Stopped);
     }
     while run.summary.iterations < settings.max_iterations {
@@ -103,16 +90,19 @@ pub fn levenberg(
             return run.summary.ended(Status::Stalled);
         };
         let gap = residual(objective, x);
+        let taken = Taken {
+            mu: run.mu,
+            sigma: run.sigma,
+        };
+        let iterate = Iterate {
+            residual: gap,
+            ..objective.iterate(x, &run.summary, taken)
+        };
         if settings.alpha_update {
             run.alpha = updated_alpha(run.alpha, run.summary.energy_last, gap, settings);
         }
-        record(&LevenbergStep {
-            mu: run.mu,
-            sigma: run.sigma,
-            alpha: run.alpha,
-            residual: gap,
-        });
-        if objective.show(x, &run.summary, watch) == Control::Finish {
+        watch.positions(x);
+        if watch.iterate(&iterate) == Control::Finish {
             return run.summary.ended(Status::Stopped);
         }
         if length < settings.min_step {

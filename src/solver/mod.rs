@@ -22,13 +22,14 @@ mod newton;
 mod objective;
 mod path;
 mod points;
+mod quadratic_model;
 mod relaxation;
 mod scale;
 mod settings;
 mod watch;
 
 pub use follow::follow;
-pub use levenberg::{LevenbergSettings, LevenbergStep, levenberg};
+pub use levenberg::{LevenbergSettings, levenberg};
 pub use newton::minimize;
 pub use objective::Objective;
 pub use path::{Handles, Path, Rotation};

@@ -4,7 +4,7 @@ use super::line_search::line_search;
 use super::objective::Objective;
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
-use super::watch::{Control, Watch};
+use super::watch::{Control, Taken, Watch};
 
 /// Moves `x` from a start inside the domain to a minimum of `objective` nearby.
 ///
@@ -28,7 +28,7 @@ pub fn minimize(
     if !summary.energy_first.is_finite() {
         return summary;
     }
-    if objective.show(x, &summary, watch) == Control::Finish {
+    if objective.show(x, &summary, Taken::default(), watch) == Control::Finish {
         return summary.ended(Status::Stopped);
     }
     while summary.iterations < settings.max_iterations {
@@ -58,7 +58,11 @@ pub fn minimize(
         summary.iterations += 1;
         summary.energy_last = step.energy;
         relaxation.after_step(step.length, (energy - step.energy) / energy.abs());
-        if objective.show(x, &summary, watch) == Control::Finish {
+        let taken = Taken {
+            mu: objective.shift(),
+            sigma: step.length,
+        };
+        if objective.show(x, &summary, taken, watch) == Control::Finish {
             return summary.ended(Status::Stopped);
         }
         if small && step.length == 1.0 {

@@ -1,11 +1,11 @@
 //! The function to minimize, with the memory that minimizing it takes.
 
-use super::held::{Held, form};
+use super::quadratic_model::QuadraticModel;
 use super::settings::Summary;
-use super::watch::{Control, Iterate, Watch};
-use crate::energy::{Assembly, Positional, Term};
+use super::watch::{Control, Iterate, Taken, Watch};
+use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
-use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
+use crate::numerics::cholesky::NotPositiveDefinite;
 
 /// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when this is made.
 pub struct Objective {
@@ -13,19 +13,10 @@ pub struct Objective {
     constraints: Option<Positional>,
     /// Of each term, and of the constraints last.
     slots: Vec<Slots>,
-    pattern: BlockPattern,
-    cholesky: Cholesky,
-    gradient: Vec<f64>,
-    hessian: Vec<f64>,
+    model: QuadraticModel,
     /// Energies far below the sum of the weights are rounding.
     scale: f64,
-    held: Held,
-    /// Of the energy, without the constraints.
-    mean_diagonal: f64,
 }
-
-/// Diagonal shift, as a share of the mean diagonal: makes the rigid motions, which nothing holds, regular.
-const SHIFT: f64 = 1e-7;
 
 /// An energy below this share of the sum of the weights counts as that much when convergence is judged, so that a
 /// surface that can be flattened exactly, whose energy tends to zero, converges too.
@@ -76,14 +67,9 @@ impl Objective {
             .collect();
         let (pattern, slots) = BlockPattern::new(dim, n_vertices, &stencils);
         Self {
-            cholesky: Cholesky::analyze(pattern.scalar()),
-            gradient: vec![0.0; pattern.scalar().n],
-            hessian: vec![0.0; pattern.scalar().row_idx.len()],
+            model: QuadraticModel::new(pattern),
             scale: terms.iter().map(|term| term.scale()).sum(),
-            held: Held::default(),
-            mean_diagonal: 0.0,
             slots,
-            pattern,
             terms,
             constraints,
         }
@@ -91,17 +77,17 @@ impl Objective {
 
     /// Holds these vertices, and only these, where they are.
     pub fn fix(&mut self, vertices: &[u32]) {
-        self.held = Held::new(&self.pattern, vertices);
+        self.model.hold(vertices);
     }
 
     /// Number of unknowns.
     pub fn n(&self) -> usize {
-        self.gradient.len()
+        self.model.gradient().len()
     }
 
     /// Coordinates per vertex.
     pub fn dim(&self) -> usize {
-        self.pattern.dim()
+        self.model.pattern().dim()
     }
 
     fn all(&self) -> impl Iterator<Item = &dyn Term> {
@@ -152,16 +138,34 @@ impl Objective {
         self.terms.iter().any(|term| term.forbids_flips())
     }
 
-    /// Shows an iterate to who watches.
-    pub(super) fn show(&self, x: &[f64], summary: &Summary, watch: &dyn Watch) -> Control {
+    /// Where a minimization stands.
+    pub(super) fn iterate(&self, x: &[f64], summary: &Summary, taken: Taken) -> Iterate {
+        let constraints = self.constraints.as_ref();
         let iterate = Iterate {
             iteration: summary.iterations,
-            energy: summary.energy_last,
+            energy: constraints.map_or(summary.energy_last, |_| self.energy(x)),
+            barrier: self.terms.iter().map(|term| term.barrier(x)).sum(),
+            constraint: constraints.map_or(0.0, |c| c.value(x)),
             smallest: self.smallest(x),
+            mu: taken.mu,
+            sigma: taken.sigma,
+            alpha: constraints.map_or(0.0, |c| c.alpha),
+            residual: constraints.map_or(0.0, |c| c.residual(x, &c.targets)),
         };
         debug_assert!(iterate.smallest > 0.0 || !self.forbids_flips());
+        iterate
+    }
+
+    /// Shows an iterate to who watches.
+    pub(super) fn show(
+        &self,
+        x: &[f64],
+        summary: &Summary,
+        taken: Taken,
+        watch: &dyn Watch,
+    ) -> Control {
         watch.positions(x);
-        watch.iterate(&iterate)
+        watch.iterate(&self.iterate(x, summary, taken))
     }
 
     /// What a change of energy is compared with: the energy, unless that is negligible.
@@ -171,88 +175,43 @@ impl Objective {
 
     /// Evaluates gradient and Hessian at `x`, negative eigenvalues of each summand's share times `tau`.
     pub fn linearize(&mut self, x: &[f64], tau: f64) {
-        self.gradient.fill(0.0);
-        self.hessian.fill(0.0);
-        for i in 0..self.terms.len() {
-            self.add_term(i, x, tau);
+        self.model.clear();
+        for (term, slots) in self.terms.iter().zip(&self.slots) {
+            self.model.add(term.as_ref(), slots, x, tau);
         }
         // Before the constraints: their strength says nothing of the energy's.
-        let diagonal = self.pattern.diagonal();
-        let sum: f64 = diagonal.iter().map(|&slot| self.hessian[slot]).sum();
-        self.mean_diagonal = sum / diagonal.len().max(1) as f64;
-        self.add_term(self.terms.len(), x, tau);
-        self.shift_diagonal(SHIFT * self.mean_diagonal + f64::MIN_POSITIVE);
-        let diagonal = self.stand_in();
-        let Self {
-            pattern,
-            hessian,
-            gradient,
-            ..
-        } = self;
-        self.held.clear(pattern, hessian, gradient, diagonal);
-    }
-
-    /// What stands on the diagonal at held vertices.
-    fn stand_in(&self) -> f64 {
-        self.mean_diagonal.max(f64::MIN_POSITIVE)
-    }
-
-    /// Adds the derivatives of the `i`-th term, or of the constraints after the last.
-    fn add_term(&mut self, i: usize, x: &[f64], tau: f64) {
-        let constraints = self.constraints.as_ref().map(|c| c as &dyn Term);
-        let Some(term) = self.terms.get(i).map(AsRef::as_ref).or(constraints) else {
-            return;
-        };
-        let mut assembly = Assembly::new(
-            &self.pattern,
-            &self.slots[i],
-            &mut self.gradient,
-            &mut self.hessian,
-        );
-        term.add_derivatives(x, tau, &mut assembly);
+        self.model.measure();
+        if let (Some(constraints), Some(slots)) = (&self.constraints, self.slots.last()) {
+            self.model.add(constraints, slots, x, tau);
+        }
+        self.model.finish();
     }
 
     /// Adds to every diagonal entry of the last [`linearize`](Self::linearize).
     pub fn shift_diagonal(&mut self, shift: f64) {
-        for &slot in self.pattern.diagonal() {
-            self.hessian[slot] += shift;
-        }
+        self.model.shift_diagonal(shift);
+    }
+
+    /// What was added to every diagonal entry since.
+    pub fn shift(&self) -> f64 {
+        self.model.shift()
     }
 
     /// ∂E/∂x at the last [`linearize`](Self::linearize); 0 at fixed vertices.
     pub fn gradient(&self) -> &[f64] {
-        &self.gradient
+        self.model.gradient()
     }
 
     /// The Hessian's lower triangle at the last [`linearize`](Self::linearize), shifted, and its pattern.
     pub fn hessian(&self) -> (&BlockPattern, &[f64]) {
-        (&self.pattern, &self.hessian)
-    }
-
-    /// Factors the Hessian H of the last [`linearize`](Self::linearize).
-    pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
-        self.cholesky.factor(&self.hessian)
+        (self.model.pattern(), self.model.hessian())
     }
 
     /// Solves Hd = −g of the last [`linearize`](Self::linearize) and returns the Newton decrement −½g·d, positive.
     ///
     /// Cost: one factorization, one solve.
     pub fn newton_direction(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
-        self.factor()?;
-        for (d, g) in direction.iter_mut().zip(&self.gradient) {
-            *d = -g;
-        }
-        self.cholesky.solve(direction, 1);
-        let slope: f64 = direction
-            .iter()
-            .zip(&self.gradient)
-            .map(|(d, g)| d * g)
-            .sum();
-        if slope <= 0.0 {
-            Ok(-0.5 * slope)
-        } else {
-            Err(NotPositiveDefinite)
-        }
+        self.model.newton_direction(direction)
     }
 
     /// How all vertices follow when the fixed ones and the constraints' targets move, to first order: given the move at the
@@ -261,36 +220,23 @@ impl Objective {
     ///
     /// Cost: one solve.
     pub fn follow(&mut self, direction: &mut [f64], target_moves: &[f64]) {
-        let moves = self.held.take_moves(direction);
-        if let Some(constraints) = &self.constraints {
-            constraints.add_pull(target_moves, direction);
-        }
-        self.cholesky.solve(direction, 1);
-        self.held.put_moves(&moves, direction);
+        let constraints = self.constraints.as_ref();
+        self.model.follow(direction, |pull| {
+            if let Some(constraints) = constraints {
+                constraints.add_pull(target_moves, pull);
+            }
+        });
     }
 
     /// What the quadratic model of the last [`linearize`](Self::linearize) says of the change of the energy along a
     /// direction that may move the fixed vertices too: g·d + ½d·Hd.
     pub fn model_change(&self, direction: &[f64]) -> f64 {
-        let pattern = self.pattern.scalar();
-        let linear: f64 = self
-            .gradient
-            .iter()
-            .zip(direction)
-            .map(|(g, d)| g * d)
-            .sum();
-        let mut quadratic = 0.0;
-        for j in 0..pattern.n {
-            for slot in pattern.col_ptr[j]..pattern.col_ptr[j + 1] {
-                quadratic += self.hessian[slot] * form(direction, pattern.row_idx[slot], j);
-            }
-        }
-        linear + 0.5 * quadratic + self.held.model_change(self.stand_in(), direction)
+        self.model.change(direction)
     }
 
     /// The mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), the constraints left out.
     pub fn mean_diagonal(&self) -> f64 {
-        self.mean_diagonal
+        self.model.mean_diagonal()
     }
 
     /// The sum of the weights.

@@ -1,6 +1,6 @@
 //! Handles: targets met, no inversion at any iterate, the paper's iteration beside ours, units.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use unwrapd::barrier::{Barrier, BarrierKind};
 use unwrapd::deform::{Body, BodyElements, DeformationEnergy, Handle, Model, Problem};
@@ -208,12 +208,25 @@ fn the_papers_iteration_ends_in_the_same_minimum() {
         let ours = problem
             .solve(&Settings::follow(), &go_on)
             .expect("a planar energy");
-        let mut steps = Vec::new();
+        let iterates = RefCell::new(Vec::new());
+        let watch = |i: &Iterate| {
+            iterates.borrow_mut().push(*i);
+            Control::Continue
+        };
         let theirs = problem
-            .solve_by_levenberg(&problem.levenberg, &go_on, &mut |step| steps.push(*step))
+            .solve_by_levenberg(&problem.levenberg, &watch)
             .expect("a planar energy");
         assert_eq!(theirs.summary.status, Status::Converged, "{energy:?}");
-        assert_eq!(steps.len(), theirs.summary.iterations);
+        let iterates = iterates.into_inner();
+        assert_eq!(iterates.len(), theirs.summary.iterations + 1);
+        assert!(iterates[0].residual > 0.0 && iterates[0].sigma == 0.0);
+        for [before, after] in iterates.array_windows() {
+            assert!(after.mu > 0.0 && after.sigma > 0.0 && after.smallest > 0.0);
+            assert!(after.alpha >= before.alpha);
+        }
+        let last = iterates[iterates.len() - 1];
+        assert_eq!(last.barrier, theirs.worth.barrier);
+        assert_eq!(last.residual, theirs.worth.residual);
         assert!(theirs.worth.residual < 1e-12 && theirs.worth.inverted == 0);
         let [a, b] = [ours, theirs].map(|s| s.worth.energy + s.worth.barrier);
         assert!((a - b).abs() < 1e-4 * b.abs(), "{energy:?}: {a} {b}");

@@ -1,0 +1,151 @@
+//! The quadratic model of an objective at a point: gradient, Hessian and its factorization.
+
+use super::held::{Held, form};
+use crate::energy::{Assembly, Term};
+use crate::numerics::block::{BlockPattern, Slots};
+use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
+
+/// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of held vertices are those of a multiple of the identity.
+pub(super) struct QuadraticModel {
+    pattern: BlockPattern,
+    cholesky: Cholesky,
+    gradient: Vec<f64>,
+    hessian: Vec<f64>,
+    held: Held,
+    /// Of the energy, without constraints.
+    mean_diagonal: f64,
+    shift: f64,
+}
+
+/// Diagonal shift, as a share of the mean diagonal: makes the rigid motions, which nothing holds, regular.
+const SHIFT: f64 = 1e-7;
+
+impl QuadraticModel {
+    /// Analyzes the pattern, once.
+    pub fn new(pattern: BlockPattern) -> Self {
+        Self {
+            cholesky: Cholesky::analyze(pattern.scalar()),
+            gradient: vec![0.0; pattern.scalar().n],
+            hessian: vec![0.0; pattern.scalar().row_idx.len()],
+            held: Held::default(),
+            mean_diagonal: 0.0,
+            shift: 0.0,
+            pattern,
+        }
+    }
+
+    /// Holds these vertices, and only these.
+    pub fn hold(&mut self, vertices: &[u32]) {
+        self.held = Held::new(&self.pattern, vertices);
+    }
+
+    /// Begins a model: then the summands are added, measured, and with the constraints finished.
+    pub fn clear(&mut self) {
+        self.gradient.fill(0.0);
+        self.hessian.fill(0.0);
+        self.shift = 0.0;
+    }
+
+    /// Adds the derivatives of a term.
+    pub fn add(&mut self, term: &dyn Term, slots: &Slots, x: &[f64], tau: f64) {
+        let Self {
+            pattern,
+            gradient,
+            hessian,
+            ..
+        } = self;
+        term.add_derivatives(
+            x,
+            tau,
+            &mut Assembly::new(pattern, slots, gradient, hessian),
+        );
+    }
+
+    /// Takes the mean diagonal of what was added so far for that of the energy.
+    pub fn measure(&mut self) {
+        let diagonal = self.pattern.diagonal();
+        let sum: f64 = diagonal.iter().map(|&slot| self.hessian[slot]).sum();
+        self.mean_diagonal = sum / diagonal.len().max(1) as f64;
+    }
+
+    /// Makes it regular and takes the held vertices out.
+    pub fn finish(&mut self) {
+        self.shift_diagonal(SHIFT * self.mean_diagonal + f64::MIN_POSITIVE);
+        let diagonal = self.stand_in();
+        let (hessian, gradient) = (&mut self.hessian, &mut self.gradient);
+        self.held.clear(&self.pattern, hessian, gradient, diagonal);
+    }
+
+    /// What stands on the diagonal at held vertices.
+    fn stand_in(&self) -> f64 {
+        self.mean_diagonal.max(f64::MIN_POSITIVE)
+    }
+
+    /// Adds to every diagonal entry.
+    pub fn shift_diagonal(&mut self, shift: f64) {
+        for &slot in self.pattern.diagonal() {
+            self.hessian[slot] += shift;
+        }
+        self.shift += shift;
+    }
+
+    /// Factors H, solves Hd = −g and returns −½g·d.
+    pub fn newton_direction(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
+        self.cholesky.factor(&self.hessian)?;
+        for (d, g) in direction.iter_mut().zip(&self.gradient) {
+            *d = -g;
+        }
+        self.cholesky.solve(direction, 1);
+        let slope = dot(&self.gradient, direction);
+        if slope <= 0.0 {
+            Ok(-0.5 * slope)
+        } else {
+            Err(NotPositiveDefinite)
+        }
+    }
+
+    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side.
+    pub fn follow(&mut self, direction: &mut [f64], add_pull: impl FnOnce(&mut [f64])) {
+        let moves = self.held.take_moves(direction);
+        add_pull(direction);
+        self.cholesky.solve(direction, 1);
+        self.held.put_moves(&moves, direction);
+    }
+
+    /// g·d + ½d·Hd, held vertices included.
+    pub fn change(&self, direction: &[f64]) -> f64 {
+        let pattern = self.pattern.scalar();
+        let mut quadratic = 0.0;
+        for j in 0..pattern.n {
+            for slot in pattern.col_ptr[j]..pattern.col_ptr[j + 1] {
+                quadratic += self.hessian[slot] * form(direction, pattern.row_idx[slot], j);
+            }
+        }
+        let cleared = self.held.model_change(self.stand_in(), direction);
+        dot(&self.gradient, direction) + 0.5 * quadratic + cleared
+    }
+
+    pub fn pattern(&self) -> &BlockPattern {
+        &self.pattern
+    }
+
+    pub fn gradient(&self) -> &[f64] {
+        &self.gradient
+    }
+
+    pub fn hessian(&self) -> &[f64] {
+        &self.hessian
+    }
+
+    pub fn mean_diagonal(&self) -> f64 {
+        self.mean_diagonal
+    }
+
+    pub fn shift(&self) -> f64 {
+        self.shift
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
