@@ -83,9 +83,7 @@ fn extreme_moves_within_a_fixed_boundary_are_bijective() {
     let (mut reached, mut unreachable) = (0, 0);
     for run in 0..RUNS {
         let mesh = &sheets[run % sheets.len()];
-        let anchors: Vec<Anchor> = (0..1 + run % 4)
-            .map(|_| anchor(mesh, &mut random))
-            .collect();
+        let anchors: Vec<Anchor> = (0..=run % 4).map(|_| anchor(mesh, &mut random)).collect();
         let options = UvEditOptions {
             rest: [UvRest::Surface, UvRest::Present][run / 3 % 2],
             model: Model {

@@ -108,7 +108,7 @@ FIGURES = [
     ),
     Figure(
         5, "Against an interior-point method",
-        "The Neo-Hookean barrier as a constraint's barrier: the same square by both iterations. tests/bench/interior_point.py prints the figures of Ipopt on such problems; the paper has 4 iterations and less than a second against 1512 and 948 s of KNITRO.",
+        "The Neo-Hookean barrier as a constraint's barrier: the same square by both iterations. tests/bench/paper/interior_point.py prints the figures of Ipopt on such problems; the paper has 4 iterations and less than a second against 1512 and 948 s of KNITRO.",
         [Command("solve p.json --method levenberg -o levenberg.obj --trace levenberg.csv"), Command("solve p.json -o projected.obj --trace projected.csv")],
         {"": traces({"Levenberg": "levenberg.csv", "projected": "projected.csv"}), "Levenberg": planar("levenberg.obj"), "projected": planar("projected.obj")},
         {"p.json": problem("grid608_dirichlet_spline", barrier="neohookean")},
