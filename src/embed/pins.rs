@@ -10,8 +10,9 @@ pub enum Pins {
     #[default]
     None,
     /// Two vertices of the outer boundary that are far from each other in a nearly isometric map, as far apart as there. Those
-    /// opposite each other on Tutte's circle, by its diameter, would be wrong for a long surface: ARAP on a cut-open cow ended
-    /// tenfold above its optimum, and least-squares conformal maps smaller than the surface, shaped by the barrier.
+    /// opposite each other on Tutte's circle, by its diameter, are wrong for a long surface, whose least-squares conformal map
+    /// then ends smaller than the surface and shaped by the barrier. Energies that know sizes pay for the distance where the
+    /// nearly isometric map is not theirs: ARAP on a cut-open cow has 309, with the diameter 386, without pins 40.
     Two,
 }
 
