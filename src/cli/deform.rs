@@ -30,6 +30,9 @@ pub(super) struct Args {
     /// and deform that. Handles are places ("at", "center"); connected parts of the cage without any stay at rest
     #[arg(long, value_name = "N", conflicts_with = "frames")]
     cage: Option<u32>,
+    /// With --cage: cut triangles where they pass from one of its tetrahedra into the next, so that they follow it exactly
+    #[arg(long, requires = "cage")]
+    split: bool,
     #[command(flatten)]
     records: Records,
 }
@@ -41,6 +44,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         model: args.model.model(),
         triangles: args.triangles,
         cage: args.cage,
+        split: args.split,
         barrier_continuation: args.records.barrier_continuation,
         bias: args.records.bias,
         time_budget: args.records.time_budget,

@@ -60,9 +60,10 @@ fn summarize(Deformed { report, .. }: &Deformed) {
             say(format_args!("{remark}"));
         }
         say(format_args!(
-            "{} voxels, {} tetrahedra, {} surface vertices, crossings {} before, {} after",
+            "{} voxels, {} tetrahedra, {} triangles, {} surface vertices, crossings {} before, {} after",
             cage.voxels,
             cage.tets,
+            cage.surface_triangles,
             cage.surface_vertices,
             cage.crossings_before.pairs,
             cage.crossings_after.pairs

@@ -36,6 +36,9 @@ pub enum DocumentError {
     /// The output format cannot hold this document.
     #[error("cannot write {0}")]
     UnsupportedOutput(String),
+    /// Triangles are to be cut where something has no value between vertices.
+    #[error("triangles cannot be cut: {0} cannot be interpolated")]
+    Indivisible(String),
     /// A texture samples the set that was asked for.
     #[error("textures sample UV set {0}; choose another, or overwrite it")]
     TexcoordInUse(u32),
@@ -59,6 +62,7 @@ impl DocumentError {
             Self::NonFinitePosition(_) => "non_finite_position",
             Self::LimitExceeded(_) => "limit_exceeded",
             Self::UnsupportedOutput(_) => "unsupported_output",
+            Self::Indivisible(_) => "indivisible",
             Self::TexcoordInUse(_) => "texcoord_in_use",
             Self::InvalidUvs => "invalid_uvs",
         }

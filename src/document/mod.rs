@@ -18,6 +18,7 @@ mod obj_moved;
 mod obj_text;
 pub mod soup;
 mod space_map;
+mod subdivision;
 mod texcoord_lines;
 mod upload;
 mod uvs;
@@ -28,6 +29,7 @@ pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
 pub use space_map::SpaceMap;
+pub use subdivision::{AddedVertex, Subdivision};
 pub use upload::Upload;
 pub use uvs::{Corners, Layout, NewUvs, OutputFormat, WriteOptions, Written};
 
@@ -92,6 +94,18 @@ impl Document {
             Self::Gltf(document) => document.corner_uvs(primitive, set),
             Self::Obj(document) => document.corner_uvs(primitive, set),
             Self::Soup(document) => document.corner_uvs(primitive, set),
+        }
+    }
+
+    /// The document with the triangles of each primitive cut into pieces; what vertices have beside positions is interpolated.
+    pub fn subdivided(self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
+        Subdivision::check(cuts, self.primitives())?;
+        match self {
+            Self::Gltf(document) => document.subdivided(cuts).map(Self::Gltf),
+            Self::Obj(_) => Err(DocumentError::Indivisible(
+                "the text of an OBJ file".to_owned(),
+            )),
+            Self::Soup(document) => Ok(Self::Soup(document.subdivided(cuts))),
         }
     }
 

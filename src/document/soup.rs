@@ -1,5 +1,8 @@
 //! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
-use super::{DocumentError, NewUvs, Primitive, SpaceMap, Upload, WriteOptions, Written, new_gltf};
+use super::{
+    DocumentError, NewUvs, Primitive, SpaceMap, Subdivision, Upload, WriteOptions, Written,
+    new_gltf,
+};
 use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
 
@@ -33,6 +36,15 @@ impl SoupDocument {
     /// The triangles: all polygons of the file as one primitive.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
+    }
+
+    /// The triangles cut into pieces.
+    #[must_use]
+    pub fn subdivided(mut self, cuts: &[Subdivision]) -> Self {
+        for (primitive, cut) in self.primitives.iter_mut().zip(cuts) {
+            cut.apply(primitive);
+        }
+        self
     }
 
     /// The triangles where a map carries them.

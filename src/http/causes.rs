@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 47] = [
+pub(super) const CAUSES: [(&str, &str); 48] = [
     // Handles.
     ("malformed_handles", "The list of handles is not one"),
     ("no_handle", "There is no handle"),
@@ -91,6 +91,10 @@ pub(super) const CAUSES: [(&str, &str); 47] = [
     (
         "unsupported_output",
         "The format asked for cannot hold this document",
+    ),
+    (
+        "indivisible",
+        "Triangles cannot be cut: something they have cannot be interpolated",
     ),
     (
         "texcoord_in_use",

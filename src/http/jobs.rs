@@ -1,120 +1,20 @@
-//! Jobs: made, listed, watched, ended.
+//! Jobs: listed, looked at, ended.
 
 use std::time::Duration;
 
-use axum::extract::{Request, State};
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::extract::State;
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 
-use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId, job_not_found, preferred_wait};
+use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId, job_not_found};
 use super::problem::{Code, Problem};
-use super::upload;
-use super::view::{JobPage, JobView, job_path};
+use super::view::{JobPage, JobView};
 use super::{App, Shared, json};
-use crate::jobs::{Ended, Job, JobId, Listing, SubmitError, Submitted, Wish};
+use crate::jobs::{Ended, JobId, Listing, Wish};
 
-/// Longest Idempotency-Key.
-const MAX_KEY: usize = 255;
 const DEFAULT_PAGE: u32 = 50;
 const MAX_PAGE: u32 = 200;
-
-/// Make a job.
-///
-/// The mesh comes as a form (`mesh`, the files it references, `options` as JSON, `kind`) or as the body itself; options
-/// may also be query parameters. When the answer is sent, mesh and job are stored: the job will end succeeded, failed
-/// or cancelled, whatever happens to the service. What is not a mesh file, has malformed JSON or unknown options is
-/// refused at once; everything else that is wrong with a mesh fails the job.
-///
-/// With `Idempotency-Key`, a repetition within a day gets the same job instead of a second one. With `Prefer: wait=N`
-/// the answer waits up to N seconds (at most 60) and is 200 if the job has ended by then. Progress is found under
-/// `/events`, the result under `/result` and `/report`. Some time after its end, 30 days unless the service is set
-/// otherwise, a job is removed with its files.
-#[utoipa::path(
-    post, path = "/v1/jobs", operation_id = "createJob", tag = "jobs",
-    params(
-        ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255, description = "At most 255 characters; the client's own name for this submission"),
-        ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but not later than in N seconds"),
-        ("kind" = Option<crate::jobs::Kind>, Query, description = "What to do; `unwrap` if absent"),
-        ("filename" = Option<String>, Query, description = "Name of the file in a raw body"),
-    ),
-    responses(
-        (status = 202, description = "Accepted; the job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
-        (status = 200, description = "Ended while the request waited; the job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
-        (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
-        (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
-        (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "`unknown_format`, `invalid_gltf`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "`queue_full`, `stopping`: try again later", body = Problem, content_type = "application/problem+json"),
-    )
-)]
-pub(super) async fn create_job(
-    State(app): Shared,
-    headers: HeaderMap,
-    request: Request,
-) -> Result<Response, Problem> {
-    let key = idempotency_key(&headers)?;
-    let received = upload::receive(&app, None, request).await?;
-    let (submission, _folder) = received.into_submission(key, false);
-    let job = match app.jobs.submit(submission).await? {
-        Submitted::New(job) | Submitted::Replay(job) => job,
-    };
-    let Some(wait) = preferred_wait(&headers) else {
-        return Ok(located(StatusCode::ACCEPTED, &job));
-    };
-    let mut response = match wait_for(&app, job.id, wait).await? {
-        Ended::Yes(job) => located(StatusCode::OK, &job),
-        Ended::NotYet(job) => located(StatusCode::ACCEPTED, &job),
-    };
-    let applied = format!("wait={}", wait.as_secs());
-    if let Ok(applied) = HeaderValue::from_str(&applied) {
-        response.headers_mut().insert("preference-applied", applied);
-    }
-    Ok(response)
-}
-
-impl From<SubmitError> for Problem {
-    fn from(error: SubmitError) -> Self {
-        match error {
-            SubmitError::QueueFull => Self::new(Code::QueueFull, "try again later"),
-            SubmitError::KeyReused => Self::new(
-                Code::IdempotencyKeyReused,
-                "mesh, kind or options differ from the first time",
-            ),
-            SubmitError::Store(error) => error.into(),
-        }
-    }
-}
-
-fn idempotency_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
-    let Some(value) = headers.get("idempotency-key") else {
-        return Ok(None);
-    };
-    match value.to_str() {
-        Ok(key) if (1..=MAX_KEY).contains(&key.len()) => Ok(Some(key.to_owned())),
-        _ => Err(Problem::new(
-            Code::InvalidRequest,
-            format!("Idempotency-Key has 1 to {MAX_KEY} visible characters"),
-        )),
-    }
-}
-
-fn located(status: StatusCode, job: &Job) -> Response {
-    let mut response = json(status, &JobView::from(job));
-    if let Ok(path) = HeaderValue::from_str(&job_path(job)) {
-        response.headers_mut().insert(header::LOCATION, path);
-    }
-    response
-}
-
-/// Waits for the end of a job, or for the stop of the service.
-pub(super) async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Ended, Problem> {
-    let ended = tokio::select! {
-        ended = app.jobs.wait(id, wait) => ended?,
-        () = app.stop.cancelled() => app.jobs.get(id).await?.map(Ended::NotYet),
-    };
-    ended.ok_or_else(job_not_found)
-}
 
 /// What to list.
 #[derive(Deserialize, utoipa::IntoParams)]
@@ -265,4 +165,13 @@ pub(super) async fn finish_job(
         return Err(Problem::new(Code::AlreadyFinished, detail));
     }
     Ok(json(StatusCode::ACCEPTED, &JobView::from(&job)))
+}
+
+/// Waits for the end of a job, or for the stop of the service.
+pub(super) async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Ended, Problem> {
+    let ended = tokio::select! {
+        ended = app.jobs.wait(id, wait) => ended?,
+        () = app.stop.cancelled() => app.jobs.get(id).await?.map(Ended::NotYet),
+    };
+    ended.ok_or_else(job_not_found)
 }

@@ -6,6 +6,7 @@
 
 mod answers;
 mod causes;
+mod create;
 mod download;
 mod events;
 mod extract;
@@ -62,7 +63,7 @@ type Shared = axum::extract::State<Arc<App>>;
 /// The table of contents. What is here is in the OpenAPI document.
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(openapi::preamble())
-        .routes(routes!(jobs::create_job, jobs::list_jobs))
+        .routes(routes!(create::create_job, jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::delete_job))
         .routes(routes!(jobs::finish_job))
         .routes(routes!(events::watch_job))

@@ -95,7 +95,7 @@ fn complete(operation: &mut Value) {
         .get_mut("parameters")
         .and_then(Value::as_array_mut);
     for parameter in parameters.into_iter().flatten() {
-        let Some(schema) = parameter["schema"].as_object_mut() else {
+        let Some(schema) = parameter.get_mut("schema").and_then(Value::as_object_mut) else {
             continue;
         };
         schema.retain(|name, value| name != "default" || !value.is_null());

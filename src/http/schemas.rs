@@ -147,7 +147,7 @@ fn without_default(parameter: &Value) -> Value {
 fn join(parameter: &mut Value, other: &Value) {
     let other = without_default(other);
     let schema = schema_of(parameter);
-    match schema["anyOf"].as_array_mut() {
+    match schema.get_mut("anyOf").and_then(Value::as_array_mut) {
         Some(choices) if choices.contains(&other) => {}
         Some(choices) => choices.push(other),
         None => *schema = json!({ "anyOf": [schema, other] }),

@@ -109,10 +109,12 @@ pub(super) fn read(
 ) -> Result<Elements, PipelineError> {
     let elements = match upload.extension().as_str() {
         "svg" => {
+            limits.check_count(triangles)?;
             let text = String::from_utf8_lossy(&upload.bytes);
             filled(&outline::of_svg(&text, &SvgSettings::default())?, triangles)?
         }
         "png" => {
+            limits.check_count(triangles)?;
             let image = Image::decode(&upload.bytes)?;
             filled(
                 &outline::of_image(&image, &ImageSettings::default())?,

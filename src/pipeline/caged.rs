@@ -2,17 +2,17 @@
 
 use super::PipelineError;
 use super::bodies::BodyFormat;
+use super::cage_map::{CageMap, subdivision, widened};
 use super::deform::DeformOptions;
 use super::documents::Merged;
 use super::limits::Limits;
 use super::observer::{Stage, Tracker};
 use super::solution::{Deformed, solve};
 use crate::certificate::{Crossings, crossings};
-use crate::deform::cage::{Cage, CagedSurface, Embedding};
+use crate::deform::cage::{Cage, CagedSurface};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
 use crate::document::{
-    Document, DocumentError, GroupBy, Layout, NewUvs, OutputFormat, SpaceMap, Upload, WriteOptions,
-    Written,
+    Document, DocumentError, GroupBy, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
 };
 use serde::Serialize;
 
@@ -33,6 +33,8 @@ pub struct CagedDocument {
 pub struct CageOptions {
     /// Voxels along the longest side of all triangles' bounding box.
     pub n_voxels: u32,
+    /// Whether triangles are cut where they pass from one tetrahedron into the next.
+    pub surfaces: Surfaces,
     /// What the deformation costs.
     pub model: Model,
     /// What kind of file to write: glTF for a glTF document, OBJ for OBJ, either for triangles without a document.
@@ -41,6 +43,16 @@ pub struct CageOptions {
     pub stem: String,
     /// What may be used.
     pub limits: Limits,
+}
+
+/// What becomes of triangles that reach over several tetrahedra, in which the cage's map differs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Surfaces {
+    /// Their vertices are moved, and they stay flat.
+    #[default]
+    Whole,
+    /// They are cut, so that they follow the cage exactly.
+    Split,
 }
 
 /// What a cage is and what deforming it did to the surfaces in it.
@@ -53,8 +65,10 @@ pub struct CageReport {
     pub tets: usize,
     /// Connected parts of the cage that have no handle and stay at rest.
     pub idle_parts: usize,
-    /// Vertices of all surfaces.
+    /// Vertices of all surfaces, those of cuts included.
     pub surface_vertices: usize,
+    /// Triangles of all surfaces, pieces counted.
+    pub surface_triangles: usize,
     /// Where the surfaces pass through themselves and each other at rest.
     pub crossings_before: Crossings,
     /// Where they do in the file written.
@@ -77,6 +91,11 @@ pub(super) fn deform(
         &options.handles,
         CageOptions {
             n_voxels,
+            surfaces: if options.split {
+                Surfaces::Split
+            } else {
+                Surfaces::Whole
+            },
             model: options.model,
             format: format.unwrap_or(match upload.extension().as_str() {
                 "obj" => OutputFormat::Obj,
@@ -126,6 +145,14 @@ impl CagedDocument {
             })
             .collect();
         let cage = Cage::around(&caged, options.n_voxels)?;
+        let document = match options.surfaces {
+            Surfaces::Whole => document,
+            Surfaces::Split => {
+                let cuts = document.primitives().iter().map(|p| subdivision(&cage, p));
+                let cuts = cuts.collect::<Result<Vec<_>, _>>()?;
+                document.subdivided(&cuts)?
+            }
+        };
         let mut problem = Problem::new(Body::from(cage.mesh()), handles, &options.model)?;
         let idle_parts = problem.hold_idle_parts();
         Ok(Self {
@@ -168,6 +195,7 @@ impl CagedDocument {
             tets: self.cage.mesh().tets().len(),
             idle_parts: self.idle_parts,
             surface_vertices: moved.primitives().iter().map(|p| p.positions.len()).sum(),
+            surface_triangles: moved.primitives().iter().map(|p| p.triangles.len()).sum(),
             crossings_before,
             crossings_after: crossings_of(&moved),
             remarks: written.notes.remarks.clone(),
@@ -193,58 +221,4 @@ fn crossings_of(document: &Document) -> Crossings {
         found = crossings(&widened(&merged.positions), &merged.triangles);
     }
     found
-}
-
-/// The piecewise linear map of a deformed cage.
-struct CageMap<'a> {
-    cage: &'a Cage,
-    deformed: &'a [[f64; 3]],
-}
-
-impl CageMap<'_> {
-    /// Places that are not finite, which only unused vertices of shared accessors can have, are taken for the origin.
-    fn embed(&self, places: &[[f32; 3]]) -> Embedding {
-        let finite = |place: &[f64; 3]| {
-            if place.iter().all(|x| x.is_finite()) {
-                *place
-            } else {
-                [0.0; 3]
-            }
-        };
-        let places: Vec<[f64; 3]> = widened(places).iter().map(finite).collect();
-        self.cage.embed(&places).unwrap_or_default()
-    }
-}
-
-impl SpaceMap for CageMap<'_> {
-    fn positions(&self, places: &[[f32; 3]]) -> Vec<[f32; 3]> {
-        let embedding = self.embed(places);
-        rounded(&self.cage.interpolate(&embedding, self.deformed))
-    }
-
-    fn normals(&self, places: &[[f32; 3]], normals: &[[f32; 3]]) -> Vec<[f32; 3]> {
-        let embedding = self.embed(places);
-        rounded(
-            &self
-                .cage
-                .normals(&embedding, self.deformed, &widened(normals)),
-        )
-    }
-
-    fn tangents(&self, places: &[[f32; 3]], tangents: &[[f32; 3]]) -> Vec<[f32; 3]> {
-        let embedding = self.embed(places);
-        rounded(
-            &self
-                .cage
-                .tangents(&embedding, self.deformed, &widened(tangents)),
-        )
-    }
-}
-
-fn widened(vectors: &[[f32; 3]]) -> Vec<[f64; 3]> {
-    vectors.iter().map(|v| v.map(f64::from)).collect()
-}
-
-fn rounded(vectors: &[[f64; 3]]) -> Vec<[f32; 3]> {
-    vectors.iter().map(|v| v.map(|x| x as f32)).collect()
 }

@@ -30,6 +30,8 @@ pub struct DeformOptions {
     /// side, and deform that. Handles are then places (`at`, `center`); connected parts of the cage without any stay at rest.
     #[cfg_attr(feature = "service", schema(minimum = 1))]
     pub cage: Option<u32>,
+    /// With a cage: cut triangles where they pass from one of its tetrahedra into the next, so that they follow it exactly.
+    pub split: bool,
     /// Lower the barrier's strength while the energy without it falls.
     pub barrier_continuation: bool,
     /// Also minimize without a barrier and report that energy beside the solution's: the barrier's bias.
@@ -54,6 +56,7 @@ impl Default for DeformOptions {
             model: Model::default(),
             triangles: 5000,
             cage: None,
+            split: false,
             barrier_continuation: false,
             bias: false,
             time_budget: None,
@@ -69,6 +72,10 @@ impl DeformOptions {
     pub fn check(&self) -> Result<(), PipelineError> {
         self.model.check()?;
         check_time_budget(self.time_budget)?;
+        if self.split && self.cage.is_none() {
+            let text = "split: there is no cage".to_owned();
+            return Err(PipelineError::InvalidOptions(text));
+        }
         match (self.format, self.cage) {
             (Some(format), None) => format.check_for_body(),
             (Some(format), Some(_)) if format.of_document().is_none() => {

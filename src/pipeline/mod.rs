@@ -22,6 +22,8 @@ mod repeated;
 #[cfg(feature = "files")]
 mod bodies;
 #[cfg(feature = "files")]
+mod cage_map;
+#[cfg(feature = "files")]
 mod caged;
 #[cfg(feature = "files")]
 mod deform;
@@ -54,7 +56,7 @@ pub use options::Settings;
 #[cfg(feature = "files")]
 pub use bodies::BodyFormat;
 #[cfg(feature = "files")]
-pub use caged::{CageOptions, CageReport, CagedDocument};
+pub use caged::{CageOptions, CageReport, CagedDocument, Surfaces};
 #[cfg(feature = "files")]
 pub use deform::{DeformOptions, deform_file};
 #[cfg(feature = "files")]

@@ -219,7 +219,7 @@ fn a_split_surface_stays_closed_and_follows_the_cage() {
         }
     }
 
-    // On a piece the map is linear: the centre goes to the centre.
+    // On a piece the map is linear, but for vertices that count as on a plane: the centre goes to the centre.
     let moved: Vec<[f64; 3]> = cage
         .mesh()
         .vertices()
@@ -238,7 +238,7 @@ fn a_split_surface_stays_closed_and_follows_the_cage() {
         .collect();
     let expected = cage.interpolate(&cage.embed(&centres).expect("inside"), &moved);
     for (t, expected) in split.triangles.iter().zip(expected) {
-        assert!(norm(sub(centre(&carried, t), expected)) < 1e-9);
+        assert!(norm(sub(centre(&carried, t), expected)) < 1e-5 * cage.voxel_side());
     }
     assert_eq!(crossings(&carried, &split.triangles).pairs, 0);
 }

@@ -3,9 +3,10 @@
 use crate::zoo;
 use std::fmt::Write;
 use unwrapd::barrier::BarrierKind;
+use unwrapd::deform::cage::{Cage, CagedSurface};
 use unwrapd::deform::{DeformationEnergy, Handle, Model, Solution};
 use unwrapd::document::{Document, OutputFormat, Upload, Written};
-use unwrapd::pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError};
+use unwrapd::pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError, Surfaces};
 use unwrapd::solver::{Control, Iterate, Settings};
 
 fn upload(mesh: &zoo::Mesh) -> Upload {
@@ -33,6 +34,7 @@ fn disc(center: [f64; 3], radius: f64, to: [f64; 3]) -> Handle {
 fn options(n_voxels: u32, format: OutputFormat) -> CageOptions {
     CageOptions {
         n_voxels,
+        surfaces: Surfaces::Whole,
         model: Model {
             energy: DeformationEnergy::Arap,
             barrier: BarrierKind::InverseSpline,
@@ -148,4 +150,60 @@ fn what_a_cage_cannot_do_is_refused_by_name() {
         Some("limit_exceeded")
     );
     assert_eq!(code(&obj, &[place], 8), Some("unsupported_output"));
+}
+
+/// How far the middle of a triangle of the written surface is from where the cage carries it, at most.
+fn largest_gap(surfaces: Surfaces) -> f64 {
+    let sphere = zoo::sphere(10, 8);
+    let handles = [
+        disc([0.0, 0.0, -1.0], 0.75, [0.0, 0.0, -1.0]),
+        disc([0.0, 0.0, 1.0], 0.75, [0.75, 0.0, 0.5]),
+    ];
+    let options = CageOptions {
+        surfaces,
+        ..options(5, OutputFormat::Glb)
+    };
+    let caged = CagedDocument::read(&upload(&sphere), &handles, options).expect("a cage");
+    let go_on = |_: &Iterate| Control::Continue;
+    let solution = caged
+        .problem()
+        .solve(&Settings::follow(), &go_on)
+        .expect("a map");
+    let (written, report) = caged.write(&solution).expect("a file");
+
+    let rest: Vec<[f64; 3]> = sphere.positions.iter().map(|p| p.map(f64::from)).collect();
+    let surface = CagedSurface {
+        positions: &rest,
+        triangles: &sphere.triangles,
+    };
+    let cage = Cage::around(&[surface], 5).expect("a cage");
+    let (rest, triangles) = match surfaces {
+        Surfaces::Whole => (rest.clone(), sphere.triangles.clone()),
+        Surfaces::Split => {
+            let split = cage.split(&surface).expect("pieces");
+            (split.positions, split.triangles)
+        }
+    };
+    assert_eq!(report.surface_triangles, triangles.len());
+    let after: Vec<[f64; 3]> = positions(&written)
+        .iter()
+        .map(|p| p.map(f64::from))
+        .collect();
+    let middle = |places: &[[f64; 3]], t: &[u32; 3]| -> [f64; 3] {
+        std::array::from_fn(|k| t.iter().map(|&v| places[v as usize][k]).sum::<f64>() / 3.0)
+    };
+    let middles: Vec<[f64; 3]> = triangles.iter().map(|t| middle(&rest, t)).collect();
+    let carried = cage.embed(&middles).expect("places in the cage");
+    let carried = cage.interpolate(&carried, solution.x.as_chunks().0);
+    let gaps = triangles.iter().zip(&carried).map(|(t, to)| {
+        let at = middle(&after, t);
+        (0..3).map(|k| (at[k] - to[k]).powi(2)).sum::<f64>().sqrt()
+    });
+    gaps.fold(0.0, f64::max)
+}
+
+#[test]
+fn pieces_follow_the_cage_exactly() {
+    assert!(largest_gap(Surfaces::Split) < 1e-5);
+    assert!(largest_gap(Surfaces::Whole) > 1e-2);
 }

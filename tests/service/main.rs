@@ -15,5 +15,6 @@ mod restarts;
 mod results;
 mod retention;
 mod server;
+mod split;
 mod synchronous;
 mod timestamp;

@@ -2,6 +2,8 @@
 
 use std::process::Command;
 
+use crate::applications::{ended, form};
+use crate::meshes::PLATE;
 use crate::server::Server;
 
 /// The page as Chromium has it after its scripts ran; `None` without Chromium.
@@ -38,4 +40,27 @@ async fn the_page_and_the_docs_run_their_scripts() {
     assert!(page.contains("type=\"file\""), "{page}");
     // Listed from /openapi.json by the script.
     assert!(docs.contains("/v1/jobs/{id}/result"), "{docs}");
+}
+
+#[tokio::test]
+async fn the_page_shows_jobs_of_other_kinds() {
+    let server = Server::start();
+    let pulled = r#"{"handles": [{"center": [0, 0], "radius": 0, "to": [0, 0]}, {"vertex": 2, "to": [2, 1]}]}"#;
+    let body = form("deform", pulled, ("plate.off", PLATE.into()));
+    let job = ended(&server, body).await;
+    let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
+    let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
+    let Some(page) = page.expect("a browser") else {
+        return;
+    };
+    for words in [
+        "deform: plate.off",
+        "converged",
+        "plate.off",
+        "trace.csv",
+        "Latest jobs",
+    ] {
+        assert!(page.contains(words), "{words}: {page}");
+    }
+    assert!(!page.contains("layout.png"), "{page}");
 }

@@ -1,18 +1,34 @@
-"""Bodies that schemathesis cannot make up: mesh files, some of them usable."""
+"""Bodies that schemathesis cannot make up: meshes, pictures and drawings, some of them usable."""
+import struct
+import zlib
+
 import schemathesis
 from hypothesis import strategies as st
+
+
+def picture(side):
+    """A PNG of one colour."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = zlib.compress((b"\0" + b"\xff\0\0\xff" * side) * side)
+    header = struct.pack(">IIBBBBB", side, side, 8, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
+
 
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 MEDIA_TYPES = [
     "model/gltf-binary", "model/gltf+json", "model/obj", "model/stl", "application/sla",
     "application/vnd.ms-pki.stl", "model/ply", "application/ply", "model/off", "text/plain",
-    "application/octet-stream",
+    "application/octet-stream", "image/png", "image/jpeg", "image/svg+xml",
 ]
 BODIES = st.one_of(
     st.just(TRIANGLE),
     st.binary(max_size=200),
     st.binary(max_size=50).map(lambda tail: b"glTF\x02\x00\x00\x00" + tail),
     st.just(b'{"asset":{"version":"2.0"}}'),
+    st.just(picture(8)),
+    st.just(b'<svg xmlns="http://www.w3.org/2000/svg"><rect width="4" height="3"/></svg>'),
+    st.just(b"4 1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 2 3\n"),
 )
 for media_type in MEDIA_TYPES:
     schemathesis.openapi.media_type(media_type, BODIES)

@@ -9,8 +9,9 @@ use crate::mesh::validate;
 use crate::numerics::vec3::{add_scaled, sub};
 use std::collections::HashMap;
 
-/// A vertex this near to a plane lies on it, in voxels: far above rounding, so that no slivers are cut off by it.
-const SNAP: f64 = 1e-9;
+/// A vertex this near to a plane lies on it, in voxels: above the rounding of f32, in which files have positions, so that no slivers
+/// are cut off that have no area there.
+const SNAP: f64 = 1e-5;
 /// Triangles of a split surface at most.
 const MOST_PIECES: usize = 20_000_000;
 

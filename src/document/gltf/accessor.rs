@@ -86,6 +86,16 @@ impl<'a> Accessor<'a> {
         self.kind == kind
     }
 
+    /// The type of its elements, such as `VEC3`.
+    pub fn kind(&self) -> &'a str {
+        self.kind
+    }
+
+    /// Whether its integers stand for numbers in [−1, 1].
+    pub fn is_normalized(&self) -> bool {
+        self.normalized
+    }
+
     /// Whether the count is backed by bytes: an accessor without a view is all zeros, however many it claims.
     pub fn is_backed(&self) -> bool {
         self.base.is_some()

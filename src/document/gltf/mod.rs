@@ -22,6 +22,7 @@ mod primitives;
 mod references;
 mod rewrite;
 mod split;
+mod subdivide;
 mod tangents;
 mod texcoord_set;
 mod textures;
@@ -29,7 +30,9 @@ mod uri;
 mod vertices;
 mod write;
 
-use super::{DocumentError, NewUvs, Primitive, SpaceMap, Upload, WriteOptions, Written};
+use super::{
+    DocumentError, NewUvs, Primitive, SpaceMap, Subdivision, Upload, WriteOptions, Written,
+};
 use crate::certificate::CornerUvs;
 pub use references::references;
 
@@ -147,6 +150,17 @@ impl GltfDocument {
         )?
         .get(primitive.primitive)
         .ok_or_else(|| invalid("a primitive is gone"))
+    }
+
+    /// The document with its triangles cut into pieces.
+    pub fn subdivided(mut self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
+        let mut body = self.body.clone();
+        for (index, cut) in cuts.iter().enumerate() {
+            subdivide::subdivide(&self, &mut body, index, cut)?;
+        }
+        self.body = body;
+        (self.primitives, self.used) = primitives::collect(&self.body)?;
+        Ok(self)
     }
 
     /// The document with its triangles where a map carries them.

@@ -1,4 +1,5 @@
-// Uploads a mesh, shows how its job goes, and what came of it. The options are read from the service's own description.
+// Uploads a mesh, shows how its job goes, and what came of it; shows jobs of any kind that others made. The options are read from
+// the service's own description.
 
 const byId = (id) => document.getElementById(id);
 const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
@@ -89,16 +90,42 @@ async function submit(event) {
   submitButton.disabled = true;
   try {
     const { data, query } = form([...byId("files").files]);
-    job = await call(`/v1/jobs?${query}`, { method: "POST", body: data });
-    byId("job-title").textContent = job.filename;
-    show("job");
-    showEvent(job);
-    watch(job);
+    const made = await call(`/v1/jobs?${query}`, { method: "POST", body: data });
+    history.replaceState(null, "", `#${made.id}`);
+    showJob(made);
+    await listJobs();
   } catch (error) {
     showProblem(error.message);
   } finally {
     submitButton.disabled = false;
   }
+}
+
+// ---- jobs
+
+async function listJobs() {
+  const { jobs } = await call("/v1/jobs?limit=10");
+  byId("latest").replaceChildren(...jobs.map((one) => {
+    const link = element("a", { href: `#${one.id}`, textContent: one.filename });
+    return element("li", {}, element("span", { className: "method", textContent: one.kind.replaceAll("_", " ") }), link, ` ${one.state}`);
+  }));
+  show("jobs", jobs.length > 0);
+}
+
+function showJob(shown) {
+  job = shown;
+  showProblem("");
+  show("result", false);
+  byId("job-title").textContent = `${job.kind.replaceAll("_", " ")}: ${job.filename}`;
+  show("job");
+  showEvent(job);
+  if (isFinal(job.state)) showEnd(job).catch((error) => showProblem(error.message));
+  else watch(job);
+}
+
+async function showLinked() {
+  const id = location.hash.slice(1);
+  if (id && id !== job?.id) showJob(await call(`/v1/jobs/${encodeURIComponent(id)}`));
 }
 
 // ---- progress
@@ -121,6 +148,7 @@ function watch(watched, after = 0) {
     if (isFinal(event.state)) {
       over = true;
       showEnd(await call(watched.links.self));
+      listJobs();
     }
   };
   socket.onclose = () => {
@@ -140,10 +168,10 @@ function showEvent(event) {
   byId("state").textContent = event.stage ? `${event.state}: ${event.stage}` : event.state;
   byId("fraction").value = event.fraction;
   pairs(byId("numbers"), [
-    ["charts", `${event.chart} of ${event.charts}`],
+    ...(event.charts ? [["charts", `${event.chart} of ${event.charts}`]] : []),
     ["iteration", event.iteration],
     ["energy", short(event.energy)],
-    ["smallest face", short(event.smallest)],
+    ["smallest element", short(event.smallest)],
     ["seconds", (event.elapsed_ms / 1000).toFixed(1)],
   ]);
   byId("finish").disabled = byId("cancel").disabled = isFinal(event.state);
@@ -156,16 +184,24 @@ async function showEnd(ended) {
   if (ended.state !== "succeeded") return;
   const links = ended.links.files.map((file, index) => element("a", { href: file.href, download: file.name, textContent: file.name, className: index ? "" : "main" }));
   byId("downloads").replaceChildren(...links);
-  byId("layout").src = `${ended.links.self}/layout.png`;
-  byId("heatmap").src = `${ended.links.self}/heatmap.png`;
+  byId("pictures").replaceChildren(...pictures(ended).map(([href, caption]) => element("figure", {}, element("img", { src: href, alt: caption }), element("figcaption", { textContent: caption }))));
   const report = await call(`${ended.links.self}/report`);
   pairs(byId("report"), summary(report));
   show("result");
 }
 
+function pictures(ended) {
+  const captions = { "layout.png": "UV layout", "heatmap.png": "Distortion", result: ended.filename };
+  const drawn = ended.links.files.filter((file) => file.name.endsWith(".png"));
+  return drawn.map((file) => [file.href, captions[file.href.split("/").pop()] ?? file.name]);
+}
+
+// What a report says beside its parts, whichever kind it is of.
 function summary(report) {
-  const groups = report.groups ?? [];
-  const entries = [["certified", report.certified ? "yes" : "no"]];
+  const groups = report.groups ?? report.charts?.map((chart) => ({ name: `chart ${chart.chart}`, ...chart })) ?? [];
+  const words = (value) => (typeof value === "boolean" ? (value ? "yes" : "no") : typeof value === "number" ? short(value) : value);
+  const keys = ["certified", "bijective", "status", "iterations", "energy", "residual", "inverted", "smallest_ever", "voxels", "tets"];
+  const entries = keys.filter((key) => key in report).map((key) => [key.replaceAll("_", " "), words(report[key])]);
   for (const group of groups.slice(0, 4)) {
     const measures = group.measures ?? group;
     entries.push(...["faces", "charts", "flipped", "overlapping_pairs"].filter((key) => key in measures).map((key) => [`${group.name} ${key.replaceAll("_", " ")}`, measures[key] ?? "–"]));
@@ -195,4 +231,5 @@ byId("files").addEventListener("change", announceFiles);
 byId("form").addEventListener("submit", submit);
 byId("cancel").addEventListener("click", () => call(job.links.self, { method: "DELETE" }).catch((error) => showProblem(error.message)));
 byId("finish").addEventListener("click", () => call(`${job.links.self}/finish`, { method: "POST" }).catch((error) => showProblem(error.message)));
-buildOptions().catch((error) => showProblem(error.message));
+addEventListener("hashchange", () => showLinked().catch((error) => showProblem(error.message)));
+Promise.all([buildOptions(), listJobs(), showLinked()]).catch((error) => showProblem(error.message));

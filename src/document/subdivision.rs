@@ -1,0 +1,47 @@
+use super::{DocumentError, Primitive};
+
+/// Triangles of a primitive cut into pieces.
+#[derive(Debug, Clone, Default)]
+pub struct Subdivision {
+    /// Vertices that are added behind the primitive's own.
+    pub added: Vec<AddedVertex>,
+    /// All triangles now, over own and added vertices.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// A vertex inside a triangle or on an edge of it.
+#[derive(Debug, Clone, Copy)]
+pub struct AddedVertex {
+    /// Its position.
+    pub position: [f32; 3],
+    /// The vertices of the triangle.
+    pub corners: [u32; 3],
+    /// Its barycentric weights there, by which everything but the position is interpolated.
+    pub weights: [f64; 3],
+}
+
+impl Subdivision {
+    /// A primitive that is nothing but positions and triangles, cut.
+    pub(super) fn apply(&self, primitive: &mut Primitive) {
+        let added = self.added.iter().map(|vertex| vertex.position);
+        primitive.positions.extend(added);
+        primitive.triangles.clone_from(&self.triangles);
+    }
+
+    /// Refuses what does not belong to the primitives.
+    pub(super) fn check(all: &[Self], primitives: &[Primitive]) -> Result<(), DocumentError> {
+        let fits = |(cut, primitive): (&Self, &Primitive)| {
+            let own = primitive.positions.len();
+            let is_own = |v: &u32| (*v as usize) < own;
+            let n_vertices = own + cut.added.len();
+            cut.added.iter().all(|a| a.corners.iter().all(is_own))
+                && (cut.triangles.iter().flatten()).all(|v| (*v as usize) < n_vertices)
+        };
+        if all.len() == primitives.len() && all.iter().zip(primitives).all(fits) {
+            Ok(())
+        } else {
+            let text = "pieces that are not those of the primitives".to_owned();
+            Err(DocumentError::IndexOutOfRange(text))
+        }
+    }
+}
