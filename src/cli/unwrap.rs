@@ -36,6 +36,9 @@ pub(super) struct Args {
     /// Few charts, or one chart per component
     #[arg(long, default_value = "auto", value_parser = word::<Cut>(CUTS))]
     cut: Cut,
+    /// Vertices of each chart's boundary that are held, far from each other: 0, or with `--cut disk` 2, as `--energy lscm` needs
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pin: u32,
     /// What shares one atlas
     #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
     group_by: GroupBy,
@@ -79,6 +82,7 @@ impl Args {
             barrier_strength: self.barrier_strength,
             barrier_support: self.barrier_support,
             cut: self.cut,
+            pin: self.pin,
             group_by: self.group_by,
             texcoord: self.texcoord,
             overwrite: self.overwrite,

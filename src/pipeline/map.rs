@@ -6,7 +6,7 @@ use super::observer::Tracker;
 use super::options::Settings;
 use crate::barrier::BarrierKind;
 use crate::charts::{Chart, halves};
-use crate::embed::{self, Embedding};
+use crate::embed::{self, Embedding, Pins};
 use crate::numerics::vec2::doubled_area;
 use crate::solver::{self, Iterate};
 
@@ -105,6 +105,11 @@ fn embedding(chart: &Chart, settings: &Settings, tracker: &Tracker) -> Embedding
         barrier: settings.barrier,
         beta: settings.barrier_strength,
         s: settings.barrier_support,
+        pins: if settings.pin == 0 {
+            Pins::None
+        } else {
+            Pins::Two
+        },
         solver: solver::Settings::default(),
     };
     let faces = chart.disk.triangles.len();

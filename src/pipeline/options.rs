@@ -26,6 +26,8 @@ pub struct Settings {
     pub barrier_support: f64,
     /// Where to cut.
     pub cut: Cut,
+    /// Vertices of each chart's boundary that are held, far from each other: 0, or with [`Cut::Disk`] 2.
+    pub pin: u32,
     /// Texels along the side of the texture that `padding` is counted in.
     pub resolution: u32,
     /// Least distance of two charts, in texels.
@@ -44,6 +46,7 @@ impl Default for Settings {
             barrier_strength: 0.01,
             barrier_support: 1.0,
             cut: Cut::Auto,
+            pin: 0,
             resolution: 1024,
             padding: 2,
             threads: None,
@@ -73,6 +76,11 @@ impl Settings {
             0.0,
             f64::from(self.resolution / 8),
         )?;
+        match (self.pin, self.cut) {
+            (0, _) | (2, Cut::Disk) => {}
+            (2, Cut::Auto) => return Err("pin 2 goes with cut disk".to_owned()),
+            (pin, _) => return Err(format!("pin must be 0 or 2, not {pin}")),
+        }
         if let Some(threads) = self.threads {
             within("threads", threads as f64, 1.0, 1024.0)?;
         }
@@ -101,6 +109,10 @@ pub struct Options {
     pub barrier_support: f64,
     /// Where to cut: few charts, or one per component.
     pub cut: Cut,
+    /// Vertices of each chart's boundary that are held, far from each other: 0, or with `disk` 2, as least-squares conformal maps
+    /// need them.
+    #[cfg_attr(feature = "service", schema(maximum = 2))]
+    pub pin: u32,
     /// What shares one atlas.
     pub group_by: GroupBy,
     /// The UV set to write; chosen so that no texture breaks if absent.
@@ -142,6 +154,7 @@ impl Default for Options {
             barrier_strength: settings.barrier_strength,
             barrier_support: settings.barrier_support,
             cut: settings.cut,
+            pin: settings.pin,
             group_by: GroupBy::Mesh,
             texcoord: None,
             overwrite: false,
@@ -167,6 +180,7 @@ impl Options {
             barrier_strength: self.barrier_strength,
             barrier_support: self.barrier_support,
             cut: self.cut,
+            pin: self.pin,
             resolution: self.resolution,
             padding: self.padding,
             threads: self.limits.threads(self.threads),
