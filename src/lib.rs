@@ -52,7 +52,7 @@
 //!
 //! | module | what lives there |
 //! |---|---|
-//! | [`numerics`] | sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices |
+//! | [`numerics`] | multifrontal sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices |
 //! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; readers and writers |
 //! | [`cut`] | surfaces opened along seams to disks |
 //! | [`energy`], [`barrier`] | densities as functions of singular values, for triangles and tetrahedra; quadratic terms; what keeps elements from inverting |

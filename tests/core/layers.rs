@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Module, the modules it builds on directly (what those may use it may use too), and the outside crates it may name.
 /// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
-    ("numerics", &[], &["faer", "robust", "rayon"]),
+    ("numerics", &[], &["faer", "feral_metis", "robust", "rayon"]),
     ("mesh", &["numerics"], &["robust"]),
     ("cut", &["mesh"], &[]),
     ("energy", &["mesh"], &[]),
