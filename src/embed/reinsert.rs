@@ -2,7 +2,7 @@
 
 use super::decimate::{Collapse, Collapses};
 use super::rest::rest_shape;
-use super::sweep::improve_vertex;
+use super::sweep::{MOST_STEPS, WORTH_ANOTHER, improve_vertex};
 use super::triangulation::pairs;
 use crate::barrier::{Barrier, MapEnergy, map_energy};
 use crate::energy::EnergyKind;
@@ -16,9 +16,6 @@ pub(super) const ROUNDING: MapEnergy = MapEnergy {
     energy: EnergyKind::SymmetricDirichlet,
     barrier: Barrier::NONE,
 };
-
-/// Local Newton steps on a vertex just put back.
-const STEPS: usize = 4;
 
 /// Steps of the walk towards the neighbor, each 0.6 of the one before: the last is 1e-33 of the first.
 const WALK: usize = 150;
@@ -147,9 +144,9 @@ fn improved_place(
     let around: Vec<u32> = (0..triangles.len() as u32).collect();
     let mut x: Vec<f64> = place.to_vec();
     x.extend(ring.iter().flat_map(|&v| uv[v as usize]));
-    for _ in 0..STEPS {
+    for _ in 0..MOST_STEPS {
         let before = [x[0], x[1]];
-        let moved = improve_vertex(&*term, 0, &around, &mut x);
+        let gain = improve_vertex(&*term, 0, &around, &mut x);
         let points: &[[f64; 2]] = x.as_chunks().0;
         let is_positive = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| points[v as usize]);
@@ -158,7 +155,7 @@ fn improved_place(
         if !triangles.iter().all(is_positive) {
             return before;
         }
-        if !moved {
+        if gain < WORTH_ANOTHER {
             break;
         }
     }

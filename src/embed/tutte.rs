@@ -38,7 +38,7 @@ pub(super) fn tutte_embedding(closed: &ClosedDisk, boundary: Boundary) -> Vec<[f
         return uv;
     }
     let (pattern, values, mut rhs) = system(closed, &unknown, inner.len(), &uv);
-    let mut cholesky = Cholesky::analyze(&pattern);
+    let mut cholesky = Cholesky::analyze(&pattern, 1);
     if cholesky.factor(&values).is_ok() {
         cholesky.solve(&mut rhs, 2);
         for (i, &v) in inner.iter().enumerate() {

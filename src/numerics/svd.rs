@@ -20,6 +20,7 @@ pub struct Svd<const D: usize> {
 }
 
 /// The norms p = (σ₁ + σ₂)/√2 and m = (σ₁ − σ₂)/√2 of the parts of a 2×2 matrix that rotate and that reflect, and the parts.
+#[inline]
 fn parts([[a, b], [c, d]]: &Matrix<2>) -> ([f64; 2], [[f64; 2]; 2]) {
     let similar = [a + d, c - b].map(|f| FRAC_1_SQRT_2 * f);
     let reflected = [a - d, c + b].map(|f| FRAC_1_SQRT_2 * f);
@@ -28,18 +29,21 @@ fn parts([[a, b], [c, d]]: &Matrix<2>) -> ([f64; 2], [[f64; 2]; 2]) {
     ([norm(similar), norm(reflected)], [similar, reflected])
 }
 
+#[inline]
 fn from_parts([p, m]: [f64; 2], det: f64) -> [f64; 2] {
     let first = FRAC_1_SQRT_2 * (p + m);
     [first, if first > 0.0 { det / first } else { 0.0 }]
 }
 
 /// The signed singular values of a matrix with this determinant.
+#[inline]
 pub fn singular_values2(f: &Matrix<2>, det: f64) -> [f64; 2] {
     from_parts(parts(f).0, det)
 }
 
 /// The decomposition of a matrix with this determinant, without an angle: the parts that rotate and reflect turn by φ_u − φ_v
 /// and φ_u + φ_v.
+#[inline]
 pub fn svd2(f: &Matrix<2>, det: f64) -> Svd<2> {
     let (norms, [similar, reflected]) = parts(f);
     let unit = |[x, y]: [f64; 2], norm: f64| {
@@ -60,6 +64,7 @@ pub fn svd2(f: &Matrix<2>, det: f64) -> Svd<2> {
 }
 
 /// Cosine and sine of half the angle with this cosine and sine.
+#[inline]
 fn half_angle([cos, sin]: [f64; 2]) -> [f64; 2] {
     if cos >= 0.0 {
         let half = (0.5 * (1.0 + cos)).sqrt();

@@ -24,7 +24,7 @@ impl QuadraticModel {
     /// Analyzes the pattern, once.
     pub fn new(pattern: BlockPattern) -> Self {
         Self {
-            cholesky: Cholesky::analyze(pattern.scalar()),
+            cholesky: Cholesky::analyze(pattern.scalar(), pattern.dim()),
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             held: Held::default(),

@@ -8,13 +8,23 @@ use super::settings::Projection;
 pub struct Relaxation {
     omega: f64,
     projection: Projection,
+    /// Steps before ω may fall again.
+    wait: u32,
+    /// Steps to wait after the next failure.
+    patience: u32,
 }
+
+/// Steps to wait after a failure at most. Each failure doubles the wait: where the true Hessian stays indefinite, half of all
+/// factorizations would fail otherwise.
+const MOST_PATIENCE: u32 = 16;
 
 impl Relaxation {
     pub fn new(projection: Projection) -> Self {
         Self {
             omega: 1.0,
             projection,
+            wait: 0,
+            patience: 1,
         }
     }
 
@@ -29,7 +39,9 @@ impl Relaxation {
         if self.projection == Projection::PositiveSemidefinite {
             return;
         }
-        if length > 0.9 && relative_decrease < 0.01 {
+        if self.wait > 0 {
+            self.wait -= 1;
+        } else if length > 0.9 && relative_decrease < 0.01 {
             self.omega = if self.omega < 4e-3 {
                 0.0
             } else {
@@ -43,6 +55,8 @@ impl Relaxation {
     /// After a factorization that failed: false if the matrix was already the most definite one.
     pub fn after_indefinite(&mut self) -> bool {
         let exhausted = self.omega >= 1.0;
+        self.wait = self.patience;
+        self.patience = (2 * self.patience).min(MOST_PATIENCE);
         self.omega = (8.0 * self.omega).clamp(0.02, 1.0);
         !exhausted
     }

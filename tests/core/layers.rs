@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 /// Module, the modules it builds on directly (what those may use it may use too), and the outside crates it may name.
 /// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
-    ("numerics", &[], &["faer", "robust", "rayon"]),
+    ("numerics", &[], &["faer", "feral_metis", "robust", "rayon"]),
     ("mesh", &["numerics"], &["robust"]),
     ("cut", &["mesh"], &[]),
     ("energy", &["mesh"], &[]),
     ("barrier", &["energy"], &[]),
     ("solver", &["energy", "barrier"], &[]),
     ("embed", &["solver"], &["rayon"]),
-    ("charts", &["cut"], &["rayon"]),
     ("certificate", &["mesh"], &["rayon"]),
+    ("charts", &["cut", "embed", "certificate"], &["rayon"]),
     ("atlas", &["embed", "certificate"], &["rayon"]),
     ("measure", &["certificate"], &["rayon"]),
     (

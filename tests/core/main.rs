@@ -7,6 +7,7 @@ mod cage;
 mod caged;
 mod certificate;
 mod charts;
+mod cholesky;
 mod crossings;
 mod cut;
 mod deform;

@@ -1,0 +1,137 @@
+//! A part of the forest of fronts that one task factors, with the memory that takes.
+
+use super::NotPositiveDefinite;
+use super::dense::{factor_panel, write_update};
+use super::fronts::{Front, Run};
+use super::plan::Plan;
+
+/// Fronts, children before parents, their panels, and two stacks for their updates.
+///
+/// The updates of fronts of even depth lie on one stack, those of odd depth on the other: when a front is formed those of its
+/// children are on top of the one that it does not write to. Where exactly was found when the plan was made.
+pub(super) struct Branch {
+    pub fronts: Vec<u32>,
+    pub panels: Vec<f64>,
+    pub updates: [Vec<f64>; 2],
+}
+
+impl Branch {
+    /// Factors its fronts; `others` are the branches that grow on it, in order.
+    pub fn factor(
+        &mut self,
+        plan: &Plan,
+        values: &[f64],
+        others: &[Self],
+    ) -> Result<(), NotPositiveDefinite> {
+        let Self {
+            fronts,
+            panels,
+            updates,
+        } = self;
+        let [even, odd] = updates;
+        for &k in fronts.iter() {
+            let k = k as usize;
+            let front = &plan.fronts.list[k];
+            let place = &plan.places[k];
+            let (mine, theirs) = if front.depth.is_multiple_of(2) {
+                (&mut *even, &*odd)
+            } else {
+                (&mut *odd, &*even)
+            };
+            let children = || {
+                plan.fronts.children[front.children.clone()]
+                    .iter()
+                    .map(|&child| {
+                        let front = &plan.fronts.list[child as usize];
+                        let at = &plan.places[child as usize];
+                        let stack = match others.get(at.branch as usize) {
+                            Some(other) => &other.updates[front.depth % 2],
+                            None => theirs,
+                        };
+                        (front, &stack[at.update..at.update + front.update_len()])
+                    })
+            };
+            let panel = &mut panels[place.panel..place.panel + front.panel_len()];
+            panel.fill(0.0);
+            plan.scatter.add(k, values, panel, front.stride());
+            for (child, update) in children() {
+                let mut target = Target {
+                    columns: 0..front.padded(),
+                    values: &mut *panel,
+                    stride: front.stride(),
+                };
+                target.add(
+                    update,
+                    child.update_stride(),
+                    &plan.fronts.runs[child.runs.clone()],
+                );
+            }
+            factor_panel(front, panel)?;
+            if front.below > 0 {
+                let own = &mut mine[place.update..place.update + front.update_len()];
+                write_update(front, panel, own);
+                for (child, update) in children() {
+                    let mut target = Target::update(front, own);
+                    target.add(
+                        update,
+                        child.update_stride(),
+                        &plan.fronts.runs[child.runs.clone()],
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Columns of a front that the updates of its children are added to.
+struct Target<'a> {
+    /// Which, in rows of the panel.
+    columns: std::ops::Range<usize>,
+    /// From the row and column `columns.start` or, for the panel, from row 0 on.
+    values: &'a mut [f64],
+    stride: usize,
+}
+
+impl<'a> Target<'a> {
+    fn update(front: &Front, values: &'a mut [f64]) -> Self {
+        Self {
+            columns: front.padded()..usize::MAX,
+            values,
+            stride: front.update_stride(),
+        }
+    }
+
+    /// Adds a child's update, its lower triangle.
+    fn add(&mut self, update: &[f64], stride: usize, runs: &[Run]) {
+        let from = self.columns.start;
+        for (i, run) in runs.iter().enumerate() {
+            let parent = run.parent as usize;
+            if !self.columns.contains(&parent) {
+                continue;
+            }
+            for c in 0..run.length as usize {
+                let source = &update[(run.child as usize + c) * stride..][..stride];
+                let target = &mut self.values[(parent - from + c) * self.stride..][..self.stride];
+                let length = run.length as usize - c;
+                add_to(
+                    &mut target[parent - from + c..][..length],
+                    &source[run.child as usize + c..][..length],
+                );
+                for run in &runs[i + 1..] {
+                    let length = run.length as usize;
+                    add_to(
+                        &mut target[run.parent as usize - from..][..length],
+                        &source[run.child as usize..][..length],
+                    );
+                }
+            }
+        }
+    }
+}
+
+fn add_to(target: &mut [f64], source: &[f64]) {
+    for (t, s) in target.iter_mut().zip(source) {
+        *t += s;
+    }
+}

@@ -1,0 +1,209 @@
+//! The dense matrices that the factorization consists of, and how they fit into each other.
+
+use std::ops::Range;
+
+use super::graph::Graph;
+use super::kernels::LANES;
+use super::supernodes::Supernodes;
+use super::tree::NONE;
+
+/// A dense symmetric matrix whose first columns are eliminated and whose rest, the update, is added to its parent.
+///
+/// Its panel holds the pivot columns: rows `0..pivots` are those of the pivots, rows from `padded` on the others, zeros between.
+/// Every column starts a multiple of [`LANES`] after the first.
+#[derive(Clone, Debug)]
+pub(super) struct Front {
+    /// The first unknown that is eliminated here, in the new numbering.
+    pub first: usize,
+    /// Unknowns that are eliminated here.
+    pub pivots: usize,
+    /// Unknowns that are only changed.
+    pub below: usize,
+    /// The vertices of those, increasing: a range of [`Fronts::rows`].
+    pub rows: Range<usize>,
+    /// Where they are in the parent: a range of [`Fronts::runs`].
+    pub runs: Range<usize>,
+    pub parent: u32,
+    /// Its children are a range of [`Fronts::children`].
+    pub children: Range<usize>,
+    /// Even or odd.
+    pub depth: usize,
+}
+
+/// Successive unknowns of a child's update that are successive in its parent too.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub child: u32,
+    /// In rows of the parent's panel.
+    pub parent: u32,
+    pub length: u32,
+}
+
+/// All fronts, children before parents.
+pub(super) struct Fronts {
+    pub list: Vec<Front>,
+    pub rows: Vec<u32>,
+    pub runs: Vec<Run>,
+    pub children: Vec<u32>,
+}
+
+impl Front {
+    /// The first row of the panel that is not a pivot's.
+    pub fn padded(&self) -> usize {
+        self.pivots.next_multiple_of(LANES)
+    }
+
+    /// Its pivots among all unknowns, in the new numbering.
+    pub fn pivot_range(&self) -> Range<usize> {
+        self.first..self.first + self.pivots
+    }
+
+    /// Rows of the panel.
+    pub fn height(&self) -> usize {
+        self.padded() + self.update_stride()
+    }
+
+    /// From column to column of the panel: an odd multiple of [`LANES`], so that a row does not fall into one set of the cache.
+    pub fn stride(&self) -> usize {
+        LANES * ((self.height() / LANES) | 1)
+    }
+
+    /// From column to column of the update.
+    pub fn update_stride(&self) -> usize {
+        self.below.next_multiple_of(LANES)
+    }
+
+    pub fn panel_len(&self) -> usize {
+        self.stride() * self.pivots
+    }
+
+    pub fn update_len(&self) -> usize {
+        self.update_stride() * self.below
+    }
+
+    /// Multiplications and additions of its elimination.
+    pub fn flops(&self) -> f64 {
+        let (k, m) = (self.pivots as f64, (self.pivots + self.below) as f64);
+        k * m * m - k * k * m + k * k * k / 3.0
+    }
+}
+
+impl Fronts {
+    /// From the graph in its new numbering.
+    pub fn new(graph: &Graph, supernodes: &Supernodes, block: usize) -> Self {
+        let n = supernodes.parent.len();
+        let mut fronts = Self {
+            list: Vec::with_capacity(n),
+            rows: Vec::new(),
+            runs: Vec::new(),
+            children: Vec::with_capacity(n),
+        };
+        let children = fronts.gather_children(&supernodes.parent);
+        let mut seen = vec![NONE; graph.n()];
+        for (k, children) in children.into_iter().enumerate() {
+            let (from, to) = (supernodes.starts[k], supernodes.starts[k + 1]);
+            let rows = fronts.gather_rows(graph, from..to, children.clone(), k as u32, &mut seen);
+            fronts.list.push(Front {
+                first: block * from as usize,
+                pivots: block * (to - from) as usize,
+                below: block * rows.len(),
+                rows,
+                runs: 0..0,
+                parent: supernodes.parent[k],
+                children,
+                depth: 0,
+            });
+        }
+        for k in (0..n).rev() {
+            if fronts.list[k].parent != NONE {
+                fronts.list[k].depth = fronts.list[fronts.list[k].parent as usize].depth + 1;
+            }
+        }
+        for k in 0..n {
+            let start = fronts.runs.len();
+            if fronts.list[k].parent != NONE {
+                fronts.gather_runs(k, block);
+            }
+            fronts.list[k].runs = start..fronts.runs.len();
+        }
+        fronts
+    }
+
+    fn gather_children(&mut self, parent: &[u32]) -> Vec<Range<usize>> {
+        let mut ends = vec![0; parent.len() + 1];
+        for &p in parent.iter().filter(|&&p| p != NONE) {
+            ends[p as usize + 1] += 1;
+        }
+        for k in 0..parent.len() {
+            ends[k + 1] += ends[k];
+        }
+        self.children.resize(ends[parent.len()], 0);
+        let mut next = ends.clone();
+        for (k, &p) in parent.iter().enumerate().filter(|(_, p)| **p != NONE) {
+            self.children[next[p as usize]] = k as u32;
+            next[p as usize] += 1;
+        }
+        ends.windows(2).map(|w| w[0]..w[1]).collect()
+    }
+
+    /// What the pivots and the updates of the children reach beyond the pivots.
+    fn gather_rows(
+        &mut self,
+        graph: &Graph,
+        pivots: Range<u32>,
+        children: Range<usize>,
+        mark: u32,
+        seen: &mut [u32],
+    ) -> Range<usize> {
+        let start = self.rows.len();
+        for j in pivots.clone() {
+            for &i in graph.of(j).iter().rev().take_while(|&&i| i >= pivots.end) {
+                if std::mem::replace(&mut seen[i as usize], mark) != mark {
+                    self.rows.push(i);
+                }
+            }
+        }
+        for child in children {
+            let rows = self.list[self.children[child] as usize].rows.clone();
+            for at in rows {
+                let i = self.rows[at];
+                if i >= pivots.end && std::mem::replace(&mut seen[i as usize], mark) != mark {
+                    self.rows.push(i);
+                }
+            }
+        }
+        self.rows[start..].sort_unstable();
+        start..self.rows.len()
+    }
+
+    /// Where the rows of a front are in its parent.
+    fn gather_runs(&mut self, k: usize, block: usize) {
+        let front = &self.list[k];
+        let parent = &self.list[front.parent as usize];
+        let parent_rows = &self.rows[parent.rows.clone()];
+        let start = self.runs.len();
+        let mut at = 0;
+        for (i, &v) in self.rows[front.rows.clone()].iter().enumerate() {
+            let unknown = block * v as usize;
+            let place = if unknown < parent.first + parent.pivots {
+                unknown - parent.first
+            } else {
+                at += parent_rows[at..].partition_point(|&w| w < v);
+                parent.padded() + block * at
+            };
+            let (child, place) = ((block * i) as u32, place as u32);
+            match self.runs[start..].last_mut() {
+                Some(run)
+                    if run.parent + run.length == place && place as usize != parent.padded() =>
+                {
+                    run.length += block as u32;
+                }
+                _ => self.runs.push(Run {
+                    child,
+                    parent: place,
+                    length: block as u32,
+                }),
+            }
+        }
+    }
+}

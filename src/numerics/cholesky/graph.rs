@@ -1,0 +1,90 @@
+//! Who is coupled with whom.
+
+use super::SymmetricPattern;
+
+/// The graph of a symmetric matrix made of square blocks: vertices, and for each all its neighbours, sorted.
+pub(super) struct Graph {
+    starts: Vec<u32>,
+    neighbours: Vec<u32>,
+}
+
+impl Graph {
+    /// Of a pattern in which `block` consecutive unknowns belong to a vertex.
+    ///
+    /// The first column of a vertex tells all: the rows of its own block come first, then those of its larger neighbours.
+    pub fn new(pattern: &SymmetricPattern, block: usize) -> Self {
+        let n = pattern.n / block;
+        let larger = |v: usize| {
+            let column =
+                &pattern.row_idx[pattern.col_ptr[block * v]..pattern.col_ptr[block * v + 1]];
+            assert_eq!(column[0], block * v, "a column starts on the diagonal");
+            column[block..].iter().step_by(block).map(|row| row / block)
+        };
+        let mut starts = vec![0; n + 1];
+        for v in 0..n {
+            for w in larger(v) {
+                starts[v + 1] += 1;
+                starts[w + 1] += 1;
+            }
+        }
+        for v in 0..n {
+            starts[v + 1] += starts[v];
+        }
+        let mut neighbours = vec![0; starts[n] as usize];
+        let mut next = starts.clone();
+        for v in 0..n {
+            for w in larger(v) {
+                for (from, to) in [(v, w), (w, v)] {
+                    neighbours[next[from] as usize] = to as u32;
+                    next[from] += 1;
+                }
+            }
+        }
+        Self { starts, neighbours }
+    }
+
+    /// Number of vertices.
+    pub fn n(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The neighbours of a vertex.
+    pub fn of(&self, vertex: u32) -> &[u32] {
+        let v = vertex as usize;
+        &self.neighbours[self.starts[v] as usize..self.starts[v + 1] as usize]
+    }
+
+    /// Where each vertex's neighbours start in [`neighbours`](Self::neighbours).
+    pub fn starts(&self) -> &[u32] {
+        &self.starts
+    }
+
+    /// All lists, one after another.
+    pub fn neighbours(&self) -> &[u32] {
+        &self.neighbours
+    }
+
+    /// The same graph with its vertices renumbered: `order[new] = old`.
+    pub fn reordered(&self, order: &[u32]) -> Self {
+        let place = inverse(order);
+        let mut starts = Vec::with_capacity(self.starts.len());
+        let mut neighbours = Vec::with_capacity(self.neighbours.len());
+        starts.push(0);
+        for &old in order {
+            let from = neighbours.len();
+            neighbours.extend(self.of(old).iter().map(|&w| place[w as usize]));
+            neighbours[from..].sort_unstable();
+            starts.push(neighbours.len() as u32);
+        }
+        Self { starts, neighbours }
+    }
+}
+
+/// The inverse of a permutation.
+pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut place = vec![0; order.len()];
+    for (new, &old) in order.iter().enumerate() {
+        place[old as usize] = new as u32;
+    }
+    place
+}

@@ -1,0 +1,152 @@
+//! Sparse Cholesky A = LLᵀ: analyzed once per pattern, factored anew for each set of values.
+//!
+//! Multifrontal. Columns of the factor that reach the same rows form a front, a dense matrix: it is assembled from entries of A
+//! and from the updates that earlier fronts left behind, its own columns are eliminated, and what that does to the other
+//! rows is its update for a later front, its parent. All indices are found once; the numbers then flow through dense kernels.
+//!
+//! What decides where to go is done on vertices, each of up to three unknowns, not on unknowns: the order of elimination
+//! ([`order`]), the elimination tree and the sizes of the factor's columns ([`tree`]), which columns are worked on together
+//! ([`supernodes`]), which rows a front has and where they are in its parent ([`fronts`]), where the entries of A go
+//! ([`scatter`]). The numbers are [`branch`], [`dense`], [`kernels`] and [`solve`].
+//!
+//! Subtrees are factored in parallel. Every sum is ordered by the tree, so the result does not depend on the number of threads.
+//! Nothing is allocated after the analysis. On one thread, with the same order, it takes 0.4 to 0.6 of the time of faer's
+//! supernodal factorization, which is the reference of its tests.
+//!
+//! From: Duff and Reid 1983, The Multifrontal Solution of Indefinite Sparse Symmetric Linear Equations; Liu 1992, The
+//! Multifrontal Method for Sparse Matrix Solution.
+
+mod branch;
+mod dense;
+mod fronts;
+mod graph;
+mod kernels;
+mod order;
+mod plan;
+mod scatter;
+mod solve;
+mod supernodes;
+mod tree;
+
+use faer::traits::pulp::Arch;
+use rayon::prelude::*;
+
+use branch::Branch;
+use fronts::Front;
+use plan::Plan;
+use solve::Solve;
+
+/// Where a symmetric matrix may be nonzero: its lower triangle in compressed columns.
+///
+/// Column `j` holds the rows `row_idx[col_ptr[j]..col_ptr[j + 1]]`, sorted, the first of them `j` itself.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SymmetricPattern {
+    /// Number of rows and columns.
+    pub n: usize,
+    /// Start of each column in `row_idx`; `n + 1` entries.
+    pub col_ptr: Vec<usize>,
+    /// Row of each stored entry.
+    pub row_idx: Vec<usize>,
+}
+
+/// The matrix has a pivot that is not positive (or not a number): a normal outcome for an indefinite Hessian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the matrix is not positive definite")]
+pub struct NotPositiveDefinite;
+
+/// A factorization that is reused for many matrices of one pattern.
+pub struct Cholesky {
+    plan: Plan,
+    branches: Vec<Branch>,
+    /// A right-hand side in the order of elimination.
+    x: Vec<f64>,
+    local: Vec<f64>,
+}
+
+/// The size of a factorization.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Work {
+    /// Numbers stored in the factor, zeros of the padding included.
+    pub stored: usize,
+    /// Multiplications with an addition each.
+    pub flops: f64,
+    /// Dense matrices that it consists of.
+    pub fronts: usize,
+}
+
+impl Cholesky {
+    /// Orders the pattern to reduce fill and reserves all memory that factoring and solving will need.
+    ///
+    /// `block` consecutive unknowns, 1 to 3, belong to a vertex: the pattern consists of full blocks of that size.
+    ///
+    /// # Panics
+    /// If the pattern is not as [`SymmetricPattern`] describes: that is a mistake of the caller, not of its input.
+    pub fn analyze(pattern: &SymmetricPattern, block: usize) -> Self {
+        let (plan, branches) = Plan::new(pattern, block);
+        let height = plan.fronts.list.iter().map(Front::height).max();
+        Self {
+            plan,
+            branches,
+            x: vec![0.0; pattern.n],
+            local: vec![0.0; height.unwrap_or(0)],
+        }
+    }
+
+    /// Factors the matrix whose stored entries are `values`, in the order of the pattern's `row_idx`.
+    ///
+    /// After [`NotPositiveDefinite`] there is no factor to solve with until the next success.
+    pub fn factor(&mut self, values: &[f64]) -> Result<(), NotPositiveDefinite> {
+        let Self { plan, branches, .. } = self;
+        let Some((trunk, others)) = branches.split_last_mut() else {
+            return Ok(());
+        };
+        others
+            .par_iter_mut()
+            .try_for_each(|branch| branch.factor(plan, values, &[]))?;
+        trunk.factor(plan, values, others)
+    }
+
+    /// Replaces each of the `n_rhs` columns b of `rhs` (column-major) by the solution x of Ax = b.
+    ///
+    /// # Panics
+    /// If `rhs` does not hold `n · n_rhs` numbers.
+    pub fn solve(&mut self, rhs: &mut [f64], n_rhs: usize) {
+        assert_eq!(rhs.len(), self.n() * n_rhs, "n numbers per right-hand side");
+        let Self {
+            plan,
+            branches,
+            x,
+            local,
+        } = self;
+        let block = plan.block;
+        for column in rhs.chunks_exact_mut(x.len().max(1)) {
+            for (x, &old) in x.chunks_exact_mut(block).zip(&plan.order) {
+                x.copy_from_slice(&column[block * old as usize..][..block]);
+            }
+            Arch::new().dispatch(Solve {
+                plan,
+                branches,
+                x,
+                local,
+            });
+            for (x, &old) in x.chunks_exact(block).zip(&plan.order) {
+                column[block * old as usize..][..block].copy_from_slice(x);
+            }
+        }
+    }
+
+    /// Number of rows of the matrix.
+    pub fn n(&self) -> usize {
+        self.x.len()
+    }
+
+    /// What one factorization takes.
+    pub fn work(&self) -> Work {
+        let fronts = &self.plan.fronts.list;
+        Work {
+            stored: fronts.iter().map(Front::panel_len).sum(),
+            flops: fronts.iter().map(Front::flops).sum(),
+            fronts: fronts.len(),
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! In which order to eliminate.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+use feral_metis::{CscPattern, metis_order};
+
+use super::graph::Graph;
+
+/// From this many vertices on nested dissection, below minimum degree.
+///
+/// Finding it takes 20 times as long. On surfaces it saves half of a factorization at 180,000 vertices, and with two of them has
+/// paid for itself; at a million it is the difference between 55 and 250 billion multiplications.
+const DISSECTED_FROM: usize = 100_000;
+
+/// An order of the vertices that keeps the factor sparse, `order[new] = old`.
+pub(super) fn fill_reducing_order(graph: &Graph) -> Vec<u32> {
+    if graph.n() < DISSECTED_FROM {
+        return minimum_degree(graph);
+    }
+    nested_dissection(graph).unwrap_or_else(|| minimum_degree(graph))
+}
+
+/// Approximate minimum degree (Amestoy, Davis, Duff 1996).
+fn minimum_degree(graph: &Graph) -> Vec<u32> {
+    let n = graph.n();
+    let starts: Vec<usize> = graph.starts().iter().map(|&s| s as usize).collect();
+    let neighbours: Vec<usize> = graph.neighbours().iter().map(|&v| v as usize).collect();
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &neighbours);
+    let (mut order, mut place) = (vec![0; n], vec![0; n]);
+    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(n, neighbours.len()));
+    amd::order(
+        &mut order,
+        &mut place,
+        pattern,
+        amd::Control::default(),
+        MemStack::new(&mut memory),
+    )
+    .expect("indices fit in usize");
+    order.into_iter().map(|v| v as u32).collect()
+}
+
+/// Multilevel nested dissection (Karypis and Kumar 1998); `None` if what comes back is no permutation.
+fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
+    let n = graph.n();
+    let signed = |values: &[u32]| values.iter().map(|&v| v as i32).collect::<Vec<_>>();
+    let (starts, neighbours) = (signed(graph.starts()), signed(graph.neighbours()));
+    let order = metis_order(&CscPattern::new(n, &starts, &neighbours)?).ok()?;
+    let mut is_new = vec![true; n];
+    let is_permutation = order.len() == n
+        && (order.iter()).all(|&v| {
+            let seen = usize::try_from(v).ok().and_then(|v| is_new.get_mut(v));
+            seen.is_some_and(std::mem::take)
+        });
+    is_permutation.then(|| order.into_iter().map(|v| v as u32).collect())
+}
