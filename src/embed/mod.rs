@@ -20,6 +20,7 @@ mod parameterize;
 mod problem;
 mod reinsert;
 mod rest;
+mod star;
 mod start;
 mod sweep;
 mod triangulation;
