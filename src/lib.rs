@@ -58,8 +58,8 @@
 //! | [`energy`], [`barrier`] | densities as functions of singular values, for triangles and tetrahedra; quadratic terms; what keeps elements from inverting |
 //! | [`solver`] | projected Newton, exact largest step, line search, status; handles that travel; the paper's own iteration |
 //! | [`embed`] | a valid start for every disk and the way from it to the optimum |
-//! | [`charts`] | where to cut |
 //! | [`certificate`] | exact judgement of UVs as a file has them |
+//! | [`charts`] | where to cut: surfaces divided, mapped, and parted where the maps fold over themselves |
 //! | [`atlas`] | orientation, packing, the integer grid |
 //! | [`measure`] | distortion, seams, packing, overlaps of any UV map |
 #![cfg_attr(
@@ -105,6 +105,10 @@
 //! - Charts too small for the grid (fewer than 16 cells per triangle) are enlarged and counted: the one exception to uniform
 //!   texel density.
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
+//! - Charts come from the top down: disks are slit until they keep a bound on the distortion, rather than regions grown or
+//!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
+//! - The default energy is the symmetric Dirichlet energy, in which the bound is stated: at the bound of 4.1 it needs half the
+//!   charts that ARAP needs (2 against 13 on a closed surface with four handles), and folds over itself less often.
 //! - A chart of which floating point finds no valid map is cut into halves, even where one chart per component was asked
 //!   for: a valid atlas with a seam more is worth more than none.
 //!
@@ -141,9 +145,9 @@ pub mod solver;
 
 pub mod embed;
 
-pub mod charts;
-
 pub mod certificate;
+
+pub mod charts;
 
 pub mod atlas;
 

@@ -28,6 +28,7 @@ mod judgement;
 mod overlap;
 mod planar;
 mod rounding;
+mod simple;
 mod topology;
 mod weld;
 
@@ -38,6 +39,7 @@ pub(crate) use edges::Start;
 pub use judgement::{Certificate, Overlap, certify};
 pub(crate) use overlap::OrientedFaces;
 pub use planar::{PlanarCertificate, certify_planar};
+pub(crate) use simple::meeting_point;
 pub(crate) use topology::UvTopology;
 
 /// The UVs of a face's three corners, as the file has them.

@@ -4,21 +4,37 @@
 //! wrong with the surface.
 //!
 //! [`Cut::Disk`] makes one chart of every component: each manifold piece is opened to a disk, and the pieces that
-//! non-manifold edges part are joined again at single edges. [`Cut::Auto`] first divides the surface into regions whose
-//! normals lie within a cone, so that each chart is nearly flat and hardly ever overlaps itself.
+//! non-manifold edges part are joined again at single edges. [`Cut::Fast`] divides the surface into regions whose normals lie
+//! within a cone, so that each chart is nearly flat and hardly ever overlaps itself. [`Cut::Auto`] opens every piece to a disk
+//! and goes on from there ([`charts_under_bound`]): one sparse solve predicts where a disk would be distorted most, a slit is
+//! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
 //!
-//! A chart that turns out not to be mappable is cut into [`halves()`].
+//! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, the chart is cut along the cheapest seam
+//! that parts two of its sheets, a minimum cut of the dual graph, as often as it takes; where floating point finds no valid map,
+//! into [`halves()`].
 
+mod bound;
 mod chart;
 mod cone;
+mod crease;
+mod distortion;
 mod facets;
+mod fold;
 mod halves;
+mod mapped;
 mod merge;
+mod min_cut;
+mod part;
+mod predictor;
 mod regions;
+mod slits;
 mod smooth;
 
+pub use bound::{Quality, charts_under_bound};
 pub use chart::{Chart, Cut, charts};
 pub use halves::halves;
+pub use mapped::{MappedChart, Observer, map_chart};
+pub use min_cut::min_cut;
 
 #[cfg(doc)]
 use crate::mesh::Disk;

@@ -17,7 +17,7 @@ use crate::pipeline::{EditOptions, Editing, Limits, edit_document};
 #[derive(clap::Args)]
 pub(super) struct EditArgs {
     /// Anchors in the numbers of the file (glTF: v down): {"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": …}, …]};
-    /// `at` means the nearest vertex, whose target is shifted by the same offset
+    /// `at` means the point of the surface that has this UV
     #[arg(long, value_name = "A.json")]
     anchors: PathBuf,
     #[command(flatten)]

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use super::failure::Failure;
 use super::files::{json, output_format, read_upload, say, write_atomically, write_outputs};
 use super::progress::Display;
-use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, word};
+use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, QUALITIES, word};
 use crate::barrier::BarrierKind;
-use crate::charts::Cut;
+use crate::charts::{Cut, Quality};
 use crate::document::GroupBy;
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
@@ -22,7 +22,7 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// Distortion energy to minimize
-    #[arg(long, default_value = "arap", value_parser = word::<EnergyKind>(ENERGIES))]
+    #[arg(long, default_value = "symmetric-dirichlet", value_parser = word::<EnergyKind>(ENERGIES))]
     energy: EnergyKind,
     /// Barrier against inversion; `none` is for comparison and never certified
     #[arg(long, default_value = "inverse-spline", value_parser = word::<BarrierKind>(BARRIERS))]
@@ -33,9 +33,15 @@ pub(super) struct Args {
     /// Support s of the barrier, relative to an element's rest area
     #[arg(long, default_value_t = 1.0, value_name = "S")]
     barrier_support: f64,
-    /// Few charts, or one chart per component
+    /// Few charts under a bound on their distortion, more charts in less time, or one per component
     #[arg(long, default_value = "auto", value_parser = word::<Cut>(CUTS))]
     cut: Cut,
+    /// Vertices of each chart's boundary that are held, far from each other: 0, or with `--cut disk` 2, as `--energy lscm` needs
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pin: u32,
+    /// How distorted the atlas may be with `--cut auto`: mean symmetric Dirichlet energy up to 4.05, 4.1 or 4.5
+    #[arg(long, default_value = "balanced", value_parser = word::<Quality>(QUALITIES))]
+    quality: Quality,
     /// What shares one atlas
     #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
     group_by: GroupBy,
@@ -79,6 +85,8 @@ impl Args {
             barrier_strength: self.barrier_strength,
             barrier_support: self.barrier_support,
             cut: self.cut,
+            pin: self.pin,
+            quality: self.quality,
             group_by: self.group_by,
             texcoord: self.texcoord,
             overwrite: self.overwrite,

@@ -16,8 +16,8 @@ use crate::pipeline::{Limits, WarpOptions, warp_file};
 pub(super) struct Args {
     /// Picture: .png or .jpg
     input: PathBuf,
-    /// Handles in pixels, y down: {"handles": [{"at": [x, y], "to": [x, y]}, …]}. Each takes hold of the nearest vertex of
-    /// the grid, whose target is shifted by the same offset
+    /// Handles in pixels, y down: {"handles": [{"at": [x, y], "to": [x, y]}, …]}. Each takes hold of its own point; next to
+    /// a fixed border of the nearest inner vertex of the grid, whose target is shifted by the same offset
     #[arg(long, value_name = "H.json")]
     handles: PathBuf,
     /// Where the warped picture goes, as PNG
@@ -26,7 +26,7 @@ pub(super) struct Args {
     /// Cells of the grid along the longer side
     #[arg(long, default_value_t = 40, value_name = "N")]
     grid: usize,
-    /// Hold the border, so that the map is bijective; handles then take hold of inner vertices
+    /// Hold the border, so that the map is bijective; handles next to it take hold of inner vertices
     #[arg(long)]
     fix_border: bool,
     #[command(flatten)]

@@ -117,7 +117,8 @@ fn shortest_loops(
 ) -> (Distances, Vec<u32>) {
     let free = |h: u32| cut[h as usize] || sheet.twin[h as usize] == CUT;
     let sources = (0u32..).zip(on_cut).filter(|(_, on)| **on).map(|(v, _)| v);
-    let from_cut = distances(sheet, neighbors, sources, free);
+    let length = |h: u32| if free(h) { 0.0 } else { sheet.length(h) };
+    let from_cut = distances(sheet, neighbors, sources, length);
     let mut in_tree = cut.to_vec();
     for &h in from_cut.arrival.iter().filter(|&&h| h != CUT) {
         in_tree[h as usize] = true;
@@ -127,8 +128,7 @@ fn shortest_loops(
         .filter(|&h| !in_tree[h as usize])
         .map(|h| {
             let [a, b] = sheet.ends(h).map(|v| from_cut.distance[v as usize]);
-            let length = if free(h) { 0.0 } else { sheet.length(h) };
-            (a + b + length, h)
+            (a + b + length(h), h)
         })
         .collect();
     candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -162,7 +162,9 @@ fn best_root(sheet: &Sheet, neighbors: &Neighbors, holes: &Holes) -> u32 {
             }
         }
         candidates.push(root);
-        let spread = distances(sheet, neighbors, candidates.iter().copied(), |_| false);
+        let spread = distances(sheet, neighbors, candidates.iter().copied(), |h| {
+            sheet.length(h)
+        });
         root = spread.farthest().0;
     }
     best.1

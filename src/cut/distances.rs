@@ -49,13 +49,24 @@ impl Neighbors {
     }
 }
 
-/// Dijkstra's algorithm from all sources at once. Edges that are `free` have length 0. Ties go to the lower vertex.
+/// Dijkstra's algorithm from all sources at once; `length` of an edge must not be negative. Ties go to the lower vertex.
 pub fn distances(
     sheet: &Sheet,
     neighbors: &Neighbors,
     sources: impl IntoIterator<Item = u32>,
-    free: impl Fn(u32) -> bool,
+    length: impl Fn(u32) -> f64,
 ) -> Distances {
+    distances_until(sheet, neighbors, sources, length, |_| false).0
+}
+
+/// [`distances`] that are known when the nearest vertex with `is_goal` is reached, and that vertex.
+pub fn distances_until(
+    sheet: &Sheet,
+    neighbors: &Neighbors,
+    sources: impl IntoIterator<Item = u32>,
+    length: impl Fn(u32) -> f64,
+    is_goal: impl Fn(u32) -> bool,
+) -> (Distances, Option<u32>) {
     let n = sheet.positions.len();
     let mut distance = vec![f64::INFINITY; n];
     let mut arrival = vec![CUT; n];
@@ -68,20 +79,20 @@ pub fn distances(
         if key > distance[vertex as usize] {
             continue;
         }
+        if is_goal(vertex) {
+            return (Distances { distance, arrival }, Some(vertex));
+        }
         for &h in neighbors.of(vertex) {
             let far = opposite_end(sheet, h, vertex);
-            let length = if free(h) { 0.0 } else { sheet.length(h) };
-            if key + length < distance[far as usize] {
-                distance[far as usize] = key + length;
+            let key = key + length(h);
+            if key < distance[far as usize] {
+                distance[far as usize] = key;
                 arrival[far as usize] = h;
-                queue.push(Entry {
-                    key: key + length,
-                    vertex: far,
-                });
+                queue.push(Entry { key, vertex: far });
             }
         }
     }
-    Distances { distance, arrival }
+    (Distances { distance, arrival }, None)
 }
 
 impl Distances {

@@ -74,7 +74,7 @@ fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut U
         &whole,
         &Neighbors::new(&whole),
         boundary.map(|(v, _)| v),
-        |_| false,
+        |h| whole.length(h),
     );
     let mut pairs = Vec::new();
     for edge in edges.iter().filter(|edge| edge.len() > 2) {

@@ -23,7 +23,9 @@ mod open;
 mod sheet;
 mod slit;
 
+pub use distances::{Neighbors, distances_until};
 pub use doubled::isolate_doubled_edges;
 pub use join::join_disks;
 pub use open::open_to_disk;
 pub use sheet::Sheet;
+pub use slit::Branches;

@@ -11,12 +11,21 @@ const FAR: f64 = 0.5;
 /// At most this many branches: each costs one pass over the sheet.
 const MOST_BRANCHES: usize = 12;
 
+/// Whether a slit gets branches to vertices far from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Branches {
+    /// None: whoever slits further decides.
+    None,
+    /// So many that no limb has to be squeezed through its root.
+    ToLimbs,
+}
+
 /// The edges of a slit that opens a closed sheet of genus 0 to a disk.
 ///
 /// The slit is a shortest path between two approximately farthest points (the far end of a sweep from the far end of a
-/// sweep), with shortest branches to whatever remains far from it. It is a tree of at least two edges.
-pub fn slit(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
-    let sweep = |source: u32| distances(sheet, neighbors, [source], |_| false);
+/// sweep), with shortest branches, if asked for, to whatever remains far from it. It is a tree of at least two edges.
+pub fn slit(sheet: &Sheet, neighbors: &Neighbors, branches: Branches) -> Vec<u32> {
+    let sweep = |source: u32| distances(sheet, neighbors, [source], |h| sheet.length(h));
     let (a, _) = sweep(0).farthest();
     let from_a = sweep(a);
     let (b, _) = from_a.farthest();
@@ -29,9 +38,15 @@ pub fn slit(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
         mark_ends(sheet, &edges, &mut on_slit);
     }
     let reach = FAR * area(sheet).sqrt();
-    for _ in 0..MOST_BRANCHES {
+    let most = match branches {
+        Branches::ToLimbs => MOST_BRANCHES,
+        Branches::None => 0,
+    };
+    for _ in 0..most {
         let sources = (0u32..).zip(&on_slit).filter(|(_, on)| **on);
-        let from_slit = distances(sheet, neighbors, sources.map(|(v, _)| v), |_| false);
+        let from_slit = distances(sheet, neighbors, sources.map(|(v, _)| v), |h| {
+            sheet.length(h)
+        });
         let (tip, far) = from_slit.farthest();
         if far <= reach {
             break;

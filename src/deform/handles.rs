@@ -3,10 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::body::{Body, BodyElements};
+use super::locate::{locate, sole_vertex};
 use super::numbers;
+use super::problem::with_points;
 use super::problem_error::ProblemError;
 use crate::energy::Row;
-use crate::numerics::square::{Matrix, Square, apply, transposed};
+use crate::numerics::square::{Matrix, Square};
 use crate::solver::Handles;
 
 /// One handle; positions have as many coordinates as the body.
@@ -36,7 +38,7 @@ pub enum Handle {
         #[serde(default)]
         turn: f64,
     },
-    /// A point inside an element at rest.
+    /// A point of an element at rest, a vertex if it is one.
     Point {
         /// The point.
         #[serde(deserialize_with = "numbers::position")]
@@ -101,11 +103,7 @@ where
         }
         let groups = self.body.groups(&self.vertices);
         let bound = super::problem::handles(D, &self.vertices, &self.targets, &groups)?;
-        Ok(Handles {
-            points: self.points,
-            point_targets: self.point_targets,
-            ..bound
-        })
+        with_points(bound, self.points, self.point_targets)
     }
 
     fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {
@@ -133,8 +131,14 @@ where
             Handle::Point { at, to } => {
                 let (at, to) = (position(index, at)?, position::<D>(index, to)?);
                 let outside = ProblemError::HandleOutside { handle: index };
-                self.points.push(self.row(at).ok_or(outside)?);
-                self.point_targets.extend(to);
+                let row = locate(self.body, at).ok_or(outside)?;
+                if let Some(vertex) = sole_vertex(&row) {
+                    self.vertices.push(vertex);
+                    self.targets.push(to.to_vec());
+                } else {
+                    self.points.push(row);
+                    self.point_targets.extend(to);
+                }
             }
         }
         Ok(())
@@ -174,33 +178,7 @@ where
         }
         Ok(())
     }
-
-    /// The element at rest that holds a point, as the point's barycentric coordinates; the first, where several do.
-    fn row(&self, at: [f64; D]) -> Option<Row> {
-        let place =
-            |v: u32| -> [f64; D] { std::array::from_fn(|k| self.body.rest[D * v as usize + k]) };
-        for element in self.body.corners() {
-            let origin = place(element[0]);
-            let edges: Matrix<D> = std::array::from_fn(|k| {
-                let corner = place(element[k + 1]);
-                std::array::from_fn(|c| corner[c] - origin[c])
-            });
-            let inverse = transposed(&edges.inverse(edges.det()));
-            let others = apply(&inverse, &std::array::from_fn(|k| at[k] - origin[k]));
-            let first = 1.0 - others.iter().sum::<f64>();
-            if first >= -ROUNDING && others.iter().all(|&w| w >= -ROUNDING) {
-                let weights = std::iter::once(first).chain(others);
-                let mut row: Row = element.iter().copied().zip(weights).collect();
-                row.sort_unstable_by_key(|&(v, _)| v);
-                return Some(row);
-            }
-        }
-        None
-    }
 }
-
-/// Points on an edge between two elements may lie outside both by this share of them.
-const ROUNDING: f64 = 1e-9;
 
 fn position<const D: usize>(handle: usize, numbers: &[f64]) -> Result<[f64; D], ProblemError> {
     let position: Option<[f64; D]> = numbers.try_into().ok();

@@ -11,6 +11,7 @@ pub mod cage;
 mod continuation;
 mod handles;
 mod idle;
+mod locate;
 mod model;
 mod numbers;
 #[cfg(feature = "files")]

@@ -1,5 +1,7 @@
 //! A body, handles and their targets, an energy and a barrier.
 
+use std::cmp::Ordering;
+
 use serde::{Deserialize, Serialize};
 
 use super::body::Body;
@@ -7,6 +9,7 @@ use super::handles::{Handle, bind};
 use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
 use crate::barrier::{Barrier, BarrierKind};
+use crate::energy::Row;
 use crate::solver::{Handles, LevenbergSettings};
 
 /// A problem with its mesh, checked.
@@ -175,5 +178,27 @@ pub(super) fn handles(
         targets: order.iter().flat_map(|&i| targets[i].clone()).collect(),
         groups: order.iter().map(|&i| groups[i]).collect(),
         ..Handles::default()
+    })
+}
+
+/// Handles with points inside elements besides; of one point all targets must be the same.
+pub(super) fn with_points(
+    handles: Handles,
+    points: Vec<Row>,
+    point_targets: Vec<f64>,
+) -> Result<Handles, ProblemError> {
+    let dim = point_targets.len() / points.len().max(1);
+    let target = |i: usize| &point_targets[dim * i..dim * (i + 1)];
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    // Weights are finite.
+    order.sort_by(|&i, &j| points[i].partial_cmp(&points[j]).unwrap_or(Ordering::Equal));
+    let contradict = |w: &[usize]| points[w[0]] == points[w[1]] && target(w[0]) != target(w[1]);
+    if order.windows(2).any(contradict) {
+        return Err(ProblemError::ContradictoryPoints);
+    }
+    Ok(Handles {
+        points,
+        point_targets,
+        ..handles
     })
 }

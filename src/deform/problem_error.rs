@@ -67,6 +67,9 @@ pub enum ProblemError {
         /// The vertex.
         vertex: u32,
     },
+    /// One point of an element is to be at two places.
+    #[error("a point has two handles with different targets")]
+    ContradictoryPoints,
     /// The start has an element at or below ε.
     #[error(
         "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}"
@@ -115,7 +118,9 @@ impl ProblemError {
             Self::VertexOfCage { .. } => "vertex_of_cage",
             Self::BadTarget { .. } => "bad_target",
             Self::Unpaired { .. } => "unpaired_handles",
-            Self::ContradictoryHandles { .. } => "contradictory_handles",
+            Self::ContradictoryHandles { .. } | Self::ContradictoryPoints => {
+                "contradictory_handles"
+            }
             Self::InfeasibleStart { .. } => "infeasible_start",
             Self::BadParameter { .. } => "bad_parameter",
             Self::PlanarEnergy => "planar_energy",

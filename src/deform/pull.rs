@@ -3,10 +3,12 @@
 use serde::Serialize;
 
 use super::body::{Body, BodyElements};
-use super::problem::{Model, Problem, handles};
+use super::locate::sole_vertex;
+use super::problem::{Model, Problem, handles, with_points};
 use super::problem_error::ProblemError;
 use crate::barrier::epsilon;
 use crate::certificate::{PlanarCertificate, certify_planar};
+use crate::energy::Row;
 use crate::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
 
 /// A vertex counts as arrived within this distance of its target, in units of the map, where a mean triangle has area 1; it
@@ -25,7 +27,7 @@ pub struct PullReport {
     pub factorizations: usize,
     /// The energy without the barrier, for a mean triangle of area 1.
     pub energy: f64,
-    /// The sum of the squared distances of the vertices from their targets, in the caller's unit.
+    /// The sum of the squared distances of what is pulled from its targets, in the caller's unit.
     pub residual: f64,
     /// The smallest area of a triangle over its area at rest.
     pub smallest: f64,
@@ -36,14 +38,59 @@ pub struct PullReport {
     pub certificate: PlanarCertificate,
 }
 
-/// Vertices of a planar body that stay, and vertices that are pulled.
+/// The least weight of vertices that may move in a point that is pulled itself: with less, they would have to move more than
+/// twice as far as the point.
+const LEAST_FREE: f64 = 0.5;
+
+/// Vertices of a planar body that stay, and vertices and points that are pulled; targets in the unit of the body.
 pub(super) struct Holds {
+    /// Ascending.
     pub fixed: Vec<u32>,
-    /// Vertices and their targets, in the unit of the body.
     pub pulled: Vec<(u32, [f64; 2])>,
+    pub points: Vec<(Row, [f64; 2])>,
+}
+
+/// What a handle at a point takes hold of.
+pub(super) enum Grip {
+    /// The vertices around the point stay.
+    Fixed,
+    /// A vertex: that which the point is, or near to vertices that stay another of its triangle.
+    Vertex(u32),
+    /// The point itself.
+    Point(Row),
 }
 
 impl Holds {
+    /// These vertices stay; nothing is pulled yet.
+    pub fn new(fixed: Vec<u32>) -> Self {
+        Self {
+            fixed,
+            pulled: Vec::new(),
+            points: Vec::new(),
+        }
+    }
+
+    pub fn is_fixed(&self, vertex: u32) -> bool {
+        self.fixed.binary_search(&vertex).is_ok()
+    }
+
+    /// What a handle at a point of an element takes hold of.
+    pub fn grip(&self, row: Row) -> Grip {
+        if let Some(vertex) = sole_vertex(&row) {
+            return if self.is_fixed(vertex) {
+                Grip::Fixed
+            } else {
+                Grip::Vertex(vertex)
+            };
+        }
+        let free = || row.iter().filter(|(vertex, _)| !self.is_fixed(*vertex));
+        if free().map(|(_, weight)| weight).sum::<f64>() >= LEAST_FREE {
+            return Grip::Point(row);
+        }
+        let heaviest = free().max_by(|a, b| a.1.total_cmp(&b.1));
+        heaviest.map_or(Grip::Fixed, |&(vertex, _)| Grip::Vertex(vertex))
+    }
+
     /// All of them. Those that stay are a group of their own, so that no neighbour's travel moves them on the way.
     fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
         let pulled: Vec<u32> = self.pulled.iter().map(|hold| hold.0).collect();
@@ -52,7 +99,10 @@ impl Holds {
         let stay = self.fixed.iter().map(|&v| start[v as usize]);
         let targets = stay.chain(self.pulled.iter().map(|hold| hold.1));
         let targets: Vec<Vec<f64>> = targets.map(Vec::from).collect();
-        handles(2, &[&self.fixed[..], &pulled].concat(), &targets, &groups)
+        let bound = handles(2, &[&self.fixed[..], &pulled].concat(), &targets, &groups)?;
+        let (points, point_targets): (Vec<Row>, Vec<[f64; 2]>) =
+            self.points.iter().cloned().unzip();
+        with_points(bound, points, point_targets.into_flattened())
     }
 }
 

@@ -42,7 +42,7 @@ impl ClosedDisk {
 }
 
 /// The loop that is longest in space becomes the outer one: it has to hold the rest.
-fn outer_loop(disk: &Disk, positions: &[[f64; 3]]) -> usize {
+pub(super) fn outer_loop(disk: &Disk, positions: &[[f64; 3]]) -> usize {
     let lengths = disk
         .loops
         .iter()

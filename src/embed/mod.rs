@@ -17,6 +17,7 @@ mod closed;
 mod decimate;
 mod hierarchy;
 mod parameterize;
+mod pins;
 mod problem;
 mod reinsert;
 mod rest;
@@ -27,5 +28,6 @@ mod triangulation;
 mod tutte;
 
 pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
+pub use pins::Pins;
 pub use rest::{RestShapes, rest_shapes};
 pub use start::{hierarchical_start, is_positive, start, tutte_start};

@@ -1,5 +1,7 @@
 //! From a disk in space to its optimized map.
 
+use super::closed::outer_loop;
+use super::pins::{Pins, distance, far_pair};
 use super::problem::Problem;
 use super::rest::rest_shapes;
 use super::start::{first_bad_triangle, hierarchical_start, start};
@@ -26,6 +28,8 @@ pub struct Options {
     pub beta: f64,
     /// s, the share of its rest area below which a triangle feels the barrier.
     pub s: f64,
+    /// What stays where the start has it.
+    pub pins: Pins,
     /// When to stop.
     pub solver: Settings,
 }
@@ -38,6 +42,7 @@ impl Default for Options {
             barrier: BarrierKind::default(),
             beta: 0.01,
             s: 1.0,
+            pins: Pins::None,
             solver: Settings::default(),
         }
     }
@@ -78,7 +83,13 @@ pub fn parameterize(
         rest: rest_shapes(positions, &disk.triangles),
         options,
     };
-    problem.minimized(first_map(&problem, positions), watch)
+    match options.pins {
+        Pins::None => problem.minimized(first_map(&problem, positions), &[], watch),
+        Pins::Two => {
+            let (start, pinned) = pinned_map(&problem, positions);
+            problem.minimized(start, &pinned, watch)
+        }
+    }
 }
 
 /// Tutte's map where that is near enough, else the one found coarse to fine; at its best size.
@@ -100,7 +111,26 @@ fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
         .unwrap_or(uv)
 }
 
-/// Minimizes from a given map, in any unit: it is scaled to the best size first.
+/// Tutte's map and its two pins, at the size at which they are as far apart as in the map found coarse to fine, which is nearly
+/// isometric; that map itself where Tutte's is too far from any optimum.
+fn pinned_map(problem: &Problem, positions: &[[f64; 3]]) -> (Vec<[f64; 2]>, [u32; 2]) {
+    let boundary = &problem.disk.loops[outer_loop(problem.disk, positions)];
+    let tutte = problem.at_rest_size(&start(problem.disk, positions));
+    let Some(near) = hierarchical_start(problem.disk, positions) else {
+        let pins = far_pair(boundary, &tutte);
+        return (tutte, pins);
+    };
+    let pins = far_pair(boundary, &near);
+    let uv = problem.scaled(&tutte, distance(&near, pins) / distance(&tutte, pins));
+    let energy = problem.mean_energy(&uv);
+    if energy <= FAR || problem.mean_energy(&near) >= energy {
+        (uv, pins)
+    } else {
+        (near, pins)
+    }
+}
+
+/// Minimizes from a given map, in any unit: it is scaled to the best size first. [`Options::pins`] are left out of account.
 ///
 /// # Errors
 /// If the start is not positive in every triangle; checked exactly.
@@ -122,5 +152,5 @@ pub fn optimize(
         rest: rest_shapes(positions, &disk.triangles),
         options,
     };
-    Ok(problem.minimized(problem.at_best_size(start), watch))
+    Ok(problem.minimized(problem.at_best_size(start), &[], watch))
 }

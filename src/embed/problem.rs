@@ -49,8 +49,6 @@ impl Problem<'_> {
     }
 
     /// The map at the size of lowest energy.
-    ///
-    /// Where rounding would empty a triangle, the nearest power of 2 scales it, which is exact.
     pub fn at_best_size(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
         // To a mean area of 1: the search then starts near its end, whatever unit the map was in.
         let area = total_area(&self.disk.triangles, uv).abs();
@@ -59,10 +57,21 @@ impl Problem<'_> {
         // The domain grows as ε falls; for the search there is none.
         let term = self.term_with(0.0);
         let best = best_scale(&|x| term.value(x), uv.as_flattened());
-        self.positive_or_power_of_two(&uv, best)
+        self.scaled(&uv, best)
     }
 
-    fn positive_or_power_of_two(&self, uv: &[[f64; 2]], factor: f64) -> Vec<[f64; 2]> {
+    /// The map at the size at which its area is that of the rest shapes.
+    pub fn at_rest_size(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        self.with_area(uv, self.rest.shapes.len() as f64)
+    }
+
+    fn with_area(&self, uv: &[[f64; 2]], wanted: f64) -> Vec<[f64; 2]> {
+        let area = total_area(&self.disk.triangles, uv).abs();
+        self.scaled(uv, (wanted / area.max(f64::MIN_POSITIVE)).sqrt())
+    }
+
+    /// The map times a factor, or times the power of 2 next to it where that would empty a triangle.
+    pub fn scaled(&self, uv: &[[f64; 2]], factor: f64) -> Vec<[f64; 2]> {
         let exact = scaled(uv, factor);
         if first_bad_triangle(&self.disk.triangles, &exact).is_none() {
             exact
@@ -76,9 +85,11 @@ impl Problem<'_> {
         self.term(uv).value(uv.as_flattened()) / self.rest.shapes.len() as f64
     }
 
-    /// The map that minimizing from this start leads to, in the mesh's unit.
-    pub fn minimized(&self, start: Vec<[f64; 2]>, watch: &dyn Watch) -> Embedding {
+    /// The map that minimizing from this start leads to, in the mesh's unit; until it is brought there, the pinned vertices
+    /// stay where they are.
+    pub fn minimized(&self, start: Vec<[f64; 2]>, pinned: &[u32], watch: &dyn Watch) -> Embedding {
         let mut objective = Objective::new(self.disk.n_vertices, self.term(&start));
+        objective.fix(pinned);
         let affordable = (STEP_BUDGET / self.rest.shapes.len()).max(LEAST_STEPS);
         let settings = Settings {
             max_iterations: self.options.solver.max_iterations.min(affordable),
@@ -105,8 +116,7 @@ impl Problem<'_> {
         } else {
             self.rest.area
         };
-        let area = total_area(&self.disk.triangles, uv).abs();
-        self.positive_or_power_of_two(uv, (wanted / area.max(f64::MIN_POSITIVE)).sqrt())
+        self.with_area(uv, wanted)
     }
 }
 

@@ -2,12 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::map::{MappedChart, map_charts};
+use super::map::mapped_charts;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Settings;
 use super::{PipelineError, repeated};
-use crate::atlas::{self, Atlas, AtlasOptions, ChartMap};
-use crate::charts::{self, Chart};
+use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Placed};
+use crate::barrier::BarrierKind;
+use crate::charts::MappedChart;
 use crate::mesh::{Defects, Surface};
 use crate::solver::Summary;
 
@@ -18,6 +19,10 @@ pub type GridCorners = [[i32; 2]; 3];
 /// meshes shall not take a hundred times as long, and the last per cent of fill is worth half a second.
 const SEARCH_WORDS: u64 = 2_000_000_000;
 const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 500_000_000];
+
+/// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
+/// another scale rounds it differently.
+const PACKINGS: usize = 4;
 
 /// An unwrapped mesh.
 #[derive(Clone, Debug)]
@@ -107,11 +112,7 @@ pub(super) fn unwrap_all(
     if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
         return Err(PipelineError::NoTriangles);
     }
-    let charts: Vec<Vec<Chart>> = surfaces
-        .par_iter()
-        .map(|surface| charts::charts(surface, settings.cut))
-        .collect();
-    let mapped = map_charts(charts, settings, tracker);
+    let mapped = mapped_charts(&surfaces, settings, tracker);
     tracker.stage(Stage::Pack);
     let options = AtlasOptions {
         resolution: settings.resolution,
@@ -119,39 +120,65 @@ pub(super) fn unwrap_all(
         search_words: (SEARCH_WORDS / meshes.len() as u64)
             .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
     };
+    let is_promised = settings.barrier != BarrierKind::None;
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
-        .map(|((mesh, surface), charts)| assemble(*mesh, surface, &charts, &options))
+        .map(|((mesh, surface), charts)| {
+            let (charts, atlas) = packed(charts, &options, is_promised)?;
+            Ok(assemble(*mesh, surface, &charts, &atlas))
+        })
         .collect()
 }
 
-/// Packs the charts of one mesh and hands every face of the input its corners.
-fn assemble(
-    mesh: Soup,
-    surface: &Surface,
-    charts: &[MappedChart],
+/// The charts of one mesh in an atlas. Where rounding to the grid made a chart overlap itself it is cut once more, and all are
+/// packed again.
+fn packed(
+    mut charts: Vec<MappedChart>,
     options: &AtlasOptions,
-) -> Result<Unwrapped, PipelineError> {
-    let chart_maps: Vec<ChartMap> = charts
-        .iter()
-        .map(|mapped| ChartMap {
-            uv: &mapped.embedding.uv,
-            triangles: &mapped.chart.disk.triangles,
-        })
-        .collect();
-    let atlas = atlas::pack(&chart_maps, options)?;
+    is_promised: bool,
+) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
+    let mut rounds = 0;
+    loop {
+        let chart_maps: Vec<ChartMap> = charts
+            .iter()
+            .map(|mapped| ChartMap {
+                uv: &mapped.embedding.uv,
+                triangles: &mapped.chart.disk.triangles,
+            })
+            .collect();
+        let atlas = atlas::pack(&chart_maps, options)?;
+        rounds += 1;
+        if !is_promised || rounds == PACKINGS {
+            return Ok((charts, atlas));
+        }
+        let n_before = charts.len();
+        let unfolded = |(chart, placed): (MappedChart, &Placed)| {
+            let rounded: Vec<[f64; 2]> = placed.grid.iter().map(|p| p.map(f64::from)).collect();
+            chart.unfolded(&rounded)
+        };
+        charts = (charts.into_par_iter().zip(&atlas.placed))
+            .flat_map_iter(unfolded)
+            .collect();
+        if charts.len() == n_before {
+            return Ok((charts, atlas));
+        }
+    }
+}
+
+/// Hands every face of the input its corners in the atlas.
+fn assemble(mesh: Soup, surface: &Surface, charts: &[MappedChart], atlas: &Atlas) -> Unwrapped {
     let records = charts.iter().map(|mapped| ChartRecord {
         faces: mapped.chart.disk.triangles.len(),
         summary: mapped.embedding.summary,
         seconds: mapped.seconds,
     });
-    Ok(Unwrapped {
-        grid: face_corners(mesh, surface, charts, &atlas),
+    Unwrapped {
+        grid: face_corners(mesh, surface, charts, atlas),
         charts: records.collect(),
         defects: surface.defects,
         scale: atlas.scale,
         padding_texels: atlas.padding_texels,
-    })
+    }
 }
 
 fn face_corners(

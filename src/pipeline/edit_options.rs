@@ -23,8 +23,8 @@ pub enum Editing {
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct EditOptions {
-    /// Vertices of the map and where they go, in the numbers of the file (glTF: v down). `at` means the nearest vertex, whose
-    /// target is shifted by the same offset. Also called `points`.
+    /// Vertices and points of the map and where they go, in the numbers of the file (glTF: v down). `at` means the point of the
+    /// surface that has this UV. Also called `points`.
     #[serde(alias = "points")]
     pub anchors: Vec<Anchor>,
     /// The UV set, read and written.

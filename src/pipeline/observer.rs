@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::charts;
 use crate::solver::{Control, Iterate, Watch};
 
 /// The stages of a job, in order.
@@ -141,18 +142,6 @@ impl<'a> Tracker<'a> {
         });
     }
 
-    /// One iteration of a chart of `faces` faces.
-    pub(super) fn iterate(&self, faces: usize, iterate: &Iterate) -> Control {
-        self.update(|state| {
-            state.progress.iteration = iterate.iteration;
-            state.progress.energy = iterate.energy;
-            state.progress.smallest = iterate.smallest;
-            // Most charts end within 15 iterations: 0.85^15 leaves a tenth.
-            let share = 1.0 - 0.85_f64.powi(iterate.iteration.min(1000) as i32);
-            state.mapped(faces as f64 * share)
-        })
-    }
-
     /// A chart of `faces` faces is mapped.
     pub(super) fn chart_done(&self, faces: usize) {
         self.update(|state| {
@@ -201,6 +190,28 @@ impl Watch for Tracker<'_> {
             let (begin, end) = (begins_at(Stage::Deform), begins_at(Stage::Write));
             begin + (end - begin) * share
         })
+    }
+}
+
+impl charts::Observer for Tracker<'_> {
+    /// One iteration of a chart of `faces` faces.
+    fn iterate(&self, faces: usize, iterate: &Iterate) -> Control {
+        self.update(|state| {
+            state.progress.iteration = iterate.iteration;
+            state.progress.energy = iterate.energy;
+            state.progress.smallest = iterate.smallest;
+            // Most charts end within 15 iterations: 0.85^15 leaves a tenth.
+            let share = 1.0 - 0.85_f64.powi(iterate.iteration.min(1000) as i32);
+            state.mapped(faces as f64 * share)
+        })
+    }
+
+    fn control(&self) -> Control {
+        self.update(|state| state.progress.fraction)
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.observer.elapsed()
     }
 }
 

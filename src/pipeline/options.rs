@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[cfg(feature = "files")]
 use super::{Limits, PipelineError};
 use crate::barrier::BarrierKind;
-use crate::charts::Cut;
+use crate::charts::{Cut, Quality};
 #[cfg(feature = "files")]
 use crate::document::{GroupBy, OutputFormat};
 use crate::energy::EnergyKind;
@@ -26,6 +26,10 @@ pub struct Settings {
     pub barrier_support: f64,
     /// Where to cut.
     pub cut: Cut,
+    /// Vertices of each chart's boundary that are held, far from each other: 0, or with [`Cut::Disk`] 2.
+    pub pin: u32,
+    /// How distorted the atlas may be with [`Cut::Auto`].
+    pub quality: Quality,
     /// Texels along the side of the texture that `padding` is counted in.
     pub resolution: u32,
     /// Least distance of two charts, in texels.
@@ -39,11 +43,13 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            energy: EnergyKind::Arap,
+            energy: EnergyKind::SymmetricDirichlet,
             barrier: BarrierKind::InverseSpline,
             barrier_strength: 0.01,
             barrier_support: 1.0,
             cut: Cut::Auto,
+            pin: 0,
+            quality: Quality::default(),
             resolution: 1024,
             padding: 2,
             threads: None,
@@ -73,6 +79,11 @@ impl Settings {
             0.0,
             f64::from(self.resolution / 8),
         )?;
+        match (self.pin, self.cut) {
+            (0, _) | (2, Cut::Disk) => {}
+            (2, Cut::Auto) => return Err("pin 2 goes with cut disk".to_owned()),
+            (pin, _) => return Err(format!("pin must be 0 or 2, not {pin}")),
+        }
         if let Some(threads) = self.threads {
             within("threads", threads as f64, 1.0, 1024.0)?;
         }
@@ -99,8 +110,14 @@ pub struct Options {
     /// Support s of the barrier, relative to an element's rest area.
     #[cfg_attr(feature = "service", schema(minimum = 1e-6, maximum = 1e6))]
     pub barrier_support: f64,
-    /// Where to cut: few charts, or one per component.
+    /// Where to cut: few charts under a bound on their distortion, more in less time, or one per component.
     pub cut: Cut,
+    /// Vertices of each chart's boundary that are held, far from each other: 0, or with `disk` 2, as least-squares conformal maps
+    /// need them.
+    #[cfg_attr(feature = "service", schema(maximum = 2))]
+    pub pin: u32,
+    /// The bound on the mean symmetric Dirichlet energy that `cut` `auto` keeps: 4.05, 4.1 or 4.5; 4 is an isometry.
+    pub quality: Quality,
     /// What shares one atlas.
     pub group_by: GroupBy,
     /// The UV set to write; chosen so that no texture breaks if absent.
@@ -142,6 +159,8 @@ impl Default for Options {
             barrier_strength: settings.barrier_strength,
             barrier_support: settings.barrier_support,
             cut: settings.cut,
+            pin: settings.pin,
+            quality: settings.quality,
             group_by: GroupBy::Mesh,
             texcoord: None,
             overwrite: false,
@@ -167,6 +186,8 @@ impl Options {
             barrier_strength: self.barrier_strength,
             barrier_support: self.barrier_support,
             cut: self.cut,
+            pin: self.pin,
+            quality: self.quality,
             resolution: self.resolution,
             padding: self.padding,
             threads: self.limits.threads(self.threads),

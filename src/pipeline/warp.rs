@@ -18,13 +18,13 @@ use crate::picture::Image;
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct WarpOptions {
-    /// Places of the picture and where they go, in pixels, y down. Each takes hold of the nearest vertex of the grid, whose target
-    /// is shifted by the same offset.
+    /// Places of the picture and where they go, in pixels, y down. Each takes hold of its own point; next to
+    /// a fixed border of the nearest inner vertex of the grid, whose target is shifted by the same offset.
     pub handles: Vec<PictureHandle>,
     /// Cells of the grid along the longer side.
     #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 512))]
     pub grid: usize,
-    /// Hold the border, so that the map is bijective; handles then take hold of inner vertices.
+    /// Hold the border, so that the map is bijective; handles next to it take hold of inner vertices.
     pub fix_border: bool,
     /// What the deformation costs, for a mean triangle of an area from ½ to 2.
     #[serde(flatten)]

@@ -34,6 +34,13 @@ const PATIENCE: usize = 20;
 /// How far the rest settles before handles that are stuck try again: see [`Settings::tolerance`].
 const SETTLED: f64 = 1e-6;
 
+/// By how much hardening must bring points nearer to their targets: it pulls 10⁶ times as strongly at the end, so points that can
+/// arrive come nearer by about as much.
+const HARDENED: f64 = 1e-3;
+
+/// What rounding leaves of the distance of points from their targets, as a share of their coordinates.
+const ROUNDING: f64 = 1e-12;
+
 /// The strength of soft constraints beside the energy's mean curvature, while they travel and, rising tenfold, at the end.
 const SOFT: f64 = 1e3;
 const HARD: f64 = 1e9;
@@ -221,7 +228,7 @@ where
         })
     }
 
-    /// Makes the points meet their targets.
+    /// Makes the points meet their targets; says so if they do not.
     fn harden(
         &mut self,
         objective: &mut Objective,
@@ -229,6 +236,7 @@ where
         settings: &Settings,
         watch: &dyn Watch,
     ) {
+        let before = self.points.farthest(objective, x);
         let mut strength = SOFT;
         while !self.points.is_empty() && strength < HARD {
             strength *= 10.0;
@@ -237,6 +245,10 @@ where
             if self.settle(objective, x, settings, watch) == Control::Finish {
                 return;
             }
+        }
+        let rounding = ROUNDING * x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if self.points.farthest(objective, x) > (HARDENED * before).max(rounding) {
+            self.summary.status = Status::TargetsUnreachable;
         }
     }
 

@@ -32,6 +32,19 @@ impl Points {
         self.ways.is_empty()
     }
 
+    /// The largest distance, in one coordinate, of a point from its target.
+    pub fn farthest(&self, objective: &Objective, x: &[f64]) -> f64 {
+        let Some(constraints) = objective.constraints() else {
+            return 0.0;
+        };
+        let targets = self.origins.iter().zip(&self.ways).map(|(o, way)| o + way);
+        let distances = constraints
+            .places(x)
+            .zip(targets)
+            .map(|(x, t)| (x - t).abs());
+        distances.fold(0.0, f64::max)
+    }
+
     /// How far the targets move between two shares of the way.
     pub fn moves(&self, from: f64, to: f64) -> Vec<f64> {
         self.ways.iter().map(|way| (to - from) * way).collect()

@@ -9,43 +9,13 @@ exits with 1 if a barrier let an element invert or a problem that the authors' c
 """
 import argparse
 import json
-import math
-import os
 import statistics
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-
-def solve(program, problem, method, folder):
-    """Our report, positions and processor seconds of the whole process for one problem; exit status 0 or a failure."""
-    positions, report = folder / "x.txt", folder / "r.json"
-    command = [program, "solve", problem, "-o", positions, "--report", report, "--method", method]
-    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    error = child.stderr.read()
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode not in (0, 4):
-        raise RuntimeError(error.strip())
-    return json.loads(report.read_text()), positions, usage.ru_utime + usage.ru_stime
-
-
-def mean_edge(problem):
-    """Mean edge length of the rest mesh's elements, over every pair of neighbouring corners."""
-    path = problem.parent / json.loads(problem.read_text())["mesh"]
-    rows = [line.split() for line in path.read_text().splitlines() if line.strip()]
-    if path.suffix == ".obj":
-        x = [[float(w) for w in row[1:4]] for row in rows if row[0] == "v"]
-        elements = [[int(w.split("/")[0]) - 1 for w in row[1:4]] for row in rows if row[0] == "f"]
-    else:
-        is_off = path.suffix == ".off"
-        n, m = (int(w) for w in rows[1 if is_off else 0][:2])
-        begin = 2 if is_off else 1
-        x = [[float(w) for w in row[:3]] for row in rows[begin:begin + n]]
-        elements = [[int(w) for w in row][1 if is_off else 0:] for row in rows[begin + n:begin + n + m]]
-    lengths = [math.dist(x[e[i]], x[e[i - 1]]) for e in elements for i in range(len(e))]
-    return statistics.fmean(lengths)
+from paper.problems import mean_edge, solve
 
 
 def judged(case, ours, report, tolerance):
@@ -80,7 +50,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for case in cases:
             problem = arguments.reference / case["problem"]
-            report, positions, seconds = solve(arguments.unwrapd, problem, arguments.method, Path(folder))
+            report, positions, seconds = solve(arguments.unwrapd, problem, Path(folder), "--method", arguments.method)
             checked = subprocess.run([sys.executable, arguments.checker, problem, positions], capture_output=True, text=True)
             ours = json.loads(checked.stdout)
             faults, energy, excess = judged(case, ours, report, 1e-8 * mean_edge(problem) ** 2)

@@ -3,8 +3,8 @@
 use crate::cut::few_vertices;
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
-use unwrapd::charts::{Chart, Cut, charts, halves};
-use unwrapd::mesh::{Disk, Surface};
+use unwrapd::charts::{Chart, Cut, charts, halves, min_cut};
+use unwrapd::mesh::{CUT, Disk, Surface};
 use unwrapd::numerics::vec3::{area_vector, dot, norm};
 
 fn surface(mesh: &Mesh) -> Surface {
@@ -77,7 +77,7 @@ fn the_zoo_is_divided() {
     for mesh in zoo::zoo() {
         println!("{}", mesh.name);
         let surface = surface(&mesh);
-        let n_auto = checked(&surface, Cut::Auto).len();
+        let n_auto = checked(&surface, Cut::Fast).len();
         let n_disk = checked(&surface, Cut::Disk).len();
         // Pages of a book share no edge but the one.
         if !mesh.name.ends_with("on an edge") {
@@ -105,7 +105,7 @@ fn charts_of_a_closed_surface_are_nearly_flat() {
         zoo::sphere(48, 31).with(&zoo::sphere(48, 31).reversed()),
     ] {
         let surface = surface(&mesh);
-        for chart in checked(&surface, Cut::Auto) {
+        for chart in checked(&surface, Cut::Fast) {
             let normals: Vec<[f64; 3]> = chart
                 .disk
                 .triangles
@@ -127,17 +127,17 @@ fn charts_of_a_closed_surface_are_nearly_flat() {
 
 #[test]
 fn a_cube_is_few_charts_and_a_sphere_some() {
-    let cube = checked(&surface(&zoo::voxels(&[[0, 0, 0]])), Cut::Auto);
+    let cube = checked(&surface(&zoo::voxels(&[[0, 0, 0]])), Cut::Fast);
     assert!((2..=6).contains(&cube.len()), "{}", cube.len());
-    let sphere = checked(&surface(&zoo::sphere(48, 31)), Cut::Auto);
+    let sphere = checked(&surface(&zoo::sphere(48, 31)), Cut::Fast);
     assert!((2..=10).contains(&sphere.len()), "{}", sphere.len());
-    assert_eq!(checked(&surface(&zoo::grid(20, 20)), Cut::Auto).len(), 1);
+    assert_eq!(checked(&surface(&zoo::grid(20, 20)), Cut::Fast).len(), 1);
 }
 
 #[test]
 fn charts_are_the_same_every_time() {
     let surface = surface(&zoo::torus(60, 30).with(&zoo::slab(3)));
-    for cut in [Cut::Auto, Cut::Disk] {
+    for cut in [Cut::Fast, Cut::Disk] {
         let one = rayon::ThreadPoolBuilder::new()
             .num_threads(1)
             .build()
@@ -154,7 +154,7 @@ fn charts_do_not_depend_on_the_unit_of_length() {
         for p in &mut scaled.positions {
             *p = p.map(|x| x * factor);
         }
-        for cut in [Cut::Auto, Cut::Disk] {
+        for cut in [Cut::Fast, Cut::Disk] {
             let corners = |mesh: &Mesh| -> Vec<_> {
                 charts(&surface(mesh), cut)
                     .into_iter()
@@ -176,7 +176,7 @@ fn shuffled_faces_make_as_many_disks() {
         }
         let n_disks = |mesh| checked(&surface(mesh), Cut::Disk).len();
         assert_eq!(n_disks(&mesh), n_disks(&shuffled), "{}", mesh.name);
-        checked(&surface(&shuffled), Cut::Auto);
+        checked(&surface(&shuffled), Cut::Fast);
     }
 }
 
@@ -199,7 +199,7 @@ fn shared_meshes_are_one_disk_per_component() {
             let disks = checked(&surface, Cut::Disk);
             println!("{}: {} disks", mesh.name, disks.len());
             assert!(disks.len() <= surface.defects.components, "{}", mesh.name);
-            checked(&surface, Cut::Auto);
+            checked(&surface, Cut::Fast);
         }
     }
 }
@@ -209,6 +209,60 @@ proptest! {
     fn any_triangles_are_divided(mesh in few_vertices()) {
         let surface = surface(&mesh);
         checked(&surface, Cut::Disk);
-        checked(&surface, Cut::Auto);
+        checked(&surface, Cut::Fast);
     }
+}
+
+/// A strip of squares, each two faces: face `2 i` and `2 i + 1` share the diagonal of square `i`.
+fn strip(n_squares: u32) -> Vec<u32> {
+    let mut twin = vec![CUT; 6 * n_squares as usize];
+    let mut glue = |a: u32, b: u32| {
+        twin[a as usize] = b;
+        twin[b as usize] = a;
+    };
+    for i in 0..n_squares {
+        glue(6 * i, 6 * i + 3);
+        if i + 1 < n_squares {
+            glue(6 * i + 4, 6 * (i + 1) + 1);
+        }
+    }
+    twin
+}
+
+#[test]
+fn a_minimum_cut_takes_the_cheapest_edges() {
+    let twin = strip(4);
+    // Every edge costs 5 but the one between the second square and the third.
+    let mut capacity = vec![5_u64; twin.len()];
+    for h in [10, 13] {
+        capacity[h] = 2;
+    }
+    let side = min_cut(&twin, &capacity, &[0], &[7]);
+    assert_eq!(side, [true, true, true, true, false, false, false, false]);
+    // Cut off on both sides, and nearest to the source where all edges cost the same.
+    let side = min_cut(&twin, &vec![3; twin.len()], &[4], &[0, 7]);
+    assert_eq!(side.iter().filter(|&&inside| inside).count(), 1);
+    // Nothing to cut: there is no way.
+    let mut apart = strip(4);
+    apart[10] = CUT;
+    apart[13] = CUT;
+    let side = min_cut(&apart, &capacity, &[0], &[7]);
+    assert_eq!(side.iter().filter(|&&inside| inside).count(), 4);
+}
+
+#[test]
+fn two_ways_are_cut_at_once() {
+    // A ring of squares: two ways from the first face to the one opposite.
+    let n = 6_u32;
+    let mut twin = strip(n);
+    let (last, first) = (6 * (n - 1) + 4, 1);
+    twin[last as usize] = first;
+    twin[first as usize] = last;
+    let mut capacity = vec![7_u64; twin.len()];
+    for h in [10, 13, 22, 25] {
+        capacity[h] = 1;
+    }
+    let side = min_cut(&twin, &capacity, &[4], &[11]);
+    let inside: Vec<usize> = (0..side.len()).filter(|&f| side[f]).collect();
+    assert_eq!(inside, [4, 5, 6, 7]);
 }

@@ -2,7 +2,7 @@
 
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
-use unwrapd::cut::{Sheet, open_to_disk};
+use unwrapd::cut::{Branches, Sheet, open_to_disk};
 use unwrapd::mesh::{CUT, Disk, Surface};
 
 /// Random triangles on so few vertices that edges have many faces and vertices many fans.
@@ -36,7 +36,7 @@ fn opened(mesh: &Mesh) -> (f64, usize) {
     let [sheet] = &sheets(mesh)[..] else {
         panic!("{} is not one sheet", mesh.name);
     };
-    let seams = open_to_disk(sheet);
+    let seams = open_to_disk(sheet, Branches::ToLimbs);
     let length = seams.iter().map(|&h| sheet.length(h)).sum();
     let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
     let mut twin = sheet.twin.clone();
@@ -93,7 +93,7 @@ proptest! {
     #[test]
     fn seams_are_glued_edges(mesh in few_vertices()) {
         for sheet in sheets(&mesh) {
-            for h in open_to_disk(&sheet) {
+            for h in open_to_disk(&sheet, Branches::ToLimbs) {
                 prop_assert!(sheet.twin[h as usize] != CUT);
             }
         }

@@ -14,8 +14,8 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("barrier", &["energy"], &[]),
     ("solver", &["energy", "barrier"], &[]),
     ("embed", &["solver"], &["rayon"]),
-    ("charts", &["cut"], &["rayon"]),
     ("certificate", &["mesh"], &["rayon"]),
+    ("charts", &["cut", "embed", "certificate"], &["rayon"]),
     ("atlas", &["embed", "certificate"], &["rayon"]),
     ("measure", &["certificate"], &["rayon"]),
     (

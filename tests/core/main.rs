@@ -32,11 +32,14 @@ mod outline;
 mod picture;
 #[cfg(feature = "files")]
 mod picture_warp;
+mod pins;
 mod pipeline;
 #[cfg(feature = "files")]
 mod problem_files;
+mod random;
 mod solver;
 mod taylor;
+mod texture_mapping;
 mod uv_editing;
 mod uv_meshes;
 #[cfg(feature = "files")]

@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use unwrapd::certificate::{Overlap, certify, chart_ids};
-use unwrapd::charts::Cut;
+use unwrapd::charts::{Cut, Quality};
 use unwrapd::energy::EnergyKind;
+use unwrapd::measure::{MeasureOptions, VAxis, measure};
 use unwrapd::pipeline::{Observer, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap};
 use unwrapd::solver::Control;
 
@@ -36,8 +37,8 @@ fn assert_certified(mesh: &Mesh, unwrapped: &Unwrapped) {
         "{}",
         mesh.name
     );
-    let certificate = certify(&positions, &mesh.triangles, &uvs, Overlap::Skip);
-    assert!(certificate.is_valid(), "{}: {certificate:?}", mesh.name);
+    let certificate = certify(&positions, &mesh.triangles, &uvs, Overlap::Test);
+    assert!(certificate.is_bijective(), "{}: {certificate:?}", mesh.name);
     // Of each chart the larger part, in the plane, is seen from the front; [front less back, both].
     let mut areas = vec![[0.0; 2]; uvs.len()];
     for (chart, [a, b, c]) in chart_ids(&positions, &mesh.triangles, &uvs)
@@ -56,7 +57,7 @@ fn assert_certified(mesh: &Mesh, unwrapped: &Unwrapped) {
 #[test]
 fn the_zoo_is_certified_in_both_modes() {
     for mesh in zoo::zoo().iter().filter(|mesh| has_a_triangle(mesh)) {
-        for cut in [Cut::Auto, Cut::Disk] {
+        for cut in [Cut::Auto, Cut::Fast, Cut::Disk] {
             let unwrapped = unwrap(
                 &mesh.positions,
                 &mesh.triangles,
@@ -199,4 +200,32 @@ fn repeated_faces_lie_on_an_edge_of_a_neighbour() {
     assert_eq!(a, b);
     assert!(corners(0).contains(&a) && corners(1).contains(&c));
     assert!(corners(2).contains(&unwrapped.grid[mesh.triangles.len() - 1][0]));
+}
+
+#[test]
+fn an_atlas_keeps_its_bound_with_few_charts() {
+    let mesh = zoo::sphere(32, 24).with(&zoo::torus(32, 16).moved([4.0, 0.0, 0.0]));
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+    let mut seams = Vec::new();
+    for quality in [Quality::Few, Quality::Balanced, Quality::Smooth] {
+        let settings = Settings {
+            quality,
+            ..Settings::default()
+        };
+        let unwrapped = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved)
+            .expect("a sphere and a torus are a mesh");
+        assert_certified(&mesh, &unwrapped);
+        let measures = measure(
+            &positions,
+            &mesh.triangles,
+            &unwrapped.corner_uvs(),
+            VAxis::Up,
+            &MeasureOptions::default(),
+        );
+        let mean = measures.distortion.sym_dirichlet_mean.expect("faces");
+        assert!(mean <= quality.bound(), "{quality:?}: {mean}");
+        assert!(measures.seams.charts <= 12, "{quality:?}");
+        seams.push(measures.seams.seam_length);
+    }
+    assert!(seams[0] < seams[2], "{seams:?}");
 }

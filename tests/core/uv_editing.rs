@@ -1,11 +1,10 @@
 //! UVs pulled by anchors: no flip, untouched charts bit by bit, bijective where boundaries stay.
 
 use unwrapd::certificate::{CornerUvs, Overlap, certify};
-#[cfg(feature = "files")]
 use unwrapd::deform::Boundary;
-use unwrapd::deform::uv::{
-    Anchor, EditedUvs, UvEditOptions, UvMesh, UvRest, edit_uvs, parse_anchors,
-};
+#[cfg(feature = "files")]
+use unwrapd::deform::uv::parse_anchors;
+use unwrapd::deform::uv::{Anchor, EditedUvs, UvEditOptions, UvMesh, edit_uvs};
 use unwrapd::solver::{Control, Iterate, Status};
 
 const SIDE: u32 = 8;
@@ -166,23 +165,40 @@ fn fixed_boundaries_stay_and_the_map_is_bijective() {
 }
 
 #[test]
-fn an_anchor_by_its_uv_keeps_its_offset() {
+fn an_anchor_by_its_uv_holds_that_very_point() {
+    let sheets = Sheets::new();
+    let (at, to) = ([0.262, 0.53], [0.29, 0.51]);
+    for options in [UvEditOptions::texture(), UvEditOptions::edit()] {
+        let edited = sheets.edit(&[Anchor::Place { at, to }], &options);
+        sheets.assert_valid(&edited);
+        let report = &edited.charts[0].report;
+        assert_eq!(report.status, Status::Converged);
+        // Of the face that held the point, the point with the same weights.
+        let weights = |[a, b, c]: CornerUvs| {
+            let area = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            };
+            [area(at, b, c), area(a, at, c), area(a, b, at)].map(|w| w / area(a, b, c))
+        };
+        let holds = |face: &usize| weights(sheets.uvs[*face]).iter().all(|&w| w > 0.0);
+        let face = (0..sheets.uvs.len()).find(holds).expect("a face");
+        let (w, uv) = (weights(sheets.uvs[face]), edited.uvs[face]);
+        let there: [f64; 2] = [0, 1].map(|k| (0..3).map(|c| w[c] * uv[c][k]).sum());
+        assert!((0..2).all(|k| (there[k] - to[k]).abs() < 1e-8), "{there:?}");
+        assert!(report.residual < 1e-16);
+    }
+}
+
+#[test]
+fn an_anchor_outside_every_chart_moves_the_nearest_vertex() {
     let sheets = Sheets::new();
     let anchor = Anchor::Place {
-        at: [0.251, 0.502],
-        to: [0.281, 0.522],
+        at: [0.02, 0.05],
+        to: [0.03, 0.07],
     };
-    let options = UvEditOptions {
-        rest: UvRest::Present,
-        ..UvEditOptions::texture()
-    };
-    let edited = sheets.edit(&[anchor], &options);
-    let middle = SIDE / 2 * (SIDE + 1) + SIDE / 2;
-    let uv = sheets.uv(&edited, middle);
-    assert!(
-        (uv[0] - 0.28).abs() < 1e-7 && (uv[1] - 0.52).abs() < 1e-7,
-        "{uv:?}"
-    );
+    let edited = sheets.edit(&[anchor], &UvEditOptions::edit());
+    let uv = sheets.uv(&edited, 0);
+    assert!((uv[0] - 0.06).abs() < 1e-7 && (uv[1] - 0.12).abs() < 1e-7);
 }
 
 #[test]

@@ -301,7 +301,7 @@ fn a_picture_is_warped_and_proven() {
     assert_status(&run, 0);
     assert_eq!(report["bijective"], true);
     assert_eq!(report["status"], "converged");
-    assert_eq!(report["residual"], 0.0);
+    assert!(report["residual"].as_f64().is_some_and(|r| r < 1e-9));
     let bytes = std::fs::read(path("out.png")).expect("a picture");
     assert!(bytes.starts_with(b"\x89PNG"));
 

@@ -2,9 +2,9 @@
 
 use super::flatten::{PathError, polygons};
 use super::nesting::Windings;
-use super::simple::meeting_point;
 use super::style::{Rule, Style};
 use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, doubled_area, shape};
+use crate::certificate::meeting_point;
 use kurbo::BezPath;
 use roxmltree::{Document, Node, ParsingOptions};
 

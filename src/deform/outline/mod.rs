@@ -10,12 +10,12 @@ mod flatten;
 mod frame;
 mod nesting;
 mod shape;
-mod simple;
 mod simplify;
 mod style;
 mod transform;
 mod triangulate;
 
+use crate::certificate::meeting_point;
 pub use contour::{ImageSettings, of_image};
 pub use drawing::{SvgSettings, of_svg};
 pub use error::OutlineError;
@@ -55,7 +55,7 @@ impl Outline {
         if n_vertices > MOST_VERTICES || loops.len() > MOST_LOOPS {
             return Err(OutlineError::TooDetailed);
         }
-        if let Some(at) = simple::meeting_point(&loops) {
+        if let Some(at) = meeting_point(&loops) {
             return Err(OutlineError::SelfIntersecting { at });
         }
         nesting::orient(&mut loops);

@@ -6,8 +6,9 @@ use super::chart::UvVertices;
 use super::{EditError, UvMesh};
 use crate::certificate::UvTopology;
 use crate::deform::numbers;
+use crate::numerics::predicates::orient2d_sign;
 
-/// Anchors at most: each is compared with every vertex.
+/// Anchors at most: each is compared with every face.
 pub(super) const MOST_ANCHORS: usize = 1000;
 /// UVs at most; no texture repeats that often.
 const FARTHEST: f64 = 1e6;
@@ -25,7 +26,8 @@ pub enum Anchor {
         #[serde(deserialize_with = "numbers::planar")]
         to: [f64; 2],
     },
-    /// The vertex nearest to a UV; its target is shifted by its offset from there.
+    /// The point of the surface that has a UV, a vertex if it is one. Where no face has the UV, and next to a boundary that stays,
+    /// the nearest vertex, whose target is shifted by the same offset.
     Place {
         /// A UV.
         #[serde(deserialize_with = "numbers::planar")]
@@ -50,15 +52,24 @@ pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
     Ok(file.anchors)
 }
 
-/// An anchor with its vertex of the UV map.
+/// An anchor with what it holds of the UV map.
 pub(super) struct Held {
     /// Which anchor.
     pub anchor: usize,
-    pub vertex: u32,
+    pub spot: Spot,
     pub to: [f64; 2],
 }
 
-/// The vertices that anchors hold, each once.
+/// What an anchor holds.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Spot {
+    /// A vertex of the UV map.
+    Vertex(u32),
+    /// A UV in a chart.
+    Place { chart: u32, at: [f64; 2] },
+}
+
+/// What anchors hold, each spot once.
 pub(super) fn hold(
     mesh: &UvMesh,
     topology: &UvTopology,
@@ -77,21 +88,18 @@ pub(super) fn hold(
         if !at.iter().chain(&to).all(|x| x.abs() <= FARTHEST) {
             return Err(EditError::BadTarget(anchor));
         }
-        let held_one = match *which {
+        let (spot, to) = match *which {
             Anchor::Vertex { vertex, to } => {
                 let vertex = only_vertex(mesh, topology, vertices, (anchor, vertex))?;
-                Held { anchor, vertex, to }
+                (Spot::Vertex(vertex), to)
             }
             Anchor::Place { at, to } => {
-                let nearest = nearest_vertex(topology, vertices, at);
-                let (vertex, uv) = nearest.ok_or(EditError::UnknownHandle(anchor))?;
-                let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
-                Held { anchor, vertex, to }
+                place(topology, vertices, at, to).ok_or(EditError::UnknownHandle(anchor))?
             }
         };
-        match held.iter().find(|other| other.vertex == held_one.vertex) {
-            None => held.push(held_one),
-            Some(same) if same.to == held_one.to => {}
+        match held.iter().find(|other| other.spot == spot) {
+            None => held.push(Held { anchor, spot, to }),
+            Some(same) if same.to == to => {}
             Some(other) => return Err(EditError::Contradictory(other.anchor, anchor)),
         }
     }
@@ -116,6 +124,21 @@ fn only_vertex(
     Ok(first)
 }
 
+/// What is pulled at a UV, and where to: the point itself, or the nearest vertex where no face has the UV.
+fn place(
+    topology: &UvTopology,
+    vertices: &UvVertices,
+    at: [f64; 2],
+    to: [f64; 2],
+) -> Option<(Spot, [f64; 2])> {
+    if let Some(chart) = chart_at(topology, at) {
+        return Some((Spot::Place { chart, at }, to));
+    }
+    let (vertex, uv) = nearest_vertex(topology, vertices, at)?;
+    let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
+    Some((Spot::Vertex(vertex), to))
+}
+
 /// The vertex nearest to a UV and its own UV; the first of equally near ones.
 fn nearest_vertex(
     topology: &UvTopology,
@@ -127,4 +150,18 @@ fn nearest_vertex(
         .map(|v| (v, vertices.uv(topology, v)));
     let distance = |uv: [f64; 2]| (uv[0] - at[0]).hypot(uv[1] - at[1]);
     usable.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
+}
+
+/// The chart of the first face that has a UV.
+fn chart_at(topology: &UvTopology, at: [f64; 2]) -> Option<u32> {
+    let holds = |face: &usize| {
+        let [a, b, c] = topology.uvs[*face];
+        let orientation = topology.orientation[*face];
+        let is_on_side = |(p, q)| orient2d_sign(p, q, at) * orientation >= 0;
+        !topology.unusable[*face]
+            && orientation != 0
+            && [(a, b), (b, c), (c, a)].into_iter().all(is_on_side)
+    };
+    let face = (0..topology.faces.len()).find(holds)?;
+    Some(topology.charts.of_face[face])
 }

@@ -22,8 +22,8 @@ pub enum EditError {
     /// An anchor's vertex has several UVs.
     #[error("anchor {0} names a vertex on a seam; name it by its UV")]
     AmbiguousVertex(usize),
-    /// Two anchors pull one vertex to two places.
-    #[error("anchors {0} and {1} pull the same vertex to different places")]
+    /// Two anchors pull one vertex or point to two places.
+    #[error("anchors {0} and {1} pull one place of the map to different places")]
     Contradictory(usize, usize),
     /// An anchor pulls at a boundary that stays.
     #[error("anchor {0} pulls at a vertex of a boundary, which is fixed")]

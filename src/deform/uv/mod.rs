@@ -13,13 +13,14 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use self::anchors::{Held, hold};
+use self::anchors::{Held, Spot, hold};
 use self::chart::{UvChart, UvVertices};
 use crate::certificate::{CornerUvs, UvTopology};
 use crate::deform::body::{Body, BodyElements};
 use crate::deform::boundary::Boundary;
+use crate::deform::locate::locate;
 use crate::deform::problem::Model;
-use crate::deform::pull::{Holds, PullReport, pull};
+use crate::deform::pull::{Grip, Holds, PullReport, pull};
 use crate::embed::rest_shapes;
 use crate::mesh::PlanarMesh;
 use crate::solver::Watch;
@@ -114,7 +115,10 @@ pub fn edit_uvs(
     let vertices = UvVertices::new(&topology);
     let mut held: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
     for anchor in hold(mesh, &topology, &vertices, anchors)? {
-        let chart = vertices.chart(&topology, anchor.vertex);
+        let chart = match anchor.spot {
+            Spot::Vertex(vertex) => vertices.chart(&topology, vertex),
+            Spot::Place { chart, .. } => chart,
+        };
         held.entry(chart).or_default().push(anchor);
     }
     let is_judged = |face: usize| !topology.unusable[face] && !topology.repeats_position(face);
@@ -152,26 +156,13 @@ fn edit_chart(
     watch: &dyn Watch,
 ) -> Result<(Vec<[f64; 2]>, PullReport), EditError> {
     let planar = PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
-    let fixed = options.boundary.held(&planar);
-    let mut pulled = Vec::with_capacity(held.len());
-    for Held { anchor, vertex, to } in held {
-        // The vertex of a face left out of its chart is not there.
-        let local = chart.vertices.binary_search(vertex);
-        let local = local.map_err(|_| EditError::UnknownHandle(*anchor))?;
-        if fixed.binary_search(&(local as u32)).is_ok() {
-            if chart.uvs[local] != *to {
-                return Err(EditError::OnBoundary(*anchor));
-            }
-        } else {
-            pulled.push((local as u32, *to));
-        }
-    }
     let (body, start, unit) = body(chart, options.rest);
-    let targets = pulled.iter().map(|&(v, to)| (v, to.map(|x| x / unit)));
-    let holds = Holds {
-        fixed,
-        pulled: targets.collect(),
-    };
+    let mut holds = Holds::new(options.boundary.held(&planar));
+    // The targets of vertices as the caller has them.
+    let mut targets = Vec::with_capacity(held.len());
+    for anchor in held {
+        targets.extend(take_hold(&mut holds, chart, (&body, unit), anchor)?);
+    }
     let result = pull(body, &start, &holds, (&options.model, unit), watch)?;
     // What did not move, and what arrived, is not rounded.
     let uv = |v: usize| {
@@ -182,12 +173,48 @@ fn edit_chart(
         }
     };
     let mut uvs: Vec<[f64; 2]> = (0..start.len()).map(uv).collect();
-    for (&(v, to), (_, target)) in pulled.iter().zip(&holds.pulled) {
-        if result.vertices[v as usize] == *target {
-            uvs[v as usize] = to;
+    for (to, &(v, target)) in targets.iter().zip(&holds.pulled) {
+        if result.vertices[v as usize] == target {
+            uvs[v as usize] = *to;
         }
     }
     Ok((uvs, result.report))
+}
+
+/// Adds an anchor; the target of the vertex that it pulls, if it pulls one.
+fn take_hold(
+    holds: &mut Holds,
+    chart: &UvChart,
+    (body, unit): (&Body, f64),
+    &Held { anchor, spot, to }: &Held,
+) -> Result<Option<[f64; 2]>, EditError> {
+    let unknown = EditError::UnknownHandle(anchor);
+    let (at, grip) = match spot {
+        Spot::Vertex(vertex) => {
+            // The vertex of a face left out of its chart is not there.
+            let local = chart.vertices.binary_search(&vertex);
+            let local = local.map_err(|_| unknown)?;
+            (chart.uvs[local], holds.grip(vec![(local as u32, 1.0)]))
+        }
+        Spot::Place { at, .. } => {
+            let row = locate(body, at.map(|x| x / unit)).ok_or(unknown)?;
+            (at, holds.grip(row))
+        }
+    };
+    match grip {
+        Grip::Fixed if at == to => Ok(None),
+        Grip::Fixed => Err(EditError::OnBoundary(anchor)),
+        Grip::Vertex(vertex) => {
+            let place = chart.uvs[vertex as usize];
+            let to = [0, 1].map(|k| to[k] + (place[k] - at[k]));
+            holds.pulled.push((vertex, to.map(|x| x / unit)));
+            Ok(Some(to))
+        }
+        Grip::Point(row) => {
+            holds.points.push((row, to.map(|x| x / unit)));
+            Ok(None)
+        }
+    }
 }
 
 /// The chart as a body of mean rest area 1, its present UVs in that unit, and the unit.

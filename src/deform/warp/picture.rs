@@ -5,15 +5,16 @@ use serde::{Deserialize, Serialize};
 use super::{GridError, picture_grid};
 use crate::deform::body::Body;
 use crate::deform::boundary::Boundary;
+use crate::deform::locate::locate;
 use crate::deform::numbers;
 use crate::deform::problem::Model;
 use crate::deform::problem_error::ProblemError;
-use crate::deform::pull::{Holds, PullReport, pull};
+use crate::deform::pull::{Grip, Holds, PullReport, pull};
 use crate::mesh::PlanarMesh;
 use crate::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
 use crate::solver::Watch;
 
-/// Handles at most: each is compared with every vertex of the grid.
+/// Handles at most: each is looked for in every triangle of the grid.
 const MOST_HANDLES: usize = 1000;
 /// Coordinates of targets at most, in pixels.
 const FARTHEST: f64 = 1e9;
@@ -125,8 +126,9 @@ pub struct PictureWarp {
 
 /// Warps a picture: a grid over it is deformed without inverting a triangle, the handles going to their targets.
 ///
-/// A handle takes hold of the nearest vertex of the grid (inside a fixed border: the nearest inner one), whose target is the
-/// handle's shifted by the same offset. Handles that share a vertex must agree. Targets that cannot be reached end in
+/// A handle takes hold of its own point. Only next to a fixed border, where most of a point's weight stays, it takes the nearest
+/// vertex that does not, whose target is the handle's shifted by the same offset. Handles at one place must agree. Targets that
+/// cannot be reached end in
 /// [`Status::TargetsUnreachable`](crate::solver::Status::TargetsUnreachable) with a map that is valid all the same.
 pub fn warp_picture(
     image: &Image,
@@ -160,18 +162,26 @@ fn warp_grid(
     options: &WarpOptions,
     watch: &dyn Watch,
 ) -> Result<(Vec<[f64; 2]>, PullReport), WarpError> {
-    let bound = bind(grid, handles, options.boundary)?;
+    if !(1..=MOST_HANDLES).contains(&handles.len()) {
+        return Err(WarpError::HandleCount(handles.len()));
+    }
+    let size = grid.vertices().last().copied().unwrap_or_default();
     // A power of two, so that nothing is rounded on the way there and back.
     let unit = mean_area(grid).sqrt().log2().round().exp2();
     let to_unit = |p: [f64; 2]| p.map(|x| x / unit);
     let scaled: Vec<[f64; 2]> = grid.vertices().iter().map(|&p| to_unit(p)).collect();
     let body = Body::planar(&scaled, grid.triangles());
-    let holds = Holds {
-        fixed: bound.fixed,
-        pulled: (bound.pulled.iter())
-            .map(|&(v, to)| (v, to_unit(to)))
-            .collect(),
-    };
+    let mut holds = Holds::new(options.boundary.held(grid));
+    for (index, handle) in handles.iter().enumerate() {
+        let is_inside = (0..2).all(|k| (0.0..=size[k]).contains(&handle.at[k]));
+        if !is_inside {
+            return Err(WarpError::HandleOutside(index));
+        }
+        if !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
+            return Err(WarpError::BadTarget(index));
+        }
+        take_hold(&mut holds, &body, to_unit(handle.at), to_unit(handle.to))?;
+    }
     let pulled = pull(body, &scaled, &holds, (&options.model, unit), watch)?;
     let deformed = pulled.vertices.iter().map(|p| p.map(|x| x * unit));
     Ok((deformed.collect(), pulled.report))
@@ -182,49 +192,30 @@ fn mean_area(grid: &PlanarMesh) -> f64 {
     size / grid.triangles().len() as f64
 }
 
-/// The vertices of the grid that handles take hold of, and those of a fixed border; in pixels.
-fn bind(
-    grid: &PlanarMesh,
-    handles: &[PictureHandle],
-    boundary: Boundary,
-) -> Result<Holds, WarpError> {
-    if !(1..=MOST_HANDLES).contains(&handles.len()) {
-        return Err(WarpError::HandleCount(handles.len()));
-    }
-    let fixed = boundary.held(grid);
-    let mut is_free = vec![true; grid.vertices().len()];
-    for &v in &fixed {
-        is_free[v as usize] = false;
-    }
-    let size = grid.vertices().last().copied().unwrap_or_default();
-    let bind = |(index, handle): (usize, &PictureHandle)| {
-        let is_inside = (0..2).all(|k| (0.0..=size[k]).contains(&handle.at[k]));
-        if !is_inside {
-            return Err(WarpError::HandleOutside(index));
+/// Adds a handle.
+fn take_hold(holds: &mut Holds, body: &Body, at: [f64; 2], to: [f64; 2]) -> Result<(), WarpError> {
+    let vertices: &[[f64; 2]] = body.rest.as_chunks().0;
+    let nearest = || nearest(vertices, |v| !holds.is_fixed(v), at).ok_or(WarpError::NothingInside);
+    let vertex = match locate(body, at).map_or(Grip::Fixed, |row| holds.grip(row)) {
+        Grip::Point(row) => {
+            holds.points.push((row, to));
+            return Ok(());
         }
-        if !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
-            return Err(WarpError::BadTarget(index));
-        }
-        let vertex = nearest(grid.vertices(), &is_free, handle.at);
-        let vertex = vertex.ok_or(WarpError::NothingInside)?;
-        let place = grid.vertices()[vertex as usize];
-        let target = [0, 1].map(|k| handle.to[k] + (place[k] - handle.at[k]));
-        Ok((vertex, target))
+        Grip::Vertex(vertex) => vertex,
+        Grip::Fixed => nearest()?,
     };
-    let pulled = handles.iter().enumerate().map(bind);
-    Ok(Holds {
-        pulled: pulled.collect::<Result<_, _>>()?,
-        fixed,
-    })
+    let place = vertices[vertex as usize];
+    let target = [0, 1].map(|k| to[k] + (place[k] - at[k]));
+    holds.pulled.push((vertex, target));
+    Ok(())
 }
 
 /// The vertex nearest to a point among those that are free; the first of equally near ones.
-fn nearest(vertices: &[[f64; 2]], is_free: &[bool], point: [f64; 2]) -> Option<u32> {
-    let distance = |v: usize| {
-        let [dx, dy] = [0, 1].map(|k| vertices[v][k] - point[k]);
+fn nearest(vertices: &[[f64; 2]], is_free: impl Fn(u32) -> bool, point: [f64; 2]) -> Option<u32> {
+    let distance = |v: u32| {
+        let [dx, dy] = [0, 1].map(|k| vertices[v as usize][k] - point[k]);
         dx * dx + dy * dy
     };
-    let free = (0..vertices.len()).filter(|&v| is_free[v]);
+    let free = (0..vertices.len() as u32).filter(|&v| is_free(v));
     free.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-        .map(|v| v as u32)
 }

@@ -64,7 +64,7 @@ def run(figure, folder, places):
 def draw(figure, folder):
     """The figure's panels side by side, in `figure.png`."""
     rows = -(-len(figure.panels) // figure.columns)
-    canvas, axes = plt.subplots(rows, figure.columns, figsize=(3.6 * figure.columns, 3.7 * rows), squeeze=False, layout="constrained")
+    canvas, axes = plt.subplots(rows, figure.columns, figsize=(3.6 * max(figure.columns, 2), (3.7 if figure.columns > 1 else 1.3) * rows), squeeze=False, layout="constrained")
     for axis in axes.flat[len(figure.panels):]:
         axis.axis("off")
     for axis, (title, panel) in zip(axes.flat, figure.panels.items()):

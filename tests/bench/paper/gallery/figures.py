@@ -7,7 +7,7 @@ import json
 from dataclasses import dataclass, field
 
 import inputs
-from panels import layout, picture, planar, section, surface, traces
+from panels import bar, layout, picture, planar, section, surface, traces
 
 CHOSEN = "What the paper's figure shows is not known to us. "
 
@@ -108,7 +108,7 @@ FIGURES = [
     ),
     Figure(
         5, "Against an interior-point method",
-        "The Neo-Hookean barrier as a constraint's barrier: the same square by both iterations. tests/bench/interior_point.py prints the figures of Ipopt on such problems; the paper has 4 iterations and less than a second against 1512 and 948 s of KNITRO.",
+        "The Neo-Hookean barrier as a constraint's barrier: the same square by both iterations. tests/bench/paper/interior_point.py prints the figures of Ipopt on such problems; the paper has 4 iterations and less than a second against 1512 and 948 s of KNITRO.",
         [Command("solve p.json --method levenberg -o levenberg.obj --trace levenberg.csv"), Command("solve p.json -o projected.obj --trace projected.csv")],
         {"": traces({"Levenberg": "levenberg.csv", "projected": "projected.csv"}), "Levenberg": planar("levenberg.obj"), "projected": planar("projected.obj")},
         {"p.json": problem("grid608_dirichlet_spline", barrier="neohookean")},
@@ -121,7 +121,7 @@ FIGURES = [
         10, "Every iterate is a map without inversion",
         CHOSEN + "Three of the iterates on the way of the squeeze, from --frames.",
         [solve("woody-hi_disc_squeeze_arap_spline", "end.obj", "--frames frames")],
-        {"first": planar("frames/000001.obj"), "a little later": planar("frames/000004.obj"), "last": planar("end.obj")},
+        {"after 4 steps": planar("frames/00004.obj"), "after 20": planar("frames/00020.obj"), "at the end": planar("end.obj")},
     ),
     Figure(
         11, "Nested surfaces in one cage",
@@ -143,16 +143,17 @@ FIGURES = [
         "A bunny of 19379 tetrahedra (the paper has a dinosaur of 13052): the ears pulled down to the side, the base held.",
         [Command("deform {data}/tet/bunny_19k.msh --energy green --barrier none --handles pull.json -o none.tet", (0, 4)),
          Command("deform {data}/tet/bunny_19k.msh --energy green --handles pull.json -o spline.tet")],
-        {"without barrier": surface("none.tet", (20, 12), ["spline.tet"]), "with the inverse spline": surface("spline.tet", (20, 12)), "from the side": surface("spline.tet", (110, 12))},
+        {"without barrier": surface("none.tet", (110, 12), ["spline.tet"]), "with the inverse spline": surface("spline.tet", (110, 12), ["none.tet"]), "from the side": surface("spline.tet", (20, 12))},
         {"pull.json": inputs.bunny_ears()},
     ),
     Figure(
         14, "Squashed in a cage, ARAP",
-        "A bunny in a cage, pressed from above to 35 % of its height (the paper has a tomato in 13500 tetrahedra).",
-        [Command("deform {data}/closed/bunny_closed.obj --cage 14 --handles still.json -o rest.obj"),
-         Command("deform {data}/closed/bunny_closed.obj --cage 14 --handles press.json -o pressed.obj")],
-        {"at rest": surface("rest.obj", (20, 10)), "pressed": surface("pressed.obj", (20, 10), ["rest.obj"]), "from the side": surface("pressed.obj", (110, 10), ["rest.obj"])},
-        {"still.json": handles({"at": [0, 0, 0], "to": [0, 0, 0]}), "press.json": inputs.press_bunny()},
+        "A round fruit made for this figure, in a cage, its top pressed down through its middle (the paper has a tomato in 13500 tetrahedra).",
+        [Command("deform fruit.obj --cage 10 --handles still.json -o rest.obj"),
+         Command("deform fruit.obj --cage 10 --handles press.json -o pressed.obj")],
+        {"at rest": surface("rest.obj", (20, 25), ["pressed.obj"]), "pressed": surface("pressed.obj", (20, 25), ["rest.obj"]),
+         "section": section("pressed.obj", BALLS)},
+        {"fruit.obj": inputs.fruit, "still.json": handles({"at": [0, -0.7, 0], "to": [0, -0.7, 0]}), "press.json": inputs.press_fruit()},
     ),
     Figure(
         15, "Parameterization, ARAP, two vertices fixed",
@@ -163,28 +164,28 @@ FIGURES = [
     ),
     Figure(
         16, "Parameterization, LSCM, two vertices fixed, and its editing",
-        "The least-squares conformal map of a camel flips triangles without a barrier. Anchors then pull parts of the map apart.",
+        "The least-squares conformal map of a camel flips triangles without a barrier. With it the map has no flip, but a leg lies over another; one anchor pulls that leg away, two hold the body, and the map is bijective.",
         [Command("unwrap {reference}/meshes/camel_b_u.off --cut disk --pin 2 --energy lscm --barrier none -o none.obj", (0, 4)),
          Command("unwrap {reference}/meshes/camel_b_u.off --cut disk --pin 2 --energy lscm -o spline.obj"),
          Command("edit-uv spline.obj --anchors a.json -o edited.obj")],
-        {"LSCM alone": layout("none.obj"), "with the inverse spline": layout("spline.obj"), "edited": layout("edited.obj")},
-        {"a.json": {"anchors": [{"at": [0.5, 0.5], "to": [0.5, 0.5]}]}},
+        {"LSCM alone": layout("none.obj"), "with the inverse spline: one leg over another": layout("spline.obj", inputs.CAMEL), "edited: no overlap": layout("edited.obj")},
+        {"a.json": {"anchors": [{"at": a, "to": b} for a, b in inputs.CAMEL]}},
     ),
     Figure(
         17, "Constrained texture mapping",
-        "Eyes, nose and mouth of a face (51712 triangles; the paper has 46384) aligned with a drawing, the boundary fixed.",
+        "Sixteen points at the eyes, nose and mouth of a face (51712 triangles; the paper has 46384) aligned with a drawing, the boundary fixed.",
         [Command("unwrap {data}/disk/face.obj --cut disk -o face.obj"),
          Command("texture-map face.obj --points p.json -o aligned.obj")],
-        {"before": surface("face.obj", (0, 0), texture="face.png"), "aligned": surface("aligned.obj", (0, 0), texture="face.png"), "texture": picture("face.png")},
-        {"face.png": inputs.drawn_face, "p.json": {"points": [{"at": [0.5, 0.5], "to": [0.5, 0.5]}]}},
+        {"texture": picture("face.png"), "before": surface("face.obj", (0, 0), texture="face.png"), "aligned": surface("aligned.obj", (0, 0), texture="face.png")},
+        {"face.png": inputs.drawn_face, "p.json": inputs.face_points()},
     ),
     Figure(
         18, "Bounded distortion",
-        "A disk whose inner part is turned and whose rim is pulled. Colour is the conformal distortion σ₁/σ₂ from 1 (dark) to 5 (bright); the second map bounds it.",
+        "A disk whose middle is turned by 80 degrees, its rim held at eight places. Colour is the conformal distortion σ₁/σ₂ from 1 (dark) to 5 (bright); the second map bounds it.",
         [Command("deform disk.svg --triangles 3000 --handles still.json -o rest.obj"),
          Command("deform disk.svg --triangles 3000 --handles turn.json -o arap.obj"),
-         Command("deform disk.svg --triangles 3000 --handles turn.json --max-conformal 4 -o bounded.obj")],
-        {"at rest": planar("rest.obj"), "ARAP, inverse spline": planar("arap.obj", rest="rest.obj", conformal=True), "σ₁/σ₂ below 4": planar("bounded.obj", rest="rest.obj", conformal=True)},
+         Command("deform disk.svg --triangles 3000 --handles turn.json --max-conformal 3 -o bounded.obj")],
+        {"at rest": planar("rest.obj"), "ARAP, inverse spline": planar("arap.obj", rest="rest.obj", conformal=True), "σ₁/σ₂ below 3": planar("bounded.obj", rest="rest.obj", conformal=True)},
         {"disk.svg": inputs.DISK, "still.json": handles(disc([100, 100], 10, [100, 100])), "turn.json": inputs.turned_disk()},
     ),
     Figure(
@@ -196,14 +197,14 @@ FIGURES = [
     ),
     Figure(
         20, "A bar twisted seven times",
-        "48 layers, Green's strain, β = 0.01, in steps of 15 degrees.",
+        "48 layers, Green's strain, β = 0.01, in steps of 15 degrees. The turns a result holds are the sum of the best-fit rotations between its layers; those that slip through are gone.",
         [solve("bar_t_twist7_green_none_b0.01", "none.tet"), solve("bar_t_twist7_green_spline_b0.01", "spline.tet", "--report report.json")],
-        {"without barrier": surface("none.tet", (0, 25)), "with the inverse spline": surface("spline.tet", (0, 25))},
-        columns=2,
+        {"without barrier": bar("none.tet", "rest.tet"), "with the inverse spline": bar("spline.tet", "rest.tet")},
+        {"rest.tet": lambda p: (p["reference"] / "meshes/bar_t.tet").read_text()}, columns=1,
     ),
     Figure(
         21, "Left and right change places",
-        CHOSEN + "The discs at hands and feet swap sides in one jump: the way is blocked, and the program says how far it came, or arrives; no triangle inverts either way.",
+        CHOSEN + "The discs at hands and feet swap sides in one jump. The authors' code does not get there; a handle that could not would end in the nearest valid map and say so.",
         [solve("woody-hi_disc_swapLR_arap_none", "none.obj"), solve("woody-hi_disc_swapLR_arap_spline", "spline.obj")],
         {"at rest": planar("rest.off"), "ARAP alone": planar("none.obj"), "with the inverse spline": planar("spline.obj")},
         {"rest.off": lambda p: (p["reference"] / "meshes/woody-hi.off").read_text()},

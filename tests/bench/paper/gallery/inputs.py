@@ -4,6 +4,9 @@ import io
 import matplotlib.image
 import numpy as np
 
+# Anchors of the camel's map and where they go.
+CAMEL = [([0.95, 0.06], [0.62, -0.12]), ([0.55, 0.6], [0.55, 0.6]), ([0.9, 0.6], [0.9, 0.6])]
+
 DISK = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 200"><circle cx="100" cy="100" r="90"/></svg>'
 
 
@@ -77,27 +80,52 @@ def bunny_ears():
     return {"handles": [held([-0.3, -0.2, 0.0], 0.6), *ears]}
 
 
-def press_bunny():
-    return {"handles": [held([-0.04, -0.75, 0.13], 0.3), moved([-0.02, 0.74, -0.18], 0.2, [-0.02, -0.2, -0.1])]}
+def fruit(_):
+    vertices, triangles = ball(1.0, 40, 60)
+    bump = lambda x, z: 1 + 0.05 * np.cos(5 * np.arctan2(z, x))
+    lines = [f"v {x * bump(x, z):.9f} {0.8 * y:.9f} {z * bump(x, z):.9f}" for x, y, z in vertices]
+    return "\n".join(lines + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles]) + "\n"
+
+
+def press_fruit():
+    return {"handles": [held([0, -0.75, 0], 0.3), moved([0, 0.75, 0], 0.3, [0, -0.4, 0])]}
+
+
+# Where the drawing of a face lies in UV space: its middle, its right and up, which the chart of the face has turned by 45 degrees.
+MIDDLE, RIGHT, UP = np.array([0.385, 0.385]), 0.22 * np.array([1, -1]) / np.sqrt(2), 0.22 * np.array([1, 1]) / np.sqrt(2)
 
 
 def drawn_face(_):
-    """Eyes, a nose and a mouth on skin, symmetric."""
-    y, x = np.mgrid[0:512, 0:512] / 512
-    rgb = np.ones((512, 512, 3)) * (0.93, 0.78, 0.66)
+    """Eyes, a nose and a mouth on skin with a grid, v up."""
+    v, u = 1 - np.mgrid[0:768, 0:768] / 768
+    uv = np.stack([1 - u, v], axis=-1) - MIDDLE
+    x, y = (uv @ axis / (axis @ axis) for axis in (RIGHT, UP))
+    rgb = np.ones((768, 768, 3)) * (0.93, 0.78, 0.66)
+    rgb[(((x + 10) * 4) % 1 < 0.05) | (((y + 10) * 4) % 1 < 0.05)] *= 0.8
     spot = lambda cx, cy, rx, ry: ((x - cx) / rx) ** 2 + ((y - cy) / ry) ** 2 < 1
-    for cx in (0.36, 0.64):
-        rgb[spot(cx, 0.40, 0.085, 0.045)] = (1, 1, 1)
-        rgb[spot(cx, 0.40, 0.04, 0.042)] = (0.15, 0.35, 0.6)
-        rgb[spot(cx, 0.31, 0.10, 0.012)] = (0.3, 0.18, 0.1)
-    rgb[spot(0.5, 0.54, 0.035, 0.05)] = (0.85, 0.55, 0.5)
-    rgb[spot(0.5, 0.70, 0.12, 0.035)] = (0.75, 0.2, 0.25)
-    grid = ((x * 16) % 1 < 0.04) | ((y * 16) % 1 < 0.04)
-    rgb[grid] *= 0.8
-    return png(rgb)
+    for cx in (-0.5, 0.5):
+        rgb[spot(cx, 0.25, 0.2, 0.1)] = (1, 1, 1)
+        rgb[spot(cx, 0.25, 0.09, 0.095)] = (0.15, 0.35, 0.6)
+        rgb[spot(cx, 0.45, 0.24, 0.03)] = (0.3, 0.18, 0.1)
+    rgb[spot(0, 0.0, 0.09, 0.13)] = (0.85, 0.55, 0.5)
+    rgb[spot(0, -0.4, 0.3, 0.08)] = (0.75, 0.2, 0.25)
+    return png(np.clip(rgb, 0, 1))
+
+
+# Vertices of the face, corners and lids of the eyes, brows, nose, corners and lips of the mouth, and where the drawing has them.
+FEATURES = {
+    1809: (-0.66, 0.25), 13910: (-0.34, 0.25), 10039: (-0.5, 0.33), 2047: (-0.5, 0.17), 22644: (-0.5, 0.45),
+    1808: (0.66, 0.25), 13908: (0.34, 0.25), 6794: (0.5, 0.33), 2046: (0.5, 0.17), 19969: (0.5, 0.45),
+    2874: (0, 0), 326: (0, 0.11), 7389: (-0.27, -0.4), 10631: (0.27, -0.4), 2357: (0, -0.33), 724: (0, -0.47),
+}
+
+
+def face_points():
+    to = lambda x, y: list(map(float, MIDDLE + x * RIGHT + y * UP))
+    return {"points": [{"vertex": v, "to": to(*at)} for v, at in FEATURES.items()]}
 
 
 def turned_disk():
     rim = [(100 + 85 * np.cos(a), 100 + 85 * np.sin(a)) for a in np.radians(range(0, 360, 45))]
     handles = [held([float(x), float(y)], 6) for x, y in rim]
-    return {"handles": [*handles, moved([100, 100], 20, [100, 100], turn=150.0)]}
+    return {"handles": [*handles, moved([100, 100], 20, [100, 100], turn=80.0)]}

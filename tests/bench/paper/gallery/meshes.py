@@ -75,3 +75,11 @@ def singular_values(rest, deformed):
     s = np.linalg.svd(j, compute_uv=False)
     s[:, 1] *= np.sign(np.linalg.det(j))
     return s
+
+
+def turns(rest, deformed):
+    """Turns about x of a bar along x: the sum of the rotations that fit each layer best to the next, in (-180, 180] degrees."""
+    layers = [np.flatnonzero(np.isclose(rest[:, 0], x)) for x in np.unique(np.round(rest[:, 0], 9))]
+    around = [deformed[layer][:, 1:] - deformed[layer][:, 1:].mean(0) for layer in layers]
+    angles = [np.arctan2((p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum(), (p * q).sum()) for p, q in zip(around, around[1:])]
+    return np.sum(angles) / (2 * np.pi)

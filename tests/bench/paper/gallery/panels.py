@@ -64,6 +64,19 @@ def surface(name, view=(30, 15), frame=(), texture=None, color=raster.CLAY, wire
     return draw
 
 
+def bar(name, rest):
+    """A twisted bar along x, and how many turns it holds."""
+    def draw(axis, folder):
+        mesh, before = meshes.read(folder / name), meshes.read(folder / rest)
+        picture = raster.render(mesh, (0, 25), size=1000, wire=0.35)
+        rows = np.flatnonzero((picture < 1).any((1, 2)))
+        axis.imshow(picture[rows[0] - 4:rows[-1] + 5])
+        axis.axis("off")
+        remark = f"{(mesh.volumes() <= 0).sum()} inverted, {abs(meshes.turns(before.positions, mesh.positions)):.2f} turns"
+        return remark
+    return draw
+
+
 def section(name, box, axis_of_cut=2, at=0.0):
     """Where the two halves of a file's triangles, in two colours, meet a plane square to an axis."""
     def draw(axis, folder):
@@ -130,6 +143,7 @@ def traces(named, columns=("energy", "residual")):
                     axis.plot(*zip(*points), style, color=color, label=f"{label}: {column}")
         axis.set_yscale("log")
         axis.set_xscale("symlog", linthresh=10)
+        axis.set_xlim(left=0)
         axis.set_xlabel("iteration")
         axis.grid(alpha=0.3)
         axis.legend(fontsize=7)

@@ -1,13 +1,13 @@
 //! Whether polygons meet themselves or each other, exactly.
 
-use crate::certificate::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
+use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use crate::numerics::predicates::orient2d_sign;
 use crate::numerics::vec2::{dot, sub};
 
 type Segment = [[f64; 2]; 2];
 
 /// A vertex near which closed polygons cross or touch themselves or each other.
-pub(super) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
+pub(crate) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
     let (mut segments, mut next) = (Vec::new(), Vec::new());
     for vertices in loops {
         let (first, n) = (segments.len() as u32, vertices.len());

@@ -1,0 +1,128 @@
+//! Where a map of a chart overlaps itself, and which seam ends that.
+
+use super::min_cut::min_cut;
+use crate::certificate::{OrientedFaces, meeting_point};
+use crate::mesh::{CUT, Disk, next};
+use crate::numerics::vec2::doubled_area;
+use crate::numerics::vec3::distance;
+
+/// Pairs of triangles whose images overlap, decided exactly; `uv` has no flip.
+///
+/// Most charts cost a test of their boundary only: a map without flips is injective if the images of the boundary loops are
+/// simple and apart and all but one of them turn clockwise. (Then they turn as often as the disk's Euler number says, so no
+/// interior vertex is wound around twice, and how often a point is covered, the sum of their windings, is 0 or 1.)
+pub fn overlaps(disk: &Disk, uv: &[[f64; 2]]) -> Vec<[u32; 2]> {
+    let image = |boundary: &Vec<u32>| boundary.iter().map(|&v| uv[v as usize]).collect();
+    let loops: Vec<Vec<[f64; 2]>> = disk.loops.iter().map(image).collect();
+    let outer = loops
+        .iter()
+        .filter(|l| doubled_polygon_area(l) > 0.0)
+        .count();
+    let mut pairs = Vec::new();
+    if outer != 1 || meeting_point(&loops).is_some() {
+        let corners: Vec<_> = (disk.triangles.iter())
+            .map(|t| t.map(|v| uv[v as usize]))
+            .collect();
+        OrientedFaces::of(&corners, &vec![1; corners.len()]).overlaps(|pair| {
+            pairs.push(pair.faces);
+        });
+    }
+    pairs
+}
+
+/// Twice the signed area of a closed polygon.
+fn doubled_polygon_area(polygon: &[[f64; 2]]) -> f64 {
+    let after = polygon.iter().cycle().skip(1);
+    let edges = polygon.iter().zip(after);
+    edges.map(|(&p, &q)| doubled_area(polygon[0], p, q)).sum()
+}
+
+/// Faces on one side of the seam that parts a fold, given the gluing of a chart, the lengths of its halfedges and the pairs of its
+/// faces that overlap.
+///
+/// A connected set of faces is grown, from the one with most partners, as long as it overlaps nothing of its own; the cheapest
+/// seam between it and all its partners is a minimum cut of the dual graph.
+pub fn one_side(twin: &[u32], length: &[f64], pairs: &[[u32; 2]]) -> Vec<bool> {
+    let partners = Partners::new(twin.len() / 3, pairs);
+    let (sources, sinks) = partners.sheet_and_its_partners(twin);
+    min_cut(twin, &capacities(twin, length), &sources, &sinks)
+}
+
+/// Lengths as integers: the longest is 2²⁰, none is 0.
+fn capacities(twin: &[u32], length: &[f64]) -> Vec<u64> {
+    let longest = length.iter().fold(f64::MIN_POSITIVE, |l, &x| l.max(x));
+    let unit = f64::from(1 << 20) / longest;
+    (0..)
+        .zip(twin)
+        .map(|(h, &t): (usize, _)| match t {
+            CUT => 0,
+            t => 1 + (length[h.min(t as usize)] * unit) as u64,
+        })
+        .collect()
+}
+
+/// The length of each halfedge.
+pub fn lengths(disk: &Disk, positions: &[[f64; 3]]) -> Vec<f64> {
+    let vertex = |h: u32| positions[disk.triangles[h as usize / 3][h as usize % 3] as usize];
+    (0..3 * disk.triangles.len() as u32)
+        .map(|h| distance(vertex(h), vertex(next(h))))
+        .collect()
+}
+
+/// For each face those it overlaps.
+struct Partners {
+    starts: Vec<u32>,
+    faces: Vec<u32>,
+}
+
+impl Partners {
+    fn new(n_faces: usize, pairs: &[[u32; 2]]) -> Self {
+        let mut starts = vec![0; n_faces + 1];
+        for &face in pairs.as_flattened() {
+            starts[face as usize + 1] += 1;
+        }
+        for face in 0..n_faces {
+            starts[face + 1] += starts[face];
+        }
+        let mut cursor = starts.clone();
+        let mut faces = vec![0; 2 * pairs.len()];
+        for &[a, b] in pairs {
+            for (face, partner) in [(a, b), (b, a)] {
+                faces[cursor[face as usize] as usize] = partner;
+                cursor[face as usize] += 1;
+            }
+        }
+        Self { starts, faces }
+    }
+
+    fn of(&self, face: u32) -> &[u32] {
+        let face = face as usize;
+        &self.faces[self.starts[face] as usize..self.starts[face + 1] as usize]
+    }
+
+    /// A connected set of faces of which no two overlap, and all that they overlap.
+    fn sheet_and_its_partners(&self, twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
+        let n_faces = self.starts.len() as u32 - 1;
+        let first = (0..n_faces).rev().max_by_key(|&f| self.of(f).len());
+        let (mut sheet, mut partners) = (Vec::new(), Vec::new());
+        let mut is_decided = vec![false; n_faces as usize];
+        let mut queue = Vec::from_iter(first);
+        let mut done = 0;
+        while let Some(&face) = queue.get(done) {
+            done += 1;
+            if std::mem::replace(&mut is_decided[face as usize], true) {
+                continue;
+            }
+            sheet.push(face);
+            for &partner in self.of(face) {
+                if !std::mem::replace(&mut is_decided[partner as usize], true) {
+                    partners.push(partner);
+                }
+            }
+            let across = (3 * face..3 * face + 3).map(|h| twin[h as usize]);
+            let neighbors = across.filter(|&t| t != CUT).map(|t| t / 3);
+            queue.extend(neighbors.filter(|&f| !self.of(f).is_empty()));
+        }
+        (sheet, partners)
+    }
+}

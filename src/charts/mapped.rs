@@ -1,0 +1,192 @@
+//! Charts with their maps.
+
+use super::fold::{lengths, one_side, overlaps};
+use super::part::{parted, parts, twins};
+use super::{Chart, halves};
+use crate::barrier::BarrierKind;
+use crate::embed::{self, Embedding};
+use crate::numerics::vec2::doubled_area;
+use crate::solver::{Control, Iterate, Watch};
+use std::time::Duration;
+
+/// A chart, its map and the seconds of the observer's clock it took.
+#[derive(Clone, Debug)]
+pub struct MappedChart {
+    /// The chart.
+    pub chart: Chart,
+    /// Its map: without flips, and with a barrier also without overlaps.
+    pub embedding: Embedding,
+    /// From the chart's start to its end.
+    pub seconds: f64,
+}
+
+/// Sees charts being mapped, tells the time, and may end the work early.
+pub trait Observer: Sync {
+    /// An iterate of a chart of so many faces.
+    fn iterate(&self, faces: usize, iterate: &Iterate) -> Control;
+    /// Whether to go on, asked between maps.
+    fn control(&self) -> Control;
+    /// Time since the work began.
+    fn elapsed(&self) -> Duration;
+}
+
+/// A chart with its map, cut where it has to be: into halves while floating point finds no valid map, and along the cheapest
+/// seams where the map overlaps itself.
+pub fn map_chart(
+    chart: Chart,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let is_promised = options.barrier != BarrierKind::None;
+    let mut mapped = Vec::new();
+    let mut pending = vec![chart];
+    while let Some(chart) = pending.pop() {
+        let begin = observer.elapsed();
+        let faces = chart.disk.triangles.len();
+        let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
+        let embedding = embed::parameterize(&chart.disk, &chart.positions, options, &watch);
+        let is_valid = embed::is_positive(&chart.disk.triangles, &embedding.uv);
+        if is_promised && !is_valid && faces > 1 {
+            pending.extend(halves(&chart));
+            continue;
+        }
+        let whole = MappedChart {
+            chart,
+            embedding,
+            seconds: 0.0,
+        };
+        let unfolded = if is_promised {
+            whole.free_of_overlaps(options, &watch)
+        } else {
+            vec![whole]
+        };
+        let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
+        mapped.extend(unfolded.into_iter().map(|part| MappedChart {
+            seconds,
+            ..part.facing_front()
+        }));
+    }
+    mapped
+}
+
+impl MappedChart {
+    /// The parts into which the cheapest seams divide the chart so that none overlaps itself; each part of several is optimized
+    /// again from where it lies, which counts if it does not fold over itself anew.
+    fn free_of_overlaps(self, options: &embed::Options, watch: &dyn Watch) -> Vec<Self> {
+        let map = self.embedding.uv.clone();
+        let mut parts = self.unfolded(&map);
+        if parts.len() > 1 {
+            parts = (parts.into_iter())
+                .map(|part| part.relaxed(options, watch))
+                .collect();
+        }
+        parts
+    }
+
+    /// The parts into which the cheapest seams divide the chart so that none overlaps itself in `image`, a map without flips like
+    /// the chart's own; the parts are mapped as the whole is.
+    ///
+    /// Each seam takes overlaps away and adds none, so there are at most as many as overlapping pairs.
+    pub fn unfolded(self, image: &[[f64; 2]]) -> Vec<Self> {
+        let pairs = overlaps(&self.chart.disk, image);
+        if pairs.is_empty() {
+            return vec![self];
+        }
+        let mut unfolded = Vec::new();
+        let mut folded = vec![(self, pairs)];
+        while let Some((whole, pairs)) = folded.pop() {
+            for (part, faces) in whole.parted_at(&pairs) {
+                let pairs = within(&faces, whole.chart.disk.triangles.len(), &pairs);
+                if pairs.is_empty() {
+                    unfolded.push(part);
+                } else {
+                    folded.push((part, pairs));
+                }
+            }
+        }
+        unfolded
+    }
+
+    /// Cut once where these pairs of its triangles overlap; with each part the triangles it is made of.
+    fn parted_at(&self, pairs: &[[u32; 2]]) -> Vec<(Self, Vec<u32>)> {
+        let twin = twins(&self.chart.disk);
+        let length = lengths(&self.chart.disk, &self.chart.positions);
+        let side = one_side(&twin, &length, pairs);
+        parts(&self.chart, &parted(&twin, &side))
+            .into_iter()
+            .map(|(chart, faces)| (self.restricted(chart, &faces), faces))
+            .collect()
+    }
+
+    /// The same map of a part.
+    fn restricted(&self, chart: Chart, faces: &[u32]) -> Self {
+        let mut uv = vec![[0.0; 2]; chart.disk.n_vertices];
+        for (triangle, &face) in chart.disk.triangles.iter().zip(faces) {
+            let of_whole = self.chart.disk.triangles[face as usize];
+            for (&v, w) in triangle.iter().zip(of_whole) {
+                uv[v as usize] = self.embedding.uv[w as usize];
+            }
+        }
+        Self {
+            embedding: Embedding {
+                uv,
+                summary: self.embedding.summary,
+            },
+            chart,
+            seconds: self.seconds,
+        }
+    }
+
+    /// Optimized from its present map, if the result does not overlap itself.
+    fn relaxed(mut self, options: &embed::Options, watch: &dyn Watch) -> Self {
+        let Chart {
+            disk, positions, ..
+        } = &self.chart;
+        if let Ok(embedding) = embed::optimize(disk, positions, &self.embedding.uv, options, watch)
+            && embed::is_positive(&disk.triangles, &embedding.uv)
+            && overlaps(disk, &embedding.uv).is_empty()
+        {
+            self.embedding = Embedding {
+                uv: embedding.uv,
+                summary: self.embedding.summary.followed_by(&embedding.summary),
+            };
+        }
+        self
+    }
+
+    /// Turned over if more of its area in the plane belongs to triangles that the surface winds the other way.
+    ///
+    /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modelled from both sides, the
+    /// map decides.
+    fn facing_front(mut self) -> Self {
+        let area = |(t, triangle): (usize, &[u32; 3])| {
+            let [a, b, c] = triangle.map(|v| self.embedding.uv[v as usize]);
+            let doubled = doubled_area(a, b, c);
+            if self.chart.is_wound_as_surface(t) {
+                doubled
+            } else {
+                -doubled
+            }
+        };
+        let facing: f64 = self.chart.disk.triangles.iter().enumerate().map(area).sum();
+        if facing < 0.0 {
+            self.chart.turn_over();
+            for p in &mut self.embedding.uv {
+                p[0] = -p[0];
+            }
+        }
+        self
+    }
+}
+
+/// The pairs of triangles that are both among these, in their numbering.
+fn within(faces: &[u32], n_faces: usize, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
+    let mut local = vec![None; n_faces];
+    for (i, &face) in (0..).zip(faces) {
+        local[face as usize] = Some(i);
+    }
+    pairs
+        .iter()
+        .filter_map(|&[a, b]| Some([local[a as usize]?, local[b as usize]?]))
+        .collect()
+}
