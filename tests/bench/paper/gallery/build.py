@@ -29,8 +29,7 @@ ASSETS = Path(__file__).resolve().parents[3] / "assets"
 PAGE = """<!doctype html>
 <meta charset="utf-8"><title>Locally Injective Mappings: the figures, drawn by unwrapd</title>
 <style>body{font:15px/1.45 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}
-img{max-width:100%%}figure{margin:2.5rem 0}pre{background:#f4f4f2;padding:.6rem;overflow-x:auto;font-size:12px}
-.facts{color:#666;font-size:13px}</style>
+img{max-width:100%%}figure{margin:2.5rem 0}pre{background:#f4f4f2;padding:.6rem;overflow-x:auto;font-size:12px}</style>
 <h1>Locally Injective Mappings: the figures, drawn by unwrapd</h1>
 <p>One figure for each of the paper's, with our meshes. Where a caption says so, what the paper's figure shows is not known
 to us, and the nearest application stands in its place. Red triangles are inverted.</p>

@@ -67,7 +67,7 @@ def grid608(number, title, energies):
             files[f"{name}.json"] = problem("grid608_arap_spline", energy=energy, barrier=barrier)
             commands.append(Command(f"solve {name}.json -o {name}.obj", (0,)))
             panels[f"{energy}, {'no barrier' if barrier == 'none' else 'inverse spline'}"] = planar(f"{name}.obj")
-    caption = CHOSEN + "Energies compared on a square whose lower and left sides are held while one vertex is pulled across; each without and with barrier."
+    caption = CHOSEN + "Energies compared on a square whose lower and left sides are held while one vertex is pulled across; each without and with barrier. Where no triangle inverts, parts may still lie over each other: the maps are locally injective."
     return Figure(number, title, caption, commands, panels, files, columns=4 if len(panels) % 4 == 0 else 2)
 
 
