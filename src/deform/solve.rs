@@ -50,16 +50,15 @@ pub struct Worth {
     pub smallest: f64,
 }
 
-/// How far the rest settles at each station of a sequence but the last: see [`Settings::tolerance`]. More would give a twisted
-/// bar time to buckle out of its turns.
-const STATION_TOLERANCE: f64 = 0.1;
-
 /// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's edge, so that a
 /// straight bar that is pressed at once buckles instead of staying on the saddle that its symmetry keeps it on.
 const SHAKE: f64 = 1e-3;
 
 impl Problem {
     /// Minimizes the energy with the handles at their targets. With a barrier every iterate is without inversion.
+    ///
+    /// Each station is settled before the next: a long body that is not lags behind the handle that drives it, and a bar
+    /// twisted at one end gathers its twist there and loses turns long before it must.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
         let mut objective = self.objective()?;
         let mut x = self.start.clone();
@@ -67,24 +66,15 @@ impl Problem {
             self.shake(&objective, &mut x);
         }
         let mut total = Summary::at_start(objective.value(&x));
-        for (index, handles) in self.stations.iter().enumerate() {
-            let is_last = index + 1 == self.stations.len();
-            let settings = Settings {
-                tolerance: if is_last {
-                    settings.tolerance
-                } else {
-                    STATION_TOLERANCE
-                },
-                ..*settings
-            };
+        for handles in &self.stations {
             let watch = Continued {
                 watch,
                 before: total.iterations,
             };
             let summary = if self.body.dim() == 2 {
-                follow::<2>(&mut objective, &mut x, handles, &settings, &watch)
+                follow::<2>(&mut objective, &mut x, handles, settings, &watch)
             } else {
-                follow::<3>(&mut objective, &mut x, handles, &settings, &watch)
+                follow::<3>(&mut objective, &mut x, handles, settings, &watch)
             };
             total = total.followed_by(&summary);
             if matches!(summary.status, Status::TargetsUnreachable | Status::Stopped) {

@@ -26,6 +26,7 @@ mod quadratic_model;
 mod relaxation;
 mod scale;
 mod settings;
+mod travel;
 mod watch;
 
 pub use follow::follow;

@@ -197,6 +197,51 @@ fn a_bar_twists_by_half_a_turn_in_one_jump() {
     assert!(planar.solve(&Settings::follow(), &go_on).is_err());
 }
 
+/// The turns of a map of a [`bar`] about its axis: the rotations between neighbouring layers, each less than half a turn.
+fn turns(x: &[f64]) -> f64 {
+    let layers = x.as_chunks::<3>().0.as_chunks::<4>().0;
+    let diagonal = |layer: &[[f64; 3]; 4]| {
+        let [y, z] = [1, 2].map(|k| layer[3][k] - layer[0][k]);
+        z.atan2(y)
+    };
+    let angles: Vec<f64> = layers.iter().map(diagonal).collect();
+    let between = angles
+        .array_windows()
+        .map(|[a, b]| (b - a).sin().atan2((b - a).cos()));
+    between.sum::<f64>() / std::f64::consts::TAU
+}
+
+#[test]
+fn a_bar_twisted_step_by_step_keeps_its_turns() {
+    let length = 24;
+    let body = Body::from(&bar(length));
+    let held: Vec<u32> = (0..4).chain(4 * length..4 * length + 4).collect();
+    let targets = |degrees: f64| -> Vec<f64> {
+        let place = |&v: &u32| {
+            let [x, y, z] = [0, 1, 2].map(|k| body.rest[3 * v as usize + k]);
+            let angle = if v < 4 { degrees.to_radians() } else { 0.0 };
+            let ([y, z], (sin, cos)) = ([y - 0.5, z - 0.5], angle.sin_cos());
+            [x, 0.5 + cos * y - sin * z, 0.5 + sin * y + cos * z]
+        };
+        held.iter().flat_map(place).collect()
+    };
+    let (arap, spline) = (DeformationEnergy::Arap, BarrierKind::InverseSpline);
+    let mut problem = problem(body.clone(), arap, spline, &held, targets(0.0));
+    let first = problem.stations[0].clone();
+    let stations = (1..=72).map(|step| Handles {
+        targets: targets(15.0 * f64::from(step)),
+        ..first.clone()
+    });
+    problem.stations = stations.collect();
+    let solution = problem
+        .solve(&Settings::follow(), &go_on)
+        .expect("an energy of space");
+    assert_eq!(solution.summary.status, Status::Converged);
+    assert_eq!(solution.worth.inverted, 0);
+    let turns = turns(&solution.x).abs();
+    assert!((turns - 3.0).abs() < 1e-6, "{turns}");
+}
+
 #[test]
 fn the_papers_iteration_ends_in_the_same_minimum() {
     for energy in [

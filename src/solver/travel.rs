@@ -1,0 +1,169 @@
+//! Handles on their way: advances along their path, each together with a Newton step of the rest.
+
+use super::line_search::line_search;
+use super::objective::Objective;
+use super::path::{Handles, Path, Rotation};
+use super::points::Points;
+use super::settings::{Settings, Status, Summary};
+use super::watch::{Control, Taken, Watch};
+use crate::numerics::square::{Matrix, Square};
+
+/// A first advance along the path: all of it, since a small deformation needs no more.
+const FIRST_ADVANCE: f64 = 1.0;
+
+/// Advances shorter than this are not tried: the vertices in the way have to move first.
+const LEAST_ADVANCE: f64 = 1e-4;
+
+/// Share of the way to the first inversion that an advance may take. Less of it means more and shorter
+/// advances.
+const SAFETY: f64 = 0.9;
+
+/// How far the energy may rise above twice what the quadratic model promises, as a share of the energy.
+const SURPRISE: f64 = 2.0;
+
+/// Below this share of the sum of the weights an energy is that of a body at rest, where any advance is a surprise.
+const UNSTRAINED: f64 = 0.02;
+
+/// Steps without an advance after which the rest must settle first.
+const PATIENCE: usize = 20;
+
+/// The strength of soft constraints beside the energy's mean curvature, while they travel; it rises tenfold at a time at the end.
+pub(super) const SOFT: f64 = 1e3;
+
+/// The handles and the map on the way.
+pub(super) struct Travel<'a, const D: usize> {
+    handles: &'a Handles,
+    path: Path<D>,
+    pub points: Points,
+    /// How much of the path lies behind.
+    pub s: f64,
+    /// The advance to try next.
+    stride: f64,
+    pub summary: Summary,
+    newton: Vec<f64>,
+    direction: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl<'a, const D: usize> Travel<'a, D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    /// At the beginning of the way, the map being `x`.
+    pub fn new(objective: &mut Objective, x: &[f64], handles: &'a Handles) -> Self {
+        Self {
+            handles,
+            path: Path::new(handles, x),
+            points: Points::new(objective, x, &handles.point_targets),
+            s: 0.0,
+            stride: FIRST_ADVANCE,
+            summary: Summary::at_start(objective.value(x)),
+            newton: vec![0.0; x.len()],
+            direction: vec![0.0; x.len()],
+            trial: vec![0.0; x.len()],
+        }
+    }
+
+    /// Lets the next advance be long again, since the map has settled.
+    pub fn start_over(&mut self) {
+        self.stride = FIRST_ADVANCE;
+    }
+
+    /// Advances until the targets are reached or the handles are stuck.
+    pub fn advance(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Control {
+        self.points.pull(objective, x, SOFT, self.s);
+        let mut stuck = 0;
+        while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
+        {
+            objective.linearize(x, 0.0);
+            self.summary.factorizations += 1;
+            let Ok(decrement) = objective.newton_direction(&mut self.newton) else {
+                break;
+            };
+            let sigma = if self.step(objective, x) {
+                stuck = 0;
+                1.0
+            } else {
+                stuck += 1;
+                self.relax(objective, x, decrement)
+            };
+            self.summary.iterations += 1;
+            let mu = objective.shift();
+            if objective.show(x, &self.summary, Taken { mu, sigma }, watch) == Control::Finish {
+                self.summary.status = Status::Stopped;
+                return Control::Finish;
+            }
+        }
+        Control::Continue
+    }
+
+    /// An advance together with the Newton step; false if none that is worth while stays in the domain.
+    fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
+        while self.stride > LEAST_ADVANCE {
+            let to = (self.s + self.stride).min(1.0);
+            self.aim(objective, x, to);
+            self.points.pull(objective, x, SOFT, to);
+            let largest = SAFETY * objective.largest_step(x, &self.direction);
+            if largest >= 1.0 && self.is_acceptable(objective, x) {
+                x.copy_from_slice(&self.trial);
+                self.s = to;
+                self.stride *= 2.0;
+                return true;
+            }
+            self.stride *= 0.5 * largest.clamp(0.2, 1.0);
+        }
+        self.points.pull(objective, x, SOFT, self.s);
+        self.stride = 4.0 * LEAST_ADVANCE;
+        false
+    }
+
+    /// Leaves in `direction` the Newton step and the advance to `to` together.
+    fn aim(&mut self, objective: &mut Objective, x: &[f64], to: f64) {
+        for (i, &v) in self.handles.vertices.iter().enumerate() {
+            let place = self.path.position(i, to);
+            let at = D * v as usize;
+            for k in 0..D {
+                self.direction[at + k] = place[k] - x[at + k];
+            }
+        }
+        let moves = self.points.moves(self.s, to);
+        objective.follow(&mut self.direction, &moves);
+        for (d, n) in self.direction.iter_mut().zip(&self.newton) {
+            *d += n;
+        }
+    }
+
+    /// Is the energy after the direction about what the model promises? Leaves the point in `trial`.
+    fn is_acceptable(&mut self, objective: &Objective, x: &[f64]) -> bool {
+        for ((trial, x), d) in self.trial.iter_mut().zip(x).zip(&self.direction) {
+            *trial = x + d;
+        }
+        let energy = self.summary.energy_last;
+        let promised = objective.model_change(&self.direction).max(0.0);
+        let unit = objective
+            .reference(energy)
+            .max(UNSTRAINED * objective.scale());
+        let new_energy = objective.value(&self.trial);
+        let is_acceptable = new_energy <= energy + 2.0 * promised + SURPRISE * unit;
+        if is_acceptable {
+            self.summary.energy_last = new_energy;
+        }
+        is_acceptable
+    }
+
+    /// The Newton step alone, with a line search; its length, 0 if none helps.
+    fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
+        let from = (self.summary.energy_last, decrement);
+        line_search(objective, x, &self.newton, from, &mut self.trial).map_or(0.0, |step| {
+            x.copy_from_slice(&self.trial);
+            self.summary.energy_last = step.energy;
+            step.length
+        })
+    }
+}
