@@ -22,7 +22,7 @@ pub use log::{AugmentedLog, Log};
 pub use neo_hookean::NeoHookean;
 pub use none::NoBarrier;
 
-use crate::energy::{Arap, EnergyKind, LocalTerm, Lscm, RestShape, SymmetricDirichlet, Triangles};
+use crate::energy::{Arap, EnergyKind, Lscm, RestShape, SymmetricDirichlet, Term, Triangles};
 
 /// An energy of maps of surfaces and a barrier, in words and numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ pub fn map_energy(
     triangles: &[[u32; 3]],
     rest: &[RestShape],
     &MapEnergy { energy, barrier }: &MapEnergy,
-) -> Box<dyn LocalTerm> {
+) -> Box<dyn Term> {
     Box::new(match energy {
         EnergyKind::Arap => Triangles::new(triangles, rest, Arap, barrier),
         EnergyKind::Lscm => Triangles::new(triangles, rest, Lscm, barrier),

@@ -11,14 +11,22 @@
 
 use super::closed::ClosedDisk;
 use super::decimate::{Care, Collapses, Decimation};
-use super::reinsert::{ROUNDING, Shape, reinsert};
+use super::reinsert::{Shape, reinsert};
 use super::rest::rest_shape;
+use super::star::Corners;
 use super::start::{first_bad_triangle, tutte};
 use super::sweep::sweep;
-use crate::barrier::map_energy;
-use crate::energy::{LocalTerm, RestShape};
-use crate::mesh::{Disk, VertexFaces};
+use crate::barrier::{Barrier, MapEnergy, map_energy};
+use crate::energy::{EnergyKind, RestShape, Term};
+use crate::mesh::Disk;
 use crate::solver::{Control, Iterate, Objective, Projection, Settings, best_scale, minimize};
+
+/// Symmetric Dirichlet alone: it knows no flipped triangle, and it drives every ring back into shape, so that rings stay
+/// wide enough for floating point.
+const ROUNDING: MapEnergy = MapEnergy {
+    energy: EnergyKind::SymmetricDirichlet,
+    barrier: Barrier::NONE,
+};
 
 /// Vertices of the coarsest level, if shape allows: so few that Tutte's map of them is not far from the optimum even
 /// for a surface with long arms.
@@ -148,7 +156,8 @@ fn coarsest_map(
 struct System {
     vertices: Vec<u32>,
     triangles: Vec<[u32; 3]>,
-    term: Box<dyn LocalTerm>,
+    term: Box<dyn Term>,
+    corners: Vec<Corners>,
 }
 
 impl System {
@@ -179,6 +188,7 @@ impl System {
             .collect();
         Self {
             term: map_energy(&triangles, &rest, &ROUNDING),
+            corners: rest.iter().map(Corners::new).collect(),
             vertices,
             triangles,
         }
@@ -190,10 +200,9 @@ impl System {
 
     /// What the exact check does not confirm is not taken, here as in [`minimize`](Self::minimize).
     fn sweep(&self, uv: &mut [[f64; 2]]) {
-        let mut x = self.gather(uv).into_flattened();
-        let stars = VertexFaces::new(self.vertices.len(), &self.triangles);
-        sweep(&*self.term, &stars, SWEEPS, &mut x);
-        keep(&self.vertices, &self.triangles, &x, uv);
+        let mut x = self.gather(uv);
+        sweep(&self.triangles, &self.corners, SWEEPS, &mut x);
+        keep(&self.vertices, &self.triangles, x.as_flattened(), uv);
     }
 
     /// Returns the energy per weight that it reached.

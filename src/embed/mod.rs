@@ -21,6 +21,7 @@ mod pins;
 mod problem;
 mod reinsert;
 mod rest;
+mod star;
 mod start;
 mod sweep;
 mod triangulation;

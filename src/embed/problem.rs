@@ -4,7 +4,7 @@ use super::parameterize::{Embedding, Options};
 use super::rest::RestShapes;
 use super::start::first_bad_triangle;
 use crate::barrier::{Barrier, BarrierKind, MapEnergy, epsilon, map_energy};
-use crate::energy::LocalTerm;
+use crate::energy::Term;
 use crate::mesh::Disk;
 use crate::numerics::vec2::doubled_area;
 use crate::solver::{Objective, Settings, Watch, best_scale, minimize};
@@ -25,7 +25,7 @@ pub(super) struct Problem<'a> {
 
 impl Problem<'_> {
     /// The energy with the ε that this start asks for.
-    fn term(&self, start: &[[f64; 2]]) -> Box<dyn LocalTerm> {
+    fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
         let smallest_rest = (self.rest.shapes.iter())
             .map(|shape| shape.size)
             .fold(f64::INFINITY, f64::min);
@@ -35,7 +35,7 @@ impl Problem<'_> {
         self.term_with(epsilon(smallest_rest, smallest_start))
     }
 
-    fn term_with(&self, epsilon: f64) -> Box<dyn LocalTerm> {
+    fn term_with(&self, epsilon: f64) -> Box<dyn Term> {
         let parameters = MapEnergy {
             energy: self.options.energy,
             barrier: Barrier {

@@ -2,20 +2,11 @@
 
 use super::decimate::{Collapse, Collapses};
 use super::rest::rest_shape;
-use super::sweep::{MOST_STEPS, WORTH_ANOTHER, improve_vertex};
+use super::star::{Corners, Star};
 use super::triangulation::pairs;
-use crate::barrier::{Barrier, MapEnergy, map_energy};
-use crate::energy::EnergyKind;
 use crate::numerics::predicates::orient2d_sign;
 use crate::numerics::vec2::{cross, dot, sub};
 use crate::numerics::vec3;
-
-/// Symmetric Dirichlet alone: it knows no flipped triangle, and it drives every ring back into shape, so that rings stay
-/// wide enough for floating point.
-pub(super) const ROUNDING: MapEnergy = MapEnergy {
-    energy: EnergyKind::SymmetricDirichlet,
-    barrier: Barrier::NONE,
-};
 
 /// Steps of the walk towards the neighbor, each 0.6 of the one before: the last is 1e-33 of the first.
 const WALK: usize = 150;
@@ -47,7 +38,8 @@ pub(super) fn reinsert(
             .filter(is_free)
             .or_else(|| walk(collapse, ring, uv).find(is_free))
             .ok_or(NoRoom)?;
-        uv[collapse.vertex as usize] = improved_place(collapse, ring, shape, uv, place);
+        uv[collapse.vertex as usize] =
+            improved_place(collapse, ring, shape, uv, place, |p| is_free(&p));
     }
     Ok(())
 }
@@ -123,41 +115,20 @@ fn bisector(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [cos * a[0] - sin * a[1], sin * a[0] + cos * a[1]]
 }
 
-/// The place after a few local Newton steps; every step is checked exactly.
+/// The place after local Newton steps; every step is checked exactly.
 fn improved_place(
     collapse: &Collapse,
     ring: &[u32],
     shape: &Shape,
     uv: &[[f64; 2]],
     place: [f64; 2],
+    is_free: impl Fn([f64; 2]) -> bool,
 ) -> [f64; 2] {
-    // The vertex is number 0, its ring 1, 2, …
-    let n = ring.len() as u32;
-    let triangles: Vec<[u32; 3]> = (0..n - u32::from(!collapse.closed))
-        .map(|i| [0, 1 + i, 1 + (i + 1) % n])
-        .collect();
     let at = |v: u32| shape.positions[v as usize];
-    let rest: Vec<_> = pairs(ring, collapse.closed)
-        .map(|[a, b]| rest_shape([at(collapse.vertex), at(a), at(b)], shape.smallest))
-        .collect();
-    let term = map_energy(&triangles, &rest, &ROUNDING);
-    let around: Vec<u32> = (0..triangles.len() as u32).collect();
-    let mut x: Vec<f64> = place.to_vec();
-    x.extend(ring.iter().flat_map(|&v| uv[v as usize]));
-    for _ in 0..MOST_STEPS {
-        let before = [x[0], x[1]];
-        let gain = improve_vertex(&*term, 0, &around, &mut x);
-        let points: &[[f64; 2]] = x.as_chunks().0;
-        let is_positive = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| points[v as usize]);
-            orient2d_sign(a, b, c) > 0
-        };
-        if !triangles.iter().all(is_positive) {
-            return before;
-        }
-        if gain < WORTH_ANOTHER {
-            break;
-        }
+    let mut star = Star::default();
+    for [a, b] in pairs(ring, collapse.closed) {
+        let rest = rest_shape([at(collapse.vertex), at(a), at(b)], shape.smallest);
+        star.push(&Corners::new(&rest), 0, [uv[a as usize], uv[b as usize]]);
     }
-    [x[0], x[1]]
+    star.settle(place, is_free)
 }

@@ -41,7 +41,7 @@ pub use quadratic::Quadratic;
 pub use rest::RestShape;
 pub use simplices::{Simplices, Tetrahedra, Triangles};
 pub use symmetric_dirichlet::SymmetricDirichlet;
-pub use term::{Assembly, Local, LocalTerm, Term};
+pub use term::{Assembly, Term};
 pub use zero::Zero;
 
 /// Which density is minimized.

@@ -164,23 +164,6 @@ impl<const D: usize> Pulled<'_, D> {
         }
         assembly.add_diagonal(self.simplex.first, &first);
     }
-
-    /// Gradient and Hessian at one vertex of the element.
-    pub fn at(&self, vertex: u32) -> ([f64; D], Matrix<D>) {
-        let g = match self.simplex.others.iter().position(|&v| v == vertex) {
-            Some(k) => self.framed[k],
-            None => self
-                .framed
-                .iter()
-                .fold([0.0; D], |sum, g| std::array::from_fn(|k| sum[k] - g[k])),
-        };
-        let scaled = std::array::from_fn(|k| self.modes.slope[k] * g[k]);
-        let block = self.modes.block(&g, &g);
-        (
-            apply(&self.u, &scaled),
-            times(&times(&self.u, &block), &self.u_transposed),
-        )
-    }
 }
 
 fn add_to<const D: usize>(sum: &mut Matrix<D>, share: &Matrix<D>) {

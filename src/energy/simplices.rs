@@ -2,7 +2,7 @@
 
 use super::modes::Modes;
 use super::simplex::{Pulled, Simplex};
-use super::{Assembly, Density, Guard, Local, LocalTerm, RestShape, Term};
+use super::{Assembly, Density, Guard, RestShape, Term};
 use crate::numerics::roots::smallest_root_below;
 use crate::numerics::square::{Matrix, Square};
 use crate::numerics::stencils::Stencils;
@@ -143,22 +143,5 @@ where
 
     fn forbids_flips(&self) -> bool {
         self.elements.iter().all(|e| e.floor >= 0.0)
-    }
-}
-
-impl LocalTerm for Simplices<2> {
-    fn value_around(&self, around: &[u32], x: &[f64]) -> f64 {
-        let elements = around.iter().map(|&i| &self.elements[i as usize]);
-        elements.map(|e| self.element_value(e, x)).sum()
-    }
-
-    fn derivatives_around(&self, vertex: u32, around: &[u32], x: &[f64]) -> Local {
-        let mut local = Local::default();
-        for &index in around {
-            let element = &self.elements[index as usize];
-            let (gradient, hessian) = self.pulled(element, x, 0.0).at(vertex);
-            local.add(gradient, hessian);
-        }
-        local
     }
 }

@@ -50,15 +50,6 @@ pub trait Term: Send + Sync {
     }
 }
 
-/// A term whose share of one vertex can be had alone, in the plane.
-pub trait LocalTerm: Term {
-    /// The sum over the elements `around` a vertex.
-    fn value_around(&self, around: &[u32], x: &[f64]) -> f64;
-
-    /// The derivatives of that sum in the vertex's two coordinates, the Hessian projected.
-    fn derivatives_around(&self, vertex: u32, around: &[u32], x: &[f64]) -> Local;
-}
-
 /// Where a term adds its gradient and Hessian.
 pub struct Assembly<'a> {
     pattern: &'a BlockPattern,
@@ -118,37 +109,5 @@ impl<'a> Assembly<'a> {
     /// [`Stencils::pairs`] does.
     pub fn add_pair<const D: usize>(&mut self, stencil: usize, pair: usize, block: &Matrix<D>) {
         BlockPattern::add_pair(self.hessian, self.slots.of(stencil)[pair], block);
-    }
-}
-
-/// First and second derivatives in the coordinates of one vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Local {
-    /// ∂/∂u, ∂/∂v.
-    pub gradient: [f64; 2],
-    /// Positive semidefinite.
-    pub hessian: Matrix<2>,
-}
-
-impl Local {
-    /// Adds one triangle's share.
-    pub fn add(&mut self, gradient: [f64; 2], hessian: Matrix<2>) {
-        for i in 0..2 {
-            self.gradient[i] += gradient[i];
-            for j in 0..2 {
-                self.hessian[i][j] += hessian[i][j];
-            }
-        }
-    }
-
-    /// The Newton direction −H⁻¹g, with H shifted by 1e-9 of its trace so that it exists.
-    pub fn newton_direction(&self) -> [f64; 2] {
-        let [[mut h00, _], [h10, mut h11]] = self.hessian;
-        let shift = 1e-9 * (h00 + h11) + f64::MIN_POSITIVE;
-        h00 += shift;
-        h11 += shift;
-        let det = h00 * h11 - h10 * h10;
-        let [g0, g1] = self.gradient;
-        [(h10 * g1 - h11 * g0) / det, (h10 * g0 - h00 * g1) / det]
     }
 }

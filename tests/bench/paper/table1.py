@@ -21,9 +21,11 @@ HEADER = ("barrier", "method", "β", "end", "it", "fact", "CPU s", "E", "residua
 # The β of problem files with Green's strain that name none.
 GREEN_BETA = 100.0
 
-# β is matched when the smallest ratios differ by no more than this share; the search stops after so many halvings.
+# β is matched when the smallest ratios differ by no more than this share; it is bracketed by so many doublings at most, which
+# are then halved so many times.
 MATCHED = 0.02
-HALVINGS = 40
+DOUBLINGS = 12
+HALVINGS = 8
 
 
 def row(barrier, method, beta, report, seconds, authors="", paper=""):
@@ -45,19 +47,31 @@ def authors_row(cases, mesh, barrier, suffix):
     return "–"
 
 
-def matched(program, problem, folder, barrier, smallest):
-    """β at which the smallest element ratio with this barrier is `smallest`: it grows with β, so its logarithm is halved."""
-    low, high = math.log(1e-8), math.log(1e8)
-    for _ in range(HALVINGS):
-        beta = math.exp(0.5 * (low + high))
+def matched(program, problem, folder, barrier, beta, smallest):
+    """The β nearest to `beta` at which the smallest element ratio with this barrier is `smallest`, or where the search gives up.
+
+    The ratio grows with β as long as the map stays in one minimum; from afar it does not, so the search begins nearby.
+    """
+    def ratio(beta):
         report, _, _ = solve(program, variant(problem, folder / "matched.json", barrier=barrier, beta=beta), folder)
-        if abs(report["smallest"] - smallest) < MATCHED * smallest:
+        return report["smallest"]
+
+    factor = 2.0 if ratio(beta) < smallest else 0.5
+    other = beta
+    for _ in range(DOUBLINGS):
+        beta, other = other, other * factor
+        if (ratio(other) < smallest) == (factor < 1):
             break
-        if report["smallest"] < smallest:
-            low = math.log(beta)
+    for _ in range(HALVINGS):
+        middle = math.sqrt(beta * other)
+        found = ratio(middle)
+        if abs(found - smallest) < MATCHED * smallest:
+            break
+        if (found < smallest) == (factor > 1):
+            beta = middle
         else:
-            high = math.log(beta)
-    return beta
+            other = middle
+    return middle
 
 
 def rows(arguments, cases, folder, mesh):
@@ -80,7 +94,7 @@ def rows(arguments, cases, folder, mesh):
         report, _, seconds = projected(barrier, beta, "--bias")
         yield row(barrier, "projected", beta, report, seconds)
         if barrier != "spline":
-            equal = matched(arguments.unwrapd, base, folder, barrier, spline["smallest"])
+            equal = matched(arguments.unwrapd, base, folder, barrier, beta, spline["smallest"])
             report, _, seconds = projected(barrier, equal, "--bias")
             yield row(barrier, "projected, matched β", equal, report, seconds)
     report, _, seconds = projected("spline", beta, "--bias", "--barrier-continuation")
