@@ -121,6 +121,7 @@ impl<'a> Tracker<'a> {
         }
     }
 
+    #[cfg(feature = "files")]
     pub(super) fn elapsed(&self) -> Duration {
         self.observer.elapsed()
     }
