@@ -2,7 +2,7 @@
 
 use super::chart::{Cut, charts};
 use super::distortion::excess_and_area;
-use super::mapped::{MappedChart, Observer, map_chart};
+use super::mapped::{Folds, MappedChart, Observer, map_chart};
 use super::slits::Slits;
 use crate::embed;
 use crate::mesh::Surface;
@@ -74,7 +74,7 @@ pub fn charts_under_bound(
     let divided: Vec<Piece> = charts(surface, Cut::Fast)
         .into_par_iter()
         .with_max_len(1)
-        .flat_map_iter(|chart| map_chart(chart, options, observer))
+        .flat_map_iter(|chart| map_chart(chart, options, Folds::Cut, observer))
         .map(|map| Piece::of(map, MAPPED_OVER_PREDICTED))
         .collect();
     let better = if mean_excess(&divided) < mean_excess(&slit) {
@@ -202,7 +202,7 @@ impl Piece {
             Some(slits) if self.map.is_none() || slits.is_cut() => slits
                 .opened()
                 .into_iter()
-                .flat_map(|chart| map_chart(chart, options, observer))
+                .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
                 .map(|map| Self::of(map, self.ratio))
                 .collect(),
             _ => vec![Self {

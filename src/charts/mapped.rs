@@ -14,7 +14,7 @@ use std::time::Duration;
 pub struct MappedChart {
     /// The chart.
     pub chart: Chart,
-    /// Its map: without flips, and with a barrier also without overlaps.
+    /// Its map: with a barrier without flips, and with [`Folds::Cut`] without overlaps.
     pub embedding: Embedding,
     /// From the chart's start to its end.
     pub seconds: f64,
@@ -30,11 +30,21 @@ pub trait Observer: Sync {
     fn elapsed(&self) -> Duration;
 }
 
-/// A chart with its map, cut where it has to be: into halves while floating point finds no valid map, and along the cheapest
-/// seams where the map overlaps itself.
+/// What becomes of a chart whose map overlaps itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Folds {
+    /// It is cut along the cheapest seams.
+    Cut,
+    /// It stays whole: the certificate counts what overlaps.
+    Keep,
+}
+
+/// A chart with its map, cut where it has to be: into halves while floating point finds no valid map, and where the map overlaps
+/// itself.
 pub fn map_chart(
     chart: Chart,
     options: &embed::Options,
+    folds: Folds,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     let is_promised = options.barrier != BarrierKind::None;
@@ -55,10 +65,9 @@ pub fn map_chart(
             embedding,
             seconds: 0.0,
         };
-        let unfolded = if is_promised {
-            whole.free_of_overlaps(options, &watch)
-        } else {
-            vec![whole]
+        let unfolded = match folds {
+            Folds::Cut => whole.free_of_overlaps(options, &watch),
+            Folds::Keep => vec![whole],
         };
         let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
         mapped.extend(unfolded.into_iter().map(|part| MappedChart {

@@ -33,7 +33,7 @@ mod smooth;
 pub use bound::{Quality, charts_under_bound};
 pub use chart::{Chart, Cut, charts};
 pub use halves::halves;
-pub use mapped::{MappedChart, Observer, map_chart};
+pub use mapped::{Folds, MappedChart, Observer, map_chart};
 pub use min_cut::min_cut;
 
 #[cfg(doc)]

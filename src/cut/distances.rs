@@ -59,7 +59,7 @@ pub fn distances(
     distances_until(sheet, neighbors, sources, length, |_| false).0
 }
 
-/// [`distances`] that are known when the nearest vertex with `is_goal` is reached, and that vertex.
+/// The distances that are known when the nearest vertex with `is_goal` is reached, and that vertex.
 pub fn distances_until(
     sheet: &Sheet,
     neighbors: &Neighbors,

@@ -2,13 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::map::mapped_charts;
+use super::map::{folds, mapped_charts};
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Settings;
 use super::{PipelineError, repeated};
 use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Placed};
-use crate::barrier::BarrierKind;
-use crate::charts::MappedChart;
+use crate::charts::{Folds, MappedChart};
 use crate::mesh::{Defects, Surface};
 use crate::solver::Summary;
 
@@ -120,11 +119,11 @@ pub(super) fn unwrap_all(
         search_words: (SEARCH_WORDS / meshes.len() as u64)
             .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
     };
-    let is_promised = settings.barrier != BarrierKind::None;
+    let folds = folds(settings);
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
         .map(|((mesh, surface), charts)| {
-            let (charts, atlas) = packed(charts, &options, is_promised)?;
+            let (charts, atlas) = packed(charts, &options, folds)?;
             Ok(assemble(*mesh, surface, &charts, &atlas))
         })
         .collect()
@@ -135,7 +134,7 @@ pub(super) fn unwrap_all(
 fn packed(
     mut charts: Vec<MappedChart>,
     options: &AtlasOptions,
-    is_promised: bool,
+    folds: Folds,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
     let mut rounds = 0;
     loop {
@@ -148,7 +147,7 @@ fn packed(
             .collect();
         let atlas = atlas::pack(&chart_maps, options)?;
         rounds += 1;
-        if !is_promised || rounds == PACKINGS {
+        if folds == Folds::Keep || rounds == PACKINGS {
             return Ok((charts, atlas));
         }
         let n_before = charts.len();

@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 use super::observer::Tracker;
 use super::options::Settings;
 use crate::barrier::BarrierKind;
-use crate::charts::{Chart, Cut, MappedChart, charts, charts_under_bound, map_chart};
+use crate::charts::{Chart, Cut, Folds, MappedChart, charts, charts_under_bound, map_chart};
 use crate::embed::{self, Pins};
 use crate::mesh::Surface;
 use crate::solver;
@@ -56,13 +56,13 @@ fn map_charts(
     let n_faces = |(_, chart): &(_, Chart)| chart.disk.triangles.len();
     tracker.charts(queue.len(), queue.iter().map(n_faces).sum());
     queue.sort_by_key(|entry| (Reverse(n_faces(entry)), entry.0));
-    let options = options(settings);
+    let (options, folds) = (options(settings), folds(settings));
     let mut mapped: Vec<((usize, usize), Vec<MappedChart>)> = queue
         .into_par_iter()
         .with_max_len(1)
         .map(|(id, chart)| {
             let faces = chart.disk.triangles.len();
-            let parts = map_chart(chart, &options, tracker);
+            let parts = map_chart(chart, &options, folds, tracker);
             tracker.chart_done(faces);
             (id, parts)
         })
@@ -72,6 +72,15 @@ fn map_charts(
         maps[mesh].extend(parts);
     }
     maps
+}
+
+/// Whoever asks for one chart per component wants no other seams, and without a barrier nothing is promised.
+pub(super) fn folds(settings: &Settings) -> Folds {
+    if settings.cut == Cut::Disk || settings.barrier == BarrierKind::None {
+        Folds::Keep
+    } else {
+        Folds::Cut
+    }
 }
 
 fn options(settings: &Settings) -> embed::Options {

@@ -5,9 +5,9 @@
 //! rows is its update for a later front, its parent. All indices are found once; the numbers then flow through dense kernels.
 //!
 //! What decides where to go is done on vertices, each of up to three unknowns, not on unknowns: the order of elimination
-//! ([`order`]), the elimination tree and the sizes of the factor's columns ([`tree`]), which columns are worked on together
-//! ([`supernodes`]), which rows a front has and where they are in its parent ([`fronts`]), where the entries of A go
-//! ([`scatter`]). The numbers are [`branch`], [`dense`], [`kernels`] and [`solve`].
+//! (`order`), the elimination tree and the sizes of the factor's columns (`tree`), which columns are worked on together
+//! (`supernodes`), which rows a front has and where they are in its parent (`fronts`), where the entries of A go
+//! (`scatter`). The numbers are `branch`, `dense`, `kernels` and `solve`.
 //!
 //! Subtrees are factored in parallel. Every sum is ordered by the tree, so the result does not depend on the number of threads.
 //! Nothing is allocated after the analysis. On one thread it takes 0.7 to 0.8 of the processor time of faer's supernodal
