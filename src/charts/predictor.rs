@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 /// A real map trades angles for areas and is three to six times nearer to an isometry, but where and in which order a disk
 /// wants to be cut the two agree on. A slit only fixes vertices: they part its sides as the cut itself would.
 ///
-/// From: Springborn, Schröder, Pinkall 2008 and Sawhney, Crane 2018, Boundary First Flattening. Tests: `charts::predictor_*`.
+/// From: Springborn, Schröder, Pinkall 2008 and Sawhney, Crane 2018, Boundary First Flattening.
 pub struct Predictor {
     cholesky: Cholesky,
     pattern: SymmetricPattern,
