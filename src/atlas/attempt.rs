@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::GRID_SIDE;
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
-use super::outline::Outline;
+use super::plan::{Plan, Turns};
 use super::sheet::{Sheet, Spot, Turned};
 
 /// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
@@ -22,18 +22,14 @@ const BATCH: usize = 4096;
 
 /// What is to be packed, and the distances to be kept.
 pub(super) struct Packing<'a> {
-    pub outlines: &'a [Outline<'a>],
+    pub plan: &'a Plan,
     /// For each chart, how far its vertices may be moved afterwards, in cells.
     pub slack: &'a [f64],
-    /// Indices of the charts that have triangles, by falling size.
-    pub order: Vec<usize>,
     /// Cells along a side of the square.
     pub cells: u32,
     /// Cells kept free between charts, and at each border.
     pub padding: f64,
     pub border: f64,
-    /// Sum of the charts' areas, in mesh units.
-    pub area: f64,
 }
 
 /// A place for every chart.
@@ -53,7 +49,7 @@ impl Packing<'_> {
 
     /// Whether the square has its full width from the start.
     pub(super) fn is_crowded(&self) -> bool {
-        self.order.len() > MANY
+        self.plan.order.len() > MANY
     }
 
     /// All charts placed at one scale, or the share of their area that was placed.
@@ -66,29 +62,33 @@ impl Packing<'_> {
         };
         let padding = self.padding + 2.0 * SLACK;
         let mut sheet = Sheet::new(capacity, padding.ceil() as u32 + 1, side);
-        let mut spots = vec![(Spot::default(), 1.0); self.outlines.len()];
+        let mut spots = vec![(Spot::default(), 1.0); self.plan.outlines.len()];
         let mut lowest: HashMap<[u32; 2], u32> = HashMap::new();
         let mut placed = 0.0;
-        for batch in self.order.chunks(BATCH) {
+        let area = self.plan.area();
+        for batch in self.plan.order.chunks(BATCH) {
             let masks: Vec<Option<(Vec<Turned>, f64)>> = batch
                 .par_iter()
                 .map(|&i| self.turned(i, scale, padding, capacity))
                 .collect();
             for (&i, turned) in batch.iter().zip(masks) {
-                let (turned, stretch) = turned.ok_or(placed / self.area)?;
-                *work += WORK_PER_CHART + WORK_PER_EDGE * self.outlines[i].boundary.len() as u64;
+                let (turned, stretch) = turned.ok_or(placed / area)?;
+                *work +=
+                    WORK_PER_CHART + WORK_PER_EDGE * self.plan.outlines[i].edges().len() as u64;
                 let [w, h] = turned[0].size();
                 let row = lowest.entry([w.min(h), w.max(h)]).or_insert(0);
+                let near = self.plan.corners.get(i);
+                let from = near.map_or([0, *row], |p| p.map(|x| (x * f64::from(target)) as u32));
                 let before = sheet.work;
-                let spot = sheet.find(&turned, *row);
+                let spot = sheet.find(&turned, from);
                 *work += sheet.work - before;
-                let spot = spot.ok_or(placed / self.area)?;
+                let (mask, spot) = spot.ok_or(placed / area)?;
                 if self.is_crowded() {
                     *row = spot.y;
                 }
-                sheet.take(&turned, spot);
+                sheet.take(&turned[mask], [spot.x, spot.y]);
                 spots[i] = (spot, stretch);
-                placed += self.outlines[i].size * self.outlines[i].size;
+                placed += self.plan.outlines[i].size * self.plan.outlines[i].size;
             }
         }
         Ok(Attempt {
@@ -106,10 +106,10 @@ impl Packing<'_> {
         padding: f64,
         capacity: u32,
     ) -> Option<(Vec<Turned>, f64)> {
-        let outline = &self.outlines[i];
+        let outline = &self.plan.outlines[i];
         let around = self.slack[i] - SLACK;
         let unit = scale * GRID_SIDE / f64::from(self.cells);
-        let root = (outline.triangles.len() as f64 * CELLS_PER_TRIANGLE).sqrt();
+        let root = (outline.n_triangles as f64 * CELLS_PER_TRIANGLE).sqrt();
         let longest = outline.extent[0].max(outline.extent[1]);
         let stretch = (root / (outline.size * unit))
             .min(8.0 * root / (longest * unit))
@@ -117,11 +117,11 @@ impl Packing<'_> {
         let fits = longest * scale * stretch + 2.0 * around < f64::from(capacity);
         fits.then(|| {
             let mask = Mask::new(outline, scale * stretch, Distances { around, padding });
-            // The first chart goes to the corner, whichever way it is turned.
-            let turned = if self.order.first() == Some(&i) {
-                vec![Turned::unturned(mask)]
-            } else {
-                Turned::all(mask)
+            let turned = match self.plan.turns[i] {
+                Turns::Only(turns) => vec![Turned::new(mask, turns)],
+                // The first chart goes to the corner, whichever way it is turned.
+                Turns::Any if self.plan.order.first() == Some(&i) => vec![Turned::new(mask, 0)],
+                Turns::Any => Turned::all(mask),
             };
             (turned, stretch)
         })

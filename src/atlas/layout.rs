@@ -5,7 +5,7 @@
 //! What an attempt costs is counted in words read, not in seconds, so the result is the same on
 //! every machine.
 use super::attempt::{Attempt, Packing};
-use super::outline::Outline;
+use super::plan::Plan;
 use super::sheet::Spot;
 use super::{AtlasOptions, GRID_SIDE};
 
@@ -45,36 +45,25 @@ fn raster(n_charts: usize) -> u32 {
     }
 }
 
-/// The best layout found; none when there are more charts than cells.
-pub(super) fn layout(
-    outlines: &[Outline],
-    slack: &[f64],
-    options: &AtlasOptions,
-) -> Option<Layout> {
-    let mut order: Vec<usize> = (0..outlines.len())
-        .filter(|&i| !outlines[i].triangles.is_empty())
-        .collect();
-    let half_perimeter = |i: usize| outlines[i].extent[0] + outlines[i].extent[1];
-    order.sort_by(|&i, &j| half_perimeter(j).total_cmp(&half_perimeter(i)));
-    let cells = raster(order.len());
-    let texel = f64::from(cells) / f64::from(options.resolution.max(1));
+/// Cells kept free between charts.
+pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f64 {
     // The smallest charts, with their padding, take at most half of the square.
-    let most = (f64::from(cells) / (2.0 * order.len() as f64).sqrt() - 2.0).max(0.0);
-    let wanted = f64::from(options.padding_texels);
-    let padding = (wanted * texel).min(most);
+    let most = (cells / (2.0 * n_charts as f64).sqrt() - 2.0).max(0.0);
+    let wanted = f64::from(options.padding_texels) * cells / f64::from(options.resolution.max(1));
+    wanted.min(most)
+}
+
+/// The best layout found of a plan; none when there are more charts than cells.
+pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<Layout> {
+    let cells = raster(plan.order.len());
+    let padding = padding(options, plan.order.len(), f64::from(cells));
     let border = (padding / 2.0).max(SLACK);
-    let area = outlines
-        .iter()
-        .map(|outline| outline.size * outline.size)
-        .sum();
     let packing = Packing {
-        outlines,
+        plan,
         slack,
-        order,
         cells,
         padding,
         border,
-        area,
     };
     let (scale, attempt) = best(&packing, options.search_words)?;
     let cell = GRID_SIDE / (f64::from(attempt.side.max(1)) + 2.0 * border);
@@ -82,7 +71,8 @@ pub(super) fn layout(
         scale: scale * cell,
         cell,
         border,
-        padding_texels: wanted.min(padding / texel),
+        padding_texels: (padding * f64::from(options.resolution) / f64::from(cells))
+            .min(f64::from(options.padding_texels)),
         charts: attempt.spots,
     })
 }
@@ -120,7 +110,7 @@ fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
         };
         if let Some((good, _)) = best {
             let enough = tried >= ATTEMPTS[0] || work > search_words || failed < good * near;
-            if enough || packing.order.len() <= 1 {
+            if enough || packing.plan.order.len() <= 1 {
                 break;
             }
             if scale >= failed || scale <= good {
@@ -145,19 +135,21 @@ fn room(packing: &Packing, attempt: &Attempt) -> f64 {
 /// share: the root of a quadratic; and at most the scale at which the longest chart fits.
 fn first_scale(packing: &Packing) -> f64 {
     let perimeter: f64 = packing
+        .plan
         .order
         .iter()
-        .map(|&i| packing.outlines[i].perimeter())
+        .map(|&i| packing.plan.outlines[i].perimeter())
         .sum();
-    let n = packing.order.len() as f64;
+    let n = packing.plan.order.len() as f64;
     let around = packing.padding + 1.0;
-    let (a, b) = (packing.area, perimeter * around / 2.0);
+    let (a, b) = (packing.plan.area(), perimeter * around / 2.0);
     let c = n * around * around / 2.0 - HOPE * f64::from(packing.cells) * f64::from(packing.cells);
     let root = (-b + (b * b - 4.0 * a * c.min(-1.0)).sqrt()) / (2.0 * a);
     let longest = packing
+        .plan
         .order
         .iter()
-        .map(|&i| packing.outlines[i].extent[0].max(packing.outlines[i].extent[1]));
+        .map(|&i| packing.plan.outlines[i].extent[0].max(packing.plan.outlines[i].extent[1]));
     let longest = longest.fold(f64::MIN_POSITIVE, f64::max);
     root.min((packing.target() - SLACK).max(1.0) / longest)
 }

@@ -35,8 +35,8 @@ impl Mask {
         let [width, height] = outline.extent.map(cells);
         let mut body = Bitmap::new(width, height);
         let mut reach = Bitmap::new(width + 2 * margin, height + 2 * margin);
-        let place = |v: u32| outline.uv[v as usize].map(|x| x * scale + around);
-        let segments = || outline.boundary.iter().map(|edge| edge.map(place));
+        let place = |p: [f64; 2]| p.map(|x| x * scale + around);
+        let segments = || outline.edges().map(|edge| edge.map(place));
         fill(&mut body, segments());
         for segment in segments() {
             touch(&mut body, segment);

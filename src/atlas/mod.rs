@@ -12,18 +12,23 @@
 //!
 //! Charts are never mirrored. None is scaled against the others, except those so small (below a
 //! texel) that the grid has fewer than a handful of cells for each of their triangles.
+mod arrangement;
 mod attempt;
 mod bitmap;
+mod draft;
 mod layout;
 mod mask;
 mod orientation;
 mod outline;
 mod pack;
+mod plan;
+mod poses;
 mod relax;
 mod sheet;
 mod snap;
 
-pub use pack::pack;
+pub use draft::Draft;
+pub use pack::{pack, pack_draft};
 
 use thiserror::Error;
 
@@ -48,7 +53,7 @@ pub struct AtlasOptions {
     pub resolution: u32,
     /// Smallest distance between two charts, in texels; half of it is kept to the border.
     pub padding_texels: u32,
-    /// Words that the search for the best scale may read, about 10⁹ a second; a scale that fits is found in any case.
+    /// Words that the search for the best order, angles and scale may read, about 3·10⁸ a second; a layout is found in any case.
     pub search_words: u64,
 }
 

@@ -15,11 +15,10 @@ const HULL_EDGES: usize = 512;
 const SQUARE_ANGLES: u32 = 360;
 
 /// Unit vector that becomes the horizontal axis.
-pub(super) fn direction(uv: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
-    let hull = convex_hull(uv);
+pub(super) fn direction(hull: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
     match bounds {
-        Bounds::Rectangle => smallest_rectangle(&hull),
-        Bounds::Square => smallest_square(&hull),
+        Bounds::Rectangle => smallest_rectangle(hull),
+        Bounds::Square => smallest_square(hull),
     }
 }
 
@@ -65,30 +64,4 @@ fn extent(hull: &[[f64; 2]], [c, s]: [f64; 2]) -> [f64; 2] {
         }
     }
     [high[0] - low[0], high[1] - low[1]]
-}
-
-/// Andrew's monotone chain, counter-clockwise.
-fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    sorted.dedup();
-    let mut hull: Vec<[f64; 2]> = Vec::new();
-    for _ in 0..2 {
-        let start = hull.len();
-        for &p in &sorted {
-            while hull.len() >= start + 2
-                && !left_turn(hull[hull.len() - 2], hull[hull.len() - 1], p)
-            {
-                hull.pop();
-            }
-            hull.push(p);
-        }
-        hull.pop();
-        sorted.reverse();
-    }
-    hull
-}
-
-fn left_turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> bool {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0
 }

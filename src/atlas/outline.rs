@@ -1,68 +1,137 @@
 //! A chart as the packer sees it.
-use super::ChartMap;
-use super::orientation::{self, Bounds};
+use rayon::prelude::*;
+use std::sync::Arc;
 
-/// A chart turned to its packing angle.
+use super::{AtlasError, ChartMap};
+
+/// A chart's outline, turned to the angle at which it is packed.
 #[derive(Clone, Debug)]
-pub(super) struct Outline<'a> {
-    /// Rotated, with the lower left corner of the bounding rectangle at the origin; mesh units.
-    pub uv: Vec<[f64; 2]>,
-    pub triangles: &'a [[u32; 3]],
-    /// Directed edges around the area, which lies to their left.
-    pub boundary: Vec<[u32; 2]>,
-    /// Sides of the bounding rectangle.
-    pub extent: [f64; 2],
+pub(super) struct Outline {
+    /// Directed edges around the area, which lies to their left, in the plane of the map.
+    boundary: Arc<[[[f64; 2]; 2]]>,
+    pub n_triangles: usize,
     /// Square root of the area.
     pub size: f64,
-    /// The horizontal axis in the plane of the map, and what was subtracted after turning to it.
+    /// Sides of the bounding rectangle once turned, in mesh units.
+    pub extent: [f64; 2],
+    /// The horizontal axis in the plane of the map, and what is subtracted after turning to it.
     axis: [f64; 2],
     low: [f64; 2],
 }
 
-impl<'a> Outline<'a> {
-    pub(super) fn new(map: &ChartMap<'a>, bounds: Bounds, area: f64) -> Self {
-        let mut outline = Self {
-            uv: Vec::new(),
-            triangles: map.triangles,
-            boundary: boundary(map),
-            extent: [0.0; 2],
+impl Outline {
+    /// The outline of a map of this area, not turned yet.
+    pub(super) fn new(map: &ChartMap, area: f64) -> Self {
+        let at = |v: u32| map.uv[v as usize];
+        let outline = Self {
+            boundary: boundary(map).into_iter().map(|e| e.map(at)).collect(),
+            n_triangles: map.triangles.len(),
             size: area.max(0.0).sqrt(),
-            axis: orientation::direction(map.uv, bounds),
+            extent: [0.0; 2],
+            axis: [1.0, 0.0],
             low: [0.0; 2],
+        };
+        outline.turned([1.0, 0.0])
+    }
+
+    /// With another unit vector of the map's plane as horizontal axis.
+    pub(super) fn turned(&self, axis: [f64; 2]) -> Self {
+        let mut turned = Self {
+            axis,
+            low: [0.0; 2],
+            extent: [0.0; 2],
+            ..self.clone()
         };
         let mut high = [f64::NEG_INFINITY; 2];
         let mut low = [f64::INFINITY; 2];
-        for &p in map.uv {
-            let p = outline.place(p);
+        for p in self.corners().map(|p| turned.place(p)) {
             for k in 0..2 {
                 low[k] = low[k].min(p[k]);
                 high[k] = high[k].max(p[k]);
             }
         }
-        if !map.uv.is_empty() {
-            outline.low = low;
-            outline.extent = [high[0] - low[0], high[1] - low[1]];
+        if low[0] <= high[0] {
+            turned.low = low;
+            turned.extent = [high[0] - low[0], high[1] - low[1]];
         }
-        outline.uv = map.uv.iter().map(|&p| outline.place(p)).collect();
-        outline
+        turned
     }
 
-    /// A point of the map, turned and shifted.
+    /// With the same horizontal axis as another outline in the same plane.
+    pub(super) fn turned_as(&self, other: &Self) -> Self {
+        self.turned(other.axis)
+    }
+
+    /// Turned counter-clockwise by an angle.
+    pub(super) fn rotated(&self, angle: f64) -> Self {
+        let ([c, s], (sin, cos)) = (self.axis, angle.sin_cos());
+        self.turned([c * cos + s * sin, s * cos - c * sin])
+    }
+
+    /// A point of the map, turned and shifted: the lower left corner of the bounding rectangle is the origin.
     pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [c, s] = self.axis;
         [c * x + s * y - self.low[0], c * y - s * x - self.low[1]]
     }
 
+    /// The corners of the outline in the plane of the map.
+    pub(super) fn corners(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.boundary.iter().map(|edge| edge[0])
+    }
+
+    /// The directed edges, turned and shifted.
+    pub(super) fn edges(&self) -> impl ExactSizeIterator<Item = [[f64; 2]; 2]> {
+        self.boundary.iter().map(|edge| edge.map(|p| self.place(p)))
+    }
+
     /// Length of the boundary.
     pub(super) fn perimeter(&self) -> f64 {
-        let at = |v: u32| self.uv[v as usize];
-        let length = |&[p, q]: &[u32; 2]| (at(p)[0] - at(q)[0]).hypot(at(p)[1] - at(q)[1]);
+        let length = |[p, q]: &[[f64; 2]; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
         self.boundary.iter().map(length).sum()
     }
 }
 
+/// Checks the charts and finds their outlines.
+pub(super) fn outlines(charts: &[ChartMap]) -> Result<Vec<Outline>, AtlasError> {
+    let areas: Vec<f64> = charts
+        .par_iter()
+        .map(check)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .enumerate()
+        .map(|(chart, checked)| checked.map_err(|fault| fault(chart)))
+        .collect::<Result<_, _>>()?;
+    let outlined = charts.par_iter().zip(&areas);
+    Ok(outlined
+        .map(|(map, &area)| Outline::new(map, area))
+        .collect())
+}
+
+/// The area of a chart, or what is wrong with it.
+fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
+    if map.uv.iter().flatten().any(|x| !x.is_finite()) {
+        return Err(|chart| AtlasError::NonFinite { chart });
+    }
+    if map
+        .triangles
+        .iter()
+        .flatten()
+        .any(|&v| v as usize >= map.uv.len())
+    {
+        return Err(|chart| AtlasError::IndexOutOfRange { chart });
+    }
+    let area = area(map);
+    if !area.is_finite() {
+        return Err(|chart| AtlasError::NonFinite { chart });
+    }
+    if area <= 0.0 && !map.triangles.is_empty() {
+        return Err(|chart| AtlasError::NotRepresentable { chart });
+    }
+    Ok(area)
+}
+
 /// Sum of the signed areas.
-pub(super) fn area(map: &ChartMap) -> f64 {
+fn area(map: &ChartMap) -> f64 {
     map.triangles
         .iter()
         .map(|t| doubled_area(map, t))

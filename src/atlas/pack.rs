@@ -1,15 +1,18 @@
 //! From chart maps to their places on the grid.
 use rayon::prelude::*;
 
+use super::draft::Draft;
 use super::layout::{self, Layout, SLACK};
-use super::orientation::Bounds;
-use super::outline::{self, Outline};
+use super::outline::{Outline, outlines};
+use super::plan::Plan;
 use super::sheet::Spot;
 use super::snap::{self, Snapped};
 use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, Placed, doubled_area};
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
+/// Results of searches that are laid out in full.
+const FINALISTS: usize = 3;
 
 /// Places every chart in the unit square, each triangle strictly positive on the grid, any two charts
 /// at least the padding apart.
@@ -17,15 +20,24 @@ const ROUNDS: usize = 6;
 /// The charts must be strictly positive as given; one that has a flipped triangle is rounded without repair. The same
 /// input gives the same atlas for any number of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
-    let outlines = outlines(charts)?;
+    pack_draft(charts, Draft::new(charts, options)?.as_ref(), options)
+}
+
+/// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on.
+pub fn pack_draft(
+    charts: &[ChartMap],
+    draft: Option<&Draft>,
+    options: &AtlasOptions,
+) -> Result<Atlas, AtlasError> {
+    let too_many = AtlasError::TooManyCharts {
+        charts: charts.len(),
+    };
     let mut slack = vec![SLACK; charts.len()];
+    let plan = Plan::largest_first(&outlines(charts)?);
+    let (plan, mut layout) = best(plan, draft, &slack, options).ok_or(too_many.clone())?;
     let mut cramped = 0;
     for _ in 0..ROUNDS {
-        let layout =
-            layout::layout(&outlines, &slack, options).ok_or(AtlasError::TooManyCharts {
-                charts: charts.len(),
-            })?;
-        let snapped = snapped(charts, &outlines, &layout)?;
+        let snapped = snapped(charts, &plan.outlines, &layout)?;
         let mut settled = true;
         for (chart, snapped) in snapped.iter().enumerate() {
             // Shifting and turning round to whole grid units once more.
@@ -38,54 +50,41 @@ pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasE
         if settled {
             return Ok(atlas(charts, &layout, &slack, snapped));
         }
+        layout = layout::layout(&plan, &slack, options).ok_or(too_many.clone())?;
     }
     Err(AtlasError::NotRepresentable { chart: cramped })
 }
 
-/// Checks the charts and turns each to its angle.
-fn outlines<'a>(charts: &[ChartMap<'a>]) -> Result<Vec<Outline<'a>>, AtlasError> {
-    let areas: Vec<f64> = charts
-        .par_iter()
-        .map(check)
-        .collect::<Vec<_>>()
-        .into_iter()
-        .enumerate()
-        .map(|(chart, checked)| checked.map_err(|fault| fault(chart)))
-        .collect::<Result<_, _>>()?;
-    let total: f64 = areas.iter().sum();
-    let turned = charts.par_iter().zip(&areas).map(|(map, &area)| {
-        // A chart that is most of the atlas decides its side; others fit better as rectangles.
-        let bounds = if 2.0 * area > total {
-            Bounds::Square
-        } else {
-            Bounds::Rectangle
-        };
-        Outline::new(map, bounds, area)
-    });
-    Ok(turned.collect())
-}
-
-/// The area of a chart, or what is wrong with it.
-fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
-    if map.uv.iter().flatten().any(|x| !x.is_finite()) {
-        return Err(|chart| AtlasError::NonFinite { chart });
+/// The plan whose layout has the largest scale: the one given, or what a search makes of it.
+fn best(
+    first: Plan,
+    draft: Option<&Draft>,
+    slack: &[f64],
+    options: &AtlasOptions,
+) -> Option<(Plan, Layout)> {
+    let mut plans = Vec::new();
+    if let Some(draft) = draft {
+        let drafts = draft.searched(options.search_words / 2);
+        plans.extend(drafts.iter().take(FINALISTS).map(Draft::plan));
     }
-    if map
-        .triangles
-        .iter()
-        .flatten()
-        .any(|&v| v as usize >= map.uv.len())
-    {
-        return Err(|chart| AtlasError::IndexOutOfRange { chart });
-    }
-    let area = outline::area(map);
-    if !area.is_finite() {
-        return Err(|chart| AtlasError::NonFinite { chart });
-    }
-    if area <= 0.0 && !map.triangles.is_empty() {
-        return Err(|chart| AtlasError::NotRepresentable { chart });
-    }
-    Ok(area)
+    plans.push(first);
+    let shared = AtlasOptions {
+        search_words: options.search_words / 2 / plans.len() as u64,
+        ..options.clone()
+    };
+    let layouts: Vec<Option<Layout>> = (plans.par_iter().with_max_len(1))
+        .map(|plan| layout::layout(plan, slack, &shared))
+        .collect();
+    let laid_out = plans.into_iter().zip(layouts);
+    laid_out
+        .filter_map(|(plan, layout)| Some((plan, layout?)))
+        .reduce(|best, next| {
+            if next.1.scale > best.1.scale {
+                next
+            } else {
+                best
+            }
+        })
 }
 
 /// Every chart on its own grid.

@@ -3,7 +3,7 @@
 //! All positions of one row are tested together, 64 to a machine word: a run of a mask, of length
 //! between 2ᵏ and 2ᵏ⁺¹, is blocked at x when one of two windows of 2ᵏ cells is, and for each k the
 //! sheet keeps one bit per window.
-use super::bitmap::{Bitmap, Run, set_bits};
+use super::bitmap::{Run, set_bits};
 use super::mask::Mask;
 
 /// A place for one mask.
@@ -21,19 +21,18 @@ pub(super) struct Spot {
 
 /// One of the four turned versions of a mask, with the runs of its reach in the order of the test.
 pub(super) struct Turned {
-    body: Bitmap,
+    turns: u32,
+    body: Vec<Run>,
+    size: [u32; 2],
     reach: Vec<Run>,
     margin: u32,
 }
 
 impl Turned {
-    /// The mask as it is.
-    pub(super) fn unturned(mask: Mask) -> Self {
-        Self {
-            reach: scattered(mask.reach.runs()),
-            body: mask.body,
-            margin: mask.margin,
-        }
+    /// The mask after so many quarter turns.
+    pub(super) fn new(mask: Mask, turns: u32) -> Self {
+        let turned = (0..turns).fold(mask, |mask, _| mask.quarter_turn());
+        Self::of(&turned, turns)
     }
 
     /// The quarter turns that differ: four, or one of a square.
@@ -46,12 +45,23 @@ impl Turned {
             }
             masks.push(turned);
         }
-        masks.into_iter().map(Self::unturned).collect()
+        let turned = masks.into_iter().zip(0..);
+        turned.map(|(mask, turns)| Self::of(&mask, turns)).collect()
+    }
+
+    fn of(turned: &Mask, turns: u32) -> Self {
+        Self {
+            turns,
+            reach: scattered(turned.reach.runs()),
+            body: turned.body.runs(),
+            size: [turned.body.width, turned.body.height],
+            margin: turned.margin,
+        }
     }
 
     /// Width and height, in cells.
     pub(super) fn size(&self) -> [u32; 2] {
-        [self.body.width, self.body.height]
+        self.size
     }
 }
 
@@ -110,18 +120,30 @@ impl Sheet {
         }
     }
 
-    /// The place that makes the used square grow least; of those the lowest, from row `lowest` up.
-    pub(super) fn find(&mut self, turned: &[Turned], lowest: u32) -> Option<Spot> {
-        let mut best: Option<(u32, Spot)> = None;
-        for y in lowest..self.capacity {
-            for (turns, mask) in turned.iter().enumerate() {
+    /// Empty again, with another side that may be used, at most that of before.
+    pub(super) fn clear(&mut self, capacity: u32) {
+        let used = (self.top + self.frame + 1) as usize * self.words;
+        for windows in &mut self.windows {
+            let end = used.min(windows.len());
+            windows[..end].fill(0);
+        }
+        self.capacity = capacity;
+        (self.side, self.top) = (0, 0);
+    }
+
+    /// The place that makes the used square grow least, and for which of the masks; of those the lowest. Only columns and rows
+    /// from `lowest` on are searched.
+    pub(super) fn find(&mut self, turned: &[Turned], lowest: [u32; 2]) -> Option<(usize, Spot)> {
+        let mut best: Option<(u32, (usize, Spot))> = None;
+        for y in lowest[1]..self.capacity {
+            for (index, mask) in turned.iter().enumerate() {
                 let limit = best.map_or(self.capacity, |(side, _)| side - 1);
-                let (width, height) = (mask.body.width, mask.body.height);
+                let [width, height] = mask.size;
                 if width > limit || y + height > limit {
                     continue;
                 }
-                if let Some(x) = self.first_free(mask, y, limit - width) {
-                    let (width, height) = if turns % 2 == 0 {
+                if let Some(x) = self.first_free(mask, y, [lowest[0], limit - width]) {
+                    let (width, height) = if mask.turns % 2 == 0 {
                         (width, height)
                     } else {
                         (height, width)
@@ -129,19 +151,19 @@ impl Sheet {
                     let spot = Spot {
                         x,
                         y,
-                        turns: turns as u32,
+                        turns: mask.turns,
                         width,
                         height,
                     };
-                    let right = x + mask.body.width;
-                    let side = self.side.max(right).max(y + mask.body.height);
-                    best = Some((side, spot));
+                    let right = x + mask.size[0];
+                    let side = self.side.max(right).max(y + mask.size[1]);
+                    best = Some((side, (index, spot)));
                     if side == self.side {
                         return best.map(|(_, spot)| spot);
                     }
                 }
             }
-            let lowest_top = turned.iter().map(|t| y + t.body.height).min();
+            let lowest_top = turned.iter().map(|t| y + t.size[1]).min();
             if best.is_some_and(|(side, _)| lowest_top.is_none_or(|top| top >= side)) {
                 break;
             }
@@ -149,14 +171,18 @@ impl Sheet {
         best.map(|(_, spot)| spot)
     }
 
-    /// Smallest free x up to `last`, in row `y`.
-    fn first_free(&mut self, mask: &Turned, y: u32, last: u32) -> Option<u32> {
+    /// Smallest free x between two, in row `y`.
+    fn first_free(&mut self, mask: &Turned, y: u32, [first, last]: [u32; 2]) -> Option<u32> {
+        if first > last {
+            return None;
+        }
         let n = (last / 64 + 1) as usize;
         self.blocked.clear();
         self.blocked.resize(n, 0);
         if last % 64 < 63 {
             self.blocked[n - 1] = u64::MAX << (last % 64 + 1);
         }
+        set_bits(&mut self.blocked, 0, first);
         for run in &mask.reach {
             let k = (run.end - run.start).ilog2();
             let row = (y + self.frame - mask.margin + run.row) as usize * self.words;
@@ -172,18 +198,17 @@ impl Sheet {
         Some(64 * word as u32 + self.blocked[word].trailing_ones())
     }
 
-    /// Takes the cells of a mask's body.
-    pub(super) fn take(&mut self, turned: &[Turned], spot: Spot) {
-        let mask = &turned[spot.turns as usize];
-        let x = spot.x + self.frame;
-        for run in mask.body.runs() {
-            let row = (spot.y + self.frame + run.row) as usize;
+    /// Takes the cells of a mask's body, whose lower left cell comes to lie at `corner`.
+    pub(super) fn take(&mut self, mask: &Turned, corner: [u32; 2]) {
+        let x = corner[0] + self.frame;
+        for run in &mask.body {
+            let row = (corner[1] + self.frame + run.row) as usize;
             let words = &mut self.windows[0][row * self.words..(row + 1) * self.words];
             set_bits(words, x + run.start, x + run.end);
             self.refresh(row, x + run.start, x + run.end);
         }
-        self.top = self.top.max(spot.y + mask.body.height);
-        self.side = self.side.max(spot.x + mask.body.width).max(self.top);
+        self.top = self.top.max(corner[1] + mask.size[1]);
+        self.side = self.side.max(corner[0] + mask.size[0]).max(self.top);
     }
 
     /// Derives the wider windows of a row from its cells, where cells `start..end` were taken.

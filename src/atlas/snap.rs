@@ -28,7 +28,7 @@ const ROUNDS: u32 = 12;
 
 /// The chart at `unit` grid units per mesh unit, or none if a triangle stays without area.
 pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Snapped> {
-    let exact = |v: usize| outline.uv[v].map(|x| x * unit);
+    let exact = |v: usize| outline.place(map.uv[v]).map(|x| x * unit);
     let rounded: Vec<[i32; 2]> = (0..map.uv.len()).map(|v| round(exact(v))).collect();
     let mut snap = Snap {
         triangles: map.triangles,

@@ -49,7 +49,7 @@ pub fn one_side(twin: &[u32], length: &[f64], pairs: &[[u32; 2]]) -> Vec<bool> {
 }
 
 /// Lengths as integers: the longest is 2²⁰, none is 0.
-fn capacities(twin: &[u32], length: &[f64]) -> Vec<u64> {
+pub fn capacities(twin: &[u32], length: &[f64]) -> Vec<u64> {
     let longest = length.iter().fold(f64::MIN_POSITIVE, |l, &x| l.max(x));
     let unit = f64::from(1 << 20) / longest;
     (0..)

@@ -127,8 +127,16 @@ impl MappedChart {
             .collect()
     }
 
+    /// The area of the map.
+    pub fn area(&self) -> f64 {
+        let corners = |t: &[u32; 3]| t.map(|v| self.embedding.uv[v as usize]);
+        let doubled = |[a, b, c]: [[f64; 2]; 3]| doubled_area(a, b, c);
+        let triangles = self.chart.disk.triangles.iter();
+        triangles.map(corners).map(doubled).sum::<f64>() / 2.0
+    }
+
     /// The same map of a part.
-    fn restricted(&self, chart: Chart, faces: &[u32]) -> Self {
+    pub(super) fn restricted(&self, chart: Chart, faces: &[u32]) -> Self {
         let mut uv = vec![[0.0; 2]; chart.disk.n_vertices];
         for (triangle, &face) in chart.disk.triangles.iter().zip(faces) {
             let of_whole = self.chart.disk.triangles[face as usize];

@@ -15,6 +15,9 @@
 
 mod bound;
 mod chart;
+mod chord;
+mod clusters;
+mod compact;
 mod cone;
 mod crease;
 mod distortion;
@@ -32,6 +35,7 @@ mod smooth;
 
 pub use bound::{Quality, charts_under_bound};
 pub use chart::{Chart, Cut, charts};
+pub use compact::Split;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, Observer, map_chart};
 pub use min_cut::min_cut;

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use super::failure::Failure;
 use super::files::{json, output_format, read_upload, say, write_atomically, write_outputs};
 use super::progress::Display;
-use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, QUALITIES, word};
+use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, QUALITIES, word};
 use crate::barrier::BarrierKind;
 use crate::charts::{Cut, Quality};
 use crate::document::GroupBy;
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
-use crate::pipeline::{self, Limits, Options, Outcome};
+use crate::pipeline::{self, Limits, Options, Outcome, Packing};
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
 #[derive(clap::Args)]
@@ -42,6 +42,12 @@ pub(super) struct Args {
     /// How distorted the atlas may be with `--cut auto`: mean symmetric Dirichlet energy up to 4.05, 4.1 or 4.5
     #[arg(long, default_value = "balanced", value_parser = word::<Quality>(QUALITIES))]
     quality: Quality,
+    /// Search the fullest layout for about a second, or ten times as long
+    #[arg(long, default_value = "fast", value_parser = word::<Packing>(PACKINGS))]
+    packing: Packing,
+    /// Price of a seam where charts are cut for a fuller atlas: 0 cuts wherever that gains anything, a large number never
+    #[arg(long, default_value_t = 1.0, value_name = "W")]
+    seam_weight: f64,
     /// What shares one atlas
     #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
     group_by: GroupBy,
@@ -87,6 +93,8 @@ impl Args {
             cut: self.cut,
             pin: self.pin,
             quality: self.quality,
+            packing: self.packing,
+            seam_weight: self.seam_weight,
             group_by: self.group_by,
             texcoord: self.texcoord,
             overwrite: self.overwrite,

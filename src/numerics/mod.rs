@@ -6,10 +6,13 @@
 
 pub mod block;
 pub mod cholesky;
+pub mod hull;
 pub mod predicates;
+pub mod random;
 pub mod roots;
 pub mod square;
 pub mod stencils;
+pub mod support;
 pub mod svd;
 pub mod symmetric;
 pub mod vec2;

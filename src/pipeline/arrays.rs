@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::compact::{Drafted, compacted};
 use super::map::{folds, mapped_charts};
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Settings;
 use super::{PipelineError, repeated};
-use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Placed};
+use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Draft, Placed};
 use crate::charts::{Folds, MappedChart};
 use crate::mesh::{Defects, Surface};
 use crate::solver::Summary;
@@ -14,10 +15,10 @@ use crate::solver::Summary;
 /// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`].
 pub type GridCorners = [[i32; 2]; 3];
 
-/// Words that packing all meshes of a document may read, about 10⁹ a second, and the least and most of one mesh: a hundred
-/// meshes shall not take a hundred times as long, and the last per cent of fill is worth half a second.
-const SEARCH_WORDS: u64 = 2_000_000_000;
-const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 500_000_000];
+/// Words that packing all meshes of a document may read, and the least and most of one mesh: a hundred meshes shall not take a
+/// hundred times as long.
+const SEARCH_WORDS: u64 = 1_000_000_000;
+const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 400_000_000];
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
 /// another scale rounds it differently.
@@ -116,13 +117,18 @@ pub(super) fn unwrap_all(
     let options = AtlasOptions {
         resolution: settings.resolution,
         padding_texels: settings.padding,
-        search_words: (SEARCH_WORDS / meshes.len() as u64)
-            .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
+        search_words: settings.packing.passes()
+            * (SEARCH_WORDS / meshes.len() as u64)
+                .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
     };
     let folds = folds(settings);
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
         .map(|((mesh, surface), charts)| {
+            let charts = match folds {
+                Folds::Cut => compacted(charts, &options, settings.seam_weight)?,
+                Folds::Keep => Drafted::new(charts, &options)?,
+            };
             let (charts, atlas) = packed(charts, &options, folds)?;
             Ok(assemble(*mesh, surface, &charts, &atlas))
         })
@@ -132,20 +138,17 @@ pub(super) fn unwrap_all(
 /// The charts of one mesh in an atlas. Where rounding to the grid made a chart overlap itself it is cut once more, and all are
 /// packed again.
 fn packed(
-    mut charts: Vec<MappedChart>,
+    drafted: Drafted,
     options: &AtlasOptions,
     folds: Folds,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
+    let Drafted {
+        mut charts,
+        mut draft,
+    } = drafted;
     let mut rounds = 0;
     loop {
-        let chart_maps: Vec<ChartMap> = charts
-            .iter()
-            .map(|mapped| ChartMap {
-                uv: &mapped.embedding.uv,
-                triangles: &mapped.chart.disk.triangles,
-            })
-            .collect();
-        let atlas = atlas::pack(&chart_maps, options)?;
+        let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options)?;
         rounds += 1;
         if folds == Folds::Keep || rounds == PACKINGS {
             return Ok((charts, atlas));
@@ -161,7 +164,19 @@ fn packed(
         if charts.len() == n_before {
             return Ok((charts, atlas));
         }
+        draft = Draft::new(&chart_maps(&charts), options)?;
     }
+}
+
+/// Charts as the packer sees them.
+pub(super) fn chart_maps<'a>(
+    charts: impl IntoIterator<Item = &'a MappedChart>,
+) -> Vec<ChartMap<'a>> {
+    let maps = charts.into_iter().map(|mapped| ChartMap {
+        uv: &mapped.embedding.uv,
+        triangles: &mapped.chart.disk.triangles,
+    });
+    maps.collect()
 }
 
 /// Hands every face of the input its corners in the atlas.

@@ -13,6 +13,7 @@
 //! one thread, so the result does not depend on their number.
 
 mod arrays;
+mod compact;
 mod error;
 mod map;
 mod observer;
@@ -51,7 +52,7 @@ mod warp;
 pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
-pub use options::Settings;
+pub use options::{Packing, Settings};
 
 #[cfg(feature = "files")]
 pub use bodies::BodyFormat;

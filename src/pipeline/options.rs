@@ -1,6 +1,5 @@
 //! What a caller may choose, with defaults and limits.
 
-#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "files")]
@@ -12,6 +11,28 @@ use crate::document::{GroupBy, OutputFormat};
 use crate::energy::EnergyKind;
 #[cfg(feature = "files")]
 use crate::picture::HeatmapMeasure;
+
+/// How long the fullest layout of an atlas is searched for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum Packing {
+    /// About a second.
+    #[default]
+    Fast,
+    /// Ten times as long.
+    Tight,
+}
+
+impl Packing {
+    /// How often the words that a fast search reads.
+    pub(super) fn passes(self) -> u64 {
+        match self {
+            Self::Fast => 1,
+            Self::Tight => 10,
+        }
+    }
+}
 
 /// How a mesh given as arrays is unwrapped.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +51,11 @@ pub struct Settings {
     pub pin: u32,
     /// How distorted the atlas may be with [`Cut::Auto`].
     pub quality: Quality,
+    /// How long the fullest layout is searched for.
+    pub packing: Packing,
+    /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts wherever that gains anything, a
+    /// large number never.
+    pub seam_weight: f64,
     /// Texels along the side of the texture that `padding` is counted in.
     pub resolution: u32,
     /// Least distance of two charts, in texels.
@@ -50,6 +76,8 @@ impl Default for Settings {
             cut: Cut::Auto,
             pin: 0,
             quality: Quality::default(),
+            packing: Packing::default(),
+            seam_weight: 1.0,
             resolution: 1024,
             padding: 2,
             threads: None,
@@ -72,6 +100,7 @@ impl Settings {
         };
         within("barrier_strength", self.barrier_strength, 1e-9, 1e9)?;
         within("barrier_support", self.barrier_support, 1e-6, 1e6)?;
+        within("seam_weight", self.seam_weight, 0.0, 1e6)?;
         within("resolution", f64::from(self.resolution), 16.0, 65_536.0)?;
         within(
             "padding",
@@ -118,6 +147,12 @@ pub struct Options {
     pub pin: u32,
     /// The bound on the mean symmetric Dirichlet energy that `cut` `auto` keeps: 4.05, 4.1 or 4.5; 4 is an isometry.
     pub quality: Quality,
+    /// How long the fullest layout is searched for.
+    pub packing: Packing,
+    /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts wherever that gains anything, a
+    /// large number never. With `cut` `disk` no chart is cut.
+    #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
+    pub seam_weight: f64,
     /// What shares one atlas.
     pub group_by: GroupBy,
     /// The UV set to write; chosen so that no texture breaks if absent.
@@ -161,6 +196,8 @@ impl Default for Options {
             cut: settings.cut,
             pin: settings.pin,
             quality: settings.quality,
+            packing: settings.packing,
+            seam_weight: settings.seam_weight,
             group_by: GroupBy::Mesh,
             texcoord: None,
             overwrite: false,
@@ -188,6 +225,8 @@ impl Options {
             cut: self.cut,
             pin: self.pin,
             quality: self.quality,
+            packing: self.packing,
+            seam_weight: self.seam_weight,
             resolution: self.resolution,
             padding: self.padding,
             threads: self.limits.threads(self.threads),

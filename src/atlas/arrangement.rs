@@ -1,0 +1,75 @@
+//! One way to arrange charts.
+use std::sync::Arc;
+
+use super::poses::Poses;
+use super::sheet::Sheet;
+use crate::numerics::random::Random;
+
+/// An order and a pose for every chart, and what comes of it.
+#[derive(Clone)]
+pub(super) struct Arrangement {
+    pub order: Vec<usize>,
+    pub pose: Vec<usize>,
+    /// For each chart its lower left corner.
+    pub corners: Vec<[u32; 2]>,
+    pub side: u32,
+    /// The side, and below one cell how far the charts reach on average.
+    pub cost: f64,
+}
+
+impl Arrangement {
+    /// Places all charts, of which those before `first` in the order stay where they are; none if that takes more than a square
+    /// of side `largest`.
+    pub(super) fn lay_out(
+        &mut self,
+        poses: &[Arc<Poses>],
+        sheet: &mut Sheet,
+        first: usize,
+        largest: u32,
+    ) -> Option<()> {
+        sheet.clear(largest);
+        let mut reach = 0;
+        for (place, &chart) in self.order.iter().enumerate() {
+            let mask = poses[chart].mask(self.pose[chart]);
+            if place >= first {
+                let (_, spot) = sheet.find(std::slice::from_ref(mask), [0, 0])?;
+                self.corners[chart] = [spot.x, spot.y];
+            }
+            let [x, y] = self.corners[chart];
+            sheet.take(mask, [x, y]);
+            let [width, height] = mask.size();
+            reach += (x + width).max(y + height);
+        }
+        if sheet.side > largest {
+            return None;
+        }
+        self.side = sheet.side;
+        let most = f64::from(sheet.side) * self.order.len() as f64 + 1.0;
+        self.cost = f64::from(sheet.side) + f64::from(reach) / most;
+        Some(())
+    }
+
+    /// Another place in the order, or another pose, for one chart; returns the first place in the order that is concerned.
+    pub(super) fn change(&mut self, random: &mut Random) -> usize {
+        let n = self.order.len();
+        let [i, j] = [random.below(n), random.below(n)];
+        let chart = self.order[i];
+        let pose = &mut self.pose[chart];
+        match random.below(4) {
+            0 => self.order.swap(i, j),
+            1 => {
+                self.order.remove(i);
+                self.order.insert(j, chart);
+            }
+            2 => {
+                *pose = Poses::next_angle(*pose, random.below(2) == 0);
+                return i;
+            }
+            _ => {
+                *pose = random.below(Poses::COUNT);
+                return i;
+            }
+        }
+        i.min(j)
+    }
+}

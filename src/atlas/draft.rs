@@ -1,0 +1,209 @@
+//! A layout on a coarse raster, which becomes fuller as long as one likes.
+use rayon::prelude::*;
+use std::sync::Arc;
+
+use super::arrangement::Arrangement;
+use super::layout::padding;
+use super::mask::Distances;
+use super::outline::{Outline, outlines};
+use super::plan::{Plan, Turns};
+use super::poses::Poses;
+use super::sheet::Sheet;
+use super::{AtlasError, AtlasOptions, ChartMap};
+use crate::numerics::random::Random;
+
+/// Cells along the side of the square that the charts are expected to need. With 128 a cell is too much for the gaps that
+/// matter; with 512 a trial costs four times as much, and less is found in the same time.
+const RASTER: u32 = 256;
+/// The share of that square that they are expected to fill.
+const HOPE: f64 = 0.75;
+/// Sides of squares in which all charts are first placed.
+const SIDES: [u32; 3] = [RASTER, 2 * RASTER, 4 * RASTER];
+/// Charts at most: of more the large ones leave room enough for the small ones.
+const MOST_CHARTS: usize = 128;
+/// Searches from different seeds.
+const SEEDS: usize = 4;
+/// Larger squares that a search accepts at its begin and at its end: about one cell and a tenth of one.
+const TEMPERATURES: [f64; 2] = [1.3, 0.13];
+/// What a trial costs for each chart beside the words it reads.
+const WORDS_PER_CHART: u64 = 1000;
+
+/// A layout on a coarse raster.
+///
+/// It follows from an order of the charts and a pose of each: every chart is placed where the used square grows least. Simulated
+/// annealing changes the one or the other and keeps what makes the square smaller, at first also what makes it a little larger.
+/// What that costs is counted in words read, so the result is the same on every machine and for any number of threads.
+#[derive(Clone)]
+pub struct Draft {
+    poses: Vec<Arc<Poses>>,
+    raster: Raster,
+    state: Arrangement,
+}
+
+/// How charts become cells.
+#[derive(Clone, Copy)]
+struct Raster {
+    /// Cells per mesh unit.
+    scale: f64,
+    /// Cells kept free between charts.
+    padding: f64,
+}
+
+impl Draft {
+    /// The charts in the order of their sizes; nothing for so many that a search would see only a few layouts, or where a
+    /// needle is longer than the raster.
+    pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
+        let outlines = outlines(charts)?;
+        if outlines.len() > MOST_CHARTS {
+            return Ok(None);
+        }
+        Ok(Self::of(&Plan::largest_first(&outlines), options))
+    }
+
+    fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
+        let area = plan.area().max(f64::MIN_POSITIVE);
+        let raster = Raster {
+            scale: f64::from(RASTER) * (HOPE / area).sqrt(),
+            padding: padding(options, plan.order.len(), f64::from(RASTER)),
+        };
+        let n = plan.outlines.len();
+        let mut draft = Self {
+            poses: plan.outlines.iter().map(|o| raster.poses(o)).collect(),
+            raster,
+            state: Arrangement {
+                order: plan.order.clone(),
+                pose: vec![0; n],
+                corners: vec![[0; 2]; n],
+                side: 0,
+                cost: f64::INFINITY,
+            },
+        };
+        draft.lay_out()
+    }
+
+    /// The same with some parts, which come last among the charts, in place of one chart; the order keeps their place.
+    pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Option<Self>, AtlasError> {
+        let mut draft = self.clone();
+        let angle = self.poses[chart].outline(self.state.pose[chart]);
+        let outlines = outlines(parts)?;
+        let turned = outlines
+            .iter()
+            .map(|outline| self.raster.poses(&outline.turned_as(angle)));
+        draft.poses.extend(turned);
+        draft.poses.remove(chart);
+        let Arrangement {
+            order,
+            pose,
+            corners,
+            ..
+        } = &mut draft.state;
+        let turns = pose.remove(chart) % 4;
+        pose.resize(draft.poses.len(), turns);
+        corners.resize(draft.poses.len(), [0; 2]);
+        let n = self.poses.len();
+        if let Some(place) = order.iter().position(|&c| c == chart) {
+            order.splice(place..=place, n..n + parts.len());
+        }
+        for c in order.iter_mut().filter(|c| **c > chart) {
+            *c -= 1;
+        }
+        Ok(draft.lay_out())
+    }
+
+    /// The share of the square that is filled, less what whole cells of the coarse raster lose.
+    pub fn fill(&self) -> f64 {
+        let ratio = f64::from(RASTER) / (self.state.cost + self.raster.padding);
+        HOPE * ratio * ratio
+    }
+
+    /// The drafts that several searches make of this one, together reading about so many words; the best first.
+    pub(super) fn searched(&self, words: u64) -> Vec<Self> {
+        let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
+        let mut drafts: Vec<Self> = seeds
+            .map(|seed| {
+                let mut draft = self.clone();
+                draft.improve(words / SEEDS as u64, seed as u64);
+                draft
+            })
+            .collect();
+        drafts.sort_by(|a, b| a.state.cost.total_cmp(&b.state.cost));
+        drafts
+    }
+
+    /// Searches a smaller square; reads about so many words. Never worse than before.
+    pub fn improve(&mut self, words: u64, seed: u64) {
+        if self.state.order.is_empty() {
+            return;
+        }
+        let mut random = Random::new(seed);
+        let largest = self.state.side + self.state.side / 16;
+        let mut sheet = self.raster.sheet(largest);
+        let mut state = self.state.clone();
+        let [first, last] = TEMPERATURES;
+        while sheet.work < words {
+            let progress = sheet.work as f64 / words as f64;
+            let temperature = first * (last / first).powf(progress);
+            let bound = state.cost - temperature * (1.0 - random.unit()).ln();
+            let mut trial = state.clone();
+            let first = trial.change(&mut random);
+            sheet.work += WORDS_PER_CHART * trial.order.len() as u64;
+            let fits = trial.lay_out(&self.poses, &mut sheet, first, largest.min(bound as u32));
+            if fits.is_some() && trial.cost <= bound {
+                state = trial;
+                if state.cost < self.state.cost {
+                    self.state.clone_from(&state);
+                }
+            }
+        }
+    }
+
+    /// All charts placed, in a square as large as that takes within reason.
+    fn lay_out(mut self) -> Option<Self> {
+        for largest in SIDES {
+            let mut sheet = self.raster.sheet(largest);
+            let laid_out = self.state.lay_out(&self.poses, &mut sheet, 0, largest);
+            if laid_out.is_some() {
+                return Some(self);
+            }
+        }
+        None
+    }
+
+    /// As a plan for a fine raster.
+    pub(super) fn plan(&self) -> Plan {
+        let Arrangement {
+            order,
+            pose,
+            corners,
+            side,
+            ..
+        } = &self.state;
+        let share = |cells: u32| f64::from(cells.saturating_sub(1)) / f64::from(*side.max(&1));
+        let posed = || self.poses.iter().zip(pose);
+        Plan {
+            outlines: posed()
+                .map(|(poses, &pose)| poses.outline(pose).clone())
+                .collect(),
+            turns: pose
+                .iter()
+                .map(|&pose| Turns::Only(Poses::turns(pose)))
+                .collect(),
+            order: order.clone(),
+            corners: corners.iter().map(|corner| corner.map(share)).collect(),
+        }
+    }
+}
+
+impl Raster {
+    fn poses(self, outline: &Outline) -> Arc<Poses> {
+        let distances = Distances {
+            around: 0.0,
+            padding: self.padding,
+        };
+        Arc::new(Poses::new(outline, self.scale, distances))
+    }
+
+    fn sheet(self, side: u32) -> Sheet {
+        Sheet::new(side, self.padding.ceil() as u32 + 2, 0)
+    }
+}

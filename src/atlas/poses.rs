@@ -1,0 +1,56 @@
+//! The ways in which one chart may lie.
+use std::f64::consts::FRAC_PI_2;
+use std::sync::OnceLock;
+
+use super::mask::{Distances, Mask};
+use super::outline::Outline;
+use super::sheet::Turned;
+
+/// Angles within a quarter turn.
+const ANGLES: usize = 16;
+
+/// An outline at 64 angles, each rastered when it is first asked for.
+pub(super) struct Poses {
+    outlines: Vec<Outline>,
+    masks: Vec<OnceLock<Turned>>,
+    scale: f64,
+    distances: Distances,
+}
+
+impl Poses {
+    /// Pose `4 a + t` is turned by t quarters and a sixteenths of a quarter.
+    pub(super) const COUNT: usize = 4 * ANGLES;
+
+    pub(super) fn new(outline: &Outline, scale: f64, distances: Distances) -> Self {
+        let angle = |k: usize| FRAC_PI_2 * k as f64 / ANGLES as f64;
+        Self {
+            outlines: (0..ANGLES).map(|k| outline.rotated(angle(k))).collect(),
+            masks: (0..Self::COUNT).map(|_| OnceLock::new()).collect(),
+            scale,
+            distances,
+        }
+    }
+
+    /// The pose at the next angle, or that before.
+    pub(super) fn next_angle(pose: usize, is_after: bool) -> usize {
+        let by = if is_after { 4 } else { Self::COUNT - 4 };
+        (pose + by) % Self::COUNT
+    }
+
+    /// The outline of a pose, without its quarter turns.
+    pub(super) fn outline(&self, pose: usize) -> &Outline {
+        &self.outlines[pose / 4]
+    }
+
+    /// The quarter turns of a pose.
+    pub(super) fn turns(pose: usize) -> u32 {
+        pose as u32 % 4
+    }
+
+    pub(super) fn mask(&self, pose: usize) -> &Turned {
+        self.masks[pose].get_or_init(|| {
+            let mask = Mask::new(self.outline(pose), self.scale, self.distances);
+            Turned::new(mask, Self::turns(pose))
+        })
+    }
+}

@@ -1,0 +1,165 @@
+//! Chords along which a map would part into two compact pieces.
+
+use super::clusters::Clusters;
+use crate::mesh::UnionFind;
+use crate::numerics::support::Support;
+use crate::numerics::vec2::dot;
+use std::f64::consts::TAU;
+
+/// Directions in which lines sweep over a map, and the distances between which they stop.
+const SWEEPS: u32 = 32;
+const STOPS: usize = 24;
+
+/// A straight chord of a map and the piece it cuts off.
+#[derive(Clone, Debug)]
+pub struct Chord {
+    /// Direction from the rest of the map towards the piece.
+    pub direction: [f64; 2],
+    /// What lies farther than this in that direction is beyond the line.
+    pub offset: f64,
+    /// A cluster of the piece, which is all that hangs together with it beyond the line.
+    pub cluster: u32,
+    /// The area of the piece.
+    pub area: f64,
+    /// Length of the border between piece and rest on the surface.
+    pub length: f64,
+    /// By how much the areas of the two parts' convex hulls fall short of that of the whole.
+    pub gain: f64,
+}
+
+/// A connected part of a map.
+#[derive(Clone)]
+struct Part {
+    area: f64,
+    border: f64,
+    support: Support,
+}
+
+/// Chords from 32 directions of which piece and rest have at least the area `crumb` each.
+///
+/// As a line recedes over the map, what lies beyond it grows and unites; of each part that hangs together the hull is known, and
+/// of what lies before the line too, so all chords of a direction cost little more than sorting. O(n) for n clusters.
+pub fn chords(clusters: &Clusters, crumb: f64) -> Vec<Chord> {
+    (0..SWEEPS)
+        .flat_map(|k| {
+            let (sin, cos) = (TAU * f64::from(k) / f64::from(SWEEPS)).sin_cos();
+            sweep(clusters, crumb, [cos, sin])
+        })
+        .collect()
+}
+
+fn sweep(clusters: &Clusters, crumb: f64, direction: [f64; 2]) -> Vec<Chord> {
+    let mut order: Vec<(f64, u32)> = (clusters.centre.iter().zip(0..))
+        .map(|(&centre, cluster)| (dot(centre, direction), cluster))
+        .collect();
+    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let (Some(&(high, _)), Some(&(low, _))) = (order.first(), order.last()) else {
+        return Vec::new();
+    };
+    let stop = |i: usize| high + (low - high) * (i + 1) as f64 / (STOPS + 1) as f64;
+    let end = |i: usize| order.partition_point(|&(reach, _)| reach > stop(i));
+    let hull = |of: &[(f64, u32)]| {
+        let mut hull = Support::EMPTY;
+        for &(_, cluster) in of {
+            hull.unite(&clusters.support[cluster as usize]);
+        }
+        hull
+    };
+    // The hull of what a line at each stop has not passed.
+    let mut before = vec![hull(&order[end(STOPS - 1)..]); STOPS];
+    for i in (0..STOPS - 1).rev() {
+        before[i] = before[i + 1].clone();
+        before[i].unite(&hull(&order[end(i)..end(i + 1)]));
+    }
+    let whole = hull(&order).area();
+    let mut beyond = Beyond::new(clusters);
+    let mut chords = Vec::new();
+    let mut begin = 0;
+    for (i, before) in before.iter().enumerate() {
+        for &(_, cluster) in &order[begin..end(i)] {
+            beyond.add(cluster);
+        }
+        begin = end(i);
+        for (cluster, part, rest) in beyond.parts(before, crumb) {
+            let gain = whole - part.support.area() - rest.area();
+            chords.push(Chord {
+                direction,
+                offset: stop(i),
+                cluster,
+                area: part.area,
+                length: part.border,
+                gain,
+            });
+        }
+    }
+    chords
+}
+
+/// What lies beyond a line that recedes over the map, in connected parts.
+struct Beyond<'a> {
+    clusters: &'a Clusters,
+    whole: f64,
+    sets: UnionFind,
+    has_passed: Vec<bool>,
+    /// For each cluster that represents a part the part.
+    part: Vec<Option<Part>>,
+}
+
+impl<'a> Beyond<'a> {
+    fn new(clusters: &'a Clusters) -> Self {
+        let n = clusters.area.len();
+        Self {
+            clusters,
+            whole: clusters.area.iter().sum(),
+            sets: UnionFind::new(n),
+            has_passed: vec![false; n],
+            part: vec![None; n],
+        }
+    }
+
+    fn add(&mut self, cluster: u32) {
+        let c = cluster as usize;
+        let mut part = Part {
+            area: self.clusters.area[c],
+            border: 0.0,
+            support: self.clusters.support[c].clone(),
+        };
+        self.has_passed[c] = true;
+        for &(neighbor, length) in &self.clusters.neighbors[c] {
+            if !self.has_passed[neighbor as usize] {
+                part.border += length;
+                continue;
+            }
+            part.border -= length;
+            let other = self.sets.find(neighbor);
+            if let Some(other) = self.part[other as usize].take() {
+                part.area += other.area;
+                part.border += other.border;
+                part.support.unite(&other.support);
+            }
+            self.sets.unite(cluster, neighbor);
+        }
+        let root = self.sets.find(cluster);
+        self.part[root as usize] = Some(part);
+    }
+
+    /// Each part that may be a piece, a cluster of it, and the hull of the rest of the map.
+    fn parts(&self, before: &Support, crumb: f64) -> Vec<(u32, &Part, Support)> {
+        let all = || {
+            (0u32..)
+                .zip(&self.part)
+                .filter_map(|(c, part)| Some((c, part.as_ref()?)))
+        };
+        let rest_of = |cluster: u32| {
+            let mut rest = before.clone();
+            for (_, other) in all().filter(|&(c, _)| c != cluster) {
+                rest.unite(&other.support);
+            }
+            rest
+        };
+        all()
+            .filter(|(_, part)| part.area >= crumb && part.area <= self.whole - crumb)
+            .map(|(cluster, part)| (cluster, part, rest_of(cluster)))
+            .collect()
+    }
+}

@@ -1,0 +1,93 @@
+//! The faces of a map in small clusters.
+
+use crate::cut::Sheet;
+use crate::mesh::{CUT, UnionFind};
+use crate::numerics::support::{Directions, Support};
+use crate::numerics::vec2::doubled_area;
+use std::collections::BTreeMap;
+
+/// Cells along the square root of a map's area; faces of one cell that hang together make a cluster.
+const CELLS: f64 = 48.0;
+
+/// Connected faces that lie close together in the plane: what is cut off a map is decided on them, and on faces only where
+/// exactly the seam runs.
+pub struct Clusters {
+    /// For each face its cluster.
+    pub of_face: Vec<u32>,
+    /// For each cluster the area it covers, the mean of its faces' centres, and its extent.
+    pub area: Vec<f64>,
+    pub centre: Vec<[f64; 2]>,
+    pub support: Vec<Support>,
+    /// For each cluster those it touches, and the length of their common border on the surface.
+    pub neighbors: Vec<Vec<(u32, f64)>>,
+}
+
+impl Clusters {
+    /// The clusters of a sheet with vertices at `uv`.
+    pub fn new(sheet: &Sheet, uv: &[[f64; 2]]) -> Self {
+        let corners =
+            |f: usize| [3 * f, 3 * f + 1, 3 * f + 2].map(|c| uv[sheet.vertex[c] as usize]);
+        let n_faces = sheet.triangles.len();
+        let area: Vec<f64> = (0..n_faces)
+            .map(|f| {
+                let [a, b, c] = corners(f);
+                doubled_area(a, b, c) / 2.0
+            })
+            .collect();
+        let cell = area.iter().sum::<f64>().max(f64::MIN_POSITIVE).sqrt() / CELLS;
+        let place = |f: usize| centre(corners(f)).map(|x| (x / cell).floor() as i64);
+        let mut sets = UnionFind::new(n_faces);
+        for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
+            if place(h as usize / 3) == place(t as usize / 3) {
+                sets.unite(h / 3, t / 3);
+            }
+        }
+        let (of_face, n) = sets.labels();
+        let mut clusters = Self {
+            area: vec![0.0; n],
+            centre: vec![[0.0; 2]; n],
+            support: vec![Support::EMPTY; n],
+            neighbors: neighbors(sheet, &of_face, n),
+            of_face,
+        };
+        clusters.measure(&area, corners);
+        clusters
+    }
+
+    fn measure(&mut self, area: &[f64], corners: impl Fn(usize) -> [[f64; 2]; 3]) {
+        let directions = Directions::default();
+        let mut count = vec![0.0; self.area.len()];
+        for (f, &c) in self.of_face.iter().enumerate() {
+            let c = c as usize;
+            self.area[c] += area[f];
+            count[c] += 1.0;
+            let middle = centre(corners(f));
+            self.centre[c] = [0, 1].map(|k| self.centre[c][k] + middle[k]);
+            for p in corners(f) {
+                self.support[c].add(p, &directions);
+            }
+        }
+        for (centre, n) in self.centre.iter_mut().zip(count) {
+            *centre = centre.map(|x| x / n);
+        }
+    }
+}
+
+fn centre(corners: [[f64; 2]; 3]) -> [f64; 2] {
+    [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0)
+}
+
+fn neighbors(sheet: &Sheet, of_face: &[u32], n: usize) -> Vec<Vec<(u32, f64)>> {
+    let mut borders: BTreeMap<(u32, u32), f64> = BTreeMap::new();
+    for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
+        let (a, b) = (of_face[h as usize / 3], of_face[t as usize / 3]);
+        if a != b {
+            *borders.entry((a, b)).or_default() += sheet.length(h.min(t));
+        }
+    }
+    let mut neighbors = vec![Vec::new(); n];
+    for ((a, b), length) in borders {
+        neighbors[a as usize].push((b, length));
+    }
+    neighbors
+}
