@@ -66,8 +66,13 @@ impl Draft {
             scale: f64::from(RASTER) * (HOPE / area).sqrt(),
             padding: padding(options, plan.order.len(), f64::from(RASTER)),
         };
+        let extents = plan.order.iter().flat_map(|&i| plan.outlines[i].extent);
+        let longest = extents.fold(0.0, f64::max) * raster.scale;
+        if longest > f64::from(SIDES[2]) {
+            return None;
+        }
         let n = plan.outlines.len();
-        let mut draft = Self {
+        let draft = Self {
             poses: plan.outlines.iter().map(|o| raster.poses(o)).collect(),
             raster,
             state: Arrangement {

@@ -15,8 +15,8 @@ use crate::numerics::vec2::{dot, doubled_area};
 
 /// How far a seam may leave its chord, in square roots of the chart's area; clusters are narrower.
 const BAND: f64 = 0.04;
-/// The least share of a chart's area that a piece has.
-const CRUMB: f64 = 0.01;
+/// The least area of a part, as a share of the atlas'.
+const CRUMB: f64 = 0.005;
 /// What a seam costs beside its length, in the unit of the price.
 const PER_SEAM: f64 = 0.05;
 /// Chords at most that are made seams on the mesh before the best counts.
@@ -46,8 +46,8 @@ impl MappedChart {
         let mesh = (&*disk.triangles, &*self.chart.positions);
         let labels = vec![0; disk.triangles.len()];
         let sheet = Sheet::divide(mesh, &twins(disk), &labels, 1).pop()?;
-        let splitter = Splitter::new(self, &sheet, PER_SEAM * unit);
-        let mut chords = chords(&splitter.clusters, CRUMB * splitter.area);
+        let splitter = Splitter::new(self, &sheet, unit);
+        let mut chords = chords(&splitter.clusters, splitter.crumb);
         let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, chord.length);
         chords.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
         let splits = chords
@@ -76,14 +76,15 @@ struct Splitter<'a> {
     cost: Vec<f64>,
     area: f64,
     hull: f64,
-    /// What a seam costs beside its length.
+    /// The least area of a part, and what a seam costs beside its length.
+    crumb: f64,
     per_seam: f64,
     directions: Directions,
 }
 
 impl<'a> Splitter<'a> {
     /// The vertices of the sheet are numbered anew.
-    fn new(mapped: &MappedChart, sheet: &'a Sheet, per_seam: f64) -> Self {
+    fn new(mapped: &MappedChart, sheet: &'a Sheet, unit: f64) -> Self {
         let mut uv = vec![[0.0; 2]; sheet.positions.len()];
         let corners = mapped.chart.disk.triangles.as_flattened();
         for (&v, &of_chart) in sheet.vertex.iter().zip(corners) {
@@ -94,7 +95,8 @@ impl<'a> Splitter<'a> {
             cost: edge_costs(sheet),
             area: clusters.area.iter().sum(),
             hull: 0.0,
-            per_seam,
+            crumb: CRUMB * unit * unit,
+            per_seam: PER_SEAM * unit,
             directions: Directions::default(),
             sheet,
             uv,
@@ -112,8 +114,7 @@ impl<'a> Splitter<'a> {
             .filter(|&f| is_piece[f])
             .map(|f| self.face_area(f))
             .sum();
-        let crumb = CRUMB * self.area;
-        if area < crumb || area > self.area - crumb {
+        if area < self.crumb || area > self.area - self.crumb {
             return None;
         }
         let (_, n_parts) = connected_faces(&parted(twin, &is_piece));

@@ -2,7 +2,7 @@
 
 use super::vec2::doubled_area;
 
-/// The corners of the convex hull of points, counter-clockwise; all of them where fewer than three differ.
+/// The corners of the convex hull of points, counter-clockwise; of points that are all one, none.
 ///
 /// From: Andrew 1979 (monotone chain).
 pub fn convex_hull(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {

@@ -6,11 +6,11 @@ use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;
 
 /// The share of the square that a seam as long as the side of the surface's square must gain.
-const PRICE: f64 = 0.03;
+const PRICE: f64 = 0.015;
 /// Cuts at most.
 const MOST_CUTS: u64 = 20;
 /// Cuts in a row that may leave the atlas no better than the best before.
-const PATIENCE: usize = 6;
+const PATIENCE: usize = 9;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
 const MOST_CHARTS: usize = 64;
 /// What share of the words for packing the layout may read after each cut.

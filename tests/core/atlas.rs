@@ -1,6 +1,6 @@
 //! Packing: positive on the grid, inside the square, apart, the same every time.
 use proptest::prelude::*;
-use unwrapd::atlas::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_BITS, pack};
+use unwrapd::atlas::{Atlas, AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, pack};
 
 type Chart = (Vec<[f64; 2]>, Vec<[u32; 3]>);
 
@@ -246,6 +246,67 @@ fn a_hole_receives_a_small_chart() {
     let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
     assert!(atlas.utilization > 0.8, "{}", atlas.utilization);
     assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+/// A bar of so many squares.
+fn bar(n: usize) -> Chart {
+    let uv = (0..=n).flat_map(|i| [[i as f64, 0.0], [i as f64, 1.0]]);
+    let triangles = (0..n as u32).flat_map(|i| {
+        let [a, b, c, d] = [2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3];
+        [[a, c, d], [a, d, b]]
+    });
+    (uv.collect(), triangles.collect())
+}
+
+#[test]
+fn a_search_finds_what_the_first_layout_does_not() {
+    // Placed by size the bars of a square of side 5 lie crosswise; every one of them fits along another.
+    let charts: Vec<Chart> = [5, 4, 4, 3, 3, 2, 2, 1, 1].map(bar).into();
+    let with = |search_words| {
+        let options = AtlasOptions {
+            search_words,
+            ..AtlasOptions::default()
+        };
+        let atlas = pack(&maps(&charts), &options).unwrap();
+        assert_positive_and_inside(&charts, &atlas);
+        assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+        atlas.utilization
+    };
+    let [first, searched] = [0, 100_000_000].map(with);
+    assert!(searched >= first && searched > 0.9, "{first} {searched}");
+}
+
+#[test]
+fn a_draft_becomes_fuller_when_a_chart_is_cut() {
+    let options = AtlasOptions::default();
+    let whole = bar(4);
+    let mut draft = Draft::new(&maps(&[bar(1), whole, bar(1)]), &options)
+        .unwrap()
+        .unwrap();
+    draft.improve(1_000_000, 1);
+    // The bar decides the side: 6 of 16 squares.
+    assert!((0.34..0.38).contains(&draft.fill()), "{}", draft.fill());
+    let parts = [bar(2), bar(2)];
+    let mut cut = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
+    cut.improve(1_000_000, 1);
+    // 6 of 9.
+    assert!(cut.fill() > 0.6, "{}", cut.fill());
+    let again = {
+        let mut again = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
+        again.improve(1_000_000, 1);
+        again.fill()
+    };
+    assert!(again == cut.fill());
+}
+
+#[test]
+fn crowds_and_needles_have_no_draft() {
+    let crowd: Vec<Chart> = (0..200).map(|_| bar(1)).collect();
+    let needle = (vec![[0.0, 0.0], [1e6, 0.0], [1e6, 1.0]], vec![[0, 1, 2]]);
+    for charts in [crowd, vec![needle]] {
+        let draft = Draft::new(&maps(&charts), &AtlasOptions::default());
+        assert!(draft.unwrap().is_none());
+    }
 }
 
 /// A map without a barrier may lie on itself upside down; the room below is taken all the same.

@@ -3,9 +3,11 @@
 use crate::cut::few_vertices;
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
-use unwrapd::charts::{Chart, Cut, charts, halves, min_cut};
+use unwrapd::charts::{Chart, Cut, MappedChart, charts, halves, min_cut};
+use unwrapd::embed::Embedding;
 use unwrapd::mesh::{CUT, Disk, Surface};
 use unwrapd::numerics::vec3::{area_vector, dot, norm};
+use unwrapd::solver::Summary;
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
@@ -265,4 +267,63 @@ fn two_ways_are_cut_at_once() {
     let side = min_cut(&twin, &capacity, &[4], &[11]);
     let inside: Vec<usize> = (0..side.len()).filter(|&f| side[f]).collect();
     assert_eq!(inside, [4, 5, 6, 7]);
+}
+
+/// A flat chart of some of the unit squares of 3 by 3, each of 8 by 8 cells, mapped as it lies.
+fn plate(squares: &[[u32; 2]]) -> MappedChart {
+    let mut mesh = zoo::grid(24, 24);
+    for p in &mut mesh.positions {
+        *p = [p[0] / 8.0, p[1] / 8.0, 0.0];
+    }
+    let positions = mesh.positions.clone();
+    mesh.triangles.retain(|t| {
+        let middle = [0, 1].map(|k| {
+            let sum: f32 = t.iter().map(|&v| positions[v as usize][k]).sum();
+            (sum / 3.0) as u32
+        });
+        squares.contains(&middle)
+    });
+    let chart = charts(&surface(&mesh), Cut::Disk).swap_remove(0);
+    MappedChart {
+        embedding: Embedding {
+            uv: chart.positions.iter().map(|p| [p[0], p[1]]).collect(),
+            summary: Summary::at_start(0.0),
+        },
+        chart,
+        seconds: 0.0,
+    }
+}
+
+#[test]
+fn a_spiky_chart_is_cut_at_the_root_of_a_spike() {
+    // A square with a spike: the hull shrinks by a unit when it is cut off along its side of length 1.
+    let chart = plate(&[[0, 0], [1, 0], [0, 1], [1, 1], [2, 0]]);
+    let split = chart.best_split(chart.area().sqrt()).expect("two parts");
+    assert!((split.length - 1.0).abs() < 0.2, "{}", split.length);
+    let parts = chart.parted(&split);
+    let mut areas: Vec<f64> = parts.iter().map(MappedChart::area).collect();
+    areas.sort_by(f64::total_cmp);
+    assert!(
+        areas.len() == 2 && (areas[0] - 1.0).abs() < 0.1,
+        "{areas:?}"
+    );
+    let n_faces: usize = parts.iter().map(|p| p.chart.corners.len()).sum();
+    assert_eq!(n_faces, chart.chart.corners.len());
+    for part in &parts {
+        let Chart {
+            positions, disk, ..
+        } = &part.chart;
+        assert!(Disk::new(disk.n_vertices, disk.triangles.clone()).is_ok());
+        let lies = positions.iter().zip(&part.embedding.uv);
+        assert!(lies.into_iter().all(|(p, uv)| [p[0], p[1]] == *uv));
+    }
+}
+
+#[test]
+fn a_crumb_is_not_cut_off() {
+    let chart = plate(&[[0, 0]]);
+    let unit = chart.area().sqrt();
+    assert!(chart.best_split(unit).is_some());
+    // In an atlas two hundred times as large even a half is a crumb.
+    assert!(chart.best_split(20.0 * unit).is_none());
 }

@@ -1,6 +1,9 @@
-//! Exact orientation.
+//! Exact orientation, convex hulls, random numbers.
 
+use unwrapd::numerics::hull::convex_hull;
 use unwrapd::numerics::predicates::orient2d_sign;
+use unwrapd::numerics::random::Random;
+use unwrapd::numerics::support::{Directions, Support};
 use unwrapd::numerics::vec2::doubled_area;
 
 #[test]
@@ -22,4 +25,44 @@ fn orientation_is_exact_where_rounding_is_not() {
     }
     assert!(rounded_wrong > 0, "the example no longer shows rounding");
     assert_eq!(orient2d_sign([f64::NAN, 0.0], b, [1.0, 2.0]), 0);
+}
+
+#[test]
+fn a_hull_has_the_outer_corners_only() {
+    let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+    let inner = [[2.0, 0.0], [1.0, 1.0], [4.0, 1.5], [0.0, 0.0]];
+    let hull = convex_hull(corners.into_iter().chain(inner));
+    assert_eq!(hull, corners);
+    assert_eq!(convex_hull([[1.0, 2.0], [1.0, 2.0]]).len(), 0);
+}
+
+#[test]
+fn supports_know_the_area_of_hulls() {
+    let directions = Directions::default();
+    let disk = |x: f64| {
+        let mut support = Support::EMPTY;
+        for k in 0..1000 {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 1000.0).sin_cos();
+            support.add([x + cos, sin], &directions);
+        }
+        support
+    };
+    let pi = std::f64::consts::PI;
+    let mut both = disk(0.0);
+    assert!((both.area() / pi - 1.0).abs() < 0.004);
+    both.unite(&disk(3.0));
+    assert!((both.area() / (pi + 6.0) - 1.0).abs() < 0.004);
+    assert_eq!(Support::EMPTY.area(), 0.0);
+}
+
+#[test]
+fn random_numbers_are_spread_evenly_and_repeat() {
+    let mut random = Random::new(7);
+    let mut counts = [0; 10];
+    for _ in 0..10_000 {
+        counts[random.below(10)] += 1;
+    }
+    assert!(counts.iter().all(|n| (900..1100).contains(n)), "{counts:?}");
+    let [mut a, mut b] = [3, 3].map(Random::new);
+    assert!((0..100).all(|_| a.bits() == b.bits()));
 }

@@ -232,3 +232,33 @@ fn an_atlas_keeps_its_bound_with_few_charts() {
     }
     assert!(seams[0] < seams[2], "{seams:?}");
 }
+
+#[test]
+fn charts_are_cut_for_a_fuller_atlas_unless_seams_are_dear() {
+    // A cross of five squares fills five ninths of its square.
+    let arms = [[0, 0, 0], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]];
+    let cross = Mesh {
+        triangles: (arms.iter().zip(0..))
+            .flat_map(|(_, i): (_, u32)| {
+                [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]]
+            })
+            .collect(),
+        positions: (arms.iter())
+            .flat_map(|&[x, y, _]| [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]])
+            .map(|[x, y]: [i32; 2]| [x as f32, y as f32, 0.0])
+            .collect(),
+        name: "cross".into(),
+    };
+    let with = |seam_weight| {
+        let settings = Settings {
+            seam_weight,
+            ..Settings::default()
+        };
+        let unwrapped = unwrap(&cross.positions, &cross.triangles, &settings, &Unobserved).unwrap();
+        assert_certified(&cross, Cut::Auto, &unwrapped);
+        (unwrapped.charts.len(), unwrapped.scale)
+    };
+    let (free, dear) = (with(0.0), with(1e6));
+    assert_eq!(dear.0, 1);
+    assert!(free.0 > 1 && free.1 > 1.05 * dear.1, "{free:?} {dear:?}");
+}
