@@ -34,6 +34,15 @@ impl Quality {
             Self::Few => 4.5,
         }
     }
+
+    /// The next one that allows more distortion.
+    pub fn looser(self) -> Option<Self> {
+        match self {
+            Self::Smooth => Some(Self::Balanced),
+            Self::Balanced => Some(Self::Few),
+            Self::Few => None,
+        }
+    }
 }
 
 /// The share of the budget that is spent; the rest is for what rounding to the grid of the atlas adds.
