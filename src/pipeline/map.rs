@@ -24,19 +24,18 @@ pub(super) fn mapped_charts(
 ) -> Vec<Vec<MappedChart>> {
     let is_promised = settings.barrier != BarrierKind::None;
     if settings.cut == Cut::Auto && is_promised {
-        tracker.charts(
-            surfaces.len(),
-            surfaces.iter().map(|s| s.triangles.len()).sum(),
-        );
+        tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
         let options = options(settings);
-        return surfaces
+        let charts = surfaces
             .par_iter()
             .map(|surface| {
                 let charts = under_bound(surface, settings, &options, tracker);
-                tracker.chart_done(surface.triangles.len());
+                tracker.surface_done(surface.triangles.len(), charts.len());
                 charts
             })
             .collect();
+        tracker.all_mapped();
+        return charts;
     }
     let charts: Vec<Vec<Chart>> = surfaces
         .par_iter()

@@ -45,8 +45,9 @@ def run(command, limit):
     return child.returncode, seconds, cpu, usage.ru_maxrss / 1024, error.strip().splitlines()
 
 
-def judge(program, path, texcoord, group_by):
-    command = [sys.executable, program, path, "--texcoord", str(texcoord), "--group-by", group_by, "--json"]
+def judge(program, path, texcoord, group_by, *options):
+    command = [sys.executable, program, path, "--texcoord", str(texcoord), "--group-by", group_by, "--json",
+               *options]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode == 2:
         return {"error": done.stderr.strip()}

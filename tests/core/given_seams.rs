@@ -214,7 +214,7 @@ fn seams_that_do_not_fit_are_refused() {
 fn graded_strip() -> Mesh {
     let mut mesh = zoo::grid(12, 12);
     for p in &mut mesh.positions {
-        p[1] = 12.0 * 0.6_f32.powf(p[1]);
+        p[1] = 12.0 * 0.45_f32.powf(p[1]);
     }
     mesh
 }

@@ -162,7 +162,7 @@ fn separation_is_what_no_move_of_whole_charts_ends() {
     for _ in 0..400 {
         let mut corner = |x: f64| [x + random.next() * size, 0.25 + random.next() * size * 4.0];
         let triangle = [corner(0.25), corner(0.25), corner(0.25)];
-        let other = 0.25 + size * 1.2;
+        let other = 0.25 + size * 0.7;
         let other = [corner(other), corner(other), corner(other)];
         let mesh = apart(&[triangle, other]);
         let certificate = at_bits(&mesh, 12);
@@ -188,7 +188,7 @@ fn separation_is_what_no_move_of_whole_charts_ends() {
         seen[usize::from(touches)] += usize::from(touches == (verdict.pairs_in_doubt > 0));
     }
     assert!(
-        seen.iter().all(|&n| n > 60),
+        seen.iter().all(|&n| n > 20),
         "both cases agree often: {seen:?}"
     );
 }

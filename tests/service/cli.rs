@@ -150,9 +150,9 @@ fn flipped_uvs_do_not_verify() {
 fn what_is_asked_of_a_file_decides_its_verdict() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("charts.obj");
-    // Two triangles 1/256 apart, on the grid, and one of them 1/2048 high.
+    // Two triangles 1/256 apart, on the grid, and one of them 1/4096 high.
     let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 5\nv 1 1 5\nv 0 0 5\n\
-                vt 0 0\nvt 0.25 0\nvt 0.25 0.5\nvt 0.25390625 0\nvt 0.75 0\nvt 0.75 0.00048828125\n\
+                vt 0 0\nvt 0.25 0\nvt 0.25 0.5\nvt 0.25390625 0\nvt 0.75 0\nvt 0.75 0.000244140625\n\
                 f 1/1 2/2 3/3\nf 4/4 5/5 6/6\n";
     std::fs::write(&path, text).expect("a file");
     let verify = |options: &[&str]| {
