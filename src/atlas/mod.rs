@@ -1,7 +1,8 @@
 //! Charts placed in the unit square, on an integer grid.
 //!
-//! Chart maps arrive in mesh units, all at one density. Each is turned to a good angle; all are
-//! packed at one scale by a conservative raster, with a gap that is counted in texels; then every
+//! Chart maps arrive in mesh units, all at one density. The order in which they are placed and the
+//! angle of each are searched on a coarse raster, a [`Draft`]; then all are packed at one scale by a
+//! conservative raster, with a gap that is counted in texels, and every
 //! vertex is rounded to a multiple of 2⁻²³, which `f32` holds exactly. Rounding may take the area of
 //! a triangle that was positive in `f64`: such places are repaired, vertices moving no farther than
 //! they must, and what leaves this module is positive in exact integer arithmetic.
@@ -15,6 +16,7 @@
 mod arrangement;
 mod attempt;
 mod bitmap;
+mod clear;
 mod draft;
 mod layout;
 mod mask;
@@ -27,6 +29,7 @@ mod relax;
 mod sheet;
 mod snap;
 
+pub use clear::cleared;
 pub use draft::Draft;
 pub use pack::{pack, pack_draft};
 

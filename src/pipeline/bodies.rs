@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
-use super::documents::Merged;
 use super::limits::Limits;
+use super::merged::Merged;
 use crate::deform::Body;
 use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
 use crate::document::{Document, GroupBy, OutputFormat, Upload};

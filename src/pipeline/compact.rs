@@ -1,12 +1,13 @@
 //! Charts cut where that makes their atlas fuller.
 
 use super::arrays::chart_maps;
+use super::options::Settings;
 use crate::atlas::{AtlasError, AtlasOptions, Draft};
 use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;
 
 /// The share of the square that a seam as long as the side of the surface's square must gain.
-const PRICE: f64 = 0.015;
+const PRICE: f64 = 0.025;
 /// Cuts at most.
 const MOST_CUTS: u64 = 20;
 /// Cuts in a row that may leave the atlas no better than the best before.
@@ -41,7 +42,7 @@ impl Drafted {
 pub(super) fn compacted(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
-    seam_weight: f64,
+    settings: &Settings,
 ) -> Result<Drafted, AtlasError> {
     let Drafted { mut charts, draft } = Drafted::new(charts, options)?;
     let Some(mut draft) = draft.filter(|_| charts.len() <= MOST_CHARTS) else {
@@ -57,7 +58,11 @@ pub(super) fn compacted(
     let mut splits = split(&charts);
     let mut best = (draft.fill(), charts.clone(), draft.clone());
     let (mut seam, mut worse) = (0.0, 0);
+    let most_charts = settings.max_charts.map_or(usize::MAX, |n| n as usize);
     for seed in 1..=MOST_CUTS {
+        if charts.len() >= most_charts {
+            break;
+        }
         let Some((cut, worst)) = most_worth(&splits) else {
             break;
         };
@@ -72,7 +77,7 @@ pub(super) fn compacted(
         splits.extend(split(&parts));
         charts.remove(cut);
         charts.extend(parts);
-        let value = draft.fill() - PRICE * seam_weight * seam;
+        let value = draft.fill() - PRICE * settings.seam_weight * seam;
         worse += 1;
         if value > best.0 {
             best = (value, charts.clone(), draft.clone());
