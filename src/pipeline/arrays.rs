@@ -147,9 +147,10 @@ pub(super) fn unwrap_all(
     let options = AtlasOptions {
         resolution: settings.resolution,
         padding_texels: padding_texels(settings),
-        turns: match are_given(settings) {
-            true => Turns::Quarters,
-            false => Turns::Any,
+        turns: if are_given(settings) {
+            Turns::Quarters
+        } else {
+            Turns::Any
         },
         search_words: (SEARCH_WORDS / meshes.len() as u64)
             .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
