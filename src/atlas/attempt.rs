@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::GRID_SIDE;
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
-use super::plan::{Plan, Turns};
+use super::plan::{Plan, QuarterTurns};
 use super::sheet::{Sheet, Spot, Turned};
 
 /// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
@@ -118,10 +118,12 @@ impl Packing<'_> {
         fits.then(|| {
             let mask = Mask::new(outline, scale * stretch, Distances { around, padding });
             let turned = match self.plan.turns[i] {
-                Turns::Only(turns) => vec![Turned::new(mask, turns)],
+                QuarterTurns::Only(turns) => vec![Turned::new(mask, turns)],
                 // The first chart goes to the corner, whichever way it is turned.
-                Turns::Any if self.plan.order.first() == Some(&i) => vec![Turned::new(mask, 0)],
-                Turns::Any => Turned::all(mask),
+                QuarterTurns::Any if self.plan.order.first() == Some(&i) => {
+                    vec![Turned::new(mask, 0)]
+                }
+                QuarterTurns::Any => Turned::all(mask),
             };
             (turned, stretch)
         })

@@ -6,10 +6,10 @@ use super::arrangement::Arrangement;
 use super::layout::padding;
 use super::mask::Distances;
 use super::outline::{Outline, outlines};
-use super::plan::{Plan, Turns};
+use super::plan::{Plan, QuarterTurns};
 use super::poses::Poses;
 use super::sheet::Sheet;
-use super::{AtlasError, AtlasOptions, ChartMap};
+use super::{AtlasError, AtlasOptions, ChartMap, Turns};
 use crate::numerics::random::Random;
 
 /// Cells along the side of the square that the charts are expected to need. With 128 a cell is too much for the gaps that
@@ -50,14 +50,17 @@ struct Raster {
 }
 
 impl Draft {
-    /// The charts in the order of their sizes; nothing for so many that a search would see only a few layouts, or where a
-    /// needle is longer than the raster.
+    /// The charts in the order of their sizes; nothing for so many that a search would see only a few layouts, where a needle is
+    /// longer than the raster, or where charts may not be turned by any angle.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
-        if outlines.len() > MOST_CHARTS {
+        if outlines.len() > MOST_CHARTS || options.turns == Turns::Quarters {
             return Ok(None);
         }
-        Ok(Self::of(&Plan::largest_first(&outlines), options))
+        Ok(Self::of(
+            &Plan::largest_first(&outlines, options.turns),
+            options,
+        ))
     }
 
     fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
@@ -191,7 +194,7 @@ impl Draft {
                 .collect(),
             turns: pose
                 .iter()
-                .map(|&pose| Turns::Only(Poses::turns(pose)))
+                .map(|&pose| QuarterTurns::Only(Poses::turns(pose)))
                 .collect(),
             order: order.clone(),
             corners: corners.iter().map(|corner| corner.map(share)).collect(),

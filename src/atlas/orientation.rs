@@ -7,6 +7,8 @@ pub(super) enum Bounds {
     Rectangle,
     /// The side of the bounding square: one chart has it to itself.
     Square,
+    /// Nothing: the chart stays as it is.
+    Given,
 }
 
 /// Hull edges tried at most; the hull of a round chart is thinned to this many.
@@ -19,6 +21,7 @@ pub(super) fn direction(hull: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
     match bounds {
         Bounds::Rectangle => smallest_rectangle(hull),
         Bounds::Square => smallest_square(hull),
+        Bounds::Given => [1.0, 0.0],
     }
 }
 

@@ -33,7 +33,7 @@ pub fn pack_draft(
         charts: charts.len(),
     };
     let mut slack = vec![SLACK; charts.len()];
-    let plan = Plan::largest_first(&outlines(charts)?);
+    let plan = Plan::largest_first(&outlines(charts)?, options.turns);
     let (plan, mut layout) = best(plan, draft, &slack, options).ok_or(too_many.clone())?;
     let mut cramped = 0;
     for _ in 0..ROUNDS {

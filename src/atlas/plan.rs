@@ -1,4 +1,5 @@
 //! In which order charts are placed, and how each is turned.
+use super::Turns;
 use super::orientation::{self, Bounds};
 use super::outline::Outline;
 use crate::numerics::hull::convex_hull;
@@ -9,7 +10,7 @@ pub(super) struct Plan {
     /// The charts, each turned to an angle.
     pub outlines: Vec<Outline>,
     /// For each chart the quarter turns beyond that: one, or what the layout finds best.
-    pub turns: Vec<Turns>,
+    pub turns: Vec<QuarterTurns>,
     /// Indices of the charts that have triangles, in the order in which they are placed.
     pub order: Vec<usize>,
     /// For each chart how far to the right and up it lies at least, as shares of the side; empty where nothing is known.
@@ -18,18 +19,20 @@ pub(super) struct Plan {
 
 /// The quarter turns that a chart may be placed with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Turns {
+pub(super) enum QuarterTurns {
     Any,
     Only(u32),
 }
 
 impl Plan {
     /// The largest first, each in the smallest rectangle.
-    pub(super) fn largest_first(outlines: &[Outline]) -> Self {
+    pub(super) fn largest_first(outlines: &[Outline], turns: Turns) -> Self {
         let total: f64 = outlines.iter().map(|o| o.size * o.size).sum();
         let turned = outlines.iter().map(|outline| {
             // A chart that is most of the atlas decides its side; others fit better as rectangles.
-            let bounds = if 2.0 * outline.size * outline.size > total {
+            let bounds = if turns == Turns::Quarters {
+                Bounds::Given
+            } else if 2.0 * outline.size * outline.size > total {
                 Bounds::Square
             } else {
                 Bounds::Rectangle
@@ -44,7 +47,7 @@ impl Plan {
         let half_perimeter = |i: usize| outlines[i].extent[0] + outlines[i].extent[1];
         order.sort_by(|&i, &j| half_perimeter(j).total_cmp(&half_perimeter(i)));
         Self {
-            turns: vec![Turns::Any; outlines.len()],
+            turns: vec![QuarterTurns::Any; outlines.len()],
             corners: Vec::new(),
             outlines,
             order,
