@@ -21,6 +21,8 @@ const HOPE: f64 = 0.75;
 const SIDES: [u32; 3] = [RASTER, 2 * RASTER, 4 * RASTER];
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 128;
+/// Charts from which on a search reads all the words it may.
+const MANY: u64 = 8;
 /// Searches from different seeds.
 const SEEDS: usize = 4;
 /// Larger squares that a search accepts at its begin and at its end: about one cell and a tenth of one.
@@ -126,6 +128,9 @@ impl Draft {
 
     /// The drafts that several searches make of this one, together reading about so many words; the best first.
     pub(super) fn searched(&self, words: u64) -> Vec<Self> {
+        // A few charts have few layouts.
+        let n = (self.poses.len() as u64).min(MANY);
+        let words = words * n * n / (MANY * MANY);
         let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
         let mut drafts: Vec<Self> = seeds
             .map(|seed| {

@@ -57,12 +57,12 @@ impl MappedChart {
         splits.max_by(|a, b| a.worth.total_cmp(&b.worth))
     }
 
-    /// The two parts, mapped as the whole is.
+    /// The two parts, mapped as the whole is, each seen from its front.
     pub fn parted(&self, split: &Split) -> Vec<Self> {
         let twin = parted(&twins(&self.chart.disk), &split.is_piece);
         parts(&self.chart, &twin)
             .into_iter()
-            .map(|(chart, faces)| self.restricted(chart, &faces))
+            .map(|(chart, faces)| self.restricted(chart, &faces).facing_front())
             .collect()
     }
 }

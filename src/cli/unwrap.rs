@@ -13,7 +13,9 @@ use crate::charts::{Cut, Quality};
 use crate::document::GroupBy;
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
-use crate::pipeline::{self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, Packing};
+use crate::pipeline::{
+    self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode,
+};
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
 #[derive(clap::Args)]
@@ -59,8 +61,8 @@ pub(super) struct Args {
     #[arg(long, default_value = "balanced", value_parser = word::<Quality>(QUALITIES))]
     quality: Quality,
     /// Search the fullest layout for about a second, or ten times as long
-    #[arg(long, default_value = "fast", value_parser = word::<Packing>(PACKINGS))]
-    packing: Packing,
+    #[arg(long, default_value = "fast", value_parser = word::<PackingMode>(PACKINGS))]
+    packing: PackingMode,
     /// Price of a seam where charts are cut for a fuller atlas: 0 cuts wherever that gains anything, a large number never
     #[arg(long, default_value_t = 1.0, value_name = "W")]
     seam_weight: f64,

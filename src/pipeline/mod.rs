@@ -60,7 +60,7 @@ mod warp;
 pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
-pub use options::{KeptMaps, Packing, Settings};
+pub use options::{KeptMaps, PackingMode, Settings};
 pub use seams::Seams;
 
 #[cfg(feature = "files")]

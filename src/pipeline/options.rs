@@ -18,7 +18,7 @@ use crate::picture::HeatmapMeasure;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub enum Packing {
+pub enum PackingMode {
     /// About a second.
     #[default]
     Fast,
@@ -26,7 +26,7 @@ pub enum Packing {
     Tight,
 }
 
-impl Packing {
+impl PackingMode {
     /// How often the words that a fast search reads.
     pub(super) fn passes(self) -> u64 {
         match self {
@@ -68,7 +68,7 @@ pub struct Settings {
     /// How distorted the atlas may be with [`Cut::Auto`].
     pub quality: Quality,
     /// How long the fullest layout is searched for.
-    pub packing: Packing,
+    pub packing: PackingMode,
     /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts wherever that gains anything, a
     /// large number never.
     pub seam_weight: f64,
@@ -98,7 +98,7 @@ impl Default for Settings {
             kept_maps: KeptMaps::Optimized,
             pin: 0,
             quality: Quality::default(),
-            packing: Packing::default(),
+            packing: PackingMode::default(),
             seam_weight: 1.0,
             max_charts: None,
             resolution: 1024,
@@ -220,7 +220,7 @@ pub struct Options {
     /// The bound on the mean symmetric Dirichlet energy that `cut` `auto` keeps: 4.05, 4.1 or 4.5; 4 is an isometry.
     pub quality: Quality,
     /// How long the fullest layout is searched for.
-    pub packing: Packing,
+    pub packing: PackingMode,
     /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts wherever that gains anything, a
     /// large number never. With `cut` `disk` no chart is cut.
     #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
