@@ -1,7 +1,7 @@
 //! Charts cut where that makes their atlas fuller.
 
 use super::arrays::chart_maps;
-use super::options::Settings;
+use super::settings::Settings;
 use crate::atlas::{AtlasError, AtlasOptions, Draft};
 use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;

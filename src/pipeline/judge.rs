@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::PipelineError;
 use super::arrays::in_pool;
-use super::options::MeasureOptions;
+use super::measure_options::MeasureOptions;
 use super::proven::Proven;
 use super::report::{GroupReport, Report};
 use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, certify};

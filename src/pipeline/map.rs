@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 
 use super::observer::Tracker;
-use super::options::{KeptMaps, Settings};
 use super::seams::Seams;
+use super::settings::{KeptMaps, Settings};
 use crate::barrier::BarrierKind;
 use crate::certificate::CornerUvs;
 use crate::charts::{

@@ -18,8 +18,9 @@ mod compact;
 mod error;
 mod map;
 mod observer;
-mod options;
 mod repeated;
+mod seams;
+mod settings;
 
 #[cfg(feature = "files")]
 mod bodies;
@@ -40,7 +41,11 @@ mod judge;
 #[cfg(feature = "files")]
 mod limits;
 #[cfg(feature = "files")]
+mod measure_options;
+#[cfg(feature = "files")]
 mod merged;
+#[cfg(feature = "files")]
+mod options;
 #[cfg(feature = "files")]
 mod pictures;
 #[cfg(feature = "files")]
@@ -49,7 +54,6 @@ mod proven;
 mod repack;
 #[cfg(feature = "files")]
 mod report;
-mod seams;
 #[cfg(feature = "files")]
 mod solution;
 #[cfg(feature = "files")]
@@ -60,8 +64,8 @@ mod warp;
 pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
-pub use options::{KeptMaps, PackingMode, Settings};
 pub use seams::Seams;
+pub use settings::{KeptMaps, PackingMode, Settings};
 
 #[cfg(feature = "files")]
 pub use bodies::BodyFormat;
@@ -80,7 +84,9 @@ pub use judge::{Verified, VerifiedGroup, measure_document, verify_document};
 #[cfg(feature = "files")]
 pub use limits::Limits;
 #[cfg(feature = "files")]
-pub use options::{GivenSeams, MeasureOptions, NamedSeams, Options};
+pub use measure_options::MeasureOptions;
+#[cfg(feature = "files")]
+pub use options::{GivenSeams, NamedSeams, Options};
 #[cfg(feature = "files")]
 pub use pictures::{Drawn, Pictures};
 #[cfg(feature = "files")]

@@ -6,7 +6,8 @@ use super::PipelineError;
 use super::documents::{Outcome, unwrap_document};
 use super::limits::Limits;
 use super::observer::Observer;
-use super::options::{KeptMaps, Options};
+use super::options::Options;
+use super::settings::KeptMaps;
 use crate::charts::Cut;
 use crate::document::{GroupBy, OutputFormat, Upload};
 

@@ -1,0 +1,68 @@
+//! What of a document is measured.
+
+use serde::{Deserialize, Serialize};
+
+use super::settings::{Settings, check_texels, within};
+use super::{Limits, PipelineError};
+use crate::certificate::{Claims, Overlap, Padding};
+use crate::document::GroupBy;
+
+/// Which UVs of a document are measured or verified.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct MeasureOptions {
+    /// The UV set.
+    pub texcoord: u32,
+    /// What shares one atlas.
+    pub group_by: GroupBy,
+    /// Least distance of two charts to prove, in texels; not judged if absent.
+    #[cfg_attr(feature = "service", schema(maximum = 8192))]
+    pub padding: Option<u32>,
+    /// Texels along the side of the texture that `padding` is counted in.
+    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
+    pub resolution: u32,
+    /// Bits b at which to prove that the map stays bijective however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶.
+    #[cfg_attr(feature = "service", schema(minimum = 8, maximum = 16))]
+    pub bits: Option<u32>,
+    /// What may be used for it. Not an option over HTTP.
+    #[serde(skip)]
+    pub limits: Limits,
+}
+
+impl Default for MeasureOptions {
+    fn default() -> Self {
+        Self {
+            texcoord: 0,
+            group_by: GroupBy::Mesh,
+            padding: None,
+            resolution: Settings::default().resolution,
+            bits: None,
+            limits: Limits::default(),
+        }
+    }
+}
+
+impl MeasureOptions {
+    /// Checks every number against its range; the error names the option.
+    pub fn check(&self) -> Result<(), PipelineError> {
+        let checked = check_texels(self.resolution, self.padding.unwrap_or(0)).and_then(|()| {
+            let bits = self.bits.unwrap_or(12);
+            within("bits", f64::from(bits), 8.0, 16.0)
+        });
+        checked.map_err(PipelineError::InvalidOptions)
+    }
+
+    /// What the certificate is asked to speak of.
+    pub(super) fn claims(&self, overlap: Overlap) -> Claims {
+        Claims {
+            overlap,
+            padding: self.padding.map(|texels| Padding {
+                texels,
+                resolution: self.resolution,
+            }),
+            bits: self.bits,
+            ..Claims::default()
+        }
+    }
+}

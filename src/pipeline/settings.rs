@@ -1,0 +1,157 @@
+//! How a mesh given as arrays is unwrapped.
+
+use serde::{Deserialize, Serialize};
+
+use crate::barrier::BarrierKind;
+use crate::charts::{Cut, Quality};
+use crate::energy::EnergyKind;
+
+/// How long the fullest layout of an atlas is searched for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum PackingMode {
+    /// About a second.
+    #[default]
+    Fast,
+    /// Ten times as long.
+    Tight,
+}
+
+impl PackingMode {
+    /// How often the words that a fast search reads.
+    pub(super) fn passes(self) -> u64 {
+        match self {
+            Self::Fast => 1,
+            Self::Tight => 10,
+        }
+    }
+}
+
+/// What becomes of the maps of islands that are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum KeptMaps {
+    /// They are optimized from where they lie.
+    #[default]
+    Optimized,
+    /// They stay as they are but for quarter turns, shifts and one scale; whatever is wrong with them stays too.
+    AsGiven,
+}
+
+/// How a mesh given as arrays is unwrapped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Distortion energy to minimize.
+    pub energy: EnergyKind,
+    /// Barrier that keeps every triangle from inverting.
+    pub barrier: BarrierKind,
+    /// Weight β of the barrier.
+    pub barrier_strength: f64,
+    /// Support s of the barrier, relative to an element's rest area.
+    pub barrier_support: f64,
+    /// Where to cut.
+    pub cut: Cut,
+    /// What becomes of the maps of islands with [`Cut::Keep`].
+    pub kept_maps: KeptMaps,
+    /// Vertices of each chart's boundary that are held, far from each other: 0, or with [`Cut::Disk`] 2.
+    pub pin: u32,
+    /// How distorted the atlas may be with [`Cut::Auto`].
+    pub quality: Quality,
+    /// How long the fullest layout is searched for.
+    pub packing: PackingMode,
+    /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts wherever that gains anything, a
+    /// large number never.
+    pub seam_weight: f64,
+    /// Charts that [`Cut::Auto`] may make of a mesh; for that it allows more distortion.
+    pub max_charts: Option<u32>,
+    /// Texels along the side of the texture that `padding` is counted in.
+    pub resolution: u32,
+    /// Least distance of two charts, in texels.
+    pub padding: u32,
+    /// Bits that texture coordinates will be rounded to, 12, 14 or 16: thin triangles and narrow gaps are opened so that the map stays
+    /// bijective, as far as that is possible.
+    pub quantization_safe: Option<u32>,
+    /// Threads to use; all cores if absent. The result does not depend on it.
+    pub threads: Option<usize>,
+    /// Seconds after which the current valid map is taken as it is.
+    pub time_budget: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            energy: EnergyKind::SymmetricDirichlet,
+            barrier: BarrierKind::InverseSpline,
+            barrier_strength: 0.01,
+            barrier_support: 1.0,
+            cut: Cut::Auto,
+            kept_maps: KeptMaps::Optimized,
+            pin: 0,
+            quality: Quality::default(),
+            packing: PackingMode::default(),
+            seam_weight: 1.0,
+            max_charts: None,
+            resolution: 1024,
+            padding: 2,
+            quantization_safe: None,
+            threads: None,
+            time_budget: None,
+        }
+    }
+}
+
+impl Settings {
+    /// Checks every number against its range; the text names the option.
+    pub fn validate(&self) -> Result<(), String> {
+        within("barrier_strength", self.barrier_strength, 1e-9, 1e9)?;
+        within("barrier_support", self.barrier_support, 1e-6, 1e6)?;
+        within("seam_weight", self.seam_weight, 0.0, 1e6)?;
+        check_texels(self.resolution, self.padding)?;
+        within(
+            "max_charts",
+            f64::from(self.max_charts.unwrap_or(1)),
+            1.0,
+            1e9,
+        )?;
+        match self.quantization_safe {
+            None | Some(12 | 14 | 16) => {}
+            Some(bits) => {
+                return Err(format!(
+                    "quantization_safe must be 12, 14 or 16, not {bits}"
+                ));
+            }
+        }
+        match (self.pin, self.cut) {
+            (0, _) | (2, Cut::Disk) => {}
+            (2, _) => return Err("pin 2 goes with cut disk".to_owned()),
+            (pin, _) => return Err(format!("pin must be 0 or 2, not {pin}")),
+        }
+        if let Some(threads) = self.threads {
+            within("threads", threads as f64, 1.0, 1024.0)?;
+        }
+        if let Some(seconds) = self.time_budget {
+            within("time_budget", seconds, 0.0, 1e6)?;
+        }
+        Ok(())
+    }
+}
+
+/// A number and its range; the text names the option.
+pub(super) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
+    if (low..=high).contains(&value) {
+        Ok(())
+    } else {
+        Err(format!(
+            "{name} must lie between {low} and {high}, not {value}"
+        ))
+    }
+}
+
+/// A resolution and a padding in its texels.
+pub(super) fn check_texels(resolution: u32, padding: u32) -> Result<(), String> {
+    within("resolution", f64::from(resolution), 16.0, 65_536.0)?;
+    let most = f64::from(resolution / 8);
+    within("padding", f64::from(padding), 0.0, most)
+}
