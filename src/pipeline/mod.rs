@@ -38,13 +38,19 @@ mod judge;
 #[cfg(feature = "files")]
 mod limits;
 #[cfg(feature = "files")]
+mod moved;
+#[cfg(feature = "files")]
 mod pictures;
+#[cfg(feature = "files")]
+mod planar_map;
 #[cfg(feature = "files")]
 mod report;
 #[cfg(feature = "files")]
 mod solution;
 #[cfg(feature = "files")]
 mod solve;
+#[cfg(feature = "files")]
+mod source;
 #[cfg(feature = "files")]
 mod warp;
 
