@@ -11,7 +11,7 @@ use crate::mesh::Disk;
 use crate::solver::{Iterate, Settings, Status, Summary, Watch};
 
 /// From this many triangles on the start is found coarse to fine, which costs less than the Newton steps it saves.
-const LARGE: usize = 20_000;
+const LARGE: usize = 1_000;
 
 /// Energy per triangle of a Tutte map that is too far from any optimum. Ordinary disks start at 1 to 40, those with long
 /// arms at 1e4 to 1e10: from there Newton's method takes hundreds of steps, or ends a millionfold above the optimum.

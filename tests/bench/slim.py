@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+"""Sets `cargo bench --bench disks` beside libigl's SLIM on the same disks, in one run.
+
+    python3 tests/bench/slim.py [--limit SECONDS] [FILE...]
+
+Needs numpy, scipy and libigl from PyPI. Each program maps each disk on one thread, one after the other; energies are mean
+symmetric Dirichlet (4 for an isometry) by area, recomputed from positions. SLIM starts from Tutte's map, which is counted,
+and ends when a step gains less than 1e-9 of the energy, or at the limit. "Lowest" is the lowest energy that either reached;
+"own end" is each one's last. Seconds are the processor's, so that other work on the machine counts little.
+"""
+import argparse
+import json
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import igl
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import spsolve
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def processor():
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    return usage.ru_utime + usage.ru_stime
+
+
+def read(path):
+    """Positions, texture coordinates and triangles of an OBJ in which both have the same indices."""
+    rows = {"v": [], "vt": [], "f": []}
+    for line in Path(path).read_text().splitlines():
+        kind, *fields = line.split()
+        rows[kind].append([int(field.split("/")[0]) - 1 if kind == "f" else float(field) for field in fields])
+    return np.array(rows["v"]), np.array(rows["vt"]), np.array(rows["f"], dtype="i4")
+
+
+def boundary(triangles):
+    """The longest boundary loop."""
+    halfedges = {(a, b) for t in triangles.tolist() for a, b in zip(t, t[1:] + t[:1])}
+    after = {a: b for a, b in halfedges if (b, a) not in halfedges}
+    loops = []
+    while after:
+        start, loop = next(iter(after)), []
+        at = start
+        while at in after:
+            loop.append(at)
+            at = after.pop(at)
+        loops.append(loop)
+    return max(loops, key=len)
+
+
+def tutte(positions, triangles):
+    """Uniform weights, boundary on a circle by arc length."""
+    loop = boundary(triangles)
+    lengths = np.linalg.norm(positions[np.roll(loop, -1)] - positions[loop], axis=1)
+    angles = 2 * np.pi * np.concatenate([[0], np.cumsum(lengths)[:-1]]) / lengths.sum()
+    n = len(positions)
+    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    adjacency = sp.coo_matrix((np.ones(len(ends)), ends.T), (n, n)).tocsr()
+    adjacency = ((adjacency + adjacency.T) > 0).astype(float)
+    laplacian = (sp.diags(np.asarray(adjacency.sum(1)).ravel()) - adjacency).tocsr()
+    inner = np.setdiff1d(np.arange(n), loop)
+    uv = np.zeros((n, 2))
+    uv[loop] = np.column_stack([np.cos(angles), np.sin(angles)])
+    uv[inner] = spsolve(laplacian[inner][:, inner].tocsc(), -(laplacian[inner][:, loop] @ uv[loop]))
+    return uv
+
+
+class Metric:
+    """Mean symmetric Dirichlet energy of maps of one surface, each at its best size, and how many triangles they flip.
+
+    With the metric tensors G in space and H in the plane, s1^2 + s2^2 = trace(G^-1 H) and s1^2 s2^2 = det H / det G.
+    """
+
+    def __init__(self, positions, triangles):
+        self.triangles = triangles
+        self.space = self.tensor(positions)
+        self.area = np.sqrt(self.space[3])
+
+    def tensor(self, x):
+        a, b = (x[self.triangles[:, i]] - x[self.triangles[:, 0]] for i in (1, 2))
+        aa, ab, bb = (a * a).sum(1), (a * b).sum(1), (b * b).sum(1)
+        return aa, ab, bb, aa * bb - ab * ab
+
+    def energy(self, uv):
+        (g11, g12, g22, det_g), (h11, h12, h22, det_h) = self.space, self.tensor(uv)
+        norm = (g22 * h11 - 2 * g12 * h12 + g11 * h22) / det_g
+        stretch, shrink = (np.average(x, weights=self.area) for x in (norm, norm * det_g / det_h))
+        # What s^2 * stretch + shrink / s^2 is at the best size s.
+        return 2 * np.sqrt(stretch * shrink)
+
+    def flips(self, uv):
+        a, b = (uv[self.triangles[:, i]] - uv[self.triangles[:, 0]] for i in (1, 2))
+        return int((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] <= 0).sum())
+
+
+def slim(positions, triangles, metric, limit):
+    """Energies after each of SLIM's steps with the seconds spent until then."""
+    begin = processor()
+    start = tutte(positions, triangles)
+    if metric.flips(start):
+        return None
+    none = np.zeros((0, 2), order="F")
+    data = igl.slim_precompute(np.asfortranarray(positions), np.asfortranarray(triangles), np.asfortranarray(start),
+                               igl.SYMMETRIC_DIRICHLET, np.zeros(0, "i4"), none, 0.0)
+    spent, trace = processor() - begin, []
+    while spent < limit:
+        begin = processor()
+        uv = np.asarray(igl.slim_solve(data, 1))[:, :2]
+        spent += processor() - begin
+        trace.append((spent, metric.energy(uv)))
+        if len(trace) > 1 and trace[-1][1] > (1 - 1e-9) * trace[-2][1]:
+            break
+    return trace
+
+
+def ours(program, file, folder):
+    environment = dict(os.environ, RAYON_NUM_THREADS="1")
+    run = subprocess.run([*program, "--out", folder, file], cwd=ROOT, env=environment, capture_output=True, text=True, check=True)
+    return [json.loads(line) for line in run.stdout.splitlines() if line.startswith("{")]
+
+
+def seconds_to(trace, energy):
+    return next((seconds for seconds, reached in trace if reached <= energy), None)
+
+
+def shown(value, digits=2):
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--limit", type=float, default=120.0, help="seconds for SLIM on one disk")
+    parser.add_argument("--disks", help="the built benchmark; without it cargo builds it")
+    parser.add_argument("files", nargs="*")
+    arguments = parser.parse_args()
+    files = arguments.files or sorted(map(str, (ROOT / "../shared/data/disk").resolve().iterdir()))
+    program = [arguments.disks] if arguments.disks else ["cargo", "bench", "--quiet", "--bench", "disks", "--"]
+    to_1_percent, to_end = [], []
+    print("disk | triangles | ours: E, s to 1 %, s to 1e-6 of its end, factorizations | SLIM: E, s to 1 %, s to 1e-6 of its "
+          "end, steps | ratio to 1 % | to 1e-6 | ARAP: E, s to 1 %, s to 1e-6, factorizations | status")
+    with tempfile.TemporaryDirectory() as folder:
+        for file in files:
+            ran = ours(program, file, folder)
+            if "error" in ran[0]:
+                print(file, ran[0]["error"])
+                continue
+            dirichlet, arap = ran
+            positions, uv, triangles = read(dirichlet["obj"])
+            metric = Metric(positions, triangles)
+            # The trace is per weight of the rest shapes; positions have the last word.
+            factor = metric.energy(uv) / dirichlet["trace"][-1][1]
+            mine = [(seconds, factor * energy) for seconds, energy in dirichlet["trace"]]
+            theirs = slim(positions, triangles, metric, arguments.limit)
+            row = [Path(file).stem, len(triangles), columns(mine, theirs) + f", {dirichlet['factorizations']}"]
+            if theirs:
+                row.append(columns(theirs, mine) + f", {len(theirs)}")
+                ratios = [ratio(theirs, mine, lowest(mine, theirs) * 1.01),
+                          own_end(theirs) / own_end(mine)]
+                to_1_percent.append(ratios[0])
+                to_end.append(ratios[1])
+                row += [f"{r:.1f}" if r else "only ours" for r in ratios]
+            else:
+                row += ["Tutte's map is flipped", "-", "-"]
+            tail = arap["trace"]
+            row += [columns(tail, tail) + f", {arap['factorizations']}", f"{dirichlet['status']}, {arap['status']}"]
+            print(" | ".join(map(str, row)), flush=True)
+            if metric.flips(uv):
+                sys.exit(f"{file}: flipped triangles")
+    known = [r for r in to_1_percent if r]
+    if to_end:
+        print(f"{len(to_end)} disks with SLIM: median ratio to 1 % {statistics.median(known):.1f} over {len(known)} (the others "
+              f"SLIM did not bring there), to 1e-6 of its own end {statistics.median(to_end):.1f}")
+
+
+def lowest(*traces):
+    return min(trace[-1][1] for trace in traces if trace)
+
+
+def own_end(trace):
+    return seconds_to(trace, trace[-1][1] * (1 + 1e-6))
+
+
+def ratio(theirs, mine, energy):
+    their_seconds, my_seconds = seconds_to(theirs, energy), seconds_to(mine, energy)
+    return their_seconds / my_seconds if their_seconds and my_seconds else None
+
+
+def columns(trace, other):
+    best = lowest(trace, other)
+    return f"{trace[-1][1]:.6f}, {shown(seconds_to(trace, 1.01 * best), 3)}, {shown(own_end(trace), 3)}"
+
+
+if __name__ == "__main__":
+    main()
