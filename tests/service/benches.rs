@@ -71,7 +71,7 @@ fn reference_problems_are_judged() {
         "--checker",
         &checker.to_string_lossy(),
         "grid608_green_spline",
-        "bar_c_bend_green",
+        "bar_c_bend_green_spline",
     ];
     let Some(text) = printed("reference.py", &arguments) else {
         return;
