@@ -19,9 +19,9 @@
 //! let uvs = atlas.corner_uvs(); // [[u, v]; 3] per triangle, v up, in the unit square, exact in f32
 //! assert_eq!(uvs.len(), triangles.len());
 //!
-//! use unwrapd::certificate::{Overlap, certify};
+//! use unwrapd::certificate::{Claims, certify};
 //! let positions = positions.map(|p| p.map(f64::from));
-//! assert!(certify(&positions, &triangles, &uvs, Overlap::Test).is_valid());
+//! assert!(certify(&positions, &triangles, &uvs, &Claims::default()).is_bijective());
 //! # Ok::<(), unwrapd::pipeline::PipelineError>(())
 //! ```
 //!

@@ -14,6 +14,7 @@
 //! texel) that the grid has fewer than a handful of cells for each of their triangles.
 mod attempt;
 mod bitmap;
+mod clear;
 mod layout;
 mod mask;
 mod orientation;
@@ -23,6 +24,7 @@ mod relax;
 mod sheet;
 mod snap;
 
+pub use clear::cleared;
 pub use pack::pack;
 
 use thiserror::Error;

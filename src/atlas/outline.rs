@@ -79,7 +79,7 @@ fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
 ///
 /// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area too: their
 /// edges then run as those of their neighbours do, and stay, twice.
-fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
+pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
     let counter_clockwise = |t: &[u32; 3]| {
         let [a, b, c] = *t;
         if doubled_area(map, t) < 0.0 {

@@ -5,7 +5,7 @@
 //! plane, each triangle with the same weight however small, then pushes small triangles open and
 //! holds the others; it is minimized by the solver of the library, whose iterates are all strictly
 //! positive and whose energy falls. Vertices whose ring leaves the patch stay where they are.
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::barrier::NoBarrier;
 use crate::energy::{RestShape, SymmetricDirichlet, Triangles};
@@ -17,21 +17,27 @@ use crate::solver::{Control, Iterate, Objective, Settings, minimize};
 const REST_HEIGHT: f64 = 4.0;
 /// Good enough when each triangle has this share of its rest area: heights of 2.4 cells.
 const ENOUGH: f64 = 0.6;
+/// Those heights.
+pub(super) const ENOUGH_CELLS: f64 = ENOUGH * REST_HEIGHT;
 /// Steps; opening a triangle costs one for each factor of about 1.4 in its area.
 const MAX_ITERATIONS: usize = 400;
 /// Triangles times steps, for large patches.
 const WORK: usize = 4_000_000;
 
-/// Moves vertices of the patch so that no height in it is too small for a grid of the given cell, and
-/// returns the vertices it moved. `plane` must be strictly positive on the patch.
+/// Moves vertices of the patch so that no height in it, and none of the gaps, is too small for a grid of the given cell, and
+/// returns the vertices it moved. Gaps are triangles that a chart leaves free between its edges and vertices. `plane` must be
+/// strictly positive on both.
 pub(super) fn relax(
     triangles: &[[u32; 3]],
     rings: &VertexFaces,
     patch: &[u32],
+    gaps: &[[u32; 3]],
     cell: f64,
     plane: &mut [[f64; 2]],
 ) -> Vec<u32> {
-    let mut vertices: Vec<u32> = patch.iter().flat_map(|&t| triangles[t as usize]).collect();
+    let of_patch = patch.iter().map(|&t| triangles[t as usize]);
+    let held: Vec<[u32; 3]> = of_patch.chain(gaps.iter().copied()).collect();
+    let mut vertices = held.as_flattened().to_vec();
     vertices.sort_unstable();
     vertices.dedup();
     let index: HashMap<u32, u32> = vertices.iter().zip(0..).map(|(&v, i)| (v, i)).collect();
@@ -40,11 +46,10 @@ pub(super) fn relax(
         .iter()
         .partition(|&&v| rings.of(v).iter().all(inside));
     // Differences of neighbours stay exact if the origin is where the triangles are smallest.
-    let corners = |t: u32| triangles[t as usize].map(|v| plane[v as usize]);
-    let smallest = patch
+    let corners = |t: &[u32; 3]| t.map(|v| plane[v as usize]);
+    let smallest = held
         .iter()
-        .copied()
-        .min_by(|&s, &t| height(corners(s)).total_cmp(&height(corners(t))));
+        .min_by(|s, t| height(corners(s)).total_cmp(&height(corners(t))));
     let Some(origin) = smallest.map(|t| corners(t)[0]) else {
         return free;
     };
@@ -53,15 +58,12 @@ pub(super) fn relax(
         .iter()
         .flat_map(|&v| local(plane[v as usize]))
         .collect();
-    let rest: Vec<RestShape> = patch.iter().map(|&t| rest(corners(t).map(local))).collect();
-    let stencils: Vec<[u32; 3]> = patch
-        .iter()
-        .map(|&t| triangles[t as usize].map(|v| index[&v]))
-        .collect();
+    let rest: Vec<RestShape> = held.iter().map(|t| rest(corners(t).map(local))).collect();
+    let stencils: Vec<[u32; 3]> = held.iter().map(|t| t.map(|v| index[&v])).collect();
     let term = Triangles::new(&stencils, &rest, SymmetricDirichlet, NoBarrier);
     let mut objective = Objective::new(vertices.len(), Box::new(term));
     objective.fix(&fixed.iter().map(|v| index[v]).collect::<Vec<_>>());
-    let max_iterations = (WORK / patch.len()).clamp(8, MAX_ITERATIONS);
+    let max_iterations = (WORK / held.len()).clamp(8, MAX_ITERATIONS);
     let settings = Settings {
         max_iterations,
         ..Settings::draft()
@@ -111,8 +113,33 @@ fn rest(triangle: [[f64; 2]; 3]) -> RestShape {
     }
 }
 
+/// The triangles within so many rings of some triangles, sorted.
+pub(super) fn neighbourhood(
+    triangles: &[[u32; 3]],
+    rings: &VertexFaces,
+    of: &[u32],
+    n_rings: u32,
+) -> Vec<u32> {
+    let mut inside: HashSet<u32> = of.iter().copied().collect();
+    let mut seen = HashSet::new();
+    let mut front: Vec<u32> = inside.iter().copied().collect();
+    for _ in 0..n_rings {
+        let mut next = Vec::new();
+        for v in front.iter().flat_map(|&t| triangles[t as usize]) {
+            if seen.insert(v) {
+                let ring = rings.of(v).iter().copied();
+                next.extend(ring.filter(|&t| inside.insert(t)));
+            }
+        }
+        front = next;
+    }
+    let mut patch: Vec<u32> = inside.into_iter().collect();
+    patch.sort_unstable();
+    patch
+}
+
 /// Smallest height.
-fn height([a, b, c]: [[f64; 2]; 3]) -> f64 {
+pub(super) fn height([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let length = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
     let longest = length(a, b).max(length(b, c)).max(length(c, a));
     let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

@@ -6,7 +6,7 @@
 //! again. A chart that has flipped triangles as given, as maps without a barrier have, is rounded and nothing else.
 use rayon::prelude::*;
 
-use super::relax::relax;
+use super::relax::{neighbourhood, relax};
 use super::{ChartMap, doubled_area, outline::Outline};
 use crate::mesh::VertexFaces;
 use crate::numerics::predicates::orient2d_sign;
@@ -92,8 +92,9 @@ impl Snap<'_> {
             if bad.is_empty() {
                 return Some(());
             }
-            let patch = self.neighbourhood(&bad, 1 << round_of);
-            let free = relax(self.triangles, &self.rings, &patch, 1.0 / unit, &mut plane);
+            let patch = neighbourhood(self.triangles, &self.rings, &bad, 1 << round_of);
+            let cell = 1.0 / unit;
+            let free = relax(self.triangles, &self.rings, &patch, &[], cell, &mut plane);
             for v in free {
                 self.grid[v as usize] = round(outline.place(plane[v as usize]).map(|x| x * unit));
             }
@@ -168,31 +169,5 @@ impl Snap<'_> {
             .iter()
             .filter(|&&t| !self.is_positive(t))
             .count()
-    }
-
-    /// The triangles within so many rings of some triangles, sorted.
-    fn neighbourhood(&self, of: &[u32], n_rings: u32) -> Vec<u32> {
-        let mut inside = vec![false; self.triangles.len()];
-        let mut seen = vec![false; self.grid.len()];
-        let mut patch = of.to_vec();
-        let mut front = of.to_vec();
-        for &t in of {
-            inside[t as usize] = true;
-        }
-        for _ in 0..n_rings {
-            let mut next = Vec::new();
-            for v in front.iter().flat_map(|&t| self.triangles[t as usize]) {
-                if !std::mem::replace(&mut seen[v as usize], true) {
-                    let ring = self.rings.of(v).iter().copied();
-                    next.extend(
-                        ring.filter(|&t| !std::mem::replace(&mut inside[t as usize], true)),
-                    );
-                }
-            }
-            patch.extend(&next);
-            front = next;
-        }
-        patch.sort_unstable();
-        patch
     }
 }

@@ -1,26 +1,18 @@
 //! The certificate and the rules by which it is given.
 
 use super::CornerUvs;
+use super::bits::{BitsVerdict, coarsest_safe_bits, judge_bits};
+use super::boundary::ChartBoundary;
 use super::box_tree::Visit;
+use super::claims::{Claims, Overlap};
 use super::overlap::OrientedFaces;
+use super::padding::{PaddingVerdict, judge_padding};
 use super::rounding::coarsest_bits;
 use super::topology::UvTopology;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// How many offending faces and pairs a certificate names.
-const NAMED: usize = 8;
-
-/// Whether faces are tested against each other.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub enum Overlap {
-    /// Only the orientation of each face is judged.
-    Skip,
-    /// Pairs of faces whose interiors intersect are counted too.
-    #[default]
-    Test,
-}
+pub(super) const NAMED: usize = 8;
 
 /// What is proven about the UVs of a mesh, by exact predicates on the numbers of the file.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
@@ -36,6 +28,8 @@ pub struct Certificate {
     pub charts: usize,
     /// Charts whose winding contradicts itself (a Möbius strip in one piece); no map of them is injective.
     pub nonorientable_charts: usize,
+    /// Charts seen from behind: most of their UV area is, as the file winds it, clockwise with v up. They may be valid.
+    pub mirrored_charts: usize,
     /// Faces oriented against the rest of their chart.
     pub flipped: usize,
     /// Faces of exactly zero UV area, exempt ones left out.
@@ -52,6 +46,13 @@ pub struct Certificate {
     /// only its full precision is. 23: UVs rounded to multiples of 2⁻²³ (the grid written here) keep it. 16, 14, 12: it
     /// survives any move of each coordinate by 1/(2(2ᵇ−1)) + 2⁻¹⁶. Overlaps after rounding are not included.
     pub grid_bits: Option<u32>,
+    /// The coarsest of 16, 14 and 12 bits b at which the map stays bijective however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶;
+    /// null when it is not bijective, or at none of them, or where overlaps were not tested.
+    pub safe_bits: Option<u32>,
+    /// Whether charts keep the distance asked for; null when not asked or overlaps were not tested.
+    pub padding: Option<PaddingVerdict>,
+    /// Whether the map holds at the bits asked for; null when not asked or overlaps were not tested.
+    pub bits: Option<BitsVerdict>,
     /// The first few faces that are flipped, degenerate or cannot be judged.
     pub offending_faces: Vec<u32>,
     /// The first few pairs found to overlap.
@@ -76,18 +77,20 @@ impl Certificate {
 /// Judges the UVs of every face's corners.
 ///
 /// `uvs[f][c]` belongs to `positions[triangles[f][c]]` and is what the file says, converted to f64 without rounding (f32 or
-/// normalized integers). Faces are judged relative to their chart (see the [module](super)), so it does not matter whether
-/// v points up or down. Costs a sort of the vertices and, with [`Overlap::Test`], a search over a tree of boxes.
+/// normalized integers). Faces are judged relative to their chart (see the [module](super)), so it does not matter for their
+/// orientation whether v points up or down. Costs a sort of the vertices and, with [`Overlap::Test`], searches over trees of boxes.
 pub fn certify(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
     uvs: &[CornerUvs],
-    overlap: Overlap,
+    claims: &Claims,
 ) -> Certificate {
     let topology = UvTopology::new(positions, triangles, uvs);
     let mut certificate = judge_faces(&topology);
-    if overlap == Overlap::Test {
+    certificate.mirrored_charts = topology.mirrored_charts(claims.v_axis);
+    if claims.overlap == Overlap::Test {
         judge_pairs(&topology, &mut certificate);
+        judge_distances(&topology, claims, &mut certificate);
     }
     certificate
 }
@@ -96,7 +99,7 @@ fn judge_faces(topology: &UvTopology) -> Certificate {
     let n_faces = topology.faces.len();
     let n_charts = topology.charts.nonorientable.len();
     let is_exempt = |f: usize| topology.repeats_position(f);
-    let is_judged = |f: usize| !topology.unusable[f] && !is_exempt(f);
+    let is_judged = |f: usize| topology.is_judged(f);
     let positive = topology.chart_orientations(is_judged);
     let mut has_judged = vec![false; n_charts];
     for face in (0..n_faces).filter(|&f| is_judged(f)) {
@@ -148,4 +151,23 @@ fn judge_pairs(topology: &UvTopology, certificate: &mut Certificate) {
     certificate.overlapping_pairs_same_chart = Some(same);
     certificate.overlapping_pairs_between_charts = Some(between);
     certificate.overlap_truncated = visit == Visit::Truncated;
+}
+
+/// Judges edges of charts against each other.
+fn judge_distances(topology: &UvTopology, claims: &Claims, certificate: &mut Certificate) {
+    let boundary = ChartBoundary::new(topology, |face| topology.is_judged(face as usize));
+    if certificate.is_bijective()
+        && let Some(grid_bits) = certificate.grid_bits
+    {
+        certificate.safe_bits = coarsest_safe_bits(&boundary, grid_bits);
+    }
+    let are_disjoint = certificate.overlapping_pairs_between_charts == Some(0);
+    certificate.padding = claims.padding.map(|padding| {
+        let mut verdict = judge_padding(&boundary, padding);
+        verdict.kept &= are_disjoint && !certificate.overlap_truncated;
+        verdict
+    });
+    let is_bijective = certificate.is_bijective();
+    certificate.bits =
+        (claims.bits).map(|bits| judge_bits(topology, &boundary, bits, is_bijective));
 }

@@ -18,27 +18,40 @@
 //! Maps without UVs are judged by the same predicates: [`certify_planar`] a deformed mesh of the plane, [`crossings()`] whether a
 //! surface in space passes through itself.
 //!
-//! **What is not judged**: separation after rounding ([`Certificate::grid_bits`] speaks of orientations only).
+//! **Distances.** Whether charts keep a distance ([`Certificate::padding`]), and whether the map stays bijective however a tool rounds
+//! it to fewer bits ([`Certificate::bits`]), is decided on the edges of charts, in integers. Numbers that are no multiples of 2⁻⁴⁰ are
+//! cut to one, and the doubt counts against the map.
 
+mod bits;
+mod boundary;
 mod box_tree;
 mod charts;
+mod claims;
 mod crossings;
 mod edges;
+mod fixed;
 mod judgement;
 mod overlap;
+mod padding;
 mod planar;
 mod rounding;
+mod separation;
 mod simple;
 mod topology;
 mod weld;
 
+pub use bits::BitsVerdict;
+pub(crate) use boundary::{ChartBoundary, segment_distance};
 pub(crate) use box_tree::enlarged;
 pub(crate) use box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
+pub use claims::{Claims, Overlap, Padding, VAxis};
 pub use crossings::{Crossings, crossings};
 pub(crate) use edges::Start;
-pub use judgement::{Certificate, Overlap, certify};
+pub use judgement::{Certificate, certify};
 pub(crate) use overlap::OrientedFaces;
+pub use padding::PaddingVerdict;
 pub use planar::{PlanarCertificate, certify_planar};
+pub(crate) use rounding::largest_move;
 pub(crate) use simple::meeting_point;
 pub(crate) use topology::UvTopology;
 

@@ -1,13 +1,14 @@
 //! How coarsely UVs may be rounded before an orientation is in doubt.
 
 use super::CornerUvs;
+use super::fixed::{Fixed, UNIT_BITS, cross, difference, fixed};
 use super::topology::UvTopology;
-
-/// The integers of this file count units of 2⁻⁴⁰.
-const UNIT_BITS: u32 = 40;
 
 /// Coordinates from here on are not judged; it keeps all products within i128 with room to spare.
 const LIMIT: f64 = (1 << 20) as f64;
+
+/// The bits that files are quantized to, the coarsest first.
+pub(super) const LEVELS: [u32; 3] = [12, 14, 16];
 
 /// The coarsest of 23, 16, 14 and 12 bits at which all faces of non-zero orientation keep it.
 ///
@@ -19,74 +20,70 @@ const LIMIT: f64 = (1 << 20) as f64;
 /// Decided in integers. Coordinates that are no multiples of 2⁻⁴⁰ are cut to it and the move is allowed for, so that
 /// a doubt is never resolved in favour of the map.
 pub(crate) fn coarsest_bits(topology: &UvTopology) -> Option<u32> {
-    let far = |uvs: &CornerUvs| uvs.as_flattened().iter().any(|x| x.abs() >= LIMIT);
-    if topology.uvs.iter().any(far) {
+    if topology.uvs.iter().any(is_far) {
         return None;
     }
-    let mut levels = vec![
-        (16, allowance(16)),
-        (14, allowance(14)),
-        (12, allowance(12)),
-    ];
-    for (uvs, sign) in oriented(topology) {
-        let face = units(uvs, sign);
-        while levels
-            .last()
-            .is_some_and(|&(_, delta)| !survives(&face, delta))
-        {
-            levels.pop();
-        }
-    }
-    let on_grid = |(uvs, sign)| survives(&steps(uvs, sign), 0);
-    levels
-        .last()
-        .map(|&(bits, _)| bits)
-        .or_else(|| oriented(topology).all(on_grid).then_some(23))
+    let kept_at = |bits: &u32| doubtful_faces(topology, *bits).next().is_none();
+    let on_grid = |(_, uvs, sign)| survives(&steps(uvs, sign), 0);
+    let coarsest = LEVELS.into_iter().find(kept_at);
+    coarsest.or_else(|| oriented(topology).all(on_grid).then_some(23))
 }
 
-/// Corners and orientation of the faces that have one.
-fn oriented(topology: &UvTopology) -> impl Iterator<Item = (&CornerUvs, i8)> {
-    let signs = topology.orientation.iter().copied();
-    topology
-        .uvs
-        .iter()
-        .zip(signs)
-        .filter(|(_, sign)| *sign != 0)
+/// The faces whose orientation is in doubt when each coordinate moves by up to the move of `bits`, and those too far out to judge.
+pub(super) fn doubtful_faces(topology: &UvTopology, bits: u32) -> impl Iterator<Item = u32> {
+    let delta = allowance(bits);
+    oriented(topology)
+        .filter(move |(_, uvs, sign)| is_far(uvs) || !survives(&units(uvs, *sign), delta))
+        .map(|(face, ..)| face)
 }
 
-/// 1/(2(2ᵇ−1)) + 2⁻¹⁶ in units of 2⁻⁴⁰, rounded up, and one more for the coordinate's own rounding.
-fn allowance(bits: u32) -> i128 {
+fn is_far(uvs: &CornerUvs) -> bool {
+    uvs.as_flattened().iter().any(|x| x.abs() >= LIMIT)
+}
+
+/// Index, corners and orientation of the faces that have one.
+fn oriented(topology: &UvTopology) -> impl Iterator<Item = (u32, &CornerUvs, i8)> {
+    let faces = (0..).zip(&topology.uvs).zip(&topology.orientation);
+    faces
+        .filter(|(_, sign)| **sign != 0)
+        .map(|((face, uvs), &sign)| (face, uvs, sign))
+}
+
+/// The move 1/(2(2ᵇ−1)) + 2⁻¹⁶ of each coordinate that a map must survive to hold at b bits.
+pub(crate) fn largest_move(bits: u32) -> f64 {
+    0.5 / (f64::from(bits).exp2() - 1.0) + f64::from(-16).exp2()
+}
+
+/// The same in units of 2⁻⁴⁰, rounded up, and one more for the coordinate's own rounding.
+pub(super) fn allowance(bits: u32) -> i128 {
     let steps = 2 * ((1_i128 << bits) - 1);
     ((1_i128 << UNIT_BITS) + steps - 1) / steps + (1 << (UNIT_BITS - 16)) + 1
 }
 
 /// Corners cut to multiples of 2⁻⁴⁰, counter-clockwise, relative to the first.
-fn units(uvs: &CornerUvs, sign: i8) -> [[i128; 2]; 3] {
-    relative(
-        uvs.map(|p| p.map(|x| (x * (1_u64 << UNIT_BITS) as f64) as i128)),
-        sign,
-    )
+fn units(uvs: &CornerUvs, sign: i8) -> [Fixed; 3] {
+    relative(uvs.map(fixed), sign)
 }
 
 /// Corners rounded to multiples of 2⁻²³, counter-clockwise, relative to the first.
-fn steps(uvs: &CornerUvs, sign: i8) -> [[i128; 2]; 3] {
+fn steps(uvs: &CornerUvs, sign: i8) -> [Fixed; 3] {
     relative(
         uvs.map(|p| p.map(|x| (x * f64::from(1 << 23)).round() as i128)),
         sign,
     )
 }
 
-fn relative([a, b, c]: [[i128; 2]; 3], sign: i8) -> [[i128; 2]; 3] {
+fn relative([a, b, c]: [Fixed; 3], sign: i8) -> [Fixed; 3] {
     let corners = if sign > 0 { [a, b, c] } else { [a, c, b] };
-    corners.map(|p| [p[0] - a[0], p[1] - a[1]])
+    corners.map(|p| difference(p, a))
 }
 
 /// Whether a triangle whose first corner is the origin stays positive however each coordinate moves by up to `delta`.
 ///
 /// With y fixed the doubled area is linear in x, and its minimum over the moves of x is Σ xᵢ(yᵢ₊₁−yᵢ₊₂) − 2δ(max y − min y). That is
 /// concave in y, so its own minimum lies at one of the eight corners of the moves of y.
-fn survives(p: &[[i128; 2]; 3], delta: i128) -> bool {
-    let doubled_area = p[1][0] * p[2][1] - p[2][0] * p[1][1];
+fn survives(p: &[Fixed; 3], delta: i128) -> bool {
+    let doubled_area = cross(p[1], p[2]);
     let ranges = range(p.map(|p| p[0])) + range(p.map(|p| p[1]));
     if doubled_area - 2 * delta * ranges - 4 * delta * delta > 0 {
         return true; // no move changes the area by more

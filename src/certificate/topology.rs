@@ -2,6 +2,7 @@
 
 use super::CornerUvs;
 use super::charts::{Charts, Link};
+use super::claims::VAxis;
 use super::edges::{Halfedge, Start, UvEdges, halfedge};
 use super::weld::weld;
 use crate::numerics::predicates::orient2d_sign;
@@ -89,6 +90,11 @@ impl UvTopology {
         a == b || b == c || c == a
     }
 
+    /// Whether a face must have positive area: it can be judged, and has three distinct positions.
+    pub fn is_judged(&self, face: usize) -> bool {
+        !self.unusable[face] && !self.repeats_position(face)
+    }
+
     /// Orientation of a face after winding has been made consistent in its chart.
     pub fn orientation_in_chart(&self, face: usize) -> i8 {
         self.orientation[face] * self.charts.winding[face]
@@ -98,6 +104,19 @@ impl UvTopology {
     pub fn area(&self, face: usize) -> f64 {
         let [a, b, c] = self.uvs[face];
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+    }
+
+    /// Charts of which most UV area is, as the file winds it, that of a back.
+    pub fn mirrored_charts(&self, v_axis: VAxis) -> usize {
+        let mut signed_area = vec![0.0; self.charts.nonorientable.len()];
+        for (face, &chart) in self.charts.of_face.iter().enumerate() {
+            signed_area[chart as usize] += f64::from(self.orientation[face]) * self.area(face);
+        }
+        let is_mirrored = |area: &&f64| match v_axis {
+            VAxis::Up => **area < 0.0,
+            VAxis::Down => **area > 0.0,
+        };
+        signed_area.iter().filter(is_mirrored).count()
     }
 
     /// For each chart the orientation that carries most UV area among the faces of which `counts` holds (on a tie, the one

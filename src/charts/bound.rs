@@ -34,6 +34,15 @@ impl Quality {
             Self::Few => 4.5,
         }
     }
+
+    /// The next one that allows more distortion.
+    pub fn looser(self) -> Option<Self> {
+        match self {
+            Self::Smooth => Some(Self::Balanced),
+            Self::Balanced => Some(Self::Few),
+            Self::Few => None,
+        }
+    }
 }
 
 /// The share of the budget that is spent; the rest is for what rounding to the grid of the atlas adds.
@@ -115,7 +124,7 @@ fn slit_and_mapped(
     let mut wanted = bound;
     let mut before = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
-        slit(&mut pieces, wanted);
+        slit(&mut pieces, wanted, observer);
         pieces = pieces
             .into_par_iter()
             .with_max_len(1)
@@ -135,11 +144,13 @@ fn slit_and_mapped(
 }
 
 /// Slits where the excess that is to be expected is largest, until its mean is as wanted.
-fn slit(pieces: &mut [Piece], wanted: f64) {
+///
+/// Ends early when the observer wants the work to end: then fewer slits have to do.
+fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
     let area: f64 = pieces.iter().map(|piece| piece.area).sum();
     let mut is_done = vec![false; pieces.len()];
     let mut expected: f64 = pieces.iter().map(|piece| piece.excess).sum();
-    while expected > wanted * area {
+    while expected > wanted * area && observer.control() == Control::Continue {
         let open = (0..pieces.len()).filter(|&i| !is_done[i]);
         let worst = open.max_by(|&i, &j| {
             let (a, b) = (pieces[i].excess, pieces[j].excess);

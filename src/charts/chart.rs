@@ -19,6 +19,11 @@ pub enum Cut {
     Fast,
     /// Into one disk per component, by as few and short seams as that takes.
     Disk,
+    /// Where the surface has been cut, along the borders of present UV islands, and no more than it takes to open what is left to
+    /// disks. Maps begin where the islands lie.
+    Keep,
+    /// The same along seams that were given; maps begin anew.
+    Seams,
 }
 
 /// A part of a surface, opened to a disk.
@@ -38,10 +43,12 @@ pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
     let adjacency = surface.adjacency();
     let (region, n_regions) = match cut {
         Cut::Fast => regions(surface),
-        Cut::Auto | Cut::Disk => (adjacency.piece.clone(), adjacency.n_pieces),
+        Cut::Auto | Cut::Disk | Cut::Keep | Cut::Seams => {
+            (adjacency.piece.clone(), adjacency.n_pieces)
+        }
     };
     let branches = match cut {
-        Cut::Auto => Branches::None,
+        Cut::Auto | Cut::Keep | Cut::Seams => Branches::None,
         Cut::Fast | Cut::Disk => Branches::ToLimbs,
     };
     let mesh = (&*surface.triangles, &*surface.positions);
@@ -60,7 +67,7 @@ pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
         }
     }
     isolate_doubled_edges(surface, &mut twin);
-    if cut == Cut::Disk {
+    if cut == Cut::Disk && !surface.is_cut() {
         join_disks(surface, &mut twin);
     }
     let (label, n_charts) = connected_faces(&twin);

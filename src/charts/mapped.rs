@@ -78,6 +78,50 @@ pub fn map_chart(
     mapped
 }
 
+/// A chart mapped from where it lies: `uv` may have any unit and be seen from behind. Mapped anew if it overlaps itself there or has a
+/// face that is not positive.
+pub fn map_chart_from(
+    chart: Chart,
+    mut uv: Vec<[f64; 2]>,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let begin = observer.elapsed();
+    let doubled = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| uv[v as usize]);
+        doubled_area(a, b, c)
+    };
+    if chart.disk.triangles.iter().map(doubled).sum::<f64>() < 0.0 {
+        for p in &mut uv {
+            p[0] = -p[0];
+        }
+    }
+    let faces = chart.disk.triangles.len();
+    let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
+    let from = embed::optimize(&chart.disk, &chart.positions, &uv, options, &watch);
+    match from {
+        Ok(embedding)
+            if overlaps(&chart.disk, &uv).is_empty()
+                && embed::is_positive(&chart.disk.triangles, &embedding.uv) =>
+        {
+            let whole = MappedChart {
+                chart,
+                embedding,
+                seconds: 0.0,
+            };
+            let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
+            let parts = whole.free_of_overlaps(options, &watch).into_iter();
+            parts
+                .map(|part| MappedChart {
+                    seconds,
+                    ..part.facing_front()
+                })
+                .collect()
+        }
+        _ => map_chart(chart, options, Folds::Cut, observer),
+    }
+}
+
 impl MappedChart {
     /// The parts into which the cheapest seams divide the chart so that none overlaps itself; each part of several is optimized
     /// again from where it lies, which counts if it does not fold over itself anew.

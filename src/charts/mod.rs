@@ -9,6 +9,8 @@
 //! and goes on from there ([`charts_under_bound`]): one sparse solve predicts where a disk would be distorted most, a slit is
 //! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
 //!
+//! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
+//!
 //! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, the chart is cut along the cheapest seam
 //! that parts two of its sheets, a minimum cut of the dual graph, as often as it takes; where floating point finds no valid map,
 //! into [`halves()`].
@@ -33,7 +35,7 @@ mod smooth;
 pub use bound::{Quality, charts_under_bound};
 pub use chart::{Chart, Cut, charts};
 pub use halves::halves;
-pub use mapped::{Folds, MappedChart, Observer, map_chart};
+pub use mapped::{Folds, MappedChart, Observer, map_chart, map_chart_from};
 pub use min_cut::min_cut;
 
 #[cfg(doc)]

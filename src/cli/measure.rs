@@ -1,32 +1,44 @@
-//! `unwrapd measure` and `unwrapd verify`: what existing UVs are worth.
+//! `unwrapd measure`: what existing UVs are worth.
 
 use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::files::{json, read_upload, say};
 use super::words::{GROUPS, word};
-use crate::certificate::{Certificate, Overlap};
+use crate::certificate::Certificate;
 use crate::document::GroupBy;
 use crate::pipeline::{self, GroupReport, MeasureOptions};
 
-/// Which UVs of a file.
+/// Which UVs of a file, and what is judged of them.
 #[derive(clap::Args)]
-struct Which {
+pub(super) struct Which {
     /// Mesh with UVs: .glb, .gltf or .obj
-    input: PathBuf,
+    pub(super) input: PathBuf,
     /// UV set
     #[arg(long, default_value_t = 0, value_name = "N")]
     texcoord: u32,
     /// What shares one atlas
     #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
     group_by: GroupBy,
+    /// Least distance of two charts to prove, in texels
+    #[arg(long, value_name = "TEXELS")]
+    padding: Option<u32>,
+    /// Side of the texture that the padding is counted in
+    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
+    resolution: u32,
+    /// Bits b at which to prove that the map stays bijective: however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶
+    #[arg(long, value_name = "B")]
+    bits: Option<u32>,
 }
 
 impl Which {
-    fn options(&self) -> MeasureOptions {
+    pub(super) fn options(&self) -> MeasureOptions {
         MeasureOptions {
             texcoord: self.texcoord,
             group_by: self.group_by,
+            padding: self.padding,
+            resolution: self.resolution,
+            bits: self.bits,
             ..MeasureOptions::default()
         }
     }
@@ -42,18 +54,8 @@ pub(super) struct Args {
     json: bool,
 }
 
-/// Checks exactly that every face of a file's UVs is positive relative to its chart.
-#[derive(clap::Args)]
-pub(super) struct VerifyArgs {
-    #[command(flatten)]
-    which: Which,
-    /// Also check that no face overlaps another
-    #[arg(long)]
-    bijective: bool,
-}
-
 /// Runs `measure`.
-pub(super) fn measure(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let upload = read_upload(&args.which.input)?;
     let report = pipeline::measure_document(&upload, &args.which.options())?;
     if args.json {
@@ -62,29 +64,6 @@ pub(super) fn measure(args: &Args) -> Result<(), Failure> {
         report.groups.iter().for_each(print_group);
     }
     Ok(())
-}
-
-/// Runs `verify`; a file that does not hold ends with exit status 4.
-pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
-    let upload = read_upload(&args.which.input)?;
-    let overlap = if args.bijective {
-        Overlap::Test
-    } else {
-        Overlap::Skip
-    };
-    let certificates = pipeline::verify_document(&upload, &args.which.options(), overlap)?;
-    for (name, certificate) in &certificates {
-        say(format_args!("{name}: {}", certificate_text(certificate)));
-    }
-    if certificates
-        .iter()
-        .all(|(_, certificate)| certificate.is_valid())
-    {
-        say(format_args!("valid"));
-        Ok(())
-    } else {
-        Err(Failure::uncertified("not valid"))
-    }
 }
 
 /// One line per atlas.
@@ -103,7 +82,8 @@ pub(super) fn print_group(group: &GroupReport) {
     ));
 }
 
-fn certificate_text(certificate: &Certificate) -> String {
+/// Faces and faults.
+pub(super) fn certificate_text(certificate: &Certificate) -> String {
     let overlap = certificate
         .overlapping_pairs
         .map_or(String::new(), |n| format!(", {n} overlapping pairs"));

@@ -16,6 +16,7 @@ mod records;
 mod serve;
 mod solve;
 mod unwrap;
+mod verify;
 mod warp;
 mod words;
 
@@ -40,8 +41,8 @@ enum Command {
     Unwrap(Box<unwrap::Args>),
     /// Measure the UVs of a file: distortion, seams, packing, overlaps
     Measure(measure::Args),
-    /// Check exactly that no face of a file's UVs is flipped or degenerate: exit 0 if so, 4 if not
-    Verify(measure::VerifyArgs),
+    /// Check exactly that no face of a file's UVs is flipped or degenerate, and what else is asked for: exit 0 if so, 4 if not
+    Verify(verify::Args),
     /// Pull a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted
     Deform(Box<deform::Args>),
     /// Solve a problem file: handles pulled to targets, no element inverted
@@ -70,8 +71,8 @@ enum Command {
 pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Unwrap(args) => unwrap::run(&args),
-        Command::Measure(args) => measure::measure(&args),
-        Command::Verify(args) => measure::verify(&args),
+        Command::Measure(args) => measure::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Deform(args) => deform::run(&args),
         Command::Solve(args) => solve::run(&args),
         Command::Warp(args) => warp::run(&args),

@@ -129,9 +129,14 @@ fn stage_text(progress: &Progress) -> String {
     match progress.stage {
         Stage::Read => "read".into(),
         Stage::Cut => "cut".into(),
-        Stage::Map if progress.chart == 0 && progress.iteration == 0 => {
-            format!("map {} charts", progress.charts)
-        }
+        Stage::Map if progress.chart == 0 && progress.iteration == 0 => match progress.charts {
+            0 => "map".into(),
+            charts => format!("map {charts} charts"),
+        },
+        Stage::Map if progress.charts == 0 => format!(
+            "map, {} charts done, iteration {}, energy {:.6}",
+            progress.chart, progress.iteration, progress.energy
+        ),
         Stage::Map => format!(
             "map chart {} of {}, iteration {}, energy {:.6}",
             (progress.chart + 1).min(progress.charts),

@@ -1,9 +1,11 @@
 //! `unwrapd unwrap`: a mesh file in, the same with certified UVs out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::files::{json, output_format, read_upload, say, write_atomically, write_outputs};
+use super::files::{
+    json, output_format, read_file, read_upload, say, write_atomically, write_outputs,
+};
 use super::progress::Display;
 use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, QUALITIES, word};
 use crate::barrier::BarrierKind;
@@ -11,7 +13,7 @@ use crate::charts::{Cut, Quality};
 use crate::document::GroupBy;
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
-use crate::pipeline::{self, Limits, Options, Outcome};
+use crate::pipeline::{self, GivenSeams, Limits, NamedSeams, Options, Outcome};
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
 #[derive(clap::Args)]
@@ -33,9 +35,23 @@ pub(super) struct Args {
     /// Support s of the barrier, relative to an element's rest area
     #[arg(long, default_value_t = 1.0, value_name = "S")]
     barrier_support: f64,
-    /// Few charts under a bound on their distortion, more charts in less time, or one per component
+    /// Few charts under a bound on their distortion, more charts in less time, one per component, the islands of the present UVs, or
+    /// along `--seams`
     #[arg(long, default_value = "auto", value_parser = word::<Cut>(CUTS))]
     cut: Cut,
+    /// Edges to cut in any case: `normals` for those with hard normals, or a file [[v, w], …] of pairs of vertices, counted over the
+    /// triangle primitives as they follow each other in the file
+    #[arg(long, value_name = "normals|S.json")]
+    seams: Option<PathBuf>,
+    /// Cut along the borders of materials too
+    #[arg(long)]
+    material_borders: bool,
+    /// UV set whose islands `--cut keep` takes [default: 0]
+    #[arg(long, value_name = "N")]
+    source_texcoord: Option<u32>,
+    /// Charts that `--cut auto` may make for an atlas; where it needs more it allows more distortion
+    #[arg(long, value_name = "N")]
+    max_charts: Option<u32>,
     /// Vertices of each chart's boundary that are held, far from each other: 0, or with `--cut disk` 2, as `--energy lscm` needs
     #[arg(long, default_value_t = 0, value_name = "N")]
     pin: u32,
@@ -57,6 +73,9 @@ pub(super) struct Args {
     /// Least distance of two charts in texels
     #[arg(long, default_value_t = 2, value_name = "TEXELS")]
     padding: u32,
+    /// Keep the map bijective when tools round texture coordinates to 12, 14 or 16 bits: opens thin triangles and narrow gaps
+    #[arg(long, value_name = "BITS")]
+    quantization_safe: Option<u32>,
     /// Threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -85,6 +104,10 @@ impl Args {
             barrier_strength: self.barrier_strength,
             barrier_support: self.barrier_support,
             cut: self.cut,
+            seams: self.seams.as_deref().map(given_seams).transpose()?,
+            material_borders: self.material_borders,
+            source_texcoord: self.source_texcoord,
+            max_charts: self.max_charts,
             pin: self.pin,
             quality: self.quality,
             group_by: self.group_by,
@@ -92,6 +115,7 @@ impl Args {
             overwrite: self.overwrite,
             resolution: self.resolution,
             padding: self.padding,
+            quantization_safe: self.quantization_safe,
             threads: self.threads,
             time_budget: self.time_budget,
             heatmap_measure: self.heatmap_measure,
@@ -103,6 +127,16 @@ impl Args {
             limits: Limits::default(),
         })
     }
+}
+
+/// The word, or the pairs in a file.
+fn given_seams(path: &Path) -> Result<GivenSeams, Failure> {
+    if path.as_os_str() == "normals" {
+        return Ok(GivenSeams::Named(NamedSeams::Normals));
+    }
+    let edges = serde_json::from_slice(&read_file(path)?);
+    let edges = edges.map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
+    Ok(GivenSeams::Edges(edges))
 }
 
 /// Runs the command.
@@ -137,12 +171,10 @@ fn summarize(outcome: &Outcome) {
     for group in &outcome.report.groups {
         super::measure::print_group(group);
     }
-    say(format_args!(
-        "{}",
-        if outcome.report.certified {
-            "certified"
-        } else {
-            "not certified"
-        }
-    ));
+    let certified = if outcome.report.certified {
+        "certified"
+    } else {
+        "not certified"
+    };
+    say(format_args!("{certified}: {}", outcome.report.proven));
 }

@@ -98,6 +98,18 @@ impl Document {
         }
     }
 
+    /// The normals of a primitive per face corner; `None` where it has none.
+    pub fn corner_normals(
+        &self,
+        primitive: usize,
+    ) -> Result<Option<Vec<[[f64; 3]; 3]>>, DocumentError> {
+        match self {
+            Self::Gltf(document) => document.corner_normals(primitive),
+            Self::Obj(document) => Ok(document.corner_normals()),
+            Self::Soup(_) => Ok(None),
+        }
+    }
+
     /// The document with the triangles of each primitive cut into pieces; what vertices have beside positions is interpolated.
     pub fn subdivided(self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
         Subdivision::check(cuts, self.primitives())?;

@@ -70,6 +70,14 @@ impl ObjDocument {
         Ok(self.fans(uv).collect())
     }
 
+    /// The normals per face corner; `None` where a corner has none.
+    pub fn corner_normals(&self) -> Option<Vec<[[f64; 3]; 3]>> {
+        let normal = |corner: &io::obj::Corner| {
+            Some(self.obj.normals[corner.normal? as usize].map(f64::from))
+        };
+        self.fans(normal).collect()
+    }
+
     /// The document with `uvs`.
     pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
         if options.format != OutputFormat::Obj {

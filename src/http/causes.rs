@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 48] = [
+pub(super) const CAUSES: [(&str, &str); 49] = [
     // Handles.
     ("malformed_handles", "The list of handles is not one"),
     ("no_handle", "There is no handle"),
@@ -100,6 +100,7 @@ pub(super) const CAUSES: [(&str, &str); 48] = [
         "texcoord_in_use",
         "Textures sample the UV set that would be replaced",
     ),
+    ("invalid_seams", "The seams given do not fit the mesh"),
     ("invalid_uvs", "The new UVs do not fit the document"),
     // Pictures and drawings.
     ("invalid_image", "The picture is damaged"),

@@ -28,7 +28,7 @@ impl Work {
     pub fn new(kind: Kind, options: Value) -> Result<Self, PipelineError> {
         match kind {
             Kind::Unwrap => Self::of(options, Options::check, unwrap),
-            Kind::Measure => Self::of(options, |_| Ok(()), measure),
+            Kind::Measure => Self::of(options, MeasureOptions::check, measure),
             Kind::Solve => Self::of(options, SolveOptions::check, solve),
             Kind::Deform => Self::of(options, DeformOptions::check, deform),
             Kind::Warp => Self::of(options, WarpOptions::check, warp),

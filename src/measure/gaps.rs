@@ -2,8 +2,7 @@
 
 use super::faces::FaceMeasures;
 use super::size::in_unit_square;
-use crate::certificate::{Bounds, BoxTree, Start, UvTopology, Visit, search_budget};
-use crate::numerics::predicates::orient2d_sign;
+use crate::certificate::{ChartBoundary, UvTopology, Visit, segment_distance};
 use serde::Serialize;
 
 /// Distances between the boundaries of different charts, in parts of the unit square's side (of the UV extent where
@@ -28,8 +27,9 @@ pub struct Gaps {
 impl Gaps {
     pub(super) fn new(topology: &UvTopology, faces: &FaceMeasures) -> Gaps {
         let real = faces.charts.iter().filter(|chart| chart.is_real()).count();
-        let boundary = Boundary::new(topology, faces);
-        if real < 2 || boundary.segments.is_empty() {
+        let chart = |face: u32| topology.charts.of_face[face as usize] as usize;
+        let boundary = ChartBoundary::new(topology, |face| faces.charts[chart(face)].is_real());
+        if real < 2 || boundary.edges.is_empty() {
             return Gaps::default();
         }
         let side = if in_unit_square(topology) {
@@ -37,7 +37,7 @@ impl Gaps {
         } else {
             topology.extent()
         };
-        let (nearest, visit) = boundary.nearest_charts(faces.charts.len(), side / 1024.0);
+        let (nearest, visit) = nearest_charts(&boundary, faces.charts.len(), side / 1024.0);
         let within = nearest.iter().copied().fold(f64::INFINITY, f64::min);
         let (gap, visit) = if within.is_finite() || visit == Visit::Truncated {
             (within, visit)
@@ -65,86 +65,19 @@ impl Gaps {
     }
 }
 
-type Segment = [[f64; 2]; 2];
-
-/// The edges of charts in UV: those without a second face of the same UVs.
-struct Boundary {
-    segments: Vec<Segment>,
-    /// The chart of each segment.
-    charts: Vec<u32>,
-}
-
-impl Boundary {
-    fn new(topology: &UvTopology, faces: &FaceMeasures) -> Boundary {
-        let start = &topology.edges.start;
-        let mut boundary = Boundary {
-            segments: Vec::new(),
-            charts: Vec::new(),
-        };
-        for (k, &corner) in topology.edges.order.iter().enumerate() {
-            let alone = start[k] != Start::Same && start.get(k + 1) != Some(&Start::Same);
-            let chart = topology.charts.of_face[(corner / 3) as usize];
-            if alone && faces.charts[chart as usize].is_real() {
-                boundary.segments.push(topology.halfedge(corner).uvs);
-                boundary.charts.push(chart);
+/// For each chart the distance to the nearest other, infinite when that is more than `reach`.
+fn nearest_charts(boundary: &ChartBoundary, n_charts: usize, reach: f64) -> (Vec<f64>, Visit) {
+    let margin = 0.5 * reach * (1.0 + 1e-9); // a pair at just this distance is found
+    let mut nearest = vec![f64::INFINITY; n_charts];
+    let visit = boundary.near_pairs(margin, |p, q| {
+        let [a, b] = [p, q].map(|edge| edge.chart as usize);
+        if a != b && nearest[a].max(nearest[b]) > 0.0 {
+            let distance = segment_distance(p.uvs, q.uvs);
+            if distance <= reach {
+                nearest[a] = nearest[a].min(distance);
+                nearest[b] = nearest[b].min(distance);
             }
         }
-        boundary
-    }
-
-    /// For each chart the distance to the nearest other, infinite when that is more than `reach`.
-    fn nearest_charts(&self, n_charts: usize, reach: f64) -> (Vec<f64>, Visit) {
-        let margin = 0.5 * reach * (1.0 + 1e-9); // a pair at just this distance is found
-        let boxes: Vec<Bounds> = self.segments.iter().map(|s| bounds(s, margin)).collect();
-        let mut nearest = vec![f64::INFINITY; n_charts];
-        let visit = BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
-            let [a, b] = [i, j].map(|k| self.charts[k as usize] as usize);
-            if a != b && nearest[a].max(nearest[b]) > 0.0 {
-                let distance = self.distance(i, j);
-                if distance <= reach {
-                    nearest[a] = nearest[a].min(distance);
-                    nearest[b] = nearest[b].min(distance);
-                }
-            }
-        });
-        (nearest, visit)
-    }
-
-    /// The smallest distance between segments of two charts.
-    fn closest(&self) -> (f64, Visit) {
-        let boxes: Vec<Bounds> = self.segments.iter().map(|s| bounds(s, 0.0)).collect();
-        BoxTree::new(&boxes).closest(&self.charts, search_budget(boxes.len()), |i, j| {
-            self.distance(i, j)
-        })
-    }
-
-    fn distance(&self, i: u32, j: u32) -> f64 {
-        segment_distance(self.segments[i as usize], self.segments[j as usize])
-    }
-}
-
-fn bounds([a, b]: &Segment, margin: f64) -> Bounds {
-    [
-        [a[0].min(b[0]) - margin, a[1].min(b[1]) - margin],
-        [a[0].max(b[0]) + margin, a[1].max(b[1]) + margin],
-    ]
-}
-
-fn segment_distance([a, b]: Segment, [c, d]: Segment) -> f64 {
-    let crosses = |a, b, c, d| orient2d_sign(a, b, c) * orient2d_sign(a, b, d) < 0;
-    if crosses(a, b, c, d) && crosses(c, d, a, b) {
-        return 0.0;
-    }
-    point_distance(a, [c, d])
-        .min(point_distance(b, [c, d]))
-        .min(point_distance(c, [a, b]))
-        .min(point_distance(d, [a, b]))
-}
-
-fn point_distance(p: [f64; 2], [a, b]: Segment) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let to = [p[0] - a[0], p[1] - a[1]];
-    let length_squared = along[0] * along[0] + along[1] * along[1];
-    let t = ((to[0] * along[0] + to[1] * along[1]) / length_squared.max(1e-300)).clamp(0.0, 1.0);
-    (to[0] - t * along[0]).hypot(to[1] - t * along[1])
+    });
+    (nearest, visit)
 }

@@ -32,19 +32,10 @@ pub use seams::Seams;
 pub use size::Size;
 pub use validity::Validity;
 
+pub use crate::certificate::VAxis;
 use crate::certificate::{CornerUvs, Overlap, UvTopology};
 use faces::FaceMeasures;
-use serde::{Deserialize, Serialize};
-
-/// Which way v points in the numbers given.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum VAxis {
-    /// OBJ and most tools: (0, 0) is the lower left corner of the texture.
-    Up,
-    /// glTF: (0, 0) is the upper left corner of the texture.
-    Down,
-}
+use serde::Serialize;
 
 /// What to measure.
 #[derive(Clone, Copy, PartialEq, Debug)]

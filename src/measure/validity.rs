@@ -47,7 +47,7 @@ impl Validity {
             flipped_uv_area_frac: area_of_flipped.map(|(_, area)| area).sum::<f64>()
                 / faces.total_uv.max(1e-300),
             winding_inconsistent_faces: topology.charts.winding.iter().filter(|&&w| w < 0).count(),
-            mirrored_charts: mirrored_charts(topology, faces, v_axis),
+            mirrored_charts: topology.mirrored_charts(v_axis),
             uv_degenerate,
             uv_collapsed,
             uv_degenerate_area3d_frac: area_lost / faces.total_3d.max(1e-300),
@@ -63,16 +63,4 @@ pub(super) fn flipped(topology: &UvTopology) -> Vec<bool> {
         sign != 0 && sign != positive[topology.charts.of_face[face] as usize]
     };
     (0..topology.faces.len()).map(is_flipped).collect()
-}
-
-fn mirrored_charts(topology: &UvTopology, faces: &FaceMeasures, v_axis: VAxis) -> usize {
-    let mut signed_area = vec![0.0; faces.charts.len()];
-    for (face, &chart) in topology.charts.of_face.iter().enumerate() {
-        signed_area[chart as usize] += f64::from(topology.orientation[face]) * faces.area_uv[face];
-    }
-    let is_mirrored = |area: &&f64| match v_axis {
-        VAxis::Up => **area < 0.0,
-        VAxis::Down => **area > 0.0,
-    };
-    signed_area.iter().filter(is_mirrored).count()
 }

@@ -50,13 +50,7 @@ impl Adjacency {
                 pair_fan(positions, triangles, &ranks, edge, &mut twin);
             }
         }
-        let mut pieces = UnionFind::new(n_faces);
-        for (h, &t) in twin.iter().enumerate() {
-            if t != CUT {
-                pieces.unite(h as u32 / 3, t / 3);
-            }
-        }
-        let (piece, n_pieces) = pieces.labels();
+        let (piece, n_pieces) = pieces(&twin);
         let (component, n_components) = components.labels();
         let turned = consistent_winding(triangles, &twin);
         Self {
@@ -70,6 +64,19 @@ impl Adjacency {
         }
     }
 
+    /// Undoes the gluing of halfedges of which `is_seam` holds.
+    pub(super) fn cut(&mut self, triangles: &[[u32; 3]], is_seam: impl Fn(u32, u32) -> bool) {
+        for h in 0..self.twin.len() as u32 {
+            let t = self.twin[h as usize];
+            if t != CUT && h < t && is_seam(h, t) {
+                self.twin[h as usize] = CUT;
+                self.twin[t as usize] = CUT;
+            }
+        }
+        (self.piece, self.n_pieces) = pieces(&self.twin);
+        self.turned = consistent_winding(triangles, &self.twin);
+    }
+
     /// Whether a glued halfedge and its twin disagree even after the faces in [`turned`](Self::turned) are turned over:
     /// only on pieces that are not orientable, such as a Möbius strip.
     pub fn is_twisted(&self, triangles: &[[u32; 3]], h: u32) -> bool {
@@ -77,6 +84,15 @@ impl Adjacency {
         let turned = self.turned[h as usize / 3] != self.turned[t as usize / 3];
         same_direction(triangles, h, t) != turned
     }
+}
+
+/// The faces that glued edges connect, labelled.
+fn pieces(twin: &[u32]) -> (Vec<u32>, usize) {
+    let mut pieces = UnionFind::new(twin.len() / 3);
+    for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {
+        pieces.unite(h / 3, t / 3);
+    }
+    pieces.labels()
 }
 
 fn glue(twin: &mut [u32], a: u32, b: u32) {

@@ -14,6 +14,7 @@ pub struct Surface {
     /// What the input's faces suffer from.
     pub defects: Defects,
     adjacency: Adjacency,
+    is_cut: bool,
 }
 
 /// Why a list of triangles is no surface.
@@ -71,7 +72,20 @@ impl Surface {
             faces,
             defects,
             adjacency,
+            is_cut: false,
         })
+    }
+
+    /// Cuts the surface along the edges of which `is_seam` holds, asked with the two halfedges that are glued there: nothing is
+    /// mapped across them.
+    pub fn cut_along(&mut self, is_seam: impl Fn(u32, u32) -> bool) {
+        self.adjacency.cut(&self.triangles, is_seam);
+        self.is_cut = true;
+    }
+
+    /// Whether it was cut along given edges.
+    pub fn is_cut(&self) -> bool {
+        self.is_cut
     }
 
     /// Which triangles are glued to which.

@@ -2,9 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::clearance::{open_charts, texels_apart};
 use super::map::{folds, mapped_charts};
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Settings;
+use super::seams::Seams;
 use super::{PipelineError, repeated};
 use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Placed};
 use crate::charts::{Folds, MappedChart};
@@ -22,6 +24,9 @@ const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 500_000_000];
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
 /// another scale rounds it differently.
 const PACKINGS: usize = 4;
+
+/// Times that charts are opened for rounding at most: what is opened takes room, at a smaller scale more is too thin.
+const OPENINGS: usize = 4;
 
 /// An unwrapped mesh.
 #[derive(Clone, Debug)]
@@ -68,11 +73,24 @@ pub fn unwrap(
     settings: &Settings,
     observer: &dyn Observer,
 ) -> Result<Unwrapped, PipelineError> {
+    unwrap_along(positions, triangles, &Seams::default(), settings, observer)
+}
+
+/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](crate::charts::Cut::Seams) and
+/// [`Cut::Keep`](crate::charts::Cut::Keep) along no others than it takes to open what they enclose.
+pub fn unwrap_along(
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    seams: &Seams,
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> Result<Unwrapped, PipelineError> {
     settings.validate().map_err(PipelineError::InvalidOptions)?;
     let tracker = Tracker::new(observer, settings.time_budget);
     let mesh = Soup {
         positions,
         triangles,
+        seams,
     };
     let mut atlases = in_pool(settings.threads, || unwrap_all(&[mesh], settings, &tracker))??;
     atlases.pop().ok_or(PipelineError::NoTriangles)
@@ -83,6 +101,18 @@ pub fn unwrap(
 pub(super) struct Soup<'a> {
     pub(super) positions: &'a [[f32; 3]],
     pub(super) triangles: &'a [[u32; 3]],
+    pub(super) seams: &'a Seams,
+}
+
+impl Soup<'_> {
+    /// The surface, cut along its seams.
+    fn surface(&self) -> Result<Surface, PipelineError> {
+        let mut surface = Surface::new(self.positions, self.triangles)?;
+        self.seams
+            .check(self.positions.len(), self.triangles.len())?;
+        self.seams.cut(&mut surface, self.positions);
+        Ok(surface)
+    }
 }
 
 /// Runs `work` with the given number of threads; nothing of it touches rayon's global pool.
@@ -106,16 +136,17 @@ pub(super) fn unwrap_all(
     tracker.stage(Stage::Cut);
     let surfaces: Vec<Surface> = meshes
         .par_iter()
-        .map(|mesh| Surface::new(mesh.positions, mesh.triangles))
+        .map(Soup::surface)
         .collect::<Result<_, _>>()?;
     if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
         return Err(PipelineError::NoTriangles);
     }
-    let mapped = mapped_charts(&surfaces, settings, tracker);
+    let seams: Vec<&Seams> = meshes.iter().map(|mesh| mesh.seams).collect();
+    let mapped = mapped_charts(&surfaces, &seams, settings, tracker);
     tracker.stage(Stage::Pack);
     let options = AtlasOptions {
         resolution: settings.resolution,
-        padding_texels: settings.padding,
+        padding_texels: padding_texels(settings),
         search_words: (SEARCH_WORDS / meshes.len() as u64)
             .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
     };
@@ -123,20 +154,28 @@ pub(super) fn unwrap_all(
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
         .map(|((mesh, surface), charts)| {
-            let (charts, atlas) = packed(charts, &options, folds)?;
+            let (charts, atlas) = packed(charts, &options, folds, settings.quantization_safe)?;
             Ok(assemble(*mesh, surface, &charts, &atlas))
         })
         .collect()
 }
 
-/// The charts of one mesh in an atlas. Where rounding to the grid made a chart overlap itself it is cut once more, and all are
-/// packed again.
+/// The padding asked for, or what keeps charts apart when UVs are rounded.
+fn padding_texels(settings: &Settings) -> u32 {
+    let safe = settings.quantization_safe;
+    let least = safe.map_or(0, |bits| texels_apart(bits, settings.resolution));
+    settings.padding.max(least)
+}
+
+/// The charts of one mesh in an atlas. Where rounding to the grid made a chart overlap itself it is cut once more, where one is too
+/// thin for the bits it shall be safe at it is opened, and all are packed again.
 fn packed(
     mut charts: Vec<MappedChart>,
     options: &AtlasOptions,
     folds: Folds,
+    quantization_safe: Option<u32>,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
-    let mut rounds = 0;
+    let (mut rounds, mut openings) = (0, 0);
     loop {
         let chart_maps: Vec<ChartMap> = charts
             .iter()
@@ -146,6 +185,12 @@ fn packed(
             })
             .collect();
         let atlas = atlas::pack(&chart_maps, options)?;
+        if openings < OPENINGS
+            && quantization_safe.is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))
+        {
+            openings += 1;
+            continue;
+        }
         rounds += 1;
         if folds == Folds::Keep || rounds == PACKINGS {
             return Ok((charts, atlas));

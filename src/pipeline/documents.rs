@@ -3,6 +3,7 @@
 use super::PipelineError;
 use super::arrays::{GridCorners, Soup, Unwrapped, in_pool, unwrap_all};
 use super::judge::WrittenUvs;
+use super::merged::Merged;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
@@ -10,8 +11,7 @@ use super::report::{AtlasReport, GroupReport, Report, Seconds};
 use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
 use crate::document::{
-    Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Primitive, Upload,
-    WriteOptions, Written,
+    Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
 };
 use crate::measure::VAxis;
 
@@ -55,8 +55,8 @@ fn unwrap_in_pool(
     let groups = document.groups(group_by);
     let meshes: Vec<Merged> = groups
         .iter()
-        .map(|group| Merged::new(document.primitives(), group))
-        .collect();
+        .map(|group| Merged::with_seams(&document, group, options))
+        .collect::<Result<_, _>>()?;
     seconds.read = watch.lap();
 
     let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
@@ -69,7 +69,7 @@ fn unwrap_in_pool(
 
     tracker.stage(Stage::Judge);
     let uvs = WrittenUvs::read(&written, group_by)?;
-    let mut groups = uvs.judge();
+    let mut groups = uvs.judge(&options.claims());
     add_history(&mut groups, &atlases);
     seconds.judge = watch.lap();
 
@@ -99,39 +99,6 @@ fn group_by(options: &Options) -> GroupBy {
     match options.format {
         OutputFormat::Obj => GroupBy::Scene,
         OutputFormat::Glb | OutputFormat::Gltf => options.group_by,
-    }
-}
-
-/// The primitives of a group as one mesh.
-pub(super) struct Merged {
-    pub positions: Vec<[f32; 3]>,
-    pub triangles: Vec<[u32; 3]>,
-}
-
-impl Merged {
-    pub fn new(primitives: &[Primitive], group: &Group) -> Self {
-        let mut merged = Self {
-            positions: Vec::new(),
-            triangles: Vec::new(),
-        };
-        for &index in &group.primitives {
-            let first = merged.positions.len() as u32;
-            merged.positions.extend(&primitives[index].positions);
-            merged.triangles.extend(
-                primitives[index]
-                    .triangles
-                    .iter()
-                    .map(|t| t.map(|v| v + first)),
-            );
-        }
-        merged
-    }
-
-    fn soup(&self) -> Soup<'_> {
-        Soup {
-            positions: &self.positions,
-            triangles: &self.triangles,
-        }
     }
 }
 

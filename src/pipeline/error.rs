@@ -77,6 +77,9 @@ pub enum PipelineError {
     /// Handles were pulled to a map with an inverted element.
     #[error("no map without inversion was found")]
     Inverted,
+    /// The seams given do not fit the mesh.
+    #[error("seams: {0}")]
+    Seams(String),
     /// The worker threads could not be started.
     #[error("cannot start worker threads: {0}")]
     Threads(String),
@@ -98,6 +101,7 @@ impl PipelineError {
             Self::Outline(error) => error.code(),
             #[cfg(feature = "files")]
             Self::Warp(error) => error.code(),
+            Self::Seams(_) => "invalid_seams",
             Self::NoTriangles => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
@@ -118,6 +122,7 @@ impl PipelineError {
             | Self::NoTriangles
             | Self::Cage(_)
             | Self::Problem(_)
+            | Self::Seams(_)
             | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
             Self::Document(_) | Self::Edit(_) | Self::Outline(_) | Self::Warp(_) => 3,

@@ -1,12 +1,14 @@
 //! Judging the UVs of a document as its bytes have them.
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::PipelineError;
 use super::arrays::in_pool;
 use super::options::MeasureOptions;
+use super::proven::Proven;
 use super::report::{GroupReport, Report};
-use crate::certificate::{Certificate, CornerUvs, Overlap, certify};
+use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, certify};
 use crate::document::{Document, Group, GroupBy, Upload, Written};
 use crate::measure::{self, Measures, VAxis};
 
@@ -67,11 +69,28 @@ impl WrittenUvs {
     }
 
     /// Measures and certifies every group.
-    pub(super) fn judge(&self) -> Vec<GroupReport> {
+    pub(super) fn judge(&self, claims: &Claims) -> Vec<GroupReport> {
         self.groups
             .par_iter()
-            .map(|group| group.judge(self.v_axis))
+            .map(|group| group.judge(&self.told(claims)))
             .collect()
+    }
+
+    /// Certifies every group.
+    fn verify(&self, claims: &Claims) -> Vec<VerifiedGroup> {
+        let verified = |group: &GroupUvs| VerifiedGroup {
+            name: group.name.clone(),
+            certificate: group.certify(&self.told(claims)),
+        };
+        self.groups.par_iter().map(verified).collect()
+    }
+
+    /// The claims with what only the file tells.
+    fn told(&self, claims: &Claims) -> Claims {
+        Claims {
+            v_axis: self.v_axis,
+            ..*claims
+        }
     }
 }
 
@@ -109,8 +128,8 @@ impl GroupUvs {
         Ok(gathered)
     }
 
-    fn certify(&self, overlap: Overlap) -> Certificate {
-        certify(&self.positions, &self.triangles, &self.uvs, overlap)
+    fn certify(&self, claims: &Claims) -> Certificate {
+        certify(&self.positions, &self.triangles, &self.uvs, claims)
     }
 
     fn measure(&self, v_axis: VAxis) -> Measures {
@@ -124,9 +143,9 @@ impl GroupUvs {
         )
     }
 
-    fn judge(&self, v_axis: VAxis) -> GroupReport {
+    fn judge(&self, claims: &Claims) -> GroupReport {
         let (measures, certificate) =
-            rayon::join(|| self.measure(v_axis), || self.certify(Overlap::Test));
+            rayon::join(|| self.measure(claims.v_axis), || self.certify(claims));
         GroupReport {
             name: self.name.clone(),
             measures,
@@ -137,25 +156,46 @@ impl GroupUvs {
     }
 }
 
+/// The exact judgement of a document's UVs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verified {
+    /// What holds of all groups.
+    pub proven: Proven,
+    /// A certificate per group.
+    pub groups: Vec<VerifiedGroup>,
+}
+
+/// The exact judgement of a group's UVs.
+#[derive(Clone, Debug, Serialize)]
+pub struct VerifiedGroup {
+    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
+    pub name: String,
+    /// What is proven of it.
+    pub certificate: Certificate,
+}
+
 /// Measures the UVs that a document has.
 pub fn measure_document(
     upload: &Upload,
     options: &MeasureOptions,
 ) -> Result<Report, PipelineError> {
-    with_uvs(upload, options, |uvs| Report::new(uvs.judge()))
+    with_uvs(upload, options, |uvs| {
+        Report::new(uvs.judge(&options.claims(Overlap::Test)))
+    })
 }
 
-/// Judges the UVs that a document has: a certificate per group, by name. Shares no code with the writer.
+/// Judges the UVs that a document has. Shares no code with the writer.
 pub fn verify_document(
     upload: &Upload,
     options: &MeasureOptions,
     overlap: Overlap,
-) -> Result<Vec<(String, Certificate)>, PipelineError> {
+) -> Result<Verified, PipelineError> {
     with_uvs(upload, options, |uvs| {
-        uvs.groups
-            .par_iter()
-            .map(|group| (group.name.clone(), group.certify(overlap)))
-            .collect()
+        let groups = uvs.verify(&options.claims(overlap));
+        Verified {
+            proven: Proven::of(groups.iter().map(|group| &group.certificate)),
+            groups,
+        }
     })
 }
 
@@ -165,6 +205,7 @@ fn with_uvs<T: Send>(
     options: &MeasureOptions,
     judge: impl FnOnce(&WrittenUvs) -> T + Send,
 ) -> Result<T, PipelineError> {
+    options.check()?;
     in_pool(options.limits.threads, || {
         let document = Document::read(upload)?;
         options.limits.check(&document)?;

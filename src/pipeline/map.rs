@@ -5,44 +5,96 @@ use std::cmp::Reverse;
 
 use super::observer::Tracker;
 use super::options::Settings;
+use super::seams::Seams;
 use crate::barrier::BarrierKind;
-use crate::charts::{Chart, Cut, Folds, MappedChart, charts, charts_under_bound, map_chart};
+use crate::certificate::CornerUvs;
+use crate::charts::{
+    Chart, Cut, Folds, MappedChart, charts, charts_under_bound, map_chart, map_chart_from,
+};
 use crate::embed::{self, Pins};
 use crate::mesh::Surface;
 use crate::solver;
 
-/// The charts of every surface with their maps.
+/// The charts of every surface with their maps; with [`Cut::Keep`] they begin at the given UVs.
 pub(super) fn mapped_charts(
     surfaces: &[Surface],
+    seams: &[&Seams],
     settings: &Settings,
     tracker: &Tracker,
 ) -> Vec<Vec<MappedChart>> {
     let is_promised = settings.barrier != BarrierKind::None;
     if settings.cut == Cut::Auto && is_promised {
-        tracker.charts(
-            surfaces.len(),
-            surfaces.iter().map(|s| s.triangles.len()).sum(),
-        );
+        tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
         let options = options(settings);
-        return surfaces
+        let charts = surfaces
             .par_iter()
             .map(|surface| {
-                let charts = charts_under_bound(surface, settings.quality, &options, tracker);
-                tracker.chart_done(surface.triangles.len());
+                let charts = under_bound(surface, settings, &options, tracker);
+                tracker.surface_done(surface.triangles.len(), charts.len());
                 charts
             })
             .collect();
+        tracker.all_mapped();
+        return charts;
     }
     let charts: Vec<Vec<Chart>> = surfaces
         .par_iter()
         .map(|surface| charts(surface, settings.cut))
         .collect();
-    map_charts(charts, settings, tracker)
+    let kept = |mesh: usize, chart: &Chart| {
+        let uvs = (settings.cut == Cut::Keep).then_some(seams[mesh].uvs.as_ref());
+        Some(uvs_of(chart, &surfaces[mesh], uvs.flatten()?))
+    };
+    map_charts(charts, kept, settings, tracker)
+}
+
+/// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
+/// component, should that be fewer.
+fn under_bound(
+    surface: &Surface,
+    settings: &Settings,
+    options: &embed::Options,
+    tracker: &Tracker,
+) -> Vec<MappedChart> {
+    let most = settings.max_charts.map_or(usize::MAX, |n| n as usize);
+    let mut quality = settings.quality;
+    let mut fewest = charts_under_bound(surface, quality, options, tracker);
+    while fewest.len() > most {
+        let next = quality.looser();
+        let others = match next {
+            Some(looser) => charts_under_bound(surface, looser, options, tracker),
+            None => charts(surface, Cut::Disk)
+                .into_iter()
+                .flat_map(|chart| map_chart(chart, options, Folds::Cut, tracker))
+                .collect(),
+        };
+        if others.len() < fewest.len() {
+            fewest = others;
+        }
+        let Some(looser) = next else {
+            break;
+        };
+        quality = looser;
+    }
+    fewest
+}
+
+/// The given UVs at the vertices of a chart.
+fn uvs_of(chart: &Chart, surface: &Surface, uvs: &[CornerUvs]) -> Vec<[f64; 2]> {
+    let mut of_vertex = vec![[0.0; 2]; chart.disk.n_vertices];
+    for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
+        for (&vertex, &corner) in triangle.iter().zip(corners) {
+            let face = surface.faces[corner as usize / 3] as usize;
+            of_vertex[vertex as usize] = uvs[face][corner as usize % 3];
+        }
+    }
+    of_vertex
 }
 
 /// Maps every chart of every mesh, the largest first.
 fn map_charts(
     charts: Vec<Vec<Chart>>,
+    kept: impl Fn(usize, &Chart) -> Option<Vec<[f64; 2]>> + Sync,
     settings: &Settings,
     tracker: &Tracker,
 ) -> Vec<Vec<MappedChart>> {
@@ -62,7 +114,10 @@ fn map_charts(
         .with_max_len(1)
         .map(|(id, chart)| {
             let faces = chart.disk.triangles.len();
-            let parts = map_chart(chart, &options, folds, tracker);
+            let parts = match kept(id.0, &chart) {
+                Some(uv) => map_chart_from(chart, uv, &options, tracker),
+                None => map_chart(chart, &options, folds, tracker),
+            };
             tracker.chart_done(faces);
             (id, parts)
         })

@@ -13,6 +13,7 @@
 //! one thread, so the result does not depend on their number.
 
 mod arrays;
+mod clearance;
 mod error;
 mod map;
 mod observer;
@@ -38,13 +39,18 @@ mod judge;
 #[cfg(feature = "files")]
 mod limits;
 #[cfg(feature = "files")]
+mod merged;
+#[cfg(feature = "files")]
 mod moved;
 #[cfg(feature = "files")]
 mod pictures;
 #[cfg(feature = "files")]
 mod planar_map;
 #[cfg(feature = "files")]
+mod proven;
+#[cfg(feature = "files")]
 mod report;
+mod seams;
 #[cfg(feature = "files")]
 mod solution;
 #[cfg(feature = "files")]
@@ -54,10 +60,11 @@ mod source;
 #[cfg(feature = "files")]
 mod warp;
 
-pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap};
+pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::Settings;
+pub use seams::Seams;
 
 #[cfg(feature = "files")]
 pub use bodies::BodyFormat;
@@ -72,13 +79,15 @@ pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document};
 #[cfg(feature = "files")]
 pub use edit_options::{EditOptions, Editing};
 #[cfg(feature = "files")]
-pub use judge::{measure_document, verify_document};
+pub use judge::{Verified, VerifiedGroup, measure_document, verify_document};
 #[cfg(feature = "files")]
 pub use limits::Limits;
 #[cfg(feature = "files")]
-pub use options::{MeasureOptions, Options};
+pub use options::{GivenSeams, MeasureOptions, NamedSeams, Options};
 #[cfg(feature = "files")]
 pub use pictures::{Drawn, Pictures};
+#[cfg(feature = "files")]
+pub use proven::{Proven, ProvenBits, ProvenPadding};
 #[cfg(feature = "files")]
 pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
 #[cfg(feature = "files")]

@@ -39,7 +39,7 @@ pub struct Progress {
     pub fraction: f64,
     /// Charts finished so far.
     pub chart: usize,
-    /// Charts in all; 0 before they are known.
+    /// Charts in all; 0 before they are known, with `cut` `auto` until all are mapped.
     pub charts: usize,
     /// Iteration of the chart that reported last, or of the body that is pulled.
     pub iteration: usize,
@@ -149,6 +149,23 @@ impl<'a> Tracker<'a> {
             state.faces_done += faces;
             state.progress.chart += 1;
             state.mapped(0.0)
+        });
+    }
+
+    /// A surface of `faces` faces is mapped, in so many charts. That was not known before: none were announced.
+    pub(super) fn surface_done(&self, faces: usize, charts: usize) {
+        self.update(|state| {
+            state.faces_done += faces;
+            state.progress.chart += charts;
+            state.mapped(0.0)
+        });
+    }
+
+    /// All charts are mapped, whether they were announced or not.
+    pub(super) fn all_mapped(&self) {
+        self.update(|state| {
+            state.progress.charts = state.progress.chart;
+            begins_at(Stage::Pack)
         });
     }
 

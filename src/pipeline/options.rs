@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 #[cfg(feature = "files")]
 use super::{Limits, PipelineError};
 use crate::barrier::BarrierKind;
+#[cfg(feature = "files")]
+use crate::certificate::{Claims, Overlap, Padding};
 use crate::charts::{Cut, Quality};
 #[cfg(feature = "files")]
 use crate::document::{GroupBy, OutputFormat};
@@ -30,10 +32,15 @@ pub struct Settings {
     pub pin: u32,
     /// How distorted the atlas may be with [`Cut::Auto`].
     pub quality: Quality,
+    /// Charts that [`Cut::Auto`] may make of a mesh; for that it allows more distortion.
+    pub max_charts: Option<u32>,
     /// Texels along the side of the texture that `padding` is counted in.
     pub resolution: u32,
     /// Least distance of two charts, in texels.
     pub padding: u32,
+    /// Bits that texture coordinates will be rounded to, 12, 14 or 16: thin triangles and narrow gaps are opened so that the map stays
+    /// bijective, as far as that is possible.
+    pub quantization_safe: Option<u32>,
     /// Threads to use; all cores if absent. The result does not depend on it.
     pub threads: Option<usize>,
     /// Seconds after which the current valid map is taken as it is.
@@ -50,8 +57,10 @@ impl Default for Settings {
             cut: Cut::Auto,
             pin: 0,
             quality: Quality::default(),
+            max_charts: None,
             resolution: 1024,
             padding: 2,
+            quantization_safe: None,
             threads: None,
             time_budget: None,
         }
@@ -61,24 +70,23 @@ impl Default for Settings {
 impl Settings {
     /// Checks every number against its range; the text names the option.
     pub fn validate(&self) -> Result<(), String> {
-        let within = |name: &str, value: f64, low: f64, high: f64| {
-            if (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(format!(
-                    "{name} must lie between {low} and {high}, not {value}"
-                ))
-            }
-        };
         within("barrier_strength", self.barrier_strength, 1e-9, 1e9)?;
         within("barrier_support", self.barrier_support, 1e-6, 1e6)?;
-        within("resolution", f64::from(self.resolution), 16.0, 65_536.0)?;
+        check_texels(self.resolution, self.padding)?;
         within(
-            "padding",
-            f64::from(self.padding),
-            0.0,
-            f64::from(self.resolution / 8),
+            "max_charts",
+            f64::from(self.max_charts.unwrap_or(1)),
+            1.0,
+            1e9,
         )?;
+        match self.quantization_safe {
+            None | Some(12 | 14 | 16) => {}
+            Some(bits) => {
+                return Err(format!(
+                    "quantization_safe must be 12, 14 or 16, not {bits}"
+                ));
+            }
+        }
         match (self.pin, self.cut) {
             (0, _) | (2, Cut::Disk) => {}
             (2, Cut::Auto) => return Err("pin 2 goes with cut disk".to_owned()),
@@ -92,6 +100,44 @@ impl Settings {
         }
         Ok(())
     }
+}
+
+fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
+    if (low..=high).contains(&value) {
+        Ok(())
+    } else {
+        Err(format!(
+            "{name} must lie between {low} and {high}, not {value}"
+        ))
+    }
+}
+
+fn check_texels(resolution: u32, padding: u32) -> Result<(), String> {
+    within("resolution", f64::from(resolution), 16.0, 65_536.0)?;
+    let most = f64::from(resolution / 8);
+    within("padding", f64::from(padding), 0.0, most)
+}
+
+/// Edges of a document that are cut in any case.
+#[cfg(feature = "files")]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(untagged)]
+pub enum GivenSeams {
+    /// By a word.
+    Named(NamedSeams),
+    /// Those between these pairs of vertices, counted over the triangle primitives of the file as they follow each other.
+    Edges(Vec<[u32; 2]>),
+}
+
+/// Seams that the document itself tells.
+#[cfg(feature = "files")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum NamedSeams {
+    /// Edges at which the normals of two faces differ.
+    Normals,
 }
 
 /// How a document is unwrapped: [`Settings`] and what concerns the file. The command line's long names in snake case.
@@ -110,14 +156,26 @@ pub struct Options {
     /// Support s of the barrier, relative to an element's rest area.
     #[cfg_attr(feature = "service", schema(minimum = 1e-6, maximum = 1e6))]
     pub barrier_support: f64,
-    /// Where to cut: few charts under a bound on their distortion, more in less time, or one per component.
+    /// Where to cut: few charts under a bound on their distortion, more in less time, one per component, the islands of the present
+    /// UVs, or along given seams.
     pub cut: Cut,
+    /// Edges that are cut in any case: `normals` for those with hard normals, or pairs of vertices, counted over the triangle
+    /// primitives of the file as they follow each other.
+    pub seams: Option<GivenSeams>,
+    /// Cut along the borders of materials too.
+    pub material_borders: bool,
+    /// The UV set whose islands `cut` `keep` takes; 0 if absent.
+    #[cfg_attr(feature = "service", schema(maximum = 7))]
+    pub source_texcoord: Option<u32>,
     /// Vertices of each chart's boundary that are held, far from each other: 0, or with `disk` 2, as least-squares conformal maps
     /// need them.
     #[cfg_attr(feature = "service", schema(maximum = 2))]
     pub pin: u32,
     /// The bound on the mean symmetric Dirichlet energy that `cut` `auto` keeps: 4.05, 4.1 or 4.5; 4 is an isometry.
     pub quality: Quality,
+    /// Charts that `cut` `auto` may make for an atlas: where it needs more it allows more distortion, up to one chart per component.
+    #[cfg_attr(feature = "service", schema(minimum = 1))]
+    pub max_charts: Option<u32>,
     /// What shares one atlas.
     pub group_by: GroupBy,
     /// The UV set to write; chosen so that no texture breaks if absent.
@@ -131,6 +189,13 @@ pub struct Options {
     /// Least distance of two charts, in texels; at most an eighth of the resolution.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: u32,
+    /// Bits that tools will round the texture coordinates to, 12, 14 or 16: thin triangles and narrow gaps are opened so that the map
+    /// stays bijective. The report says whether that is proven, and which faces are in doubt.
+    #[cfg_attr(
+        feature = "service",
+        schema(minimum = 12, maximum = 16, multiple_of = 2)
+    )]
+    pub quantization_safe: Option<u32>,
     /// Threads to use; all that are allowed if absent. The result does not depend on it.
     #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 1024))]
     pub threads: Option<usize>,
@@ -159,13 +224,18 @@ impl Default for Options {
             barrier_strength: settings.barrier_strength,
             barrier_support: settings.barrier_support,
             cut: settings.cut,
+            seams: None,
+            material_borders: false,
+            source_texcoord: None,
             pin: settings.pin,
             quality: settings.quality,
+            max_charts: settings.max_charts,
             group_by: GroupBy::Mesh,
             texcoord: None,
             overwrite: false,
             resolution: settings.resolution,
             padding: settings.padding,
+            quantization_safe: settings.quantization_safe,
             threads: settings.threads,
             time_budget: settings.time_budget,
             heatmap_measure: HeatmapMeasure::SymmetricDirichlet,
@@ -188,10 +258,25 @@ impl Options {
             cut: self.cut,
             pin: self.pin,
             quality: self.quality,
+            max_charts: self.max_charts,
             resolution: self.resolution,
             padding: self.padding,
+            quantization_safe: self.quantization_safe,
             threads: self.limits.threads(self.threads),
             time_budget: self.limits.time_budget(self.time_budget),
+        }
+    }
+
+    /// What the certificate is asked to speak of.
+    pub(super) fn claims(&self) -> Claims {
+        Claims {
+            overlap: Overlap::Test,
+            padding: Some(Padding {
+                texels: self.padding,
+                resolution: self.resolution,
+            }),
+            bits: self.quantization_safe,
+            ..Claims::default()
         }
     }
 
@@ -202,6 +287,9 @@ impl Options {
 
     fn validate(&self) -> Result<(), String> {
         self.settings().validate()?;
+        if self.cut == Cut::Seams && self.seams.is_none() {
+            return Err("cut seams needs seams".to_owned());
+        }
         match self.texcoord {
             Some(set) if set > MAX_TEXCOORD => Err(format!(
                 "texcoord must lie between 0 and {MAX_TEXCOORD}, not {set}"
@@ -225,6 +313,15 @@ pub struct MeasureOptions {
     pub texcoord: u32,
     /// What shares one atlas.
     pub group_by: GroupBy,
+    /// Least distance of two charts to prove, in texels; not judged if absent.
+    #[cfg_attr(feature = "service", schema(maximum = 8192))]
+    pub padding: Option<u32>,
+    /// Texels along the side of the texture that `padding` is counted in.
+    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
+    pub resolution: u32,
+    /// Bits b at which to prove that the map stays bijective however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶.
+    #[cfg_attr(feature = "service", schema(minimum = 8, maximum = 16))]
+    pub bits: Option<u32>,
     /// What may be used for it. Not an option over HTTP.
     #[serde(skip)]
     pub limits: Limits,
@@ -236,7 +333,35 @@ impl Default for MeasureOptions {
         Self {
             texcoord: 0,
             group_by: GroupBy::Mesh,
+            padding: None,
+            resolution: Settings::default().resolution,
+            bits: None,
             limits: Limits::default(),
+        }
+    }
+}
+
+#[cfg(feature = "files")]
+impl MeasureOptions {
+    /// Checks every number against its range; the error names the option.
+    pub fn check(&self) -> Result<(), PipelineError> {
+        let checked = check_texels(self.resolution, self.padding.unwrap_or(0)).and_then(|()| {
+            let bits = self.bits.unwrap_or(12);
+            within("bits", f64::from(bits), 8.0, 16.0)
+        });
+        checked.map_err(PipelineError::InvalidOptions)
+    }
+
+    /// What the certificate is asked to speak of.
+    pub(super) fn claims(&self, overlap: Overlap) -> Claims {
+        Claims {
+            overlap,
+            padding: self.padding.map(|texels| Padding {
+                texels,
+                resolution: self.resolution,
+            }),
+            bits: self.bits,
+            ..Claims::default()
         }
     }
 }

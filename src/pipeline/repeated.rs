@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::arrays::GridCorners;
 
 /// A position by its bits, −0 = 0.
-fn key(position: [f32; 3]) -> [u32; 3] {
+pub(super) fn key(position: [f32; 3]) -> [u32; 3] {
     position.map(|x| (x + 0.0).to_bits())
 }
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::arrays::{ChartRecord, Unwrapped};
 use super::limits::Limits;
 use super::options::Options;
+use super::proven::Proven;
 use crate::certificate::Certificate;
 use crate::document::WriteNotes;
 use crate::measure::Measures;
@@ -28,8 +29,10 @@ pub struct Report {
     /// What it was allowed to use of that; absent where existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<Limits>,
-    /// Every group has a valid certificate and was mapped with a barrier.
+    /// Every group has a valid certificate (is locally injective) and was mapped with a barrier.
     pub certified: bool,
+    /// What is proven on the written bytes, beside what was asked for.
+    pub proven: Proven,
     /// One entry per atlas, in the document's order.
     pub groups: Vec<GroupReport>,
     /// What was changed in the document; absent where existing UVs were measured.
@@ -107,12 +110,14 @@ pub struct Seconds {
 impl Report {
     /// The report of UVs as they are: what only unwrapping knows is absent.
     pub(super) fn new(groups: Vec<GroupReport>) -> Self {
+        let proven = Proven::of(groups.iter().map(|group| &group.certificate));
         Self {
             schema_version: SCHEMA_VERSION,
             unwrapd_version: env!("CARGO_PKG_VERSION"),
             options: None,
             limits: None,
-            certified: groups.iter().all(|group| group.certificate.is_valid()),
+            certified: proven.locally_injective,
+            proven,
             groups,
             written: None,
             seconds: None,

@@ -2,8 +2,8 @@
 
 use super::PipelineError;
 use super::bodies::BodyFormat;
-use super::documents::Merged;
 use super::limits::Limits;
+use super::merged::Merged;
 use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::planar_map::PlanarMap;
 use crate::deform::Body;

@@ -5,8 +5,9 @@
 
 The judge is a program `JUDGE FILE --texcoord N --group-by mesh --json` that prints its measures as JSON. Prints a line
 per file and mode and a summary; exits with 1 if any output is missing, loses a face, or has a flipped, degenerate or
-collapsed one, if two charts overlap, if the judge cannot read it, if the report and the judge differ by more than 1e-3,
-or if a run takes longer than the limit. A judge that crashes says nothing about what it was given: the line and the
+collapsed one, if faces overlap (with `disk`, of two charts), if a chart is mirrored, if charts are nearer than the padding of 2
+texels at 1024, if the judge cannot read it, if the report and the judge differ by more than 1e-3, if a run takes
+longer than --slow seconds, or if it is killed at the limit. A judge that crashes says nothing about what it was given: the line and the
 summary tell it apart. On a busy machine the processors' seconds say more than those of the wall.
 """
 import argparse
@@ -20,6 +21,7 @@ import threading
 import time
 from pathlib import Path
 
+PADDING = 2  # texels at 1024: the default of the command
 MESHES = {".glb", ".gltf", ".obj", ".off", ".ply", ".stl"}
 COMPARED = """area_3d area_uv seam_length boundary_length L2_stretch Linf_stretch conformal_mean conformal_p99
 conformal_max area_dist_mean area_dist_p99 area_dist_max sym_dirichlet_mean sym_dirichlet_median sym_dirichlet_p99
@@ -43,8 +45,9 @@ def run(command, limit):
     return child.returncode, seconds, cpu, usage.ru_maxrss / 1024, error.strip().splitlines()
 
 
-def judge(program, path, texcoord, group_by):
-    command = [sys.executable, program, path, "--texcoord", str(texcoord), "--group-by", group_by, "--json"]
+def judge(program, path, texcoord, group_by, *options):
+    command = [sys.executable, program, path, "--texcoord", str(texcoord), "--group-by", group_by, "--json",
+               *options]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode == 2:
         return {"error": done.stderr.strip()}
@@ -107,7 +110,8 @@ def one(arguments, path, mode):
             sums[key] += theirs[key]
         row["sym_dirichlet"] = theirs["sym_dirichlet_mean"]
         row["pack"] = theirs["pack_unit"]
-        row["gap"] = theirs.get("gap_texels_1024")
+        gaps = [g for g in (row.get("gap"), theirs.get("gap_texels_1024")) if g is not None]
+        row["gap"] = min(gaps, default=None)
     row.update(sums)
     return row
 
@@ -122,13 +126,18 @@ def texcoords(report):
     return ["--texcoord", str(sets.pop())] if len(sets) == 1 else []
 
 
-def faults(row):
+def faults(row, slow):
     if row["exit"] != 0:
         return [] if "no_triangles" in row.get("error", "") else [f"exit {row['exit']}: {row.get('error', '')}"]
-    wrong = ["flipped", "uv_degenerate", "uv_collapsed", "overlap_pairs_between_charts"]
+    wrong = ["flipped", "uv_degenerate", "uv_collapsed",
+             "overlap_pairs_between_charts" if row["mode"] == "disk" else "overlap_pairs_exact"]
     if not row.get("winding_inconsistent_faces"):
         wrong.append("mirrored_charts")  # where half of a chart is wound the other way, either side is its back
     found = [f"{k}={row[k]}" for k in wrong if row.get(k)]
+    if row.get("gap") is not None and row["gap"] < PADDING * (1 - 1e-6):
+        found.append(f"gap of {row['gap']:.4f} texels")
+    if row["seconds"] > slow:
+        found.append(f"{row['seconds']:.1f} s")
     if row.get("verify"):
         found.append(f"verify exits {row['verify']}")
     if "error" in row:
@@ -145,6 +154,7 @@ def main():
     parser.add_argument("--unwrapd", default="target/release/unwrapd")
     parser.add_argument("--out", default=Path("/tmp/unwrapd-corpus"), type=Path)
     parser.add_argument("--modes", nargs="+", default=["auto", "disk"])
+    parser.add_argument("--slow", type=float, default=60, help="seconds that no run shall need")
     parser.add_argument("--limit", type=float, default=300, help="seconds after which a run is killed")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
@@ -155,10 +165,10 @@ def main():
         for mode in arguments.modes:
             row = one(arguments, path, mode)
             rows.append(row)
-            wrong = faults(row)
+            wrong = faults(row, arguments.slow)
             bad += bool(wrong)
             text = (f"{row['charts']:6} charts {row['iterations']:5} it {row['seconds']:7.2f} s ({row['cpu']:6.2f} cpu) {row['mib']:6.0f} MiB  "
-                    f"sd {row['sym_dirichlet'] or 0:8.4f} overlaps {row['overlap_pairs_exact']:6}"
+                    f"sd {row['sym_dirichlet'] or 0:8.4f} overlaps {row['overlap_pairs_exact']:6} gap {row['gap'] or 0:6.3f}"
                     if "charts" in row else f"exit {row['exit']} in {row['seconds']:.2f} s {row.get('error', '')}")
             if "judge_crash" in row:
                 text += f"the judge crashed: {row['judge_crash']}"

@@ -18,6 +18,7 @@ mod document;
 mod elements;
 mod embed;
 mod energy;
+mod given_seams;
 #[cfg(feature = "files")]
 mod io;
 mod layers;
@@ -37,6 +38,7 @@ mod pipeline;
 #[cfg(feature = "files")]
 mod problem_files;
 mod random;
+mod separation;
 mod solver;
 mod taylor;
 mod texture_mapping;

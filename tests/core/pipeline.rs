@@ -38,7 +38,7 @@ fn assert_certified(mesh: &Mesh, cut: Cut, unwrapped: &Unwrapped) {
         "{}",
         mesh.name
     );
-    let certificate = certify(&positions, &mesh.triangles, &uvs, Overlap::Test);
+    let certificate = certify(&positions, &mesh.triangles, &uvs, &Overlap::Test.into());
     assert!(certificate.is_valid(), "{}: {certificate:?}", mesh.name);
     let is_bijective = cut == Cut::Disk || certificate.is_bijective();
     assert!(is_bijective, "{}: {certificate:?}", mesh.name);
@@ -169,6 +169,43 @@ fn work_ended_early_is_valid_and_its_progress_never_falls() {
     let reports = observer.reports.into_inner().expect("no reporter panics");
     assert!(reports.windows(2).all(|w| w[0].fraction <= w[1].fraction));
     assert!(reports.iter().any(|report| report.stage == Stage::Pack));
+}
+
+#[test]
+fn charts_are_counted_once_they_are_known_and_none_is_slit_when_the_time_is_up() {
+    let mesh = zoo::torus(24, 16);
+    let smooth = Settings {
+        quality: Quality::Smooth,
+        ..settings(Cut::Auto)
+    };
+    let observer = Impatient {
+        reports: std::sync::Mutex::default(),
+        ticks: AtomicUsize::new(0),
+    };
+    let hasty = unwrap(&mesh.positions, &mesh.triangles, &smooth, &observer);
+    let hasty = hasty.expect("an early end is not an error");
+    assert_certified(&mesh, smooth.cut, &hasty);
+    let reports = observer.reports.into_inner().expect("no reporter panics");
+    let packing = reports.iter().find(|report| report.stage == Stage::Pack);
+    let packing = packing.expect("it was packed");
+    assert_eq!(
+        (packing.chart, packing.charts),
+        (hasty.charts.len(), hasty.charts.len())
+    );
+    assert!(
+        reports
+            .iter()
+            .all(|report| report.charts == 0 || report.charts == packing.charts)
+    );
+    let seam = |made: &Unwrapped| {
+        let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+        let uvs = made.corner_uvs();
+        let options = MeasureOptions::default();
+        let measures = measure(&positions, &mesh.triangles, &uvs, VAxis::Up, &options);
+        measures.seams.seam_over_sqrt_area.expect("it has an area")
+    };
+    let patient = unwrap(&mesh.positions, &mesh.triangles, &smooth, &Unobserved);
+    assert!(seam(&hasty) < seam(&patient.expect("a torus is a mesh")));
 }
 
 #[test]

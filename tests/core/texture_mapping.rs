@@ -109,7 +109,12 @@ fn extreme_moves_within_a_fixed_boundary_are_bijective() {
         };
         let report = &edited.charts[0].report;
         let context = format!("run {run}: {options:?} {anchors:?} {report:?}");
-        let judged = certify(&mesh.positions, &mesh.triangles, &edited.uvs, Overlap::Test);
+        let judged = certify(
+            &mesh.positions,
+            &mesh.triangles,
+            &edited.uvs,
+            &Overlap::Test.into(),
+        );
         assert!(
             judged.is_valid() && judged.overlapping_pairs == Some(0),
             "{context} {judged:?}"

@@ -69,7 +69,12 @@ impl Sheets {
 
     #[track_caller]
     fn assert_valid(&self, edited: &EditedUvs) {
-        let certificate = certify(&self.positions, &self.triangles, &edited.uvs, Overlap::Test);
+        let certificate = certify(
+            &self.positions,
+            &self.triangles,
+            &edited.uvs,
+            &Overlap::Test.into(),
+        );
         assert!(certificate.is_valid(), "{certificate:?}");
         for chart in &edited.charts {
             let again = chart.faces.certify(&edited.uvs, false);

@@ -67,7 +67,7 @@ impl UvMesh {
     }
 
     pub fn certify(&self, overlap: Overlap) -> Certificate {
-        certify(&self.positions, &self.triangles, &self.uvs, overlap)
+        certify(&self.positions, &self.triangles, &self.uvs, &overlap.into())
     }
 
     /// Measured with v up, on a small raster.

@@ -53,11 +53,14 @@ fn what_is_unwrapped_verifies() {
             &heatmap,
         ];
         assert_status(&unwrapd(&arguments), 0);
-        assert_status(&unwrapd(&["verify", &output]), 0);
+        let claims = ["--bijective", "--unmirrored", "--padding", "2"];
+        assert_status(&unwrapd(&[&["verify", &*output], &claims[..]].concat()), 0);
         assert_status(&unwrapd(&["measure", &output, "--json"]), 0);
         let text = std::fs::read(&report).expect("a report");
         let report: serde_json::Value = serde_json::from_slice(&text).expect("a JSON report");
         assert_eq!(report["certified"], true);
+        assert_eq!(report["proven"]["bijective"], true);
+        assert_eq!(report["proven"]["padding"]["kept"], true);
         assert_eq!(report["groups"][0]["measures"]["flipped"], 0);
         for picture in [layout, heatmap] {
             let bytes = std::fs::read(picture).expect("a picture");
@@ -141,6 +144,47 @@ fn flipped_uvs_do_not_verify() {
     let output = unwrapd(&["verify", &path.to_string_lossy()]);
     assert_status(&output, 4);
     assert!(String::from_utf8_lossy(&output.stdout).contains("1 flipped"));
+}
+
+#[test]
+fn what_is_asked_of_a_file_decides_its_verdict() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("charts.obj");
+    // Two triangles 1/256 apart, on the grid, and one of them 1/4096 high.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 5\nv 1 1 5\nv 0 0 5\n\
+                vt 0 0\nvt 0.25 0\nvt 0.25 0.5\nvt 0.25390625 0\nvt 0.75 0\nvt 0.75 0.000244140625\n\
+                f 1/1 2/2 3/3\nf 4/4 5/5 6/6\n";
+    std::fs::write(&path, text).expect("a file");
+    let verify = |options: &[&str]| {
+        let file = path.to_string_lossy();
+        unwrapd(&[&["verify", &*file], options].concat())
+    };
+    for (options, status) in [
+        (&[][..], 0),
+        (&["--bijective", "--unmirrored"], 0),
+        (&["--padding", "4", "--resolution", "1024"], 0),
+        (&["--padding", "5", "--resolution", "1024"], 4),
+        (&["--bits", "14"], 0),
+        (&["--bits", "12"], 4),
+        (&["--bits", "7"], 2),
+        (&["--padding", "300", "--resolution", "1024"], 2),
+    ] {
+        assert_status(&verify(options), status);
+    }
+    let output = verify(&["--padding", "5", "--bits", "12", "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let proven = &report["proven"];
+    assert_eq!(proven["bijective"], true);
+    assert_eq!(proven["padding"]["kept"], false);
+    assert_eq!(proven["padding"]["reached_texels"], 4.0);
+    assert_eq!(proven["bits"]["hold"], false);
+    assert_eq!(proven["safe_bits"], 14);
+    let certificate = &report["groups"][0]["certificate"];
+    assert_eq!(certificate["bits"]["offending_faces"][0], 1);
+    assert_eq!(
+        certificate["padding"]["offending_faces"][0],
+        serde_json::json!([0, 1])
+    );
 }
 
 #[test]

@@ -126,21 +126,49 @@ impl GltfDocument {
             return Ok(None);
         };
         let attributes = &self.object(triangles)?["attributes"];
-        let Some(index) = unsigned(attributes, &format!("TEXCOORD_{set}"))? else {
+        let name = format!("TEXCOORD_{set}");
+        let Some(index) = unsigned(attributes, &name)? else {
             return Ok(None);
         };
+        self.corner_values(primitive, &name, index, "VEC2")
+            .map(Some)
+    }
+
+    /// The normals per face corner; `None` where the primitive has none.
+    pub fn corner_normals(
+        &self,
+        primitive: usize,
+    ) -> Result<Option<Vec<[[f64; 3]; 3]>>, DocumentError> {
+        let attributes = &self.object(&self.primitives[primitive])?["attributes"];
+        match unsigned(attributes, "NORMAL")? {
+            Some(index) => {
+                let normals = self.corner_values(primitive, "NORMAL", index, "VEC3");
+                normals.map(Some)
+            }
+            None => Ok(None),
+        }
+    }
+
+    /// The numbers of an accessor of `N` components at each face corner.
+    fn corner_values<const N: usize>(
+        &self,
+        primitive: usize,
+        name: &str,
+        index: usize,
+        kind: &str,
+    ) -> Result<Vec<[[f64; N]; 3]>, DocumentError> {
         let accessor = Accessor::open(&self.body, index)?;
-        if !accessor.is("VEC2") {
-            return Err(invalid(format!("TEXCOORD_{set} is not of type VEC2")));
+        if !accessor.is(kind) {
+            return Err(invalid(format!("{name} is not of type {kind}")));
         }
         let values = accessor.values()?;
         let used = self.used[primitive].as_deref();
-        let uv = |vertex: u32| {
+        let at = |vertex: u32| {
             let element = used.map_or(vertex, |used| used[vertex as usize]) as usize;
-            [values[2 * element], values[2 * element + 1]]
+            std::array::from_fn(|k| values[N * element + k])
         };
-        let faces = triangles.triangles.iter();
-        Ok(Some(faces.map(|face| face.map(uv)).collect()))
+        let faces = self.primitives[primitive].triangles.iter();
+        Ok(faces.map(|face| face.map(at)).collect())
     }
 
     /// The JSON of a primitive.

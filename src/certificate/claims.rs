@@ -1,0 +1,57 @@
+//! What a certificate is asked to speak of.
+
+use serde::{Deserialize, Serialize};
+
+/// Which way v points in the numbers given.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum VAxis {
+    /// OBJ and most tools: (0, 0) is the lower left corner of the texture.
+    #[default]
+    Up,
+    /// glTF: (0, 0) is the upper left corner of the texture.
+    Down,
+}
+
+/// Whether faces are tested against each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum Overlap {
+    /// Only the orientation of each face is judged.
+    Skip,
+    /// Pairs of faces whose interiors intersect are counted too, and charts and edges tested against each other as far as asked.
+    #[default]
+    Test,
+}
+
+/// A distance that charts shall keep: so many texels of a texture.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Padding {
+    /// The distance, in texels.
+    pub texels: u32,
+    /// Texels along the side of the unit square.
+    pub resolution: u32,
+}
+
+/// What is judged beside the orientation of every face.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Claims {
+    /// Whether faces are tested against each other. What follows is only judged if they are.
+    pub overlap: Overlap,
+    /// The distance of charts to judge.
+    pub padding: Option<Padding>,
+    /// The bits that the map shall hold at.
+    pub bits: Option<u32>,
+    /// Where v points, which tells mirrored charts.
+    pub v_axis: VAxis,
+}
+
+impl From<Overlap> for Claims {
+    fn from(overlap: Overlap) -> Self {
+        Self {
+            overlap,
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Whether charts keep a distance, exactly.
+
+use std::collections::BTreeSet;
+
+use super::boundary::{ChartBoundary, Segment};
+use super::box_tree::Visit;
+use super::claims::Padding;
+use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, is_exact, product};
+use super::judgement::NAMED;
+use serde::Serialize;
+
+/// Coordinates from here on are not judged: their products would not fit.
+const LIMIT: f64 = 1024.0;
+
+/// Whether any two charts are as far from each other as asked, decided in integers.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct PaddingVerdict {
+    /// The distance asked for, in texels.
+    pub asked_texels: u32,
+    /// Texels along the side of the unit square.
+    pub resolution: u32,
+    /// Whether it is proven that no two charts are nearer. Coordinates of 1024 or more are not judged.
+    pub kept: bool,
+    /// The smallest distance of two charts in texels, rounded; null when there is one chart, or the search stopped at its limit.
+    pub reached_texels: Option<f64>,
+    /// Pairs of charts that are nearer.
+    pub pairs_too_close: usize,
+    /// Faces of two charts where they are too close, the first few.
+    pub offending_faces: Vec<[u32; 2]>,
+}
+
+/// Judges the distances between the charts that `boundary` encloses.
+pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> PaddingVerdict {
+    let mut verdict = PaddingVerdict {
+        asked_texels: padding.texels,
+        resolution: padding.resolution,
+        kept: false,
+        reached_texels: None,
+        pairs_too_close: 0,
+        offending_faces: Vec::new(),
+    };
+    let points = || boundary.edges.iter().flat_map(|edge| edge.uvs);
+    if points().flatten().any(|x| x.abs() >= LIMIT) {
+        return verdict;
+    }
+    let bound = Bound::new(padding, points().all(is_exact));
+    let distance = f64::from(padding.texels) / f64::from(padding.resolution);
+    let mut too_close = BTreeSet::new();
+    // A little more than half of the distance on each side, so that rounding misses no pair.
+    let visit = boundary.near_pairs(0.5 * distance * (1.0 + 1e-9) + 1e-12, |a, b| {
+        let pair = [a.chart.min(b.chart), a.chart.max(b.chart)];
+        if a.chart != b.chart
+            && !too_close.contains(&pair)
+            && bound.exceeds(fixed_segment(a.uvs), fixed_segment(b.uvs))
+        {
+            too_close.insert(pair);
+            if verdict.offending_faces.len() < NAMED {
+                verdict.offending_faces.push([a.face, b.face]);
+            }
+        }
+    });
+    verdict.pairs_too_close = too_close.len();
+    verdict.kept = too_close.is_empty() && visit == Visit::Complete;
+    let (gap, complete) = boundary.closest();
+    verdict.reached_texels = (complete == Visit::Complete && gap.is_finite())
+        .then(|| gap * f64::from(padding.resolution));
+    verdict
+}
+
+fn fixed_segment(segment: Segment) -> [Fixed; 2] {
+    segment.map(fixed)
+}
+
+/// A distance of `length / resolution` units.
+struct Bound {
+    length: u128,
+    resolution: u128,
+}
+
+impl Bound {
+    /// Coordinates that had to be cut move by less than a unit each, two points by less than three against each other: the
+    /// bound is enlarged by that, so that a doubt is never resolved in favour of the map.
+    fn new(padding: Padding, is_exact: bool) -> Self {
+        let resolution = u128::from(padding.resolution);
+        let doubt = if is_exact { 0 } else { 3 * resolution };
+        Self {
+            length: (u128::from(padding.texels) << UNIT_BITS) + doubt,
+            resolution,
+        }
+    }
+
+    /// Whether two segments are nearer than the bound, or meet.
+    fn exceeds(&self, a: [Fixed; 2], b: [Fixed; 2]) -> bool {
+        meet(a, b)
+            || a.iter().any(|&p| self.exceeds_point(p, b))
+            || b.iter().any(|&p| self.exceeds_point(p, a))
+    }
+
+    fn exceeds_point(&self, p: Fixed, [a, b]: [Fixed; 2]) -> bool {
+        let (along, to) = (difference(b, a), difference(p, a));
+        let (foot, length_squared) = (dot(along, to), dot(along, along));
+        let near = if foot <= 0 {
+            to
+        } else if foot >= length_squared {
+            difference(p, b)
+        } else {
+            // (|cross| / |along|)² < (length / resolution)²
+            let height = cross(along, to).unsigned_abs() * self.resolution;
+            let bound = product(self.length * self.length, length_squared.unsigned_abs());
+            return product(height, height) < bound;
+        };
+        let square = dot(near, near).unsigned_abs();
+        product(square, self.resolution * self.resolution) < [0, self.length * self.length]
+    }
+}
+
+/// Whether two segments have a common point; those on one line, whose ends would be near, are left to the distances of ends.
+fn meet([a, b]: [Fixed; 2], [c, d]: [Fixed; 2]) -> bool {
+    let side = |p: Fixed, q: Fixed, r: Fixed| cross(difference(q, p), difference(r, p)).signum();
+    let (of_c, of_d) = (side(a, b, c), side(a, b, d));
+    let (of_a, of_b) = (side(c, d, a), side(c, d, b));
+    of_c * of_d <= 0 && of_a * of_b <= 0 && [of_a, of_b, of_c, of_d] != [0; 4]
+}

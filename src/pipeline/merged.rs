@@ -1,0 +1,138 @@
+//! The primitives of a group as one mesh.
+
+use super::PipelineError;
+use super::arrays::Soup;
+use super::options::{GivenSeams, NamedSeams, Options};
+use super::seams::Seams;
+use crate::certificate::CornerUvs;
+use crate::charts::Cut;
+use crate::document::{Document, Group, Primitive};
+use crate::measure::VAxis;
+
+/// The primitives of a group as one mesh.
+pub(super) struct Merged {
+    pub positions: Vec<[f32; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    seams: Seams,
+}
+
+impl Merged {
+    pub fn new(primitives: &[Primitive], group: &Group) -> Self {
+        let mut merged = Self {
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            seams: Seams::default(),
+        };
+        for &index in &group.primitives {
+            let first = merged.positions.len() as u32;
+            merged.positions.extend(&primitives[index].positions);
+            merged.triangles.extend(
+                primitives[index]
+                    .triangles
+                    .iter()
+                    .map(|t| t.map(|v| v + first)),
+            );
+        }
+        merged
+    }
+
+    /// With the seams that the options ask for.
+    pub fn with_seams(
+        document: &Document,
+        group: &Group,
+        options: &Options,
+    ) -> Result<Self, PipelineError> {
+        let primitives = document.primitives();
+        let mut merged = Self::new(primitives, group);
+        if options.cut == Cut::Keep {
+            let set = options.source_texcoord.unwrap_or(0);
+            merged.seams.uvs = Some(corner_uvs(document, group, set)?);
+        }
+        if options.material_borders {
+            let labels = group.primitives.iter().flat_map(|&index| {
+                let primitive = &primitives[index];
+                let label = primitive.material.map_or(0, |material| 1 + material as u32);
+                std::iter::repeat_n(label, primitive.triangles.len())
+            });
+            merged.seams.labels = Some(labels.collect());
+        }
+        match &options.seams {
+            Some(GivenSeams::Named(NamedSeams::Normals)) => {
+                merged.seams.normals = Some(corner_normals(document, group)?);
+            }
+            Some(GivenSeams::Edges(edges)) => {
+                merged.seams.edges = Some(edges_of_group(primitives, group, edges)?);
+            }
+            None => {}
+        }
+        Ok(merged)
+    }
+
+    pub fn soup(&self) -> Soup<'_> {
+        Soup {
+            positions: &self.positions,
+            triangles: &self.triangles,
+            seams: &self.seams,
+        }
+    }
+}
+
+/// The UVs of a group, v up.
+pub(super) fn corner_uvs(
+    document: &Document,
+    group: &Group,
+    texcoord: u32,
+) -> Result<Vec<CornerUvs>, PipelineError> {
+    let mut all = Vec::new();
+    for &index in &group.primitives {
+        let uvs = document.corner_uvs(index, texcoord)?;
+        all.extend(uvs.ok_or_else(|| PipelineError::NoUvs {
+            group: group.name.clone(),
+            texcoord,
+        })?);
+    }
+    if document.v_axis() == VAxis::Down {
+        for uv in all.as_flattened_mut() {
+            uv[1] = 1.0 - uv[1];
+        }
+    }
+    Ok(all)
+}
+
+fn corner_normals(document: &Document, group: &Group) -> Result<Vec<[[f64; 3]; 3]>, PipelineError> {
+    let mut all = Vec::new();
+    for &index in &group.primitives {
+        let none = || PipelineError::Seams(format!("{} has no normals", group.name));
+        all.extend(document.corner_normals(index)?.ok_or_else(none)?);
+    }
+    Ok(all)
+}
+
+/// Of edges between vertices of the file those within a group, in the group's numbering.
+fn edges_of_group(
+    primitives: &[Primitive],
+    group: &Group,
+    edges: &[[u32; 2]],
+) -> Result<Vec<[u32; 2]>, PipelineError> {
+    let mut local = Vec::new();
+    let mut next = 0;
+    for (index, primitive) in primitives.iter().enumerate() {
+        let is_inside = group.primitives.contains(&index);
+        for _ in &primitive.positions {
+            local.push(is_inside.then_some(next));
+            next += u32::from(is_inside);
+        }
+    }
+    let n_vertices = local.len();
+    let number = |v: u32| {
+        let beyond = || PipelineError::Seams(format!("vertex {v} is named of {n_vertices}"));
+        local.get(v as usize).copied().ok_or_else(beyond)
+    };
+    let mut inside = Vec::new();
+    for &[a, b] in edges {
+        if let (Some(a), Some(b)) = (number(a)?, number(b)?) {
+            inside.push([a, b]);
+        }
+    }
+    Ok(inside)
+}

@@ -1,0 +1,138 @@
+//! What certificates prove together.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::certificate::Certificate;
+
+/// What is proven about the UVs of all groups, beside what was asked for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Proven {
+    /// No face is flipped or degenerate.
+    pub locally_injective: bool,
+    /// Beyond that no two faces of a group overlap.
+    pub bijective: bool,
+    /// No chart is seen from behind.
+    pub unmirrored: bool,
+    /// The distance of charts; null where none was asked for.
+    pub padding: Option<ProvenPadding>,
+    /// The coarsest of 16, 14 and 12 bits b at which every group stays bijective however each coordinate moves by up to
+    /// 1/(2(2ᵇ−1)) + 2⁻¹⁶; null when there is none.
+    pub safe_bits: Option<u32>,
+    /// The bits asked for; null where none were.
+    pub bits: Option<ProvenBits>,
+}
+
+/// Whether charts keep a distance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct ProvenPadding {
+    /// The distance asked for, in texels.
+    pub asked_texels: u32,
+    /// Texels along the side of the unit square.
+    pub resolution: u32,
+    /// Whether no two charts of a group are nearer.
+    pub kept: bool,
+    /// The smallest distance of two charts, rounded; null when each group has one chart.
+    pub reached_texels: Option<f64>,
+}
+
+/// Whether the map holds at so many bits.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct ProvenBits {
+    /// The bits asked for.
+    pub asked: u32,
+    /// Whether every group holds at them.
+    pub hold: bool,
+    /// Faces of which the orientation, and pairs of edges of charts of which the separation, is in doubt.
+    pub in_doubt: u64,
+}
+
+impl Proven {
+    /// What holds of all of some groups, judged by the same claims.
+    pub(super) fn of<'a>(certificates: impl Iterator<Item = &'a Certificate> + Clone) -> Self {
+        let all = |holds: fn(&Certificate) -> bool| certificates.clone().all(holds);
+        Self {
+            locally_injective: all(Certificate::is_valid),
+            bijective: all(Certificate::is_bijective),
+            unmirrored: all(|certificate| certificate.mirrored_charts == 0),
+            padding: padding(certificates.clone()),
+            // None is less than any number of bits.
+            safe_bits: all(|certificate| certificate.safe_bits.is_some())
+                .then(|| certificates.clone().filter_map(|c| c.safe_bits).max())
+                .flatten(),
+            bits: bits(certificates),
+        }
+    }
+}
+
+fn padding<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenPadding> {
+    let verdicts = certificates.filter_map(|certificate| certificate.padding.as_ref());
+    verdicts
+        .map(|verdict| ProvenPadding {
+            asked_texels: verdict.asked_texels,
+            resolution: verdict.resolution,
+            kept: verdict.kept,
+            reached_texels: verdict.reached_texels,
+        })
+        .reduce(|a, b| ProvenPadding {
+            kept: a.kept && b.kept,
+            reached_texels: [a.reached_texels, b.reached_texels]
+                .into_iter()
+                .flatten()
+                .reduce(f64::min),
+            ..a
+        })
+}
+
+fn bits<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenBits> {
+    let verdicts = certificates.filter_map(|certificate| certificate.bits.as_ref());
+    verdicts
+        .map(|verdict| ProvenBits {
+            asked: verdict.asked,
+            hold: verdict.hold,
+            in_doubt: verdict.faces_in_doubt as u64 + verdict.pairs_in_doubt,
+        })
+        .reduce(|a, b| ProvenBits {
+            hold: a.hold && b.hold,
+            in_doubt: a.in_doubt + b.in_doubt,
+            ..a
+        })
+}
+
+/// In words, with what was asked for and does not hold.
+impl fmt::Display for Proven {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let not = |holds: bool| if holds { "" } else { "not " };
+        write!(f, "{}locally injective", not(self.locally_injective))?;
+        if self.bijective {
+            write!(f, ", bijective")?;
+        }
+        if !self.unmirrored {
+            write!(f, ", charts mirrored")?;
+        }
+        if let Some(padding) = &self.padding {
+            let (asked, resolution) = (padding.asked_texels, padding.resolution);
+            let not = not(padding.kept);
+            write!(f, ", charts {not}{asked} texels apart at {resolution}")?;
+            if let Some(reached) = padding.reached_texels {
+                write!(f, " (nearest {reached:.3})")?;
+            }
+        }
+        match (&self.bits, self.safe_bits) {
+            (Some(bits), _) if !bits.hold => {
+                let (asked, in_doubt) = (bits.asked, bits.in_doubt);
+                write!(
+                    f,
+                    ", does not hold at {asked} bits ({in_doubt} places in doubt)"
+                )
+            }
+            (Some(bits), None) => write!(f, ", holds at {} bits", bits.asked),
+            (_, Some(bits)) => write!(f, ", holds at {bits} bits"),
+            (None, None) => Ok(()),
+        }
+    }
+}

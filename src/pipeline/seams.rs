@@ -1,0 +1,93 @@
+//! Where a caller wants a mesh to be cut.
+
+use std::collections::HashSet;
+
+use super::PipelineError;
+use super::repeated::key as position_key;
+use crate::certificate::CornerUvs;
+use crate::mesh::{CUT, Surface};
+use crate::numerics::vec3::dot;
+
+/// Cosine of the least angle between normals on the two sides of a hard edge: 1°.
+const SOFT: f64 = 0.999_85;
+
+/// Edges that a mesh shall be cut along, by what its faces have at their corners. Each part is absent or has an entry per face.
+#[derive(Clone, Debug, Default)]
+pub struct Seams {
+    /// UVs, v up: an edge at which those of two faces differ is a seam. With [`Cut::Keep`](crate::charts::Cut::Keep) maps begin here.
+    pub uvs: Option<Vec<CornerUvs>>,
+    /// Normals: an edge at which those of two faces differ by more than a degree is a seam.
+    pub normals: Option<Vec<[[f64; 3]; 3]>>,
+    /// Labels, as of materials: an edge between faces of different labels is a seam.
+    pub labels: Option<Vec<u32>>,
+    /// Pairs of positions, by the indices of the mesh: an edge between two such positions is a seam.
+    pub edges: Option<Vec<[u32; 2]>>,
+}
+
+impl Seams {
+    /// Checks the lengths and indices against a mesh.
+    pub(super) fn check(&self, n_positions: usize, n_faces: usize) -> Result<(), PipelineError> {
+        let lengths = [
+            self.uvs.as_ref().map(Vec::len),
+            self.normals.as_ref().map(Vec::len),
+            self.labels.as_ref().map(Vec::len),
+        ];
+        if lengths.into_iter().flatten().any(|n| n != n_faces) {
+            return Err(PipelineError::Seams("not one entry per face".to_owned()));
+        }
+        let named = self.edges.iter().flatten().flatten();
+        match named.copied().find(|&v| v as usize >= n_positions) {
+            Some(v) => Err(PipelineError::Seams(format!(
+                "vertex {v} is named, but there are only {n_positions}"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Cuts a surface, which was made of these positions, along its seams.
+    pub(super) fn cut(&self, surface: &mut Surface, positions: &[[f32; 3]]) {
+        let key = |v: u32| position_key(positions[v as usize]);
+        let sorted = |a, b| if a < b { [a, b] } else { [b, a] };
+        let edges = self.edges.iter().flatten();
+        let edges: HashSet<_> = edges.map(|&[a, b]| sorted(key(a), key(b))).collect();
+        let (faces, triangles, welded) = (&surface.faces, &surface.triangles, &surface.positions);
+        let ends = |h: u32| [h, if h % 3 == 2 { h - 2 } else { h + 1 }];
+        let vertex = |corner: u32| triangles[corner as usize / 3][corner as usize % 3];
+        let is_seam = |h: u32, t: u32| {
+            let face = |h: u32| faces[h as usize / 3] as usize;
+            let [[a, b], mut across] = [ends(h), ends(t)];
+            if vertex(a) != vertex(across[0]) {
+                across.reverse();
+            }
+            let differ = |apart: &dyn Fn([usize; 2], [usize; 2]) -> bool| {
+                [[a, across[0]], [b, across[1]]]
+                    .iter()
+                    .any(|[x, y]| apart([face(*x), *x as usize % 3], [face(*y), *y as usize % 3]))
+            };
+            let by_uv = |uvs: &Vec<CornerUvs>| differ(&|[f, c], [g, d]| uvs[f][c] != uvs[g][d]);
+            let by_normal = |normals: &Vec<[[f64; 3]; 3]>| {
+                differ(&|[f, c], [g, d]| is_hard(normals[f][c], normals[g][d]))
+            };
+            let is_named = || {
+                let at = |corner: u32| welded[vertex(corner) as usize].map(|x| x as f32);
+                edges.contains(&sorted(position_key(at(a)), position_key(at(b))))
+            };
+            self.uvs.as_ref().is_some_and(by_uv)
+                || self.normals.as_ref().is_some_and(by_normal)
+                || (self.labels.as_ref()).is_some_and(|label| label[face(h)] != label[face(t)])
+                || is_named()
+        };
+        let seams: HashSet<(u32, u32)> = (0..)
+            .zip(&surface.adjacency().twin)
+            .filter(|&(h, &t)| t != CUT && h < t && is_seam(h, t))
+            .map(|(h, &t)| (h, t))
+            .collect();
+        if !seams.is_empty() {
+            surface.cut_along(|h, t| seams.contains(&(h, t)));
+        }
+    }
+}
+
+fn is_hard(a: [f64; 3], b: [f64; 3]) -> bool {
+    dot(a, b) < SOFT * (dot(a, a) * dot(b, b)).sqrt()
+}

@@ -1,0 +1,248 @@
+//! Charts that the caller decides on: islands that are there, edges, hard normals, materials, a number.
+
+use std::collections::BTreeSet;
+
+use unwrapd::certificate::{Claims, certify, chart_ids};
+use unwrapd::charts::{Cut, Quality};
+use unwrapd::pipeline::{PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along};
+
+use crate::zoo::{self, Mesh};
+
+fn unwrapped(mesh: &Mesh, cut: Cut, seams: &Seams) -> Unwrapped {
+    let settings = Settings {
+        cut,
+        ..Settings::default()
+    };
+    let made = unwrap_along(
+        &mesh.positions,
+        &mesh.triangles,
+        seams,
+        &settings,
+        &Unobserved,
+    );
+    let made = made.expect("it unwraps");
+    let certificate = certify(
+        &positions(mesh),
+        &mesh.triangles,
+        &made.corner_uvs(),
+        &Claims::default(),
+    );
+    assert!(certificate.is_bijective(), "{certificate:?}");
+    made
+}
+
+fn positions(mesh: &Mesh) -> Vec<[f64; 3]> {
+    mesh.positions.iter().map(|p| p.map(f64::from)).collect()
+}
+
+fn charts(mesh: &Mesh, made: &Unwrapped) -> Vec<u32> {
+    chart_ids(&positions(mesh), &mesh.triangles, &made.corner_uvs())
+}
+
+/// A label for each face by where its centre lies.
+fn labels(mesh: &Mesh, label: impl Fn([f32; 3]) -> u32) -> Vec<u32> {
+    let centre = |t: &[u32; 3]| {
+        let corners = t.map(|v| mesh.positions[v as usize]);
+        [0, 1, 2].map(|k| corners.iter().map(|p| p[k]).sum::<f32>() / 3.0)
+    };
+    mesh.triangles.iter().map(|t| label(centre(t))).collect()
+}
+
+/// UVs that are x and y, those of faces with other labels shifted.
+fn islands(mesh: &Mesh, labels: &[u32]) -> Vec<[[f64; 2]; 3]> {
+    let faces = mesh.triangles.iter().zip(labels);
+    let at = |v: u32, label: u32| {
+        let [x, y, _] = mesh.positions[v as usize].map(f64::from);
+        [x + 100.0 * f64::from(label), y]
+    };
+    faces.map(|(t, &label)| t.map(|v| at(v, label))).collect()
+}
+
+#[test]
+fn islands_are_kept() {
+    let mesh = zoo::grid(8, 6);
+    let labels = labels(&mesh, |[x, _, _]| u32::from(x > 4.0));
+    let seams = Seams {
+        uvs: Some(islands(&mesh, &labels)),
+        ..Seams::default()
+    };
+    assert_eq!(charts(&mesh, &unwrapped(&mesh, Cut::Keep, &seams)), labels);
+    // Mirrored or folded ones are made valid.
+    let mut mirrored = seams.clone();
+    for uv in mirrored.uvs.iter_mut().flatten().flatten() {
+        uv[0] = -uv[0];
+    }
+    assert_eq!(
+        charts(&mesh, &unwrapped(&mesh, Cut::Keep, &mirrored)),
+        labels
+    );
+    let mut folded = seams.clone();
+    for uv in folded.uvs.iter_mut().flatten().flatten() {
+        uv[1] = (uv[1] - 2.5).abs();
+    }
+    assert_eq!(charts(&mesh, &unwrapped(&mesh, Cut::Keep, &folded)), labels);
+}
+
+#[test]
+fn named_edges_are_cut() {
+    let mesh = zoo::grid(8, 6);
+    let on_line = |v: u32| mesh.positions[v as usize][0] == 4.0;
+    let pairs = mesh
+        .triangles
+        .iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let line: Vec<[u32; 2]> = pairs.filter(|e| e.iter().all(|&v| on_line(v))).collect();
+    assert!(!line.is_empty());
+    let seams = Seams {
+        edges: Some(line),
+        ..Seams::default()
+    };
+    let expected = labels(&mesh, |[x, _, _]| u32::from(x > 4.0));
+    for cut in [Cut::Seams, Cut::Auto, Cut::Fast, Cut::Disk] {
+        assert_eq!(
+            charts(&mesh, &unwrapped(&mesh, cut, &seams)),
+            expected,
+            "{cut:?}"
+        );
+    }
+    assert!(
+        charts(&mesh, &unwrapped(&mesh, Cut::Seams, &Seams::default()))
+            .iter()
+            .all(|&c| c == 0)
+    );
+}
+
+#[test]
+fn hard_normals_part_a_cube_into_six() {
+    let mesh = zoo::voxels(&[[0, 0, 0]]);
+    let normal = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| mesh.positions[v as usize].map(f64::from));
+        let (p, q) = (
+            [0, 1, 2].map(|k| b[k] - a[k]),
+            [0, 1, 2].map(|k| c[k] - a[k]),
+        );
+        [
+            p[1] * q[2] - p[2] * q[1],
+            p[2] * q[0] - p[0] * q[2],
+            p[0] * q[1] - p[1] * q[0],
+        ]
+    };
+    let seams = Seams {
+        normals: Some(mesh.triangles.iter().map(|t| [normal(t); 3]).collect()),
+        ..Seams::default()
+    };
+    let made = unwrapped(&mesh, Cut::Seams, &seams);
+    let count = |charts: Vec<u32>| charts.into_iter().collect::<BTreeSet<_>>().len();
+    assert_eq!(count(charts(&mesh, &made)), 6);
+}
+
+#[test]
+fn materials_are_borders_in_every_mode() {
+    let mesh = zoo::sphere(16, 12);
+    let of_face = labels(&mesh, |[_, _, z]| u32::from(z > 0.0));
+    let seams = Seams {
+        labels: Some(of_face.clone()),
+        ..Seams::default()
+    };
+    for cut in [Cut::Auto, Cut::Fast, Cut::Disk, Cut::Seams] {
+        let charts = charts(&mesh, &unwrapped(&mesh, cut, &seams));
+        let across = |(&chart, &label): (&u32, &u32)| (chart, label);
+        let pairs: BTreeSet<_> = charts.iter().zip(&of_face).map(across).collect();
+        let n_charts = charts.iter().collect::<BTreeSet<_>>().len();
+        assert_eq!(
+            pairs.len(),
+            n_charts,
+            "{cut:?}: each chart has one material"
+        );
+    }
+}
+
+#[test]
+fn a_number_of_charts_loosens_the_bound() {
+    let mesh = zoo::torus(24, 16);
+    let made = |max_charts| {
+        let settings = Settings {
+            max_charts,
+            quality: Quality::Smooth,
+            ..Settings::default()
+        };
+        let seams = Seams::default();
+        let made = unwrap_along(
+            &mesh.positions,
+            &mesh.triangles,
+            &seams,
+            &settings,
+            &Unobserved,
+        );
+        made.expect("it unwraps").charts.len()
+    };
+    let (free, one) = (made(None), made(Some(1)));
+    assert!(one <= free);
+    assert_eq!(one, 1, "of {free}");
+}
+
+#[test]
+fn seams_that_do_not_fit_are_refused() {
+    let mesh = zoo::grid(2, 2);
+    let settings = Settings::default();
+    let made = |seams: &Seams| {
+        unwrap_along(
+            &mesh.positions,
+            &mesh.triangles,
+            seams,
+            &settings,
+            &Unobserved,
+        )
+    };
+    let short = Seams {
+        labels: Some(vec![0]),
+        ..Seams::default()
+    };
+    let beyond = Seams {
+        edges: Some(vec![[0, 1000]]),
+        ..Seams::default()
+    };
+    for seams in [short, beyond] {
+        let refused = made(&seams)
+            .map(|_| ())
+            .map_err(|error: PipelineError| error.code());
+        assert_eq!(refused, Err("invalid_seams"));
+    }
+}
+
+/// A strip whose rows get thinner and thinner: at 12 bits the thinnest vanish.
+fn graded_strip() -> Mesh {
+    let mut mesh = zoo::grid(12, 12);
+    for p in &mut mesh.positions {
+        p[1] = 12.0 * 0.45_f32.powf(p[1]);
+    }
+    mesh
+}
+
+#[test]
+fn what_shall_be_safe_at_twelve_bits_is() {
+    let mesh = graded_strip();
+    let holds = |quantization_safe| {
+        let settings = Settings {
+            quantization_safe,
+            ..Settings::default()
+        };
+        let seams = Seams::default();
+        let made = unwrap_along(
+            &mesh.positions,
+            &mesh.triangles,
+            &seams,
+            &settings,
+            &Unobserved,
+        );
+        let uvs = made.expect("it unwraps").corner_uvs();
+        let claims = Claims {
+            bits: Some(12),
+            ..Claims::default()
+        };
+        let certificate = certify(&positions(&mesh), &mesh.triangles, &uvs, &claims);
+        certificate.bits.expect("asked for").hold
+    };
+    assert!(!holds(None), "the mesh is no test");
+    assert!(holds(Some(12)));
+}
