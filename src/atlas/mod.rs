@@ -43,6 +43,16 @@ pub struct ChartMap<'a> {
     pub triangles: &'a [[u32; 3]],
 }
 
+/// How charts may be turned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Turns {
+    /// To any angle that packs well.
+    #[default]
+    Any,
+    /// By quarters from how they lie.
+    Quarters,
+}
+
 /// How the atlas is laid out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtlasOptions {
@@ -50,6 +60,8 @@ pub struct AtlasOptions {
     pub resolution: u32,
     /// Smallest distance between two charts, in texels; half of it is kept to the border.
     pub padding_texels: u32,
+    /// How charts may be turned.
+    pub turns: Turns,
     /// Words that the search for the best scale may read, about 10⁹ a second; a scale that fits is found in any case.
     pub search_words: u64,
 }
@@ -59,6 +71,7 @@ impl Default for AtlasOptions {
         Self {
             resolution: 1024,
             padding_texels: 2,
+            turns: Turns::Any,
             search_words: 500_000_000,
         }
     }

@@ -7,6 +7,8 @@ pub(super) enum Bounds {
     Rectangle,
     /// The side of the bounding square: one chart has it to itself.
     Square,
+    /// Nothing: the chart stays as it is.
+    Given,
 }
 
 /// Hull edges tried at most; the hull of a round chart is thinned to this many.
@@ -16,10 +18,10 @@ const SQUARE_ANGLES: u32 = 360;
 
 /// Unit vector that becomes the horizontal axis.
 pub(super) fn direction(uv: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
-    let hull = convex_hull(uv);
     match bounds {
-        Bounds::Rectangle => smallest_rectangle(&hull),
-        Bounds::Square => smallest_square(&hull),
+        Bounds::Rectangle => smallest_rectangle(&convex_hull(uv)),
+        Bounds::Square => smallest_square(&convex_hull(uv)),
+        Bounds::Given => [1.0, 0.0],
     }
 }
 

@@ -6,7 +6,7 @@ use super::orientation::Bounds;
 use super::outline::{self, Outline};
 use super::sheet::Spot;
 use super::snap::{self, Snapped};
-use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, Placed, doubled_area};
+use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, Placed, Turns, doubled_area};
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
@@ -17,7 +17,7 @@ const ROUNDS: usize = 6;
 /// The charts must be strictly positive as given; one that has a flipped triangle is rounded without repair. The same
 /// input gives the same atlas for any number of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
-    let outlines = outlines(charts)?;
+    let outlines = outlines(charts, options.turns)?;
     let mut slack = vec![SLACK; charts.len()];
     let mut cramped = 0;
     for _ in 0..ROUNDS {
@@ -43,7 +43,7 @@ pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasE
 }
 
 /// Checks the charts and turns each to its angle.
-fn outlines<'a>(charts: &[ChartMap<'a>]) -> Result<Vec<Outline<'a>>, AtlasError> {
+fn outlines<'a>(charts: &[ChartMap<'a>], turns: Turns) -> Result<Vec<Outline<'a>>, AtlasError> {
     let areas: Vec<f64> = charts
         .par_iter()
         .map(check)
@@ -55,7 +55,9 @@ fn outlines<'a>(charts: &[ChartMap<'a>]) -> Result<Vec<Outline<'a>>, AtlasError>
     let total: f64 = areas.iter().sum();
     let turned = charts.par_iter().zip(&areas).map(|(map, &area)| {
         // A chart that is most of the atlas decides its side; others fit better as rectangles.
-        let bounds = if 2.0 * area > total {
+        let bounds = if turns == Turns::Quarters {
+            Bounds::Given
+        } else if 2.0 * area > total {
             Bounds::Square
         } else {
             Bounds::Rectangle

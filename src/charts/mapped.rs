@@ -6,7 +6,7 @@ use super::{Chart, halves};
 use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};
 use crate::numerics::vec2::doubled_area;
-use crate::solver::{Control, Iterate, Watch};
+use crate::solver::{Control, Iterate, Summary, Watch};
 use std::time::Duration;
 
 /// A chart, its map and the seconds of the observer's clock it took.
@@ -87,11 +87,7 @@ pub fn map_chart_from(
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     let begin = observer.elapsed();
-    let doubled = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|v| uv[v as usize]);
-        doubled_area(a, b, c)
-    };
-    if chart.disk.triangles.iter().map(doubled).sum::<f64>() < 0.0 {
+    if signed_area(&chart, &uv) < 0.0 {
         for p in &mut uv {
             p[0] = -p[0];
         }
@@ -123,6 +119,19 @@ pub fn map_chart_from(
 }
 
 impl MappedChart {
+    /// A chart whose map stays as it is. Most of its area becomes positive: one that is seen from behind is wound the other way.
+    pub fn given(mut chart: Chart, uv: Vec<[f64; 2]>) -> Self {
+        if signed_area(&chart, &uv) < 0.0 {
+            chart.turn_over();
+        }
+        let summary = Summary::at_start(0.0);
+        Self {
+            chart,
+            embedding: Embedding { uv, summary },
+            seconds: 0.0,
+        }
+    }
+
     /// The parts into which the cheapest seams divide the chart so that none overlaps itself; each part of several is optimized
     /// again from where it lies, which counts if it does not fold over itself anew.
     fn free_of_overlaps(self, options: &embed::Options, watch: &dyn Watch) -> Vec<Self> {
@@ -230,6 +239,15 @@ impl MappedChart {
         }
         self
     }
+}
+
+/// Sum of the areas of a chart's triangles in a map, as the chart winds them.
+fn signed_area(chart: &Chart, uv: &[[f64; 2]]) -> f64 {
+    let doubled = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| uv[v as usize]);
+        doubled_area(a, b, c)
+    };
+    chart.disk.triangles.iter().map(doubled).sum::<f64>() / 2.0
 }
 
 /// The pairs of triangles that are both among these, in their numbering.

@@ -13,6 +13,7 @@ mod measure;
 mod model;
 mod progress;
 mod records;
+mod repack;
 mod serve;
 mod solve;
 mod unwrap;
@@ -49,6 +50,8 @@ enum Command {
     Solve(solve::Args),
     /// Warp a picture by handles without folding it
     Warp(warp::Args),
+    /// Pack the UV islands of all meshes into one atlas, each as it is
+    Repack(repack::Args),
     /// Move anchors of a file's UVs, no face flipped
     EditUv(edit_uv::EditArgs),
     /// Align points of a surface with points of a texture, no face flipped
@@ -76,6 +79,7 @@ pub fn run() -> ExitCode {
         Command::Deform(args) => deform::run(&args),
         Command::Solve(args) => solve::run(&args),
         Command::Warp(args) => warp::run(&args),
+        Command::Repack(args) => repack::run(&args),
         Command::EditUv(args) => edit_uv::edit(&args),
         Command::TextureMap(args) => edit_uv::texture_map(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),

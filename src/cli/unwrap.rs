@@ -13,7 +13,7 @@ use crate::charts::{Cut, Quality};
 use crate::document::GroupBy;
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
-use crate::pipeline::{self, GivenSeams, Limits, NamedSeams, Options, Outcome};
+use crate::pipeline::{self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome};
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
 #[derive(clap::Args)]
@@ -107,6 +107,7 @@ impl Args {
             seams: self.seams.as_deref().map(given_seams).transpose()?,
             material_borders: self.material_borders,
             source_texcoord: self.source_texcoord,
+            kept_maps: KeptMaps::Optimized,
             max_charts: self.max_charts,
             pin: self.pin,
             quality: self.quality,
@@ -167,7 +168,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn summarize(outcome: &Outcome) {
+/// A line per atlas, and what is certified.
+pub(super) fn summarize(outcome: &Outcome) {
     for group in &outcome.report.groups {
         super::measure::print_group(group);
     }

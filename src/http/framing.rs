@@ -21,7 +21,7 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// The formats that a kind of job reads, as file name extensions.
 fn formats(kind: Kind) -> &'static [&'static str] {
     match kind {
-        Kind::Unwrap | Kind::Measure | Kind::EditUv | Kind::TextureMap => {
+        Kind::Unwrap | Kind::Measure | Kind::EditUv | Kind::TextureMap | Kind::Repack => {
             &["glb", "gltf", "obj", "off", "ply", "stl"]
         }
         Kind::Solve => &["json"],

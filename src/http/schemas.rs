@@ -6,8 +6,8 @@ use utoipa::openapi::{RefOr, Schema};
 
 use crate::jobs::{Event, Kind};
 use crate::pipeline::{
-    DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, Report,
-    SolveOptions, WarpOptions, WarpReport,
+    DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, RepackOptions,
+    Report, SolveOptions, WarpOptions, WarpReport,
 };
 
 /// Schemas that no handler names, with those that they refer to.
@@ -19,6 +19,7 @@ pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {
     add::<DeformOptions>(&mut schemas);
     add::<WarpOptions>(&mut schemas);
     add::<EditOptions>(&mut schemas);
+    add::<RepackOptions>(&mut schemas);
     add::<Report>(&mut schemas);
     add::<DeformReport>(&mut schemas);
     add::<WarpReport>(&mut schemas);
@@ -41,6 +42,7 @@ pub(super) fn options(kind: Kind) -> &'static str {
         Kind::Deform => "DeformOptions",
         Kind::Warp => "WarpOptions",
         Kind::EditUv | Kind::TextureMap => "EditOptions",
+        Kind::Repack => "RepackOptions",
     }
 }
 

@@ -59,11 +59,13 @@ pub enum Kind {
     EditUv,
     /// Aligns points of a surface with points of a texture, no face flipped.
     TextureMap,
+    /// Packs the UV islands that the file has into one atlas, each as it is.
+    Repack,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Unwrap,
         Self::Measure,
         Self::Solve,
@@ -71,6 +73,7 @@ impl Kind {
         Self::Warp,
         Self::EditUv,
         Self::TextureMap,
+        Self::Repack,
     ];
 
     /// The word used in JSON and in the store.
@@ -83,6 +86,7 @@ impl Kind {
             Self::Warp => "warp",
             Self::EditUv => "edit_uv",
             Self::TextureMap => "texture_map",
+            Self::Repack => "repack",
         }
     }
 }

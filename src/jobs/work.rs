@@ -8,7 +8,7 @@ use super::job::Kind;
 use crate::document::Upload;
 use crate::pipeline::{
     self, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions, Observer, Options,
-    PipelineError, SolveOptions, WarpOptions,
+    PipelineError, RepackOptions, SolveOptions, WarpOptions,
 };
 
 /// What a job leaves: role, name and content of each file.
@@ -34,6 +34,7 @@ impl Work {
             Kind::Warp => Self::of(options, WarpOptions::check, warp),
             Kind::EditUv => Self::of(options, EditOptions::check, edit_uv),
             Kind::TextureMap => Self::of(options, EditOptions::check, texture_map),
+            Kind::Repack => Self::of(options, RepackOptions::check, repack),
         }
     }
 
@@ -64,7 +65,21 @@ impl Work {
 
 fn unwrap(upload: &Upload, mut options: Options, limits: Limits, observer: &dyn Observer) -> Made {
     options.limits = limits;
-    let outcome = pipeline::unwrap_document(upload, &options, observer)?;
+    drawn(pipeline::unwrap_document(upload, &options, observer)?)
+}
+
+fn repack(
+    upload: &Upload,
+    mut options: RepackOptions,
+    limits: Limits,
+    observer: &dyn Observer,
+) -> Made {
+    options.limits = limits;
+    drawn(pipeline::repack_document(upload, &options, observer)?)
+}
+
+/// An atlas with its pictures and its report.
+fn drawn(outcome: pipeline::Outcome) -> Made {
     let drawn = outcome.pictures.draw()?;
     let mut files = result(outcome.files);
     let mut add = |role: &str, bytes| files.push((role.to_owned(), role.to_owned(), bytes));

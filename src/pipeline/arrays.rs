@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 
 use super::clearance::{open_charts, texels_apart};
-use super::map::{folds, mapped_charts};
+use super::map::{are_given, folds, mapped_charts};
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Settings;
 use super::seams::Seams;
 use super::{PipelineError, repeated};
-use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Placed};
+use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Placed, Turns};
 use crate::charts::{Folds, MappedChart};
 use crate::mesh::{Defects, Surface};
 use crate::solver::Summary;
@@ -147,6 +147,11 @@ pub(super) fn unwrap_all(
     let options = AtlasOptions {
         resolution: settings.resolution,
         padding_texels: padding_texels(settings),
+        turns: if are_given(settings) {
+            Turns::Quarters
+        } else {
+            Turns::Any
+        },
         search_words: (SEARCH_WORDS / meshes.len() as u64)
             .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
     };

@@ -76,11 +76,10 @@ fn unwrap_in_pool(
     let mut report = Report::new(groups);
     report.options = Some(options.clone());
     report.limits = Some(options.limits);
-    let is_promised = options.barrier != BarrierKind::None;
-    if is_promised && !report.certified {
+    if options.is_promised() && !report.certified {
         return Err(PipelineError::NotCertified);
     }
-    report.certified &= is_promised;
+    report.certified &= options.barrier != BarrierKind::None;
     report.written = Some(written.notes);
     report.seconds = Some(seconds);
     Ok(Outcome {

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 
 use super::observer::Tracker;
-use super::options::Settings;
+use super::options::{KeptMaps, Settings};
 use super::seams::Seams;
 use crate::barrier::BarrierKind;
 use crate::certificate::CornerUvs;
@@ -115,6 +115,7 @@ fn map_charts(
         .map(|(id, chart)| {
             let faces = chart.disk.triangles.len();
             let parts = match kept(id.0, &chart) {
+                Some(uv) if are_given(settings) => vec![MappedChart::given(chart, uv)],
                 Some(uv) => map_chart_from(chart, uv, &options, tracker),
                 None => map_chart(chart, &options, folds, tracker),
             };
@@ -129,9 +130,14 @@ fn map_charts(
     maps
 }
 
+/// Whether maps stay as they are given.
+pub(super) fn are_given(settings: &Settings) -> bool {
+    settings.cut == Cut::Keep && settings.kept_maps == KeptMaps::AsGiven
+}
+
 /// Whoever asks for one chart per component wants no other seams, and without a barrier nothing is promised.
 pub(super) fn folds(settings: &Settings) -> Folds {
-    if settings.cut == Cut::Disk || settings.barrier == BarrierKind::None {
+    if settings.cut == Cut::Disk || are_given(settings) || settings.barrier == BarrierKind::None {
         Folds::Keep
     } else {
         Folds::Cut

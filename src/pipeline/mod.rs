@@ -3,7 +3,7 @@
 //! [`unwrap`] takes plain arrays: it welds, cuts, maps every chart and packs. [`unwrap_document`] takes a file's bytes:
 //! it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and the
 //! certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same for
-//! UVs that a file already has; [`edit_document`] changes them.
+//! UVs that a file already has; [`edit_document`] changes them, [`repack_document`] packs them anew.
 //!
 //! The other applications are a function from a file's bytes to files' bytes each: [`solve_file`], [`deform_file`], [`warp_file`].
 //! All take options of their own, [`Limits`] that their caller sets, and an [`Observer`]; the command line and the service are
@@ -49,6 +49,8 @@ mod planar_map;
 #[cfg(feature = "files")]
 mod proven;
 #[cfg(feature = "files")]
+mod repack;
+#[cfg(feature = "files")]
 mod report;
 mod seams;
 #[cfg(feature = "files")]
@@ -63,7 +65,7 @@ mod warp;
 pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
-pub use options::Settings;
+pub use options::{KeptMaps, Settings};
 pub use seams::Seams;
 
 #[cfg(feature = "files")]
@@ -88,6 +90,8 @@ pub use options::{GivenSeams, MeasureOptions, NamedSeams, Options};
 pub use pictures::{Drawn, Pictures};
 #[cfg(feature = "files")]
 pub use proven::{Proven, ProvenBits, ProvenPadding};
+#[cfg(feature = "files")]
+pub use repack::{RepackOptions, repack_document};
 #[cfg(feature = "files")]
 pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
 #[cfg(feature = "files")]

@@ -1,6 +1,5 @@
 //! What a caller may choose, with defaults and limits.
 
-#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "files")]
@@ -15,6 +14,18 @@ use crate::energy::EnergyKind;
 #[cfg(feature = "files")]
 use crate::picture::HeatmapMeasure;
 
+/// What becomes of the maps of islands that are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum KeptMaps {
+    /// They are optimized from where they lie.
+    #[default]
+    Optimized,
+    /// They stay as they are but for quarter turns, shifts and one scale; whatever is wrong with them stays too.
+    AsGiven,
+}
+
 /// How a mesh given as arrays is unwrapped.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -28,6 +39,8 @@ pub struct Settings {
     pub barrier_support: f64,
     /// Where to cut.
     pub cut: Cut,
+    /// What becomes of the maps of islands with [`Cut::Keep`].
+    pub kept_maps: KeptMaps,
     /// Vertices of each chart's boundary that are held, far from each other: 0, or with [`Cut::Disk`] 2.
     pub pin: u32,
     /// How distorted the atlas may be with [`Cut::Auto`].
@@ -55,6 +68,7 @@ impl Default for Settings {
             barrier_strength: 0.01,
             barrier_support: 1.0,
             cut: Cut::Auto,
+            kept_maps: KeptMaps::Optimized,
             pin: 0,
             quality: Quality::default(),
             max_charts: None,
@@ -167,6 +181,8 @@ pub struct Options {
     /// The UV set whose islands `cut` `keep` takes; 0 if absent.
     #[cfg_attr(feature = "service", schema(maximum = 7))]
     pub source_texcoord: Option<u32>,
+    /// What becomes of the maps of islands with `cut` `keep`.
+    pub kept_maps: KeptMaps,
     /// Vertices of each chart's boundary that are held, far from each other: 0, or with `disk` 2, as least-squares conformal maps
     /// need them.
     #[cfg_attr(feature = "service", schema(maximum = 2))]
@@ -227,6 +243,7 @@ impl Default for Options {
             seams: None,
             material_borders: false,
             source_texcoord: None,
+            kept_maps: settings.kept_maps,
             pin: settings.pin,
             quality: settings.quality,
             max_charts: settings.max_charts,
@@ -248,6 +265,12 @@ impl Default for Options {
 
 #[cfg(feature = "files")]
 impl Options {
+    /// Whether the result has to be valid: not without a barrier, nor where maps stay as they are.
+    pub(super) fn is_promised(&self) -> bool {
+        let is_given = self.cut == Cut::Keep && self.kept_maps == KeptMaps::AsGiven;
+        self.barrier != BarrierKind::None && !is_given
+    }
+
     /// The part that concerns the geometry, within the limits.
     pub fn settings(&self) -> Settings {
         Settings {
@@ -256,6 +279,7 @@ impl Options {
             barrier_strength: self.barrier_strength,
             barrier_support: self.barrier_support,
             cut: self.cut,
+            kept_maps: self.kept_maps,
             pin: self.pin,
             quality: self.quality,
             max_charts: self.max_charts,

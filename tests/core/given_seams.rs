@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use unwrapd::certificate::{Claims, certify, chart_ids};
 use unwrapd::charts::{Cut, Quality};
-use unwrapd::pipeline::{PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along};
+use unwrapd::pipeline::{
+    KeptMaps, PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along,
+};
 
 use crate::zoo::{self, Mesh};
 
@@ -81,6 +83,58 @@ fn islands_are_kept() {
         uv[1] = (uv[1] - 2.5).abs();
     }
     assert_eq!(charts(&mesh, &unwrapped(&mesh, Cut::Keep, &folded)), labels);
+}
+
+#[test]
+fn islands_are_repacked_as_they_are() {
+    let mesh = zoo::grid(8, 6);
+    let labels = labels(&mesh, |[x, _, _]| u32::from(x > 4.0));
+    // Sheared, so that optimizing would change it; the second island is seen from behind.
+    let mut uvs = islands(&mesh, &labels);
+    for (face, &label) in uvs.iter_mut().zip(&labels) {
+        for uv in face {
+            uv[0] += 0.7 * uv[1];
+            uv[1] *= if label == 1 { -1.0 } else { 1.0 };
+        }
+    }
+    let seams = Seams {
+        uvs: Some(uvs.clone()),
+        ..Seams::default()
+    };
+    let settings = Settings {
+        cut: Cut::Keep,
+        kept_maps: KeptMaps::AsGiven,
+        ..Settings::default()
+    };
+    let made = unwrap_along(
+        &mesh.positions,
+        &mesh.triangles,
+        &seams,
+        &settings,
+        &Unobserved,
+    );
+    let made = made.expect("it packs");
+    let packed = made.corner_uvs();
+    let certificate = certify(
+        &positions(&mesh),
+        &mesh.triangles,
+        &packed,
+        &Claims::default(),
+    );
+    assert!(certificate.is_bijective());
+    assert_eq!(certificate.mirrored_charts, 1);
+    // One scale, and a quarter turn for each island: edges keep their length and, up to that, their direction.
+    for (face, packed) in uvs.iter().zip(&packed) {
+        let edge = |f: &[[f64; 2]; 3]| [f[1][0] - f[0][0], f[1][1] - f[0][1]];
+        let (before, after) = (edge(face).map(|x| x * made.scale), edge(packed));
+        let [x, y] = before;
+        let turned = [[x, y], [-y, x], [-x, -y], [y, -x]];
+        let distance = |p: &[f64; 2]| (p[0] - after[0]).hypot(p[1] - after[1]);
+        assert!(
+            turned.iter().any(|p| distance(p) < 1e-6),
+            "{before:?} {after:?}"
+        );
+    }
 }
 
 #[test]

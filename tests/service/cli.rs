@@ -147,6 +147,31 @@ fn flipped_uvs_do_not_verify() {
 }
 
 #[test]
+fn islands_of_a_file_are_repacked_and_verify() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (input, output, report) = (path("in.obj"), path("out.obj"), path("r.json"));
+    // Two triangles that lie on top of each other, one of them twice as large.
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 5\nv 1 0 5\nv 0 1 5\n\
+                vt 0 0\nvt 4 0\nvt 0 4\nvt 2 0\nvt 0 2\nf 1/1 2/2 3/3\nf 4/1 5/4 6/5\n";
+    std::fs::write(&input, text).expect("a file");
+    assert_status(&unwrapd(&["verify", &input, "--bijective"]), 4);
+    let arguments = ["repack", &input, "-o", &output, "--report", &report];
+    assert_status(&unwrapd(&arguments), 0);
+    let claims = ["verify", &output, "--bijective", "--padding", "2"];
+    assert_status(&unwrapd(&claims), 0);
+    let text = std::fs::read(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_slice(&text).expect("a JSON report");
+    assert_eq!(report["groups"][0]["measures"]["charts"], 2);
+    let texels = &report["groups"][0]["measures"]["density_p95_over_p5"];
+    let texels = texels.as_f64().expect("a density");
+    assert!(
+        (texels - 2.0).abs() < 1e-4,
+        "the sizes are as they were: {texels}"
+    );
+}
+
+#[test]
 fn what_is_asked_of_a_file_decides_its_verdict() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("charts.obj");

@@ -1,0 +1,74 @@
+//! `unwrapd repack`: UVs packed anew, as they are.
+
+use std::path::PathBuf;
+
+use super::failure::Failure;
+use super::files::{json, output_format, read_upload, write_atomically, write_outputs};
+use super::progress::Display;
+use super::records::stem;
+use super::unwrap::summarize;
+use super::words::{GROUPS, word};
+use crate::document::GroupBy;
+use crate::pipeline::{Limits, RepackOptions, repack_document};
+
+/// Packs the UV islands of all meshes into one atlas; each stays as it is but for quarter turns, shifts and one scale.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Mesh with UVs: .glb, .gltf or .obj
+    input: PathBuf,
+    /// Where to write; .glb, .gltf or .obj decides the format
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// UV set whose islands are packed [default: 0]
+    #[arg(long, value_name = "N")]
+    source_texcoord: Option<u32>,
+    /// UV set to write [default: 0 where no texture samples it, else the next free one]
+    #[arg(long, value_name = "N")]
+    texcoord: Option<u32>,
+    /// Replace the UV set even if textures sample it
+    #[arg(long)]
+    overwrite: bool,
+    /// What shares one atlas
+    #[arg(long, default_value = "scene", value_parser = word::<GroupBy>(GROUPS))]
+    group_by: GroupBy,
+    /// Side of the texture in texels
+    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
+    resolution: u32,
+    /// Least distance of two islands in texels
+    #[arg(long, default_value_t = 2, value_name = "TEXELS")]
+    padding: u32,
+    /// Threads [default: all cores]; the result does not depend on it
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Write the report as JSON
+    #[arg(long, value_name = "R.json")]
+    report: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let options = RepackOptions {
+        source_texcoord: args.source_texcoord,
+        texcoord: args.texcoord,
+        overwrite: args.overwrite,
+        group_by: args.group_by,
+        resolution: args.resolution,
+        padding: args.padding,
+        threads: args.threads,
+        format: output_format(&args.output)?,
+        stem: stem(&args.output),
+        limits: Limits::default(),
+    };
+    options.check()?;
+    let upload = read_upload(&args.input)?;
+    let display = Display::new();
+    let outcome = repack_document(&upload, &options, &display);
+    display.finish()?;
+    let outcome = outcome?;
+    write_outputs(&args.output, &outcome.files)?;
+    if let Some(path) = &args.report {
+        write_atomically(path, &json(&outcome.report)?)?;
+    }
+    summarize(&outcome);
+    Ok(())
+}
