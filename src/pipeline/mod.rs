@@ -45,9 +45,13 @@ mod measure_options;
 #[cfg(feature = "files")]
 mod merged;
 #[cfg(feature = "files")]
+mod moved;
+#[cfg(feature = "files")]
 mod options;
 #[cfg(feature = "files")]
 mod pictures;
+#[cfg(feature = "files")]
+mod planar_map;
 #[cfg(feature = "files")]
 mod proven;
 #[cfg(feature = "files")]
@@ -58,6 +62,8 @@ mod report;
 mod solution;
 #[cfg(feature = "files")]
 mod solve;
+#[cfg(feature = "files")]
+mod source;
 #[cfg(feature = "files")]
 mod warp;
 
