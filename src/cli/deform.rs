@@ -18,7 +18,8 @@ pub(super) struct Args {
     /// JSON: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …}, {"center": …, "radius": r, "to": …}]}
     #[arg(long, value_name = "FILE")]
     handles: PathBuf,
-    /// Where the deformed mesh goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; with --cage .glb, .gltf, .obj
+    /// Where the deformed mesh goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; of glTF, PLY and STL also
+    /// .glb or .gltf, everything else in the file preserved; with --cage .glb, .gltf, .obj
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
@@ -28,7 +29,7 @@ pub(super) struct Args {
     triangles: usize,
     /// Put all meshes of the file, each once and without the transforms of nodes, into a cage of cubes, N along its longest side,
     /// and deform that. Handles are places ("at", "center"); connected parts of the cage without any stay at rest
-    #[arg(long, value_name = "N", conflicts_with = "frames")]
+    #[arg(long, value_name = "N")]
     cage: Option<u32>,
     /// With --cage: cut triangles where they pass from one of its tetrahedra into the next, so that they follow it exactly
     #[arg(long, requires = "cage")]

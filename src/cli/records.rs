@@ -87,7 +87,7 @@ pub(super) fn body_format(path: &Path) -> Result<BodyFormat, Failure> {
     let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
     BodyFormat::of_extension(&extension.to_string_lossy()).ok_or_else(|| {
         Failure::usage(format!(
-            "{}: the result is .txt, .obj, .off, .msh, .mesh, .tet or .vtu, with --cage .glb, .gltf or .obj",
+            "{}: the result is .txt, .obj, .off, .msh, .mesh, .tet, .vtu, .glb or .gltf",
             path.display()
         ))
     })

@@ -55,32 +55,20 @@ pub struct Worth {
 const SHAKE: f64 = 1e-3;
 
 impl Problem {
-    /// Minimizes the energy with the handles at their targets. With a barrier every iterate is without inversion.
-    ///
-    /// Each station is settled before the next: a long body that is not lags behind the handle that drives it, and a bar
-    /// twisted at one end gathers its twist there and loses turns long before it must.
+    /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`]). With a barrier
+    /// every iterate is without inversion.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
         let mut objective = self.objective()?;
         let mut x = self.start.clone();
         if x == self.body.rest && self.stations.len() == 1 {
             self.shake(&objective, &mut x);
         }
-        let mut total = Summary::at_start(objective.value(&x));
-        for handles in &self.stations {
-            let watch = Continued {
-                watch,
-                before: total.iterations,
-            };
-            let summary = if self.body.dim() == 2 {
-                follow::<2>(&mut objective, &mut x, handles, settings, &watch)
-            } else {
-                follow::<3>(&mut objective, &mut x, handles, settings, &watch)
-            };
-            total = total.followed_by(&summary);
-            if matches!(summary.status, Status::TargetsUnreachable | Status::Stopped) {
-                break;
-            }
-        }
+        let follow = if self.body.dim() == 2 {
+            follow::<2>
+        } else {
+            follow::<3>
+        };
+        let total = follow(&mut objective, &mut x, &self.stations, settings, watch);
         Ok(self.solution(x, total))
     }
 

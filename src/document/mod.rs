@@ -34,6 +34,7 @@ pub use upload::Upload;
 pub use uvs::{Corners, Layout, NewUvs, OutputFormat, WriteOptions, Written};
 
 /// A file as it was read.
+#[derive(Clone)]
 pub enum Document {
     /// glTF 2.0, `.glb` or `.gltf`.
     Gltf(gltf::GltfDocument),

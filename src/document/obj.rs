@@ -15,6 +15,7 @@ use crate::mesh::io::{self, Format};
 use std::collections::BTreeMap;
 
 /// A file as it was read.
+#[derive(Clone)]
 pub struct ObjDocument {
     bytes: Vec<u8>,
     obj: io::obj::Obj,

@@ -7,6 +7,7 @@ use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
 
 /// A file as it was read.
+#[derive(Clone)]
 pub struct SoupDocument {
     primitives: Vec<Primitive>,
 }

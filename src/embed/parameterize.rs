@@ -8,7 +8,7 @@ use super::start::{first_bad_triangle, hierarchical_start, start};
 use crate::barrier::BarrierKind;
 use crate::energy::EnergyKind;
 use crate::mesh::Disk;
-use crate::solver::{Settings, Summary, Watch};
+use crate::solver::{Iterate, Settings, Status, Summary, Watch};
 
 /// From this many triangles on the start is found coarse to fine, which costs less than the Newton steps it saves.
 const LARGE: usize = 1_000;
@@ -86,7 +86,7 @@ pub fn parameterize(
     match options.pins {
         Pins::None => problem.minimized(first_map(&problem, positions), &[], watch),
         Pins::Two => {
-            let (start, pinned) = pinned_map(&problem, positions);
+            let (start, pinned) = pinned_map(&problem, positions, watch);
             problem.minimized(start, &pinned, watch)
         }
     }
@@ -111,23 +111,42 @@ fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
         .unwrap_or(uv)
 }
 
-/// Tutte's map and its two pins, at the size at which they are as far apart as in the map found coarse to fine, which is nearly
-/// isometric; that map itself where Tutte's is too far from any optimum.
-fn pinned_map(problem: &Problem, positions: &[[f64; 3]]) -> (Vec<[f64; 2]>, [u32; 2]) {
+/// Tutte's map and its two pins, at the size at which they are as far apart as in a nearly isometric map; that map itself where
+/// Tutte's is too far from any optimum, or the watcher wants to end.
+fn pinned_map(
+    problem: &Problem,
+    positions: &[[f64; 3]],
+    watch: &dyn Watch,
+) -> (Vec<[f64; 2]>, [u32; 2]) {
     let boundary = &problem.disk.loops[outer_loop(problem.disk, positions)];
     let tutte = problem.at_rest_size(&start(problem.disk, positions));
-    let Some(near) = hierarchical_start(problem.disk, positions) else {
+    let Some((near, is_hurried)) = nearly_isometric(problem, positions, watch) else {
         let pins = far_pair(boundary, &tutte);
         return (tutte, pins);
     };
     let pins = far_pair(boundary, &near);
     let uv = problem.scaled(&tutte, distance(&near, pins) / distance(&tutte, pins));
     let energy = problem.mean_energy(&uv);
-    if energy <= FAR || problem.mean_energy(&near) >= energy {
+    if !is_hurried && (energy <= FAR || problem.mean_energy(&near) >= energy) {
         (uv, pins)
     } else {
         (near, pins)
     }
+}
+
+/// The optimum without pins of an energy that knows sizes, so that pins taken from it cost nothing; for one that does not, the map
+/// found coarse to fine. And whether the watcher wants to end.
+fn nearly_isometric(
+    problem: &Problem,
+    positions: &[[f64; 3]],
+    watch: &dyn Watch,
+) -> Option<(Vec<[f64; 2]>, bool)> {
+    if problem.options.energy == EnergyKind::Lscm {
+        return hierarchical_start(problem.disk, positions).map(|near| (near, false));
+    }
+    let unshown = |iterate: &Iterate| watch.iterate(iterate);
+    let (near, summary) = problem.minimum(first_map(problem, positions), &[], &unshown);
+    Some((near, summary.status == Status::Stopped))
 }
 
 /// Minimizes from a given map, in any unit: it is scaled to the best size first. [`Options::pins`] are left out of account.

@@ -11,8 +11,8 @@ pub enum Pins {
     None,
     /// Two vertices of the outer boundary that are far from each other in a nearly isometric map, as far apart as there. Those
     /// opposite each other on Tutte's circle, by its diameter, are wrong for a long surface, whose least-squares conformal map
-    /// then ends smaller than the surface and shaped by the barrier. Energies that know sizes pay for the distance where the
-    /// nearly isometric map is not theirs: ARAP on a cut-open cow has 309, with the diameter 386, without pins 40.
+    /// then ends smaller than the surface and shaped by the barrier. Energies that know sizes would pay for any distance but
+    /// that in a minimum of their own, so it is taken from one, at the price of a minimization without pins.
     Two,
 }
 

@@ -7,7 +7,7 @@ use crate::barrier::{Barrier, BarrierKind, MapEnergy, epsilon, map_energy};
 use crate::energy::Term;
 use crate::mesh::Disk;
 use crate::numerics::vec2::doubled_area;
-use crate::solver::{Objective, Settings, Watch, best_scale, minimize};
+use crate::solver::{Objective, Settings, Summary, Watch, best_scale, minimize};
 
 /// Newton steps times triangles, at most: 14 steps for 357,000 triangles, where one takes 1.5 s. Six of them came within
 /// 0.3 % of the energy that was reached in the end: coarse to fine, the finest level has little left to do.
@@ -85,9 +85,22 @@ impl Problem<'_> {
         self.term(uv).value(uv.as_flattened()) / self.rest.shapes.len() as f64
     }
 
-    /// The map that minimizing from this start leads to, in the mesh's unit; until it is brought there, the pinned vertices
-    /// stay where they are.
+    /// The map that minimizing from this start leads to, in the mesh's unit.
     pub fn minimized(&self, start: Vec<[f64; 2]>, pinned: &[u32], watch: &dyn Watch) -> Embedding {
+        let (uv, summary) = self.minimum(start, pinned, watch);
+        Embedding {
+            uv: self.in_mesh_unit(&uv),
+            summary,
+        }
+    }
+
+    /// The same in the unit of the rest shapes: pinned vertices stay where they are.
+    pub fn minimum(
+        &self,
+        start: Vec<[f64; 2]>,
+        pinned: &[u32],
+        watch: &dyn Watch,
+    ) -> (Vec<[f64; 2]>, Summary) {
         let mut objective = Objective::new(self.disk.n_vertices, self.term(&start));
         objective.fix(pinned);
         let affordable = (STEP_BUDGET / self.rest.shapes.len()).max(LEAST_STEPS);
@@ -103,10 +116,7 @@ impl Problem<'_> {
         if is_promised && first_bad_triangle(&self.disk.triangles, &uv).is_some() {
             uv = start;
         }
-        Embedding {
-            uv: self.in_mesh_unit(&uv),
-            summary,
-        }
+        (uv, summary)
     }
 
     /// The map at the size at which its area is that of the surface.

@@ -1,16 +1,10 @@
-//! Bodies from files and back.
+//! Formats of deformed bodies.
 
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
-use super::limits::Limits;
-use super::merged::Merged;
-use crate::deform::Body;
-use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
-use crate::document::{Document, GroupBy, OutputFormat, Upload};
-use crate::mesh::Surface;
+use crate::document::OutputFormat;
 use crate::mesh::io::{ElementFormat, Elements, text_positions};
-use crate::picture::Image;
 
 /// What a deformed body is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,9 +25,9 @@ pub enum BodyFormat {
     Tet,
     /// VTK XML.
     Vtu,
-    /// Binary glTF: surfaces in a cage.
+    /// Binary glTF: surfaces in a cage, and planar ones that came as glTF, PLY or STL.
     Glb,
-    /// glTF with its files beside it: surfaces in a cage.
+    /// glTF with its files beside it: the same.
     Gltf,
 }
 
@@ -73,11 +67,11 @@ impl BodyFormat {
         }
     }
 
-    /// Refuses what bodies that are no surfaces in a cage are not written as.
-    pub(super) fn check_for_body(self) -> Result<(), PipelineError> {
+    /// Refuses what a mesh that came without a document is not written as.
+    pub(super) fn check_for_mesh(self) -> Result<(), PipelineError> {
         match self {
             Self::Glb | Self::Gltf => Err(PipelineError::InvalidOptions(
-                "format: without a cage the result is txt, obj, off, msh, mesh, tet or vtu".into(),
+                "format: of this input the result is txt, obj, off, msh, mesh, tet or vtu".into(),
             )),
             _ => Ok(()),
         }
@@ -99,64 +93,4 @@ impl BodyFormat {
         };
         text.into_bytes()
     }
-}
-
-/// The mesh of a file, or of the outline in a picture or drawing, that is filled with about so many triangles.
-pub(super) fn read(
-    upload: &Upload,
-    triangles: usize,
-    limits: &Limits,
-) -> Result<Elements, PipelineError> {
-    let elements = match upload.extension().as_str() {
-        "svg" => {
-            limits.check_count(triangles)?;
-            let text = String::from_utf8_lossy(&upload.bytes);
-            filled(&outline::of_svg(&text, &SvgSettings::default())?, triangles)?
-        }
-        "png" => {
-            limits.check_count(triangles)?;
-            let image = Image::decode(&upload.bytes)?;
-            filled(
-                &outline::of_image(&image, &ImageSettings::default())?,
-                triangles,
-            )?
-        }
-        _ => match ElementFormat::of_name(&upload.name) {
-            Some(format) => format.read(&upload.bytes)?,
-            None => surface(upload)?,
-        },
-    };
-    limits.check_count(elements.triangles.len() + elements.tets.len())?;
-    Ok(elements)
-}
-
-fn filled(outline: &outline::Outline, triangles: usize) -> Result<Elements, PipelineError> {
-    let settings = MeshSettings {
-        resolution: Resolution::Triangles(triangles),
-        ..MeshSettings::default()
-    };
-    Ok(Elements::from(&outline::triangulate(outline, &settings)?))
-}
-
-/// All triangles of a document, welded by position.
-fn surface(upload: &Upload) -> Result<Elements, PipelineError> {
-    let document = Document::read(upload)?;
-    let groups = document.groups(GroupBy::Scene);
-    let merged = groups.first().ok_or(PipelineError::NoTriangles)?;
-    let merged = Merged::new(document.primitives(), merged);
-    let surface = Surface::new(&merged.positions, &merged.triangles)?;
-    Ok(Elements {
-        vertices: surface.positions,
-        triangles: surface.triangles,
-        tets: Vec::new(),
-    })
-}
-
-/// The body that a mesh is: its tetrahedra, or else its triangles, which must lie in a plane.
-pub(super) fn body(elements: &Elements) -> Result<Body, PipelineError> {
-    Ok(if elements.tets.is_empty() {
-        Body::from(&elements.clone().into_planar_mesh()?)
-    } else {
-        Body::from(&elements.clone().into_tet_mesh()?)
-    })
 }

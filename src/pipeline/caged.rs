@@ -6,14 +6,13 @@ use super::cage_map::{CageMap, subdivision, widened};
 use super::deform::DeformOptions;
 use super::limits::Limits;
 use super::merged::Merged;
+use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::observer::{Stage, Tracker};
-use super::solution::{Deformed, solve};
+use super::solution::{Deformed, WriteMap, solve};
 use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, CagedSurface};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
-use crate::document::{
-    Document, DocumentError, GroupBy, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
-};
+use crate::document::{Document, GroupBy, OutputFormat, Upload, Written};
 use serde::Serialize;
 
 /// A document with all its triangles in one cage.
@@ -86,6 +85,13 @@ pub(super) fn deform(
 ) -> Result<Deformed, PipelineError> {
     tracker.stage(Stage::Read);
     let format = options.format.and_then(BodyFormat::of_document);
+    let format = format.unwrap_or(match upload.extension().as_str() {
+        "obj" => OutputFormat::Obj,
+        _ => OutputFormat::Glb,
+    });
+    if options.frames {
+        check_frames(format)?;
+    }
     let caged = CagedDocument::read(
         upload,
         &options.handles,
@@ -97,15 +103,14 @@ pub(super) fn deform(
                 Surfaces::Whole
             },
             model: options.model,
-            format: format.unwrap_or(match upload.extension().as_str() {
-                "obj" => OutputFormat::Obj,
-                _ => OutputFormat::Glb,
-            }),
+            format,
             stem: options.stem(upload),
             limits: options.limits,
         },
     )?;
-    let solved = solve(caged.problem(), options.plan(), tracker, None)?;
+    let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
+    let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
+    let solved = solve(caged.problem(), options.plan(), tracker, frames)?;
     tracker.stage(Stage::Write);
     let (written, cage) = caged.write(&solved.solution)?;
     let mut report = solved.report;
@@ -169,27 +174,24 @@ impl CagedDocument {
         &self.problem
     }
 
+    fn map<'a>(&'a self, x: &'a [f64]) -> CageMap<'a> {
+        CageMap {
+            cage: &self.cage,
+            deformed: x.as_chunks().0,
+        }
+    }
+
     /// Writes the document with its surfaces where a solution of the problem carries them; everything else stays: nodes,
     /// skins, morph targets, materials, UVs.
     pub fn write(self, solution: &Solution) -> Result<(Written, CageReport), PipelineError> {
         let crossings_before = crossings_of(&self.document);
-        let map = CageMap {
-            cage: &self.cage,
-            deformed: solution.x.as_chunks().0,
-        };
-        let moved = self.document.moved(&map)?;
-        let options = WriteOptions {
-            format: self.options.format,
-            stem: self.options.stem,
-            texcoord: None,
-            overwrite: false,
-        };
-        let no_uvs = NewUvs {
-            layout: Layout::Edited,
-            v_axis: moved.v_axis(),
-            corners: vec![None; moved.primitives().len()],
-        };
-        let written = moved.write(&no_uvs, &options)?;
+        let map = self.map(&solution.x);
+        let (moved, written) = moved(
+            &self.document,
+            &map,
+            self.options.format,
+            &self.options.stem,
+        )?;
         let report = CageReport {
             voxels: self.cage.mesh().tets().len() / 6,
             tets: self.cage.mesh().tets().len(),
@@ -202,16 +204,6 @@ impl CagedDocument {
         };
         Ok((written, report))
     }
-}
-
-/// Refuses formats that lose UVs and materials.
-fn check_format(document: &Document, format: OutputFormat) -> Result<(), DocumentError> {
-    let lost = match (document, format) {
-        (Document::Gltf(_), OutputFormat::Obj) => "a deformed glTF document as OBJ",
-        (Document::Obj(_), OutputFormat::Glb | OutputFormat::Gltf) => "a deformed OBJ file as glTF",
-        _ => return Ok(()),
-    };
-    Err(DocumentError::UnsupportedOutput(lost.to_owned()))
 }
 
 fn crossings_of(document: &Document) -> Crossings {

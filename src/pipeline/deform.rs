@@ -4,12 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
 use super::arrays::in_pool;
-use super::bodies::{self, BodyFormat};
+use super::bodies::BodyFormat;
 use super::caged;
 use super::documents::stem;
 use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
 use super::solution::{Deformed, Plan, WriteMap, solve};
+use super::source::Source;
 use crate::deform::{Handle, Method, Model, Problem};
 use crate::document::Upload;
 
@@ -40,8 +41,8 @@ pub struct DeformOptions {
     pub barrier_continuation: bool,
     /// Also minimize without a barrier and report that energy beside the solution's: the barrier's bias.
     pub bias: bool,
-    /// Show the observer the map of every iteration; over HTTP they become files beside the result, 256 MiB of them at most. Not in a
-    /// cage.
+    /// Show the observer the map of every iteration; over HTTP they become files beside the result, 256 MiB of them at most. Not
+    /// as gltf, which is several files.
     pub frames: bool,
     /// Seconds after which the current valid map is taken as it is.
     #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
@@ -84,12 +85,7 @@ impl DeformOptions {
             let text = "split: there is no cage".to_owned();
             return Err(PipelineError::InvalidOptions(text));
         }
-        if self.frames && self.cage.is_some() {
-            let text = "frames: a cage has none".to_owned();
-            return Err(PipelineError::InvalidOptions(text));
-        }
         match (self.format, self.cage) {
-            (Some(format), None) => format.check_for_body(),
             (Some(format), Some(_)) if format.of_document().is_none() => {
                 let text = "format: surfaces in a cage are written as glb, gltf or obj";
                 Err(PipelineError::InvalidOptions(text.to_owned()))
@@ -132,22 +128,18 @@ fn deform_body(
     tracker: &Tracker,
 ) -> Result<Deformed, PipelineError> {
     tracker.stage(Stage::Read);
-    let elements = bodies::read(upload, options.triangles, &options.limits)?;
-    let body = bodies::body(&elements)?;
+    let source = Source::read(upload, options.triangles, &options.limits)?;
+    let format = options.format.unwrap_or_else(|| source.format(upload));
+    source.check(format, options.frames)?;
+    let body = source.body()?;
     let dim = body.dim();
     let problem = Problem::new(body, &options.handles, &options.model)?;
-    let format = options.format.unwrap_or_else(|| {
-        BodyFormat::of_extension(&upload.extension())
-            .filter(|format| format.check_for_body().is_ok())
-            .unwrap_or(BodyFormat::Obj)
-    });
-    let file = |x: &[f64]| format.write(&elements, dim, x);
+    let file = |x: &[f64]| source.frame(format, dim, x);
     let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
     let solved = solve(&problem, options.plan(), tracker, frames)?;
     tracker.stage(Stage::Write);
-    let name = format!("{}.{}", options.stem(upload), format.extension());
     Ok(Deformed {
-        files: vec![(name, file(&solved.solution.x))],
+        files: source.files(format, &options.stem(upload), dim, &solved.solution.x)?,
         report: solved.report,
         trace: solved.trace,
     })

@@ -42,7 +42,11 @@ mod limits;
 #[cfg(feature = "files")]
 mod merged;
 #[cfg(feature = "files")]
+mod moved;
+#[cfg(feature = "files")]
 mod pictures;
+#[cfg(feature = "files")]
+mod planar_map;
 #[cfg(feature = "files")]
 mod proven;
 #[cfg(feature = "files")]
@@ -54,6 +58,8 @@ mod seams;
 mod solution;
 #[cfg(feature = "files")]
 mod solve;
+#[cfg(feature = "files")]
+mod source;
 #[cfg(feature = "files")]
 mod warp;
 

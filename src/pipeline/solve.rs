@@ -58,7 +58,7 @@ impl SolveOptions {
     /// Checks what can be checked without the file.
     pub fn check(&self) -> Result<(), PipelineError> {
         check_time_budget(self.time_budget)?;
-        self.format.check_for_body()
+        self.format.check_for_mesh()
     }
 }
 

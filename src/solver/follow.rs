@@ -1,8 +1,9 @@
 //! Handles pulled to their targets, every iterate a valid map.
 
-use super::newton::minimize;
+use super::newton::minimize_with;
 use super::objective::Objective;
 use super::path::{Handles, Rotation};
+use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
 use super::travel::{SOFT, Travel};
 use super::watch::{Continued, Control, Taken, Watch};
@@ -24,8 +25,8 @@ const ROUNDING: f64 = 1e-12;
 /// The strength of the constraints at the end, beside the energy's mean curvature.
 const HARD: f64 = 1e9;
 
-/// Moves the handles along their path to their targets, the other vertices following, and then minimizes `objective` with
-/// the handles held.
+/// Moves the handles along their path to one station after another, the other vertices following; at each minimizes `objective`
+/// with the handles held.
 ///
 /// Each iteration is one factorization and two or more solves: the Newton step with the handles held, and how the vertices
 /// follow an advance of the handles to first order. Both are taken together, the advance no longer than inversions and the
@@ -33,54 +34,82 @@ const HARD: f64 = 1e9;
 /// be. Where the handles cannot advance the rest settles first; if that gives them no room either, the map is the nearest
 /// valid one on their path and the status [`Status::TargetsUnreachable`].
 ///
+/// Each station is settled before the next, as if the handles moved slowly: a long body that is not lags behind the handle
+/// that drives it, and a bar twisted at one end gathers its twist there and loses turns long before it must. That is cheap, as
+/// the true Hessian is definite at a minimum: taken for the next advance too, it gives the tangent of the minima, which leads so
+/// near to the next one that three or four factorizations settle it. The projected Hessian gives no tangent where elements are
+/// much compressed, and took twice as many.
+///
 /// Points inside elements are the soft constraints of an [`Objective::constrained`] made of [`Handles::points`]. Their strength
 /// is relative to the energy's curvature and grows once the targets are reached, one short minimization for each
 /// decade.
 pub fn follow<const D: usize>(
     objective: &mut Objective,
     x: &mut [f64],
-    handles: &Handles,
+    stations: &[Handles],
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Summary
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    objective.fix(&handles.vertices);
-    let mut travel = Travel::<D>::new(objective, x, handles);
-    if !travel.summary.energy_first.is_finite() {
-        return travel.summary;
-    }
-    if objective.show(x, &travel.summary, Taken::default(), watch) == Control::Finish {
-        return travel.summary.ended(Status::Stopped);
-    }
-    loop {
-        let before = travel.s;
-        if travel.advance(objective, x, settings, watch) == Control::Finish
-            || travel.settle(objective, x, settings, watch) == Control::Finish
-        {
-            return travel.summary;
+    let mut total = Summary::at_start(objective.value(x));
+    let mut relaxation = Relaxation::new(settings.projection);
+    for handles in stations {
+        let counted = Continued {
+            watch,
+            before: total.iterations,
+        };
+        objective.fix(&handles.vertices);
+        let mut travel = Travel::<D>::new(objective, x, handles, relaxation);
+        travel.arrive(objective, x, settings, &counted);
+        relaxation = travel.relaxation;
+        total = total.followed_by(&travel.summary);
+        if matches!(total.status, Status::TargetsUnreachable | Status::Stopped) {
+            break;
         }
-        if travel.s >= 1.0 {
-            travel.harden(objective, x, settings, watch);
-            return travel.summary;
-        }
-        let is_spent = travel.summary.iterations >= settings.max_iterations;
-        if is_spent || travel.s < before + LEAST_PROGRESS {
-            let status = Status::TargetsUnreachable;
-            return Summary {
-                status,
-                ..travel.summary
-            };
-        }
-        travel.start_over();
     }
+    total
 }
 
 impl<const D: usize> Travel<'_, D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
+    /// Goes all the way, if that is possible.
+    fn arrive(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) {
+        if !self.summary.energy_first.is_finite() {
+            return;
+        }
+        if objective.show(x, &self.summary, Taken::default(), watch) == Control::Finish {
+            self.summary.status = Status::Stopped;
+            return;
+        }
+        loop {
+            let before = self.s;
+            if self.advance(objective, x, settings, watch) == Control::Finish
+                || self.settle(objective, x, settings, watch) == Control::Finish
+            {
+                return;
+            }
+            if self.s >= 1.0 {
+                return self.harden(objective, x, settings, watch);
+            }
+            let is_spent = self.summary.iterations >= settings.max_iterations;
+            if is_spent || self.s < before + LEAST_PROGRESS {
+                self.summary.status = Status::TargetsUnreachable;
+                return;
+            }
+            self.start_over();
+        }
+    }
+
     /// Makes the points meet their targets; says so if they do not.
     fn harden(
         &mut self,
@@ -127,7 +156,13 @@ where
             },
             ..*settings
         };
-        self.summary = before.followed_by(&minimize(objective, x, &settings, &counted));
+        self.summary = before.followed_by(&minimize_with(
+            &mut self.relaxation,
+            objective,
+            x,
+            &settings,
+            &counted,
+        ));
         if self.summary.status == Status::Stopped {
             Control::Finish
         } else {

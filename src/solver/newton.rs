@@ -20,10 +20,21 @@ pub fn minimize(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Summary {
+    let mut relaxation = Relaxation::new(settings.projection);
+    minimize_with(&mut relaxation, objective, x, settings, watch)
+}
+
+/// The same with what is known already of how convex the objective is near `x`.
+pub(super) fn minimize_with(
+    relaxation: &mut Relaxation,
+    objective: &mut Objective,
+    x: &mut [f64],
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Summary {
     assert_eq!(x.len(), objective.n(), "coordinates of every vertex");
     let mut direction = vec![0.0; x.len()];
     let mut trial = vec![0.0; x.len()];
-    let mut relaxation = Relaxation::new(settings.projection);
     let mut summary = Summary::at_start(objective.value(x));
     if !summary.energy_first.is_finite() {
         return summary;
@@ -34,13 +45,9 @@ pub fn minimize(
     while summary.iterations < settings.max_iterations {
         let energy = summary.energy_last;
         let factorizations = &mut summary.factorizations;
-        let Some(decrement) = newton_direction(
-            objective,
-            x,
-            &mut relaxation,
-            &mut direction,
-            factorizations,
-        ) else {
+        let Some(decrement) =
+            newton_direction(objective, x, relaxation, &mut direction, factorizations)
+        else {
             return summary.ended(Status::Stalled);
         };
         let small = decrement <= settings.tolerance * objective.reference(energy);
@@ -74,7 +81,7 @@ pub fn minimize(
 
 /// Leaves −H⁻¹g in `direction` and returns the Newton decrement, projecting more until the matrix is positive definite;
 /// `None` if it is not even with all negative curvature removed, as happens only when derivatives overflow.
-fn newton_direction(
+pub(super) fn newton_direction(
     objective: &mut Objective,
     x: &[f64],
     relaxation: &mut Relaxation,

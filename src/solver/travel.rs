@@ -1,9 +1,11 @@
 //! Handles on their way: advances along their path, each together with a Newton step of the rest.
 
 use super::line_search::line_search;
+use super::newton::newton_direction;
 use super::objective::Objective;
 use super::path::{Handles, Path, Rotation};
 use super::points::Points;
+use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
 use super::watch::{Control, Taken, Watch};
 use crate::numerics::square::{Matrix, Square};
@@ -40,6 +42,8 @@ pub(super) struct Travel<'a, const D: usize> {
     /// The advance to try next.
     stride: f64,
     pub summary: Summary,
+    /// How convex the energy is near the map.
+    pub relaxation: Relaxation,
     newton: Vec<f64>,
     direction: Vec<f64>,
     trial: Vec<f64>,
@@ -50,7 +54,12 @@ where
     Matrix<D>: Square<D> + Rotation<D>,
 {
     /// At the beginning of the way, the map being `x`.
-    pub fn new(objective: &mut Objective, x: &[f64], handles: &'a Handles) -> Self {
+    pub fn new(
+        objective: &mut Objective,
+        x: &[f64],
+        handles: &'a Handles,
+        relaxation: Relaxation,
+    ) -> Self {
         Self {
             handles,
             path: Path::new(handles, x),
@@ -58,6 +67,7 @@ where
             s: 0.0,
             stride: FIRST_ADVANCE,
             summary: Summary::at_start(objective.value(x)),
+            relaxation,
             newton: vec![0.0; x.len()],
             direction: vec![0.0; x.len()],
             trial: vec![0.0; x.len()],
@@ -81,14 +91,22 @@ where
         let mut stuck = 0;
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
         {
-            objective.linearize(x, 0.0);
-            self.summary.factorizations += 1;
-            let Ok(decrement) = objective.newton_direction(&mut self.newton) else {
+            let factorizations = &mut self.summary.factorizations;
+            let Some(decrement) = newton_direction(
+                objective,
+                x,
+                &mut self.relaxation,
+                &mut self.newton,
+                factorizations,
+            ) else {
                 break;
             };
             let sigma = if self.step(objective, x) {
                 stuck = 0;
                 1.0
+            } else if self.relaxation.after_useless_direction() {
+                self.start_over();
+                continue;
             } else {
                 stuck += 1;
                 self.relax(objective, x, decrement)

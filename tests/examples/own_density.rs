@@ -76,7 +76,7 @@ fn main() {
     let summary = follow::<2>(
         &mut objective,
         &mut x,
-        &handles,
+        &[handles],
         &Settings::follow(),
         &watch,
     );

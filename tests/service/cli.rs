@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-fn asset(name: &str) -> PathBuf {
+pub fn asset(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/assets")
         .join(name)
@@ -17,7 +17,7 @@ pub fn unwrapd(arguments: &[&str]) -> Output {
 }
 
 #[track_caller]
-fn assert_status(output: &Output, status: i32) {
+pub fn assert_status(output: &Output, status: i32) {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(status), "{error}");
 }

@@ -2,7 +2,9 @@
 
 mod applications;
 mod bad_inputs;
+mod benches;
 mod cli;
+mod deforming;
 mod failures;
 mod jobs;
 mod meshes;

@@ -43,6 +43,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A glTF document, decompressed.
+#[derive(Clone)]
 pub struct GltfDocument {
     body: Body,
     /// GLB chunks that are neither JSON nor the binary buffer.

@@ -157,6 +157,6 @@ def rows(arguments, folder):
             yield row(bound, "Lipman 2012, frames at rest", cones)
 
 
-def main(arguments, folder):
+def main(arguments, _cases, folder):
     """Prints the table for each turn and bound asked for."""
     table(f"Figure 18: a disk turned inside a fixed rim, ARAP (the paper: {FIGURES['18']})", HEADER, rows(arguments, folder))

@@ -159,8 +159,8 @@ def rows(arguments, cases, folder):
         else:
             mesh = (arguments.reference / "meshes" / f"{name}.tet").resolve()
         yield limit(arguments.unwrapd, folder, mesh, energy, BETA, first)
-    for length, n_turns, energy in arguments.long_bars:
-        mesh = bar(folder / f"bar_{length}x3x3.tet", length, 3)
+    for length, width, n_turns, energy in arguments.long_bars:
+        mesh = bar(folder / f"bar_{length}x{width}x{width}.tet", length, width)
         yield from twisted(arguments.unwrapd, folder, mesh, energy, n_turns)
 
 
