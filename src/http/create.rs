@@ -21,8 +21,8 @@ const MAX_KEY: usize = 255;
 /// itself; options may also be query parameters, lists as their JSON text. Each kind has options of its own: the command line's
 /// long names in snake_case. A file of handles that the command line takes is the JSON of such options.
 ///
-/// `unwrap`, `measure`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and STL; `deform` these and Gmsh, Medit and TET
-/// meshes, PNG and SVG outlines; `warp` PNG and JPEG; `solve` a problem file, its mesh beside it.
+/// `unwrap`, `repack`, `measure`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and STL; `deform` these and Gmsh, Medit and
+/// TET meshes, PNG and SVG outlines; `warp` PNG and JPEG; `solve` a problem file, its mesh beside it.
 ///
 /// When the answer is sent, input and job are stored: the job will end succeeded, failed
 /// or cancelled, whatever happens to the service. What is of no format that the kind reads, has malformed JSON or unknown options

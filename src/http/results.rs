@@ -32,8 +32,8 @@ pub(super) async fn get_result(
 
 /// Get the report: what was done, what the result is worth, what is proven about it.
 ///
-/// `Report` of `unwrap` and `measure`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of `edit_uv`
-/// and `texture_map`.
+/// `Report` of `unwrap`, `repack` and `measure`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of
+/// `edit_uv` and `texture_map`.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/report", operation_id = "getReport", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),

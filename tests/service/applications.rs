@@ -180,6 +180,15 @@ async fn pictures_are_warped_and_uvs_are_edited() {
         assert_eq!(media_type, "model/gltf-binary");
         assert_ne!(glb, mapped);
     }
+    let repack = form(
+        "repack",
+        r#"{"padding": 8}"#,
+        ("mapped.glb", mapped.clone()),
+    );
+    let (report, _, glb) = outcome(&server, repack).await;
+    assert_eq!(report["proven"]["padding"]["asked_texels"], 8, "{report}");
+    assert_eq!(report["proven"]["padding"]["kept"], true, "{report}");
+    assert_ne!(glb, mapped);
 }
 
 #[tokio::test]
