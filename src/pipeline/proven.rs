@@ -60,7 +60,6 @@ impl Proven {
             bijective: all(Certificate::is_bijective),
             unmirrored: all(|certificate| certificate.mirrored_charts == 0),
             padding: padding(certificates.clone()),
-            // None is less than any number of bits.
             safe_bits: all(|certificate| certificate.safe_bits.is_some())
                 .then(|| certificates.clone().filter_map(|c| c.safe_bits).max())
                 .flatten(),
