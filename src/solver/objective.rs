@@ -5,7 +5,7 @@ use super::settings::Summary;
 use super::watch::{Control, Iterate, Taken, Watch};
 use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
-use crate::numerics::cholesky::NotPositiveDefinite;
+use crate::numerics::cholesky::{NotPositiveDefinite, Work};
 
 /// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when this is made.
 pub struct Objective {
@@ -237,6 +237,11 @@ impl Objective {
     /// The mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), the constraints left out.
     pub fn mean_diagonal(&self) -> f64 {
         self.model.mean_diagonal()
+    }
+
+    /// What one factorization takes.
+    pub fn work(&self) -> Work {
+        self.model.work()
     }
 
     /// The sum of the weights.

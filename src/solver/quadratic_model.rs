@@ -3,7 +3,7 @@
 use super::held::{Held, form};
 use crate::energy::{Assembly, Term};
 use crate::numerics::block::{BlockPattern, Slots};
-use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
+use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite, Work};
 
 /// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of held vertices are those of a multiple of the identity.
 pub(super) struct QuadraticModel {
@@ -135,6 +135,10 @@ impl QuadraticModel {
 
     pub fn hessian(&self) -> &[f64] {
         &self.hessian
+    }
+
+    pub fn work(&self) -> Work {
+        self.cholesky.work()
     }
 
     pub fn mean_diagonal(&self) -> f64 {

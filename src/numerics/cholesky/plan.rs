@@ -38,7 +38,7 @@ pub(super) struct Place {
 impl Plan {
     pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<Branch>) {
         let graph = Graph::new(pattern, block);
-        let order = fill_reducing_order(&graph);
+        let order = fill_reducing_order(&graph, block);
         let (order, parent) = in_postorder(&graph, &order);
         let counts = tree::column_counts(&graph.reordered(&order), &parent);
         let supernodes = supernodes(&parent, &counts, block);
