@@ -80,6 +80,22 @@ impl Objective {
         self.model.hold(vertices);
     }
 
+    /// Exchanges the terms for others with the same stencils, as where a parameter of an energy changes; the analysis stays.
+    ///
+    /// # Panics
+    /// If a stencil differs.
+    pub fn exchange(&mut self, terms: Vec<Box<dyn Term>>) {
+        let stencils = |terms: &[Box<dyn Term>]| -> Vec<_> {
+            terms.iter().map(|term| term.stencils()).collect()
+        };
+        assert!(
+            stencils(&terms) == stencils(&self.terms),
+            "terms with the same stencils"
+        );
+        self.scale = terms.iter().map(|term| term.scale()).sum();
+        self.terms = terms;
+    }
+
     /// Number of unknowns.
     pub fn n(&self) -> usize {
         self.model.gradient().len()
@@ -239,8 +255,10 @@ impl Objective {
         self.model.mean_diagonal()
     }
 
-    /// What one factorization takes.
-    pub fn work(&self) -> Work {
+    /// What one factorization takes; `None` where that is more memory than [`MOST_BYTES`], and conjugate gradients take its place.
+    ///
+    /// [`MOST_BYTES`]: crate::numerics::linear_solver::MOST_BYTES
+    pub fn work(&self) -> Option<Work> {
         self.model.work()
     }
 

@@ -3,12 +3,13 @@
 use super::held::{Held, form};
 use crate::energy::{Assembly, Term};
 use crate::numerics::block::{BlockPattern, Slots};
-use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite, Work};
+use crate::numerics::cholesky::{NotPositiveDefinite, Work};
+use crate::numerics::linear_solver::{LinearSolver, MOST_BYTES};
 
 /// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of held vertices are those of a multiple of the identity.
 pub(super) struct QuadraticModel {
     pattern: BlockPattern,
-    cholesky: Cholesky,
+    system: LinearSolver,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
     held: Held,
@@ -24,7 +25,7 @@ impl QuadraticModel {
     /// Analyzes the pattern, once.
     pub fn new(pattern: BlockPattern) -> Self {
         Self {
-            cholesky: Cholesky::analyze(pattern.scalar(), pattern.dim()),
+            system: LinearSolver::within(pattern.scalar(), pattern.dim(), MOST_BYTES),
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             held: Held::default(),
@@ -89,13 +90,14 @@ impl QuadraticModel {
         self.shift += shift;
     }
 
-    /// Factors H, solves Hd = −g and returns −½g·d.
+    /// Solves Hd = −g and returns −½g·d.
     pub fn newton_direction(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
-        self.cholesky.factor(&self.hessian)?;
+        self.system.prepare(&self.hessian)?;
         for (d, g) in direction.iter_mut().zip(&self.gradient) {
             *d = -g;
         }
-        self.cholesky.solve(direction, 1);
+        self.system
+            .solve(self.pattern.scalar(), &self.hessian, direction)?;
         let slope = dot(&self.gradient, direction);
         if slope <= 0.0 {
             Ok(-0.5 * slope)
@@ -104,12 +106,15 @@ impl QuadraticModel {
         }
     }
 
-    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side.
+    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side; as far as
+    /// the matrix is found to be positive definite.
     pub fn follow(&mut self, direction: &mut [f64], add_pull: impl FnOnce(&mut [f64])) {
-        let moves = self.held.take_moves(direction);
+        self.held.take_moves(direction);
         add_pull(direction);
-        self.cholesky.solve(direction, 1);
-        self.held.put_moves(&moves, direction);
+        let _ = self
+            .system
+            .solve(self.pattern.scalar(), &self.hessian, direction);
+        self.held.put_moves(direction);
     }
 
     /// g·d + ½d·Hd, held vertices included.
@@ -137,8 +142,8 @@ impl QuadraticModel {
         &self.hessian
     }
 
-    pub fn work(&self) -> Work {
-        self.cholesky.work()
+    pub fn work(&self) -> Option<Work> {
+        self.system.work()
     }
 
     pub fn mean_diagonal(&self) -> f64 {
