@@ -35,6 +35,8 @@ pub struct DeformReport {
     /// What the map is worth.
     #[serde(flatten)]
     pub worth: Worth,
+    /// Elements of the supplied start that were inverted and had to be untangled.
+    pub untangled: usize,
     /// The energy that minimizing without a barrier leads to from the solution, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_without_barrier: Option<f64>,
@@ -103,6 +105,7 @@ pub(super) fn solve(
         method: plan.method,
         summary: solution.summary,
         worth: solution.worth,
+        untangled: problem.untangled,
         energy_without_barrier,
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,
