@@ -84,7 +84,12 @@ fn count_disks(
             return false;
         }
         let missing = k * triangles.len() / DISKS;
-        count_disk(&format!("{file} without triangle {missing}"), &disk, positions, count);
+        count_disk(
+            &format!("{file} without triangle {missing}"),
+            &disk,
+            positions,
+            count,
+        );
     }
     true
 }
