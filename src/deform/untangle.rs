@@ -20,20 +20,21 @@ const WIDENING: usize = 3;
 /// Changes of ε at most before more vertices are let go.
 const ROUNDS: usize = 60;
 
-/// Newton steps in a round: the landscape changes with ε, so that its minima are not worth finding.
-const STEPS: usize = 5;
-
-/// Newton steps at the end.
+/// Newton steps in a round, and at the end.
+const STEPS: usize = 20;
 const LAST_STEPS: usize = 50;
 
 /// The regularized determinant of the worst element in the first round, a tenth of an ordinary element's.
 const FIRST: f64 = 0.1;
 
-/// λ: enough that no element vanishes, so little that shape comes first.
-const SIZE: f64 = 0.1;
+/// λ and the largest ε. An element that has shrunk to a point costs λ/ε, one at rest less than 1 + λ: were the first less, a body
+/// that nothing holds would vanish.
+const SIZE: f64 = 2.0;
+const LARGEST: f64 = 0.5;
 
-/// Share of the energy that a round is taken to have gained at least, so that ε falls even when it gained nothing.
-const LEAST_GAIN: f64 = 0.1;
+/// Share of the energy that a round is taken to have gained, at least and at most, so that ε falls even when nothing was gained, and
+/// not at once where all was.
+const GAINS: [f64; 2] = [0.1, 0.9];
 
 /// The elements that are inverted, empty, or of a determinant of at most `floor` where the vertices are at `x`, by their numbers.
 pub(super) fn bad_elements(body: &Body, x: &[f64], floor: f64) -> Vec<usize> {
@@ -161,10 +162,10 @@ impl Patch {
                 descend(&mut objective, &mut own, LAST_STEPS);
                 break;
             }
-            // The ε with which the worst element's regularized determinant is `worst`.
-            let epsilon = 2.0 * (worst * (worst - smallest)).sqrt();
+            // With this ε the worst element's regularized determinant is `worst`.
+            let epsilon = (2.0 * (worst * (worst - smallest)).sqrt()).min(LARGEST);
             objective.exchange(vec![self.term(epsilon)]);
-            let gain = descend(&mut objective, &mut own, STEPS).max(LEAST_GAIN);
+            let gain = descend(&mut objective, &mut own, STEPS).clamp(GAINS[0], GAINS[1]);
             worst = (1.0 - gain) * density(epsilon).regularized(objective.smallest(&own));
         }
         for (i, own) in self.coordinates().zip(own) {
