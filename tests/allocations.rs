@@ -94,17 +94,13 @@ fn allocations(body: Body, n_threads: usize) -> Vec<usize> {
 #[test]
 fn iterations_allocate_nothing() {
     for n_threads in [1, 2] {
-        for (name, body, most) in [
-            ("sheet", sheet(100), 0),
-            ("block", block(5), 0),
-            // Fronts of more than 320 rows: faer's products take buffers for the factors that they pack.
-            ("large block", block(10), 4),
-        ] {
+        // The block has fronts of more than 320 rows, which go through faer's products.
+        for (name, body) in [("sheet", sheet(100)), ("block", block(10))] {
             let counts = allocations(body, n_threads);
             assert!(counts.len() > 5, "{name}: {} iterations", counts.len());
             // The first iteration may fill what is kept from then on.
             assert!(
-                counts[1..].iter().all(|&n| n <= most),
+                counts[1..].iter().all(|&n| n == 0),
                 "{name}, {n_threads} threads: {counts:?}"
             );
         }

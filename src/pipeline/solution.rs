@@ -42,7 +42,7 @@ pub struct DeformReport {
     pub energy_without_barrier: Option<f64>,
     /// The smallest size of an element over its rest size, over all iterates.
     pub smallest_ever: f64,
-    /// Seconds of reading and checking.
+    /// Seconds of reading and checking, of a large cage with those of the coarser ones it starts from.
     pub setup_seconds: f64,
     /// Seconds of everything after that, but for writing.
     pub solve_seconds: f64,

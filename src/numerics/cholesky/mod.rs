@@ -10,7 +10,7 @@
 //! (`scatter`). The numbers are `branch`, `dense`, `kernels` and `solve`.
 //!
 //! Subtrees are factored in parallel. Every sum is ordered by the tree, so the result does not depend on the number of threads.
-//! Nothing is allocated after the analysis, but for the buffers in which faer's products pack large factors. On one thread it takes 0.7 to 0.8 of the processor time of faer's supernodal
+//! Nothing is allocated after the analysis. On one thread it takes 0.7 to 0.8 of the processor time of faer's supernodal
 //! factorization, which is the reference of its tests, up to 100,000 unknowns, and 0.43 at 363,000, where the order is another.
 //!
 //! From: Duff and Reid 1983, The Multifrontal Solution of Indefinite Sparse Symmetric Linear Equations; Liu 1992, The
