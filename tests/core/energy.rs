@@ -142,7 +142,7 @@ fn taylor_foldover_free() {
         assert_space_taylor(of(epsilon), Barrier::NONE);
     }
     let mirrored = |x: &[f64], dim: usize| -> Vec<f64> {
-        let sign = |i: usize| if i % dim == 0 { -1.0 } else { 1.0 };
+        let sign = |i: usize| if i.is_multiple_of(dim) { -1.0 } else { 1.0 };
         x.iter().enumerate().map(|(i, x)| sign(i) * x).collect()
     };
     let plane = Triangles::new(&TRIANGLES, &plane_rest(), of(0.3), NoBarrier);
