@@ -10,7 +10,7 @@ use super::progress::Display;
 use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, QUALITIES, word};
 use crate::barrier::BarrierKind;
 use crate::charts::{Cut, Quality};
-use crate::document::GroupBy;
+use crate::document::{GroupBy, WriteNotes};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
@@ -75,6 +75,12 @@ pub(super) struct Args {
     /// Replace the UV set even if textures sample it
     #[arg(long)]
     overwrite: bool,
+    /// Resample the textures for the new UVs, which then replace set 0 unless `--texcoord` names another
+    #[arg(long)]
+    rebake: bool,
+    /// Side of the resampled textures in texels [default: `--resolution`, or more where the surface would have fewer texels]
+    #[arg(long, value_name = "TEXELS")]
+    bake_size: Option<u32>,
     /// Side of the texture in texels
     #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
     resolution: u32,
@@ -124,6 +130,8 @@ impl Args {
             group_by: self.group_by,
             texcoord: self.texcoord,
             overwrite: self.overwrite,
+            rebake: self.rebake,
+            bake_size: self.bake_size,
             resolution: self.resolution,
             padding: self.padding,
             quantization_safe: self.quantization_safe,
@@ -178,10 +186,32 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
+/// A line per texture that is not right any more, or could not be resampled.
+fn warn_of_textures(written: &WriteNotes) {
+    let of = |material: Option<usize>| {
+        material.map_or("a primitive".into(), |m| format!("material {m}"))
+    };
+    for texture in &written.textures_affected {
+        let (of, slot) = (of(texture.material), &texture.slot);
+        say(format_args!(
+            "warning: {slot} of {of} shows the old layout; see --rebake"
+        ));
+    }
+    for kept in &written.textures_kept {
+        let (of, slot, reason) = (of(kept.material), &kept.slot, &kept.reason);
+        say(format_args!(
+            "warning: {slot} of {of} stays with its UVs: {reason}"
+        ));
+    }
+}
+
 /// A line per atlas, and what is certified.
 pub(super) fn summarize(outcome: &Outcome) {
     for group in &outcome.report.groups {
         super::measure::print_group(group);
+    }
+    if let Some(written) = &outcome.report.written {
+        warn_of_textures(written);
     }
     let certified = if outcome.report.certified {
         "certified"

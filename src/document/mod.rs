@@ -7,6 +7,7 @@
 //! This module does no input or output of its own. An [`Upload`] carries the main file and every file it may refer to;
 //! a URI that is neither data nor a member of the upload is an error, never an open file or a connection. Every input is
 //! taken to be hostile: counts are believed only as far as bytes back them, and every failure is a [`DocumentError`].
+mod bake;
 mod error;
 pub mod gltf;
 mod group;
@@ -25,6 +26,10 @@ mod uvs;
 
 use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
+pub use bake::{
+    BakePlan, BakePlane, BakedTexture, BakedTextures, CornerTangents, Encoding, KeptTexture,
+    TextureSource, Wrap,
+};
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
@@ -134,11 +139,21 @@ impl Document {
 
     /// The document with `uvs` as a UV set.
     pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
+        self.write_baked(uvs, options, None)
+    }
+
+    /// The document with `uvs` as a UV set and with textures made for it; only those of glTF are known.
+    pub fn write_baked(
+        &self,
+        uvs: &NewUvs,
+        options: &WriteOptions,
+        baked: Option<&BakedTextures>,
+    ) -> Result<Written, DocumentError> {
         uvs.check(self.primitives())?;
         match (self, options.format) {
             (Self::Obj(document), _) => document.write(uvs, options),
             (_, OutputFormat::Obj) => new_obj::write(self.primitives(), uvs, options),
-            (Self::Gltf(document), _) => document.write(uvs, options),
+            (Self::Gltf(document), _) => document.write(uvs, options, baked),
             (Self::Soup(document), _) => document.write(uvs, options),
         }
     }

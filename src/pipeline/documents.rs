@@ -7,11 +7,12 @@ use super::merged::Merged;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
+use super::rebake::rebaked;
 use super::report::{AtlasReport, GroupReport, Report, Seconds};
 use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
 use crate::document::{
-    Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+    Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload, WriteOptions,
 };
 use crate::measure::VAxis;
 
@@ -63,8 +64,23 @@ fn unwrap_in_pool(
     let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
     seconds.unwrap = watch.lap();
 
+    let uvs = new_uvs(&document, &groups, &atlases);
+    let baked = if options.rebake {
+        tracker.stage(Stage::Bake);
+        Some(rebaked(&document, &groups, &uvs, options)?)
+    } else {
+        None
+    };
+    seconds.bake = watch.lap();
+
     tracker.stage(Stage::Write);
-    let written = write(&document, &groups, &atlases, upload, options)?;
+    let write_options = WriteOptions {
+        format: options.format,
+        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
+        texcoord: options.texcoord,
+        overwrite: options.overwrite,
+    };
+    let written = document.write_baked(&uvs, &write_options, baked.as_ref())?;
     seconds.write = watch.lap();
 
     tracker.stage(Stage::Judge);
@@ -101,13 +117,8 @@ fn group_by(options: &Options) -> GroupBy {
     }
 }
 
-fn write(
-    document: &Document,
-    groups: &[Group],
-    atlases: &[Unwrapped],
-    upload: &Upload,
-    options: &Options,
-) -> Result<Written, PipelineError> {
+/// The atlases as UVs of the document.
+fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped]) -> NewUvs {
     let primitives = document.primitives();
     let mut corners = vec![None; primitives.len()];
     for (group, atlas) in groups.iter().zip(atlases) {
@@ -118,20 +129,11 @@ fn write(
             rest = others;
         }
     }
-    let options = WriteOptions {
-        format: options.format,
-        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
-        texcoord: options.texcoord,
-        overwrite: options.overwrite,
-    };
-    Ok(document.write(
-        &NewUvs {
-            layout: Layout::New,
-            v_axis: VAxis::Up,
-            corners,
-        },
-        &options,
-    )?)
+    NewUvs {
+        layout: Layout::New,
+        v_axis: VAxis::Up,
+        corners,
+    }
 }
 
 /// Exact in f32.

@@ -55,6 +55,8 @@ mod planar_map;
 #[cfg(feature = "files")]
 mod proven;
 #[cfg(feature = "files")]
+mod rebake;
+#[cfg(feature = "files")]
 mod repack;
 #[cfg(feature = "files")]
 mod report;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::settings::{KeptMaps, PackingMode, Settings};
+use super::settings::{KeptMaps, PackingMode, Settings, within};
 use super::{Limits, PipelineError};
 use crate::barrier::BarrierKind;
 use crate::certificate::{Claims, Overlap, Padding};
@@ -81,6 +81,13 @@ pub struct Options {
     pub texcoord: Option<u32>,
     /// Replace the UV set even if textures sample it.
     pub overwrite: bool,
+    /// Resample the textures of the materials for the new UVs, which then replace set 0 unless `texcoord` names another. Textures
+    /// that cannot be read or are of an unknown kind stay, and so do the UVs that they sample; the report lists them.
+    pub rebake: bool,
+    /// Texels along the sides of resampled textures. If absent, `resolution`, or the power of two up to 4096 at which the surface has
+    /// as many texels as it had, whichever is more.
+    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 8192))]
+    pub bake_size: Option<u32>,
     /// Texels along the side of the texture that `padding` is counted in.
     #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
     pub resolution: u32,
@@ -133,6 +140,8 @@ impl Default for Options {
             group_by: GroupBy::Mesh,
             texcoord: None,
             overwrite: false,
+            rebake: false,
+            bake_size: None,
             resolution: settings.resolution,
             padding: settings.padding,
             quantization_safe: settings.quantization_safe,
@@ -198,6 +207,15 @@ impl Options {
         if self.cut == Cut::Seams && self.seams.is_none() {
             return Err("cut seams needs seams".to_owned());
         }
+        if self.rebake && self.format == OutputFormat::Obj {
+            return Err("rebake writes glTF, not OBJ".to_owned());
+        }
+        within(
+            "bake_size",
+            f64::from(self.bake_size.unwrap_or(16)),
+            16.0,
+            8192.0,
+        )?;
         match self.texcoord {
             Some(set) if set > MAX_TEXCOORD => Err(format!(
                 "texcoord must lie between 0 and {MAX_TEXCOORD}, not {set}"

@@ -2,6 +2,7 @@
 mod build;
 mod invalid;
 mod moved;
+mod rebake;
 mod roundtrip;
 mod survive;
 mod texcoord;
