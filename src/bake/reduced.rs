@@ -1,15 +1,17 @@
-//! Textures that are much finer than what is made of them.
+//! Textures that repeat, and are much finer than what is made of them.
 
 use std::borrow::Cow;
 
 use super::colour::{decoded, encoded};
 use super::coverage::Coverage;
-use super::size::texel_length;
+use super::size::Areas;
 use super::{Plane, Texture};
 use crate::picture::Image;
 
 /// Texels of a source to one of the target, along a side, from which the source is halved.
 const FINE: f64 = 4.0;
+/// How often a texture is shown from which on it has no borders of charts that halving could mix.
+const REPEATS: f64 = 2.0;
 
 /// A texture at a size that suits the target.
 pub(super) struct Reduced<'a> {
@@ -20,7 +22,7 @@ pub(super) struct Reduced<'a> {
 }
 
 impl<'a> Reduced<'a> {
-    /// Texture `number` of a plane, halved as often as its faces do not need it finer and its sides are even.
+    /// Texture `number` of a plane; one that repeats is halved as often as its faces do not need it finer and its sides are even.
     pub fn new(plane: &Plane<'a>, number: usize, coverage: &Coverage) -> Self {
         let texture = plane.textures[number];
         let faces = (0..).zip(&plane.faces).filter_map(|(face, sampled)| {
@@ -28,10 +30,13 @@ impl<'a> Reduced<'a> {
             let is_own = sampled.texture as usize == number;
             is_own.then(|| (&sampled.corners, coverage.corners(face)))
         });
-        let length = texel_length(faces);
+        let areas = Areas::of(faces);
+        let [width, height] = texture.size();
+        let repeats = 0.5 * areas.sources >= REPEATS * width * height;
         let mut image = Cow::Borrowed(texture.image);
         let mut scale = 1.0;
-        while length * scale >= FINE
+        while repeats
+            && areas.length() * scale >= FINE
             && image.width.is_multiple_of(2)
             && image.height.is_multiple_of(2)
         {

@@ -28,13 +28,6 @@ impl Triangle {
         })
     }
 
-    /// Twice the area.
-    pub fn doubled_area(&self) -> f64 {
-        let [a, b, c] = self.corners;
-        let (e, f) = (difference(b, a), difference(c, a));
-        (e[0] * f[1] - e[1] * f[0]).abs()
-    }
-
     /// The weights at a place, negative ones outside.
     pub fn weights(&self, at: [f64; 2]) -> Barycentric {
         let d = difference(at, self.corners[0]);
@@ -67,9 +60,12 @@ pub(super) fn nearest_on_edges(corners: &Corners, at: [f64; 2]) -> (Barycentric,
         let edge = difference(corners[next], corners[k]);
         let d = difference(at, corners[k]);
         let length2 = edge[0] * edge[0] + edge[1] * edge[1];
-        let along = (d[0] * edge[0] + d[1] * edge[1]) / length2;
-        // A point of an edge without length is its start; `max` takes the number of two where one is none.
-        let t = along.max(0.0).min(1.0);
+        let along = d[0] * edge[0] + d[1] * edge[1];
+        let t = if length2 > 0.0 {
+            (along / length2).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         let off = [d[0] - t * edge[0], d[1] - t * edge[1]];
         let distance2 = off[0] * off[0] + off[1] * off[1];
         if distance2 < nearest.1 {

@@ -7,14 +7,16 @@ use super::files::{
     json, output_format, read_file, read_upload, say, write_atomically, write_outputs,
 };
 use super::progress::Display;
-use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, QUALITIES, word};
+use super::words::{
+    BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, PRESETS, QUALITIES, word,
+};
 use crate::barrier::BarrierKind;
 use crate::charts::{Cut, Quality};
 use crate::document::{GroupBy, WriteNotes};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
-    self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode,
+    self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode, Preset,
 };
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
@@ -25,6 +27,9 @@ pub(super) struct Args {
     /// Where to write; .glb, .gltf or .obj decides the format
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    /// What the UVs are for; `lightmap`: one atlas of the scene in set 1, a part of it for each node, charts that end at texels
+    #[arg(long, default_value = "material", value_parser = word::<Preset>(PRESETS))]
+    preset: Preset,
     /// Distortion energy to minimize
     #[arg(long, default_value = "symmetric-dirichlet", value_parser = word::<EnergyKind>(ENERGIES))]
     energy: EnergyKind,
@@ -87,6 +92,9 @@ pub(super) struct Args {
     /// Least distance of two charts in texels
     #[arg(long, default_value_t = 2, value_name = "TEXELS")]
     padding: u32,
+    /// Mip levels beyond the first in which charts keep the padding, in texels of each [default: 0; lightmap: 2]
+    #[arg(long, default_value_t = 0, hide_default_value = true, value_name = "N")]
+    mips: u32,
     /// Keep the map bijective when tools round texture coordinates to 12, 14 or 16 bits: opens thin triangles and narrow gaps
     #[arg(long, value_name = "BITS")]
     quantization_safe: Option<u32>,
@@ -113,6 +121,7 @@ pub(super) struct Args {
 impl Args {
     fn options(&self) -> Result<Options, Failure> {
         Ok(Options {
+            preset: self.preset,
             energy: self.energy,
             barrier: self.barrier,
             barrier_strength: self.barrier_strength,
@@ -134,6 +143,7 @@ impl Args {
             bake_size: self.bake_size,
             resolution: self.resolution,
             padding: self.padding,
+            mips: self.mips,
             quantization_safe: self.quantization_safe,
             threads: self.threads,
             time_budget: self.time_budget,

@@ -115,6 +115,22 @@ impl Document {
         }
     }
 
+    /// The document with a mesh for every node that shows one; other files know no nodes.
+    pub fn with_separate_meshes(self) -> Result<Self, DocumentError> {
+        match self {
+            Self::Gltf(document) => document.with_separate_meshes().map(Self::Gltf),
+            other => Ok(other),
+        }
+    }
+
+    /// The primitives where the first node that shows them has them; mirrored ones are mirrored back.
+    pub fn primitives_in_scene(&self) -> Result<Vec<Primitive>, DocumentError> {
+        match self {
+            Self::Gltf(document) => document.primitives_in_scene(),
+            other => Ok(other.primitives().to_vec()),
+        }
+    }
+
     /// The document with the triangles of each primitive cut into pieces; what vertices have beside positions is interpolated.
     pub fn subdivided(self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
         Subdivision::check(cuts, self.primitives())?;

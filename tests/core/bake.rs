@@ -65,7 +65,7 @@ fn colourful(side: usize) -> Image {
             (17 * x + 40 * y) as u8,
             (91 * x) as u8,
             (53 * y + x) as u8,
-            (255 - 3 * x) as u8,
+            (3 * (x % 80)) as u8,
         ]
     })
 }
@@ -151,6 +151,21 @@ fn what_gets_smaller_is_averaged_in_linear_light() {
         for texel in &result.pixels {
             assert!((i32::from(texel[0]) - wanted).abs() <= 1, "{texel:?}");
         }
+    }
+}
+
+/// A grey of many repeats, each of which is smaller than a texel.
+#[test]
+fn what_repeats_often_is_averaged_too() {
+    let source = image(64, 64, |x, y| {
+        let value = 255 * u8::from(x / 4 % 2 == y / 4 % 2);
+        [value, value, value, 255]
+    });
+    let from = rectangle(corners([0.0; 2], [40.0; 2]));
+    let texture = texture(&source, Encoding::Colour, Wrap::Repeat);
+    let result = resampled(texture, &from, &unit_square(), 16);
+    for texel in &result.pixels {
+        assert!((i32::from(texel[0]) - 188).abs() <= 2, "{texel:?}");
     }
 }
 

@@ -196,15 +196,12 @@ fn joined(planes: &mut Vec<BakePlane>, first: usize, wanted: BakePlane) -> usize
             && wanted.sources.iter().all(agrees)
             && (shares_name || wanted.sources.keys().any(|p| plane.sources.contains_key(p)))
     };
-    match planes[first..].iter().position(takes) {
-        Some(found) => {
-            planes[first + found].sources.extend(wanted.sources);
-            first + found
-        }
-        None => {
-            planes.push(wanted);
-            planes.len() - 1
-        }
+    if let Some(found) = planes[first..].iter().position(takes) {
+        planes[first + found].sources.extend(wanted.sources);
+        first + found
+    } else {
+        planes.push(wanted);
+        planes.len() - 1
     }
 }
 

@@ -24,6 +24,7 @@ mod primitives;
 mod references;
 mod rewrite;
 mod sampling;
+mod scene;
 mod split;
 mod subdivide;
 mod tangents;
@@ -227,6 +228,27 @@ impl GltfDocument {
         self.body = body;
         (self.primitives, self.used) = primitives::collect(&self.body)?;
         Ok(self)
+    }
+
+    /// The document with a mesh for every node that shows one.
+    pub fn with_separate_meshes(mut self) -> Result<Self, DocumentError> {
+        scene::separate_meshes(&mut self.body.json)?;
+        (self.primitives, self.used) = primitives::collect(&self.body)?;
+        Ok(self)
+    }
+
+    /// The primitives where the first node that shows them has them; mirrored ones are mirrored back.
+    pub fn primitives_in_scene(&self) -> Result<Vec<Primitive>, DocumentError> {
+        let placements = scene::placements(&self.body.json)?;
+        let placed = |primitive: &Primitive| {
+            let placement = &placements[primitive.mesh];
+            let positions = primitive.positions.iter();
+            Primitive {
+                positions: positions.map(|p| scene::placed(placement, *p)).collect(),
+                ..primitive.clone()
+            }
+        };
+        Ok(self.primitives.iter().map(placed).collect())
     }
 
     /// The document with its triangles where a map carries them.

@@ -3,7 +3,7 @@
 
 const byId = (id) => document.getElementById(id);
 const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
-const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "padding", "packing", "texcoord", "overwrite", "rebake", "bake_size", "heatmap_measure", "format", "time_budget"];
+const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "heatmap_measure", "format", "time_budget"];
 
 let job = null;
 

@@ -1,6 +1,7 @@
 //! glTF read and written.
 mod build;
 mod invalid;
+mod lightmap;
 mod moved;
 mod rebake;
 mod roundtrip;
