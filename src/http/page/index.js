@@ -5,7 +5,7 @@ import { short, summary } from "./report.js";
 
 const byId = (id) => document.getElementById(id);
 const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
-const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "padding", "packing", "texcoord", "overwrite", "heatmap_measure", "format", "time_budget"];
+const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "heatmap_measure", "format", "time_budget"];
 
 let job = null;
 
