@@ -115,6 +115,8 @@
 //!   atlas gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
 //! - The default energy is the symmetric Dirichlet energy, in which the bound is stated: at the bound of 4.1 it needs half the
 //!   charts that ARAP needs (2 against 13 on a closed surface with four handles), and folds over itself less often.
+//! - A lightmap needs a region for each instance, and glTF has no offset and scale of UVs per node: each node gets its own copy of
+//!   the mesh, which every engine reads.
 //! - A chart of which floating point finds no valid map is cut into halves, even where one chart per component was asked
 //!   for: a valid atlas with a seam more is worth more than none.
 //!

@@ -9,12 +9,13 @@ function words(value) {
 }
 
 // What is proven of the UVs written.
-function proofs({ locally_injective, bijective, unmirrored, padding, safe_bits, bits }) {
+function proofs({ locally_injective, bijective, unmirrored, padding, aligned, safe_bits, bits }) {
   return [
     ["no face flipped or degenerate", words(locally_injective)],
     ["no faces overlap", words(bijective)],
     ["no chart mirrored", words(unmirrored)],
     ...(padding ? [[`charts ${padding.asked_texels} texels apart at ${padding.resolution}`, `${words(padding.kept)} (nearest ${short(padding.reached_texels)})`]] : []),
+    ...(aligned == null ? [] : [["chart edges on texels", words(aligned)]]),
     ...(bits ? [[`holds at ${bits.asked} bits`, words(bits.hold)]] : safe_bits ? [["holds at", `${safe_bits} bits`]] : []),
   ];
 }
