@@ -207,6 +207,26 @@ impl Objective {
         (self.model.pattern(), self.model.hessian())
     }
 
+    /// Factors the Hessian of the last [`linearize`](Self::linearize); the factor stays until the next one.
+    pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
+        self.model.factor()
+    }
+
+    /// Replaces a vector by its product with the inverse of the matrix that was factored last.
+    pub fn precondition(&mut self, vector: &mut [f64]) {
+        self.model.precondition(vector);
+    }
+
+    /// The product of the Hessian of the last [`linearize`](Self::linearize) with `vector`.
+    pub fn apply_hessian(&self, vector: &[f64], product: &mut [f64]) {
+        self.model.apply(vector, product);
+    }
+
+    /// d·Hd of the last [`linearize`](Self::linearize).
+    pub fn curvature(&self, direction: &[f64]) -> f64 {
+        self.model.curvature(direction)
+    }
+
     /// Solves Hd = −g of the last [`linearize`](Self::linearize) and returns the Newton decrement −½g·d, positive.
     ///
     /// Cost: one factorization, one solve.

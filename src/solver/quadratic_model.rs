@@ -89,13 +89,23 @@ impl QuadraticModel {
         self.shift += shift;
     }
 
+    /// Factors H.
+    pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
+        self.cholesky.factor(&self.hessian)
+    }
+
+    /// Solves with the factor.
+    pub fn precondition(&mut self, vector: &mut [f64]) {
+        self.cholesky.solve(vector, 1);
+    }
+
     /// Factors H, solves Hd = −g and returns −½g·d.
     pub fn newton_direction(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
-        self.cholesky.factor(&self.hessian)?;
+        self.factor()?;
         for (d, g) in direction.iter_mut().zip(&self.gradient) {
             *d = -g;
         }
-        self.cholesky.solve(direction, 1);
+        self.precondition(direction);
         let slope = dot(&self.gradient, direction);
         if slope <= 0.0 {
             Ok(-0.5 * slope)
@@ -114,6 +124,12 @@ impl QuadraticModel {
 
     /// g·d + ½d·Hd, held vertices included.
     pub fn change(&self, direction: &[f64]) -> f64 {
+        let cleared = self.held.model_change(self.stand_in(), direction);
+        dot(&self.gradient, direction) + 0.5 * self.curvature(direction) + cleared
+    }
+
+    /// d·Hd.
+    pub fn curvature(&self, direction: &[f64]) -> f64 {
         let pattern = self.pattern.scalar();
         let mut quadratic = 0.0;
         for j in 0..pattern.n {
@@ -121,8 +137,14 @@ impl QuadraticModel {
                 quadratic += self.hessian[slot] * form(direction, pattern.row_idx[slot], j);
             }
         }
-        let cleared = self.held.model_change(self.stand_in(), direction);
-        dot(&self.gradient, direction) + 0.5 * quadratic + cleared
+        quadratic
+    }
+
+    /// Hv.
+    pub fn apply(&self, vector: &[f64], product: &mut [f64]) {
+        self.pattern
+            .scalar()
+            .multiply(&self.hessian, vector, product);
     }
 
     pub fn pattern(&self) -> &BlockPattern {
