@@ -45,6 +45,8 @@ pub(super) fn minimize_with(
     if objective.show(x, &summary, Taken::default(), watch) == Control::Finish {
         return summary.ended(Status::Stopped);
     }
+    // After the start was shown: who only wants a valid map, or has no time left, does not wait for it.
+    objective.prepare();
     while summary.iterations < settings.max_iterations {
         let energy = summary.energy_last;
         let negligible = settings.tolerance * objective.reference(energy);

@@ -7,7 +7,8 @@ use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
 use crate::numerics::cholesky::NotPositiveDefinite;
 
-/// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when this is made.
+/// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when a factorization is first
+/// wanted.
 pub struct Objective {
     terms: Vec<Box<dyn Term>>,
     constraints: Option<Positional>,
@@ -205,6 +206,11 @@ impl Objective {
     /// The Hessian's lower triangle at the last [`linearize`](Self::linearize), shifted, and its pattern.
     pub fn hessian(&self) -> (&BlockPattern, &[f64]) {
         (self.model.pattern(), self.model.hessian())
+    }
+
+    /// Does the analysis that the first factorization would do, and allocates all that factoring and solving will need.
+    pub fn prepare(&mut self) {
+        self.model.prepare();
     }
 
     /// Factors the Hessian of the last [`linearize`](Self::linearize); the factor stays until the next one.

@@ -8,7 +8,8 @@ use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
 /// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of held vertices are those of a multiple of the identity.
 pub(super) struct QuadraticModel {
     pattern: BlockPattern,
-    cholesky: Cholesky,
+    /// None until it is needed.
+    cholesky: Option<Cholesky>,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
     held: Held,
@@ -21,10 +22,10 @@ pub(super) struct QuadraticModel {
 const SHIFT: f64 = 1e-7;
 
 impl QuadraticModel {
-    /// Analyzes the pattern, once.
+    /// With this pattern, of nothing yet.
     pub fn new(pattern: BlockPattern) -> Self {
         Self {
-            cholesky: Cholesky::analyze(pattern.scalar(), pattern.dim()),
+            cholesky: None,
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             held: Held::default(),
@@ -89,14 +90,27 @@ impl QuadraticModel {
         self.shift += shift;
     }
 
+    /// Orders and analyzes the pattern and reserves the memory of the factor, once. Returns the Hessian with it.
+    pub fn prepare(&mut self) -> (&mut Cholesky, &[f64]) {
+        let Self {
+            cholesky,
+            pattern,
+            hessian,
+            ..
+        } = self;
+        let analyze = || Cholesky::analyze(pattern.scalar(), pattern.dim());
+        (cholesky.get_or_insert_with(analyze), hessian)
+    }
+
     /// Factors H.
     pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
-        self.cholesky.factor(&self.hessian)
+        let (cholesky, hessian) = self.prepare();
+        cholesky.factor(hessian)
     }
 
     /// Solves with the factor.
     pub fn precondition(&mut self, vector: &mut [f64]) {
-        self.cholesky.solve(vector, 1);
+        self.prepare().0.solve(vector, 1);
     }
 
     /// Factors H, solves Hd = −g and returns −½g·d.
@@ -118,7 +132,7 @@ impl QuadraticModel {
     pub fn follow(&mut self, direction: &mut [f64], add_pull: impl FnOnce(&mut [f64])) {
         let moves = self.held.take_moves(direction);
         add_pull(direction);
-        self.cholesky.solve(direction, 1);
+        self.precondition(direction);
         self.held.put_moves(&moves, direction);
     }
 

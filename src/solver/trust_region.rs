@@ -75,7 +75,7 @@ pub enum End {
     Radius,
     /// At the radius, along negative curvature.
     NegativeCurvature,
-    /// After [`MOST_PRODUCTS`].
+    /// After as many products as are made for one direction.
     Limit,
 }
 

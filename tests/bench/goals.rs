@@ -76,6 +76,7 @@ fn factorizations() {
             unwrapd::barrier::NoBarrier,
         );
         let mut objective = Objective::new(disk.n_vertices, Box::new(term));
+        objective.prepare();
         let set_up = clock.seconds();
         let start = unwrapd::embed::start(&disk, &positions);
         objective.linearize(start.as_flattened(), 0.0);
