@@ -70,6 +70,10 @@
     feature = "files",
     doc = "| [`picture`] | UV layouts and distortion as PNG, pictures with transparency |"
 )]
+#![cfg_attr(
+    feature = "files",
+    doc = "| [`bake`] | textures resampled from one UV map of a surface to another |"
+)]
 //! | [`deform`] | bodies of the plane and of space pulled by handles; from pictures, drawings and surfaces in cages |
 //! | [`pipeline`] | every application as a function from arrays or a file's bytes to files' bytes and a report |
 #![cfg_attr(
@@ -159,6 +163,9 @@ pub mod measure;
 pub mod document;
 #[cfg(feature = "files")]
 pub mod picture;
+
+#[cfg(feature = "files")]
+pub mod bake;
 
 pub mod deform;
 

@@ -49,7 +49,7 @@ fn raster(n_charts: usize) -> u32 {
 pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f64 {
     // The smallest charts, with their padding, take at most half of the square.
     let most = (cells / (2.0 * n_charts as f64).sqrt() - 2.0).max(0.0);
-    let wanted = f64::from(options.padding_texels) * cells / f64::from(options.resolution.max(1));
+    let wanted = f64::from(options.packed_texels()) * cells / f64::from(options.resolution.max(1));
     wanted.min(most)
 }
 

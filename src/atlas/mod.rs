@@ -13,6 +13,7 @@
 //!
 //! Charts are never mirrored. None is scaled against the others, except those so small (below a
 //! texel) that the grid has fewer than a handful of cells for each of their triangles.
+mod align;
 mod arrangement;
 mod attempt;
 mod bitmap;
@@ -59,6 +60,17 @@ pub enum Turns {
     Quarters,
 }
 
+/// Where charts may end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Borders {
+    /// Anywhere.
+    #[default]
+    Free,
+    /// The bounding rectangle of each chart on borders of texels; charts are widened for it by less than a texel to each side. The
+    /// resolution is a power of two.
+    OnTexels,
+}
+
 /// How the atlas is laid out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtlasOptions {
@@ -68,6 +80,8 @@ pub struct AtlasOptions {
     pub padding_texels: u32,
     /// How charts may be turned.
     pub turns: Turns,
+    /// Where charts may end.
+    pub borders: Borders,
     /// Words that the search for the best order, angles and scale may read, about 3·10⁸ a second; a layout is found in any case.
     pub search_words: u64,
 }
@@ -78,7 +92,18 @@ impl Default for AtlasOptions {
             resolution: 1024,
             padding_texels: 2,
             turns: Turns::Any,
+            borders: Borders::Free,
             search_words: 500_000_000,
+        }
+    }
+}
+
+impl AtlasOptions {
+    /// The padding that charts are packed with, in texels.
+    fn packed_texels(&self) -> u32 {
+        match self.borders {
+            Borders::Free => self.padding_texels,
+            Borders::OnTexels => self.padding_texels + align::ROOM_TEXELS,
         }
     }
 }

@@ -1,13 +1,14 @@
 //! From chart maps to their places on the grid.
 use rayon::prelude::*;
 
+use super::align::align;
 use super::draft::Draft;
 use super::layout::{self, Layout, SLACK};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
 use super::sheet::Spot;
 use super::snap::{self, Snapped};
-use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, Placed, doubled_area};
+use super::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Placed, doubled_area};
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
@@ -48,7 +49,11 @@ pub fn pack_draft(
             }
         }
         if settled {
-            return Ok(atlas(charts, &layout, &slack, snapped));
+            let mut atlas = atlas(charts, &layout, &slack, snapped);
+            if options.borders == Borders::OnTexels {
+                align(&mut atlas, charts, options.resolution);
+            }
+            return Ok(atlas);
         }
         layout = layout::layout(&plan, &slack, options).ok_or(too_many.clone())?;
     }

@@ -41,6 +41,8 @@ pub struct Claims {
     pub overlap: Overlap,
     /// The distance of charts to judge.
     pub padding: Option<Padding>,
+    /// Texels along the side of the unit square at whose borders charts shall end.
+    pub aligned: Option<u32>,
     /// The bits that the map shall hold at.
     pub bits: Option<u32>,
     /// Where v points, which tells mirrored charts.

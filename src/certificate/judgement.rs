@@ -1,6 +1,7 @@
 //! The certificate and the rules by which it is given.
 
 use super::CornerUvs;
+use super::alignment::unaligned_charts;
 use super::bits::{BitsVerdict, coarsest_safe_bits, judge_bits};
 use super::boundary::ChartBoundary;
 use super::box_tree::Visit;
@@ -51,6 +52,8 @@ pub struct Certificate {
     pub safe_bits: Option<u32>,
     /// Whether charts keep the distance asked for; null when not asked or overlaps were not tested.
     pub padding: Option<PaddingVerdict>,
+    /// Charts whose bounding rectangle does not end where texels end; null when not asked.
+    pub unaligned_charts: Option<usize>,
     /// Whether the map holds at the bits asked for; null when not asked or overlaps were not tested.
     pub bits: Option<BitsVerdict>,
     /// The first few faces that are flipped, degenerate or cannot be judged.
@@ -88,6 +91,8 @@ pub fn certify(
     let topology = UvTopology::new(positions, triangles, uvs);
     let mut certificate = judge_faces(&topology);
     certificate.mirrored_charts = topology.mirrored_charts(claims.v_axis);
+    certificate.unaligned_charts =
+        (claims.aligned).map(|texels| unaligned_charts(&topology, texels));
     if claims.overlap == Overlap::Test {
         judge_pairs(&topology, &mut certificate);
         judge_distances(&topology, claims, &mut certificate);

@@ -22,6 +22,7 @@
 //! it to fewer bits ([`Certificate::bits`]), is decided on the edges of charts, in integers. Numbers that are no multiples of 2⁻⁴⁰ are
 //! cut to one, and the doubt counts against the map.
 
+mod alignment;
 mod bits;
 mod boundary;
 mod box_tree;

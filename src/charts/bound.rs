@@ -203,7 +203,9 @@ impl Piece {
             (None, None) => return false,
         };
         let is_cut = slits.cut(is_far);
-        self.excess = self.ratio * slits.excess;
+        if is_cut {
+            self.excess = self.ratio * slits.excess;
+        }
         is_cut
     }
 

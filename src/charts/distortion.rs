@@ -1,28 +1,34 @@
 //! What a map costs of the distortion budget.
 
 use super::MappedChart;
-use crate::barrier::{Barrier, BarrierKind, MapEnergy, map_energy};
 use crate::embed::rest_shapes;
-use crate::energy::EnergyKind;
+use crate::energy::{Density, RestShape, SymmetricDirichlet};
+use crate::numerics::square::{Square, times};
+use crate::numerics::vec2::{doubled_area, sub};
+
+/// Beyond this a face cannot be called more distorted. One that is squeezed to nothing in floating point would outweigh all the
+/// others, which a seam elsewhere does not change.
+const LARGEST: f64 = 1e6;
 
 /// By how much the symmetric Dirichlet energy of a map exceeds its minimum of 4 per area, summed over the area, and that area.
 pub fn excess_and_area(mapped: &MappedChart) -> [f64; 2] {
     let triangles = &mapped.chart.disk.triangles;
     let rest = rest_shapes(&mapped.chart.positions, triangles);
-    let energy = MapEnergy {
-        energy: EnergyKind::SymmetricDirichlet,
-        barrier: Barrier {
-            kind: BarrierKind::None,
-            beta: 0.0,
-            s: 1.0,
-            epsilon: 0.0,
-        },
-    };
-    let relative: Vec<f64> = (mapped.embedding.uv.as_flattened().iter())
-        .map(|x| x / rest.scale)
-        .collect();
-    let weight: f64 = rest.shapes.iter().map(|shape| shape.weight).sum();
-    let halved = map_energy(triangles, &rest.shapes, &energy).value(&relative);
-    let per_area = (2.0 * halved / weight.max(f64::MIN_POSITIVE) - 4.0).max(0.0);
+    let (mut excess, mut weight) = (0.0, 0.0);
+    for (triangle, shape) in triangles.iter().zip(&rest.shapes) {
+        let corners = triangle.map(|v| mapped.embedding.uv[v as usize].map(|x| x / rest.scale));
+        excess += shape.weight * excess_of(corners, shape);
+        weight += shape.weight;
+    }
+    let per_area = excess / weight.max(f64::MIN_POSITIVE);
     [per_area * rest.true_area, rest.true_area]
+}
+
+fn excess_of([a, b, c]: [[f64; 2]; 3], rest: &RestShape) -> f64 {
+    let (first, second) = (sub(b, a), sub(c, a));
+    let edges = [[first[0], second[0]], [first[1], second[1]]];
+    let jacobian = times(&edges, &rest.inverse);
+    let det = doubled_area(a, b, c) / (2.0 * rest.size);
+    let halved = SymmetricDirichlet.value(&jacobian.singular_values(det));
+    (2.0 * halved - 4.0).clamp(0.0, LARGEST)
 }

@@ -9,103 +9,204 @@ use std::collections::VecDeque;
 /// `capacity[h]`, equal on both sides, what cutting it costs. No face may be both source and sink. Of all minimum cuts the one
 /// nearest to the sources. Every part on either side contains a source or a sink.
 ///
-/// From: Dinic 1970. Flow goes along shortest ways until none is left; capacities are integers, so it ends, exactly.
+/// From: Boykov and Kolmogorov 2004. Trees grow from the sources and from the sinks, flow goes along a way where they meet, and
+/// what it leaves without a root is adopted by a neighbor of the same tree; capacities are integers, so it ends, exactly. On a
+/// mesh, where ways are long, this reads far less than looking for all shortest ways anew.
 pub fn min_cut(twin: &[u32], capacity: &[u64], sources: &[u32], sinks: &[u32]) -> Vec<bool> {
-    let mut is_sink = vec![false; twin.len() / 3];
-    for &face in sinks {
-        is_sink[face as usize] = true;
-    }
-    let mut flow = Flow {
-        twin,
-        left: capacity.to_vec(),
-        is_sink,
-    };
-    loop {
-        let (level, arrived) = flow.levels(sources);
-        if !arrived {
-            return level.iter().map(|&l| l != UNREACHED).collect();
+    let mut flow = Flow::new(twin, capacity);
+    for (faces, tree) in [(sources, Tree::Sources), (sinks, Tree::Sinks)] {
+        for &face in faces {
+            flow.plant(face, tree, ROOT);
         }
-        flow.fill(sources, &level);
     }
+    while let Some(&face) = flow.growing.front() {
+        match flow.grow(face) {
+            Some(meeting) => {
+                flow.send(meeting);
+                flow.adopt();
+            }
+            None => {
+                flow.growing.pop_front();
+            }
+        }
+    }
+    flow.tree.iter().map(|&t| t == Tree::Sources).collect()
 }
 
-/// The level of a face that no flow can reach any more.
-const UNREACHED: u32 = u32::MAX;
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tree {
+    None,
+    Sources,
+    Sinks,
+}
+
+/// The way to the parent of a source or sink.
+const ROOT: u32 = u32::MAX;
+/// The way to the parent of a face that has none.
+const ORPHAN: u32 = u32::MAX - 1;
 
 struct Flow<'a> {
     twin: &'a [u32],
     /// For each halfedge how much more may flow over it out of its face.
     left: Vec<u64>,
-    is_sink: Vec<bool>,
+    tree: Vec<Tree>,
+    /// For each face of a tree its halfedge towards its parent, [`ROOT`] or [`ORPHAN`].
+    parent: Vec<u32>,
+    /// Edges to the root, as of the round of adoption `known`.
+    depth: Vec<u32>,
+    known: Vec<u32>,
+    round: u32,
+    /// Faces whose neighbors may still join their tree.
+    growing: VecDeque<u32>,
+    orphans: Vec<u32>,
 }
 
-impl Flow<'_> {
-    /// For each face the number of edges from the sources over which more may flow; and whether a sink can be reached.
-    fn levels(&self, sources: &[u32]) -> (Vec<u32>, bool) {
-        let mut level = vec![UNREACHED; self.is_sink.len()];
-        let mut queue = VecDeque::new();
-        for &face in sources {
-            level[face as usize] = 0;
-            queue.push_back(face);
+impl<'a> Flow<'a> {
+    fn new(twin: &'a [u32], capacity: &[u64]) -> Self {
+        let n = twin.len() / 3;
+        Self {
+            twin,
+            left: capacity.to_vec(),
+            tree: vec![Tree::None; n],
+            parent: vec![ORPHAN; n],
+            depth: vec![0; n],
+            known: vec![0; n],
+            round: 0,
+            growing: VecDeque::new(),
+            orphans: Vec::new(),
         }
-        let mut arrived = false;
-        while let Some(face) = queue.pop_front() {
-            if self.is_sink[face as usize] {
-                arrived = true;
+    }
+
+    fn plant(&mut self, face: u32, tree: Tree, parent: u32) {
+        self.tree[face as usize] = tree;
+        self.parent[face as usize] = parent;
+        self.growing.push_back(face);
+    }
+
+    /// The halfedges of a face with those across them.
+    fn across(&self, face: u32) -> impl Iterator<Item = (u32, u32)> + use<'a> {
+        let twin = self.twin;
+        (3 * face..3 * face + 3)
+            .map(move |h| (h, twin[h as usize]))
+            .filter(|&(_, t)| t != CUT)
+    }
+
+    /// Whether flow may go on from the face of `h` over `h` away from a source, or come back over it from a sink.
+    fn may_flow(&self, tree: Tree, h: u32) -> bool {
+        let along = match tree {
+            Tree::Sources => h,
+            Tree::None | Tree::Sinks => self.twin[h as usize],
+        };
+        self.left[along as usize] > 0
+    }
+
+    /// Adds the free neighbors of a face to its tree; where it touches the other tree, the halfedge from there on.
+    fn grow(&mut self, face: u32) -> Option<u32> {
+        let tree = self.tree[face as usize];
+        if tree == Tree::None {
+            return None;
+        }
+        for (h, t) in self.across(face) {
+            if !self.may_flow(tree, h) {
                 continue;
             }
-            for h in 3 * face..3 * face + 3 {
+            match self.tree[t as usize / 3] {
+                Tree::None => self.plant(t / 3, tree, t),
+                other if other == tree => {}
+                _ => return Some(if tree == Tree::Sources { h } else { t }),
+            }
+        }
+        None
+    }
+
+    /// Fills the way from a source to a sink that crosses from tree to tree over `meeting`.
+    fn send(&mut self, meeting: u32) {
+        let mut way = vec![meeting];
+        for (end, tree) in [
+            (meeting, Tree::Sources),
+            (self.twin[meeting as usize], Tree::Sinks),
+        ] {
+            let mut h = self.parent[end as usize / 3];
+            while h != ROOT {
                 let t = self.twin[h as usize];
-                if t != CUT && self.left[h as usize] > 0 && level[t as usize / 3] == UNREACHED {
-                    level[t as usize / 3] = level[face as usize] + 1;
-                    queue.push_back(t / 3);
-                }
+                way.push(if tree == Tree::Sources { t } else { h });
+                h = self.parent[t as usize / 3];
             }
         }
-        (level, arrived)
-    }
-
-    /// Sends flow along ways that rise by one level per edge until every one of them is full.
-    fn fill(&mut self, sources: &[u32], level: &[u32]) {
-        let mut turn = vec![0_u8; level.len()];
-        let mut way: Vec<u32> = Vec::new();
-        for &source in sources {
-            let mut face = source;
-            loop {
-                if self.is_sink[face as usize] {
-                    let kept = self.send(&way);
-                    face = way[kept] / 3;
-                    way.truncate(kept);
-                } else if turn[face as usize] < 3 {
-                    let h = 3 * face + u32::from(turn[face as usize]);
-                    let t = self.twin[h as usize];
-                    let rises = t != CUT
-                        && self.left[h as usize] > 0
-                        && level[t as usize / 3] == level[face as usize] + 1;
-                    if rises {
-                        way.push(h);
-                        face = t / 3;
-                    } else {
-                        turn[face as usize] += 1;
-                    }
-                } else if let Some(h) = way.pop() {
-                    face = h / 3;
-                    turn[face as usize] += 1;
-                } else {
-                    break;
-                }
-            }
-        }
-    }
-
-    /// Fills a way to a sink; returns how many of its edges come before the first full one.
-    fn send(&mut self, way: &[u32]) -> usize {
         let amount = way.iter().map(|&h| self.left[h as usize]).min();
-        for &h in way {
-            self.left[h as usize] -= amount.unwrap_or(0);
-            self.left[self.twin[h as usize] as usize] += amount.unwrap_or(0);
+        let amount = amount.unwrap_or(0);
+        for h in way {
+            let t = self.twin[h as usize];
+            self.left[h as usize] -= amount;
+            self.left[t as usize] += amount;
+            if self.left[h as usize] == 0 && h != meeting {
+                let child = match self.tree[h as usize / 3] {
+                    Tree::Sources => t / 3,
+                    Tree::None | Tree::Sinks => h / 3,
+                };
+                self.parent[child as usize] = ORPHAN;
+                self.orphans.push(child);
+            }
         }
-        let full = way.iter().position(|&h| self.left[h as usize] == 0);
-        full.unwrap_or(0)
+    }
+
+    /// Finds the orphans new parents; what has none is free again.
+    fn adopt(&mut self) {
+        self.round += 1;
+        while let Some(face) = self.orphans.pop() {
+            let tree = self.tree[face as usize];
+            let mut nearest = (u32::MAX, ORPHAN);
+            for (h, t) in self.across(face) {
+                if self.tree[t as usize / 3] == tree && self.may_flow(tree, t) {
+                    let depth = self.depth_of(t / 3).unwrap_or(u32::MAX);
+                    nearest = nearest.min((depth, h));
+                }
+            }
+            if nearest.0 < u32::MAX {
+                self.parent[face as usize] = nearest.1;
+                self.depth[face as usize] = nearest.0 + 1;
+                self.known[face as usize] = self.round;
+                continue;
+            }
+            for (_, t) in self.across(face) {
+                let neighbor = t as usize / 3;
+                if self.tree[neighbor] != tree {
+                    continue;
+                }
+                if self.may_flow(tree, t) {
+                    self.growing.push_back(t / 3);
+                }
+                if self.parent[neighbor] == t {
+                    self.parent[neighbor] = ORPHAN;
+                    self.orphans.push(t / 3);
+                }
+            }
+            self.tree[face as usize] = Tree::None;
+        }
+    }
+
+    /// Edges from a face to the root of its tree; `None` below an orphan.
+    fn depth_of(&mut self, face: u32) -> Option<u32> {
+        let mut way = Vec::new();
+        let mut at = face as usize;
+        let mut depth = loop {
+            if self.known[at] == self.round {
+                break self.depth[at];
+            }
+            match self.parent[at] {
+                ORPHAN => return None,
+                ROOT => break 0,
+                h => {
+                    way.push(at);
+                    at = self.twin[h as usize] as usize / 3;
+                }
+            }
+        };
+        for at in way.into_iter().rev() {
+            depth += 1;
+            self.depth[at] = depth;
+            self.known[at] = self.round;
+        }
+        Some(depth)
     }
 }

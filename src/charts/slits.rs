@@ -56,9 +56,9 @@ impl Slits {
         }
     }
 
-    /// Slits the chart from the nearest seam to the vertex whose scale differs most from that of the boundary; false if there is
-    /// none. With `is_far` also to the next such vertices, as long as they lie farther from the slits that are new than these
-    /// are long. One factorization.
+    /// Slits the chart from the nearest seam to the vertex whose scale differs most from that of the boundary, or else from a
+    /// hole; false if there is neither. With `is_far` also to the next such vertices, as long as they lie farther from the
+    /// slits that are new than these are long. One factorization.
     pub fn cut(&mut self, is_far: bool) -> bool {
         let most = if is_far {
             1 + self.on_seam.len() / VERTICES_PER_SLIT
@@ -71,12 +71,12 @@ impl Slits {
             let Some(tip) = self.worst_vertex(&new) else {
                 break;
             };
-            let Some(length) = self.slit_to(tip) else {
+            let Some(length) = self.slit([tip], |_| false) else {
                 break;
             };
             new.push((self.sheet.positions[tip as usize], length));
         }
-        if new.is_empty() {
+        if new.is_empty() && (self.is_cut() || !self.slit_from_hole()) {
             return false;
         }
         self.log_scale = self.predictor.log_scale(&self.on_seam);
@@ -98,16 +98,44 @@ impl Slits {
             .map(|(v, _)| v)
     }
 
-    /// Plans the cheapest slit to a vertex; its length.
-    fn slit_to(&mut self, tip: u32) -> Option<f64> {
-        let (from_tip, end) = distances_until(
+    /// Plans the cheapest slit from the hole with most edges to another loop; false if there is no hole.
+    ///
+    /// The predictor lets holes be as they are. A tube has no curvature, so it sees nothing to slit there, and yet the map that
+    /// leaves the tube whole is a ring.
+    fn slit_from_hole(&mut self) -> bool {
+        let holes = self.chart.disk.loops.iter().skip(1);
+        let Some(hole) = holes.max_by_key(|hole| hole.len()) else {
+            return false;
+        };
+        let mut is_of_chart = vec![false; self.chart.disk.n_vertices];
+        for &v in hole {
+            is_of_chart[v as usize] = true;
+        }
+        let mut is_of_hole = vec![false; self.on_seam.len()];
+        let of_chart = self.chart.disk.triangles.as_flattened();
+        for (&v, &of_sheet) in of_chart.iter().zip(&self.sheet.vertex) {
+            is_of_hole[of_sheet as usize] = is_of_chart[v as usize];
+        }
+        let rim = (0u32..)
+            .zip(&is_of_hole)
+            .filter_map(|(v, is)| is.then_some(v));
+        self.slit(rim, |v| is_of_hole[v as usize]).is_some()
+    }
+
+    /// Plans the cheapest slit from some vertices to a seam that has none of the vertices with `is_from`; its length.
+    fn slit(
+        &mut self,
+        from: impl IntoIterator<Item = u32>,
+        is_from: impl Fn(u32) -> bool,
+    ) -> Option<f64> {
+        let (distances, end) = distances_until(
             &self.sheet,
             &self.neighbors,
-            [tip],
+            from,
             |h| self.cost[h as usize],
-            |v| self.on_seam[v as usize],
+            |v| self.on_seam[v as usize] && !is_from(v),
         );
-        let path: Vec<u32> = from_tip.path(&self.sheet, end?).collect();
+        let path: Vec<u32> = distances.path(&self.sheet, end?).collect();
         for &h in &path {
             for v in self.sheet.ends(h) {
                 self.on_seam[v as usize] = true;

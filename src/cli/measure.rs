@@ -20,12 +20,21 @@ pub(super) struct Which {
     /// What shares one atlas
     #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
     group_by: GroupBy,
+    /// Judge what each node shows by itself, where it is in the scene: nodes that show one mesh show the same UVs
+    #[arg(long)]
+    separate_nodes: bool,
     /// Least distance of two charts to prove, in texels
     #[arg(long, value_name = "TEXELS")]
     padding: Option<u32>,
     /// Side of the texture that the padding is counted in
     #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
     resolution: u32,
+    /// Mip levels beyond the first in which to prove the padding, in texels of each
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    mips: u32,
+    /// Prove that the bounding rectangles of charts end where texels end
+    #[arg(long)]
+    aligned: bool,
     /// Bits b at which to prove that the map stays bijective: however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶
     #[arg(long, value_name = "B")]
     bits: Option<u32>,
@@ -36,6 +45,9 @@ impl Which {
         MeasureOptions {
             texcoord: self.texcoord,
             group_by: self.group_by,
+            separate_nodes: self.separate_nodes,
+            mips: self.mips,
+            aligned: self.aligned,
             padding: self.padding,
             resolution: self.resolution,
             bits: self.bits,

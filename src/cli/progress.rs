@@ -149,6 +149,7 @@ fn stage_text(progress: &Progress) -> String {
             progress.iteration, progress.energy
         ),
         Stage::Pack => format!("pack {} charts", progress.charts),
+        Stage::Bake => "resample the textures".into(),
         Stage::Write => "write".into(),
         Stage::Judge => "judge the written bytes".into(),
     }

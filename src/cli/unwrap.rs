@@ -7,14 +7,16 @@ use super::files::{
     json, output_format, read_file, read_upload, say, write_atomically, write_outputs,
 };
 use super::progress::Display;
-use super::words::{BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, QUALITIES, word};
+use super::words::{
+    BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, PRESETS, QUALITIES, word,
+};
 use crate::barrier::BarrierKind;
 use crate::charts::{Cut, Quality};
-use crate::document::GroupBy;
+use crate::document::{GroupBy, WriteNotes};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
-    self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode,
+    self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode, Preset,
 };
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
@@ -25,6 +27,9 @@ pub(super) struct Args {
     /// Where to write; .glb, .gltf or .obj decides the format
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    /// What the UVs are for; `lightmap`: one atlas of the scene in set 1, a part of it for each node, charts that end at texels
+    #[arg(long, default_value = "material", value_parser = word::<Preset>(PRESETS))]
+    preset: Preset,
     /// Distortion energy to minimize
     #[arg(long, default_value = "symmetric-dirichlet", value_parser = word::<EnergyKind>(ENERGIES))]
     energy: EnergyKind,
@@ -75,12 +80,21 @@ pub(super) struct Args {
     /// Replace the UV set even if textures sample it
     #[arg(long)]
     overwrite: bool,
+    /// Resample the textures for the new UVs, which then replace set 0 unless `--texcoord` names another
+    #[arg(long)]
+    rebake: bool,
+    /// Side of the resampled textures in texels [default: `--resolution`, or more where the surface would have fewer texels]
+    #[arg(long, value_name = "TEXELS")]
+    bake_size: Option<u32>,
     /// Side of the texture in texels
     #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
     resolution: u32,
     /// Least distance of two charts in texels
     #[arg(long, default_value_t = 2, value_name = "TEXELS")]
     padding: u32,
+    /// Mip levels beyond the first in which charts keep the padding, in texels of each [default: 0; lightmap: 2]
+    #[arg(long, default_value_t = 0, hide_default_value = true, value_name = "N")]
+    mips: u32,
     /// Keep the map bijective when tools round texture coordinates to 12, 14 or 16 bits: opens thin triangles and narrow gaps
     #[arg(long, value_name = "BITS")]
     quantization_safe: Option<u32>,
@@ -107,6 +121,7 @@ pub(super) struct Args {
 impl Args {
     fn options(&self) -> Result<Options, Failure> {
         Ok(Options {
+            preset: self.preset,
             energy: self.energy,
             barrier: self.barrier,
             barrier_strength: self.barrier_strength,
@@ -124,8 +139,11 @@ impl Args {
             group_by: self.group_by,
             texcoord: self.texcoord,
             overwrite: self.overwrite,
+            rebake: self.rebake,
+            bake_size: self.bake_size,
             resolution: self.resolution,
             padding: self.padding,
+            mips: self.mips,
             quantization_safe: self.quantization_safe,
             threads: self.threads,
             time_budget: self.time_budget,
@@ -178,10 +196,32 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
+/// A line per texture that is not right any more, or could not be resampled.
+fn warn_of_textures(written: &WriteNotes) {
+    let of = |material: Option<usize>| {
+        material.map_or("a primitive".into(), |m| format!("material {m}"))
+    };
+    for texture in &written.textures_affected {
+        let (of, slot) = (of(texture.material), &texture.slot);
+        say(format_args!(
+            "warning: {slot} of {of} shows the old layout; see --rebake"
+        ));
+    }
+    for kept in &written.textures_kept {
+        let (of, slot, reason) = (of(kept.material), &kept.slot, &kept.reason);
+        say(format_args!(
+            "warning: {slot} of {of} stays with its UVs: {reason}"
+        ));
+    }
+}
+
 /// A line per atlas, and what is certified.
 pub(super) fn summarize(outcome: &Outcome) {
     for group in &outcome.report.groups {
         super::measure::print_group(group);
+    }
+    if let Some(written) = &outcome.report.written {
+        warn_of_textures(written);
     }
     let certified = if outcome.report.certified {
         "certified"

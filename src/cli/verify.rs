@@ -57,5 +57,6 @@ fn holds(args: &Args, proven: &Proven) -> bool {
         && (proven.bijective || !args.bijective)
         && (proven.unmirrored || !args.unmirrored)
         && proven.padding.as_ref().is_none_or(|padding| padding.kept)
+        && proven.aligned.unwrap_or(true)
         && proven.bits.as_ref().is_none_or(|bits| bits.hold)
 }

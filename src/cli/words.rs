@@ -29,6 +29,7 @@ pub(super) const BOUNDARIES: &[&str] = &["free", "fixed"];
 pub(super) const UV_RESTS: &[&str] = &["present", "surface"];
 pub(super) const METHODS: &[&str] = &["projected", "levenberg"];
 pub(super) const CUTS: &[&str] = &["auto", "fast", "disk", "keep", "seams"];
+pub(super) const PRESETS: &[&str] = &["material", "lightmap"];
 pub(super) const PACKINGS: &[&str] = &["fast", "tight"];
 pub(super) const QUALITIES: &[&str] = &["smooth", "balanced", "few"];
 pub(super) const GROUPS: &[&str] = &["mesh", "scene", "material", "primitive"];

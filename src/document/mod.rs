@@ -7,6 +7,7 @@
 //! This module does no input or output of its own. An [`Upload`] carries the main file and every file it may refer to;
 //! a URI that is neither data nor a member of the upload is an error, never an open file or a connection. Every input is
 //! taken to be hostile: counts are believed only as far as bytes back them, and every failure is a [`DocumentError`].
+mod bake;
 mod error;
 pub mod gltf;
 mod group;
@@ -25,6 +26,10 @@ mod uvs;
 
 use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
+pub use bake::{
+    BakePlan, BakePlane, BakedTexture, BakedTextures, CornerTangents, Encoding, KeptTexture,
+    TextureSource, Wrap,
+};
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
@@ -110,6 +115,22 @@ impl Document {
         }
     }
 
+    /// The document with a mesh for every node that shows one; other files know no nodes.
+    pub fn with_separate_meshes(self) -> Result<Self, DocumentError> {
+        match self {
+            Self::Gltf(document) => document.with_separate_meshes().map(Self::Gltf),
+            other => Ok(other),
+        }
+    }
+
+    /// The primitives where the first node that shows them has them; mirrored ones are mirrored back.
+    pub fn primitives_in_scene(&self) -> Result<Vec<Primitive>, DocumentError> {
+        match self {
+            Self::Gltf(document) => document.primitives_in_scene(),
+            other => Ok(other.primitives().to_vec()),
+        }
+    }
+
     /// The document with the triangles of each primitive cut into pieces; what vertices have beside positions is interpolated.
     pub fn subdivided(self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
         Subdivision::check(cuts, self.primitives())?;
@@ -134,11 +155,21 @@ impl Document {
 
     /// The document with `uvs` as a UV set.
     pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
+        self.write_baked(uvs, options, None)
+    }
+
+    /// The document with `uvs` as a UV set and with textures made for it; only those of glTF are known.
+    pub fn write_baked(
+        &self,
+        uvs: &NewUvs,
+        options: &WriteOptions,
+        baked: Option<&BakedTextures>,
+    ) -> Result<Written, DocumentError> {
         uvs.check(self.primitives())?;
         match (self, options.format) {
             (Self::Obj(document), _) => document.write(uvs, options),
             (_, OutputFormat::Obj) => new_obj::write(self.primitives(), uvs, options),
-            (Self::Gltf(document), _) => document.write(uvs, options),
+            (Self::Gltf(document), _) => document.write(uvs, options, baked),
             (Self::Soup(document), _) => document.write(uvs, options),
         }
     }

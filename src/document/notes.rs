@@ -1,3 +1,4 @@
+use super::{BakedTexture, KeptTexture};
 use serde::Serialize;
 
 /// What writing a new UV set did to a document.
@@ -8,6 +9,10 @@ pub struct WriteNotes {
     pub primitives: Vec<PrimitiveNote>,
     /// Textures that sampled a set that was replaced: they show the old layout and need a re-bake.
     pub textures_affected: Vec<AffectedTexture>,
+    /// Textures that were resampled for the new UVs.
+    pub textures_baked: Vec<BakedTexture>,
+    /// Textures that were to be resampled and could not be: they sample the UVs that they did.
+    pub textures_kept: Vec<KeptTexture>,
     /// JSON pointers of texture transforms that applied to a replaced set and were removed.
     pub transforms_removed: Vec<String>,
     /// Extensions that are gone from the file: compression that was undone, data that the new indices made wrong.

@@ -10,6 +10,7 @@ const INDEX: &str = include_str!("page/index.html");
 const DOCS: &str = include_str!("page/docs.html");
 const STYLE: &str = include_str!("page/page.css");
 const INDEX_SCRIPT: &str = include_str!("page/index.js");
+const REPORT_SCRIPT: &str = include_str!("page/report.js");
 const DOCS_SCRIPT: &str = include_str!("page/docs.js");
 
 /// `/`: upload a mesh, watch it, fetch what came of it.
@@ -27,6 +28,7 @@ pub(super) async fn asset(PathName(name): PathName) -> Response {
     match name.as_str() {
         "page.css" => text("text/css; charset=utf-8", STYLE),
         "index.js" => text("text/javascript; charset=utf-8", INDEX_SCRIPT),
+        "report.js" => text("text/javascript; charset=utf-8", REPORT_SCRIPT),
         "docs.js" => text("text/javascript; charset=utf-8", DOCS_SCRIPT),
         _ => Problem::new(Code::NotFound, "no such asset").into_response(),
     }

@@ -22,4 +22,5 @@ pub use heat::{HeatmapMeasure, heatmap_png};
 pub use image::{Image, ImageError};
 pub use layout::layout_png;
 pub use panel::Panel;
+pub(crate) use raster::{spans, steps};
 pub use warp::{Deformation, Extent, Warped, warped};

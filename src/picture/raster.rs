@@ -98,13 +98,13 @@ impl Raster {
 }
 
 /// Corners given in samples, rounded to steps.
-pub(super) fn steps(corners: [[f64; 2]; 3]) -> [[i64; 2]; 3] {
+pub(crate) fn steps(corners: [[f64; 2]; 3]) -> [[i64; 2]; 3] {
     corners.map(|p| p.map(|x| (x.clamp(-FARTHEST, FARTHEST) * STEPS as f64).round() as i64))
 }
 
 /// The samples inside a triangle, row by row, on a grid of `size` columns and rows. Half open, so that a sample on a common edge
 /// belongs to one of two triangles.
-pub(super) fn spans(
+pub(crate) fn spans(
     mut corners: [[i64; 2]; 3],
     size: [usize; 2],
 ) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> {

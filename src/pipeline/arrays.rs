@@ -153,6 +153,7 @@ pub(super) fn unwrap_all(
         } else {
             Turns::Any
         },
+        borders: settings.borders,
         search_words: settings.packing.passes()
             * (SEARCH_WORDS / meshes.len() as u64)
                 .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),

@@ -7,11 +7,13 @@ use super::merged::Merged;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
+use super::rebake::{self, rebaked};
 use super::report::{AtlasReport, GroupReport, Report, Seconds};
 use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
 use crate::document::{
-    Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
+    WriteOptions, Written,
 };
 use crate::measure::VAxis;
 
@@ -32,6 +34,7 @@ pub fn unwrap_document(
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Outcome, PipelineError> {
+    let options = &options.resolved();
     options.check()?;
     let settings = options.settings();
     let tracker = Tracker::new(observer, settings.time_budget);
@@ -49,13 +52,15 @@ fn unwrap_in_pool(
     let mut watch = StopWatch::start(tracker);
 
     tracker.stage(Stage::Read);
-    let document = Document::read(upload)?;
+    let nodes = options.nodes();
+    let document = nodes.prepared(Document::read(upload)?)?;
     options.limits.check(&document)?;
     let group_by = group_by(options);
     let groups = document.groups(group_by);
+    let primitives = nodes.primitives(&document)?;
     let meshes: Vec<Merged> = groups
         .iter()
-        .map(|group| Merged::with_seams(&document, group, options))
+        .map(|group| Merged::with_seams(&document, &primitives, group, options))
         .collect::<Result<_, _>>()?;
     seconds.read = watch.lap();
 
@@ -63,12 +68,20 @@ fn unwrap_in_pool(
     let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
     seconds.unwrap = watch.lap();
 
+    let uvs = new_uvs(&document, &groups, &atlases);
+    let mut baked = None;
+    if options.rebake {
+        tracker.stage(Stage::Bake);
+        baked = Some(rebaked(&document, &groups, &uvs, options)?);
+    }
+    seconds.bake = watch.lap();
+
     tracker.stage(Stage::Write);
-    let written = write(&document, &groups, &atlases, upload, options)?;
+    let written = write(&document, &uvs, baked.as_ref(), upload, options)?;
     seconds.write = watch.lap();
 
     tracker.stage(Stage::Judge);
-    let uvs = WrittenUvs::read(&written, group_by)?;
+    let uvs = WrittenUvs::read(&written, (group_by, nodes))?;
     let mut groups = uvs.judge(&options.claims());
     add_history(&mut groups, &atlases);
     seconds.judge = watch.lap();
@@ -93,6 +106,27 @@ fn unwrap_in_pool(
     })
 }
 
+fn write(
+    document: &Document,
+    uvs: &NewUvs,
+    baked: Option<&BakedTextures>,
+    upload: &Upload,
+    options: &Options,
+) -> Result<Written, PipelineError> {
+    let write_options = WriteOptions {
+        format: options.format,
+        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
+        texcoord: options.texcoord,
+        overwrite: options.overwrite,
+    };
+    let mut written = document.write_baked(uvs, &write_options, baked)?;
+    if let Some(baked) = baked {
+        let remarks = rebake::remarks(baked, options);
+        written.notes.remarks.extend(remarks);
+    }
+    Ok(written)
+}
+
 /// An OBJ file has one UV space, whatever was asked for.
 fn group_by(options: &Options) -> GroupBy {
     match options.format {
@@ -101,13 +135,8 @@ fn group_by(options: &Options) -> GroupBy {
     }
 }
 
-fn write(
-    document: &Document,
-    groups: &[Group],
-    atlases: &[Unwrapped],
-    upload: &Upload,
-    options: &Options,
-) -> Result<Written, PipelineError> {
+/// The atlases as UVs of the document.
+fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped]) -> NewUvs {
     let primitives = document.primitives();
     let mut corners = vec![None; primitives.len()];
     for (group, atlas) in groups.iter().zip(atlases) {
@@ -118,20 +147,11 @@ fn write(
             rest = others;
         }
     }
-    let options = WriteOptions {
-        format: options.format,
-        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
-        texcoord: options.texcoord,
-        overwrite: options.overwrite,
-    };
-    Ok(document.write(
-        &NewUvs {
-            layout: Layout::New,
-            v_axis: VAxis::Up,
-            corners,
-        },
-        &options,
-    )?)
+    NewUvs {
+        layout: Layout::New,
+        v_axis: VAxis::Up,
+        corners,
+    }
 }
 
 /// Exact in f32.

@@ -6,10 +6,11 @@ use serde::Serialize;
 use super::PipelineError;
 use super::arrays::in_pool;
 use super::measure_options::MeasureOptions;
+use super::nodes::Nodes;
 use super::proven::Proven;
 use super::report::{GroupReport, Report};
 use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, certify};
-use crate::document::{Document, Group, GroupBy, Upload, Written};
+use crate::document::{Document, Group, GroupBy, Primitive, Upload, Written};
 use crate::measure::{self, Measures, VAxis};
 
 /// The UVs of every group of a file with the meshes they belong to, in the numbers of the file.
@@ -30,7 +31,10 @@ pub(super) struct GroupUvs {
 
 impl WrittenUvs {
     /// Reads what was just written, each primitive's UVs from the set that the notes name.
-    pub(super) fn read(written: &Written, group_by: GroupBy) -> Result<Self, PipelineError> {
+    pub(super) fn read(
+        written: &Written,
+        (group_by, nodes): (GroupBy, Nodes),
+    ) -> Result<Self, PipelineError> {
         let mut files = written.files.iter().cloned();
         let (name, bytes) = files.next().unwrap_or_default();
         let document = Document::read(&Upload {
@@ -44,7 +48,7 @@ impl WrittenUvs {
             .iter()
             .map(|note| note.texcoord)
             .collect();
-        Self::gather(&document, group_by, |primitive| {
+        Self::gather(&document, (group_by, nodes), |primitive| {
             sets.get(primitive).copied().unwrap_or(0)
         })
     }
@@ -52,16 +56,17 @@ impl WrittenUvs {
     /// Gathers the UVs of a document; `set` tells the set of each primitive.
     fn gather(
         document: &Document,
-        group_by: GroupBy,
+        (group_by, nodes): (GroupBy, Nodes),
         set: impl Fn(usize) -> u32,
     ) -> Result<Self, PipelineError> {
         let groups = document.groups(group_by);
+        let primitives = nodes.primitives(document)?;
         if groups.is_empty() {
             return Err(PipelineError::NoTriangles);
         }
         let groups = groups
             .iter()
-            .map(|group| GroupUvs::gather(document, group, &set));
+            .map(|group| GroupUvs::gather(document, &primitives, group, &set));
         Ok(Self {
             groups: groups.collect::<Result<_, _>>()?,
             v_axis: document.v_axis(),
@@ -97,6 +102,7 @@ impl WrittenUvs {
 impl GroupUvs {
     fn gather(
         document: &Document,
+        primitives: &[Primitive],
         group: &Group,
         set: &impl Fn(usize) -> u32,
     ) -> Result<Self, PipelineError> {
@@ -107,7 +113,7 @@ impl GroupUvs {
             uvs: vec![],
         };
         for &index in &group.primitives {
-            let primitive = &document.primitives()[index];
+            let primitive = &primitives[index];
             let texcoord = set(index);
             let uvs =
                 document
@@ -207,9 +213,10 @@ fn with_uvs<T: Send>(
 ) -> Result<T, PipelineError> {
     options.check()?;
     in_pool(options.limits.threads, || {
-        let document = Document::read(upload)?;
+        let document = options.nodes().prepared(Document::read(upload)?)?;
         options.limits.check(&document)?;
-        let uvs = WrittenUvs::gather(&document, options.group_by, |_| options.texcoord)?;
+        let spaces = (options.group_by, options.nodes());
+        let uvs = WrittenUvs::gather(&document, spaces, |_| options.texcoord)?;
         Ok(judge(&uvs))
     })?
 }

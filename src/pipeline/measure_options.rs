@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::nodes::Nodes;
+use super::options::check_mips;
 use super::settings::{Settings, check_texels, within};
 use super::{Limits, PipelineError};
 use crate::certificate::{Claims, Overlap, Padding};
@@ -16,12 +18,19 @@ pub struct MeasureOptions {
     pub texcoord: u32,
     /// What shares one atlas.
     pub group_by: GroupBy,
-    /// Least distance of two charts to prove, in texels; not judged if absent.
+    /// Judge what each node shows of a mesh by itself, where it is in the scene: nodes that show one mesh show the same UVs.
+    pub separate_nodes: bool,
+    /// Least distance of two charts to prove, in texels of the coarsest of the mip levels that count; not judged if absent.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: Option<u32>,
     /// Texels along the side of the texture that `padding` is counted in.
     #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
     pub resolution: u32,
+    /// Mip levels beyond the first in which charts are to keep the padding.
+    #[cfg_attr(feature = "service", schema(maximum = 12))]
+    pub mips: u32,
+    /// Prove that the bounding rectangles of charts end where texels of `resolution` end.
+    pub aligned: bool,
     /// Bits b at which to prove that the map stays bijective however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶.
     #[cfg_attr(feature = "service", schema(minimum = 8, maximum = 16))]
     pub bits: Option<u32>,
@@ -35,8 +44,11 @@ impl Default for MeasureOptions {
         Self {
             texcoord: 0,
             group_by: GroupBy::Mesh,
+            separate_nodes: false,
             padding: None,
             resolution: Settings::default().resolution,
+            mips: 0,
+            aligned: false,
             bits: None,
             limits: Limits::default(),
         }
@@ -46,11 +58,22 @@ impl Default for MeasureOptions {
 impl MeasureOptions {
     /// Checks every number against its range; the error names the option.
     pub fn check(&self) -> Result<(), PipelineError> {
-        let checked = check_texels(self.resolution, self.padding.unwrap_or(0)).and_then(|()| {
+        let padding = self.padding.unwrap_or(0);
+        let checked = check_mips(padding, self.mips).and_then(|()| {
+            check_texels(self.resolution, padding << self.mips)?;
             let bits = self.bits.unwrap_or(12);
             within("bits", f64::from(bits), 8.0, 16.0)
         });
         checked.map_err(PipelineError::InvalidOptions)
+    }
+
+    /// What counts as a surface.
+    pub(super) fn nodes(&self) -> Nodes {
+        if self.separate_nodes {
+            Nodes::Separate
+        } else {
+            Nodes::Shared
+        }
     }
 
     /// What the certificate is asked to speak of.
@@ -58,9 +81,10 @@ impl MeasureOptions {
         Claims {
             overlap,
             padding: self.padding.map(|texels| Padding {
-                texels,
+                texels: texels << self.mips,
                 resolution: self.resolution,
             }),
+            aligned: self.aligned.then_some(self.resolution),
             bits: self.bits,
             ..Claims::default()
         }

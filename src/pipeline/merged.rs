@@ -36,13 +36,13 @@ impl Merged {
         merged
     }
 
-    /// With the seams that the options ask for.
+    /// With the seams that the options ask for; `primitives` are those of the document, wherever they lie.
     pub fn with_seams(
         document: &Document,
+        primitives: &[Primitive],
         group: &Group,
         options: &Options,
     ) -> Result<Self, PipelineError> {
-        let primitives = document.primitives();
         let mut merged = Self::new(primitives, group);
         if options.cut == Cut::Keep {
             let set = options.source_texcoord.unwrap_or(0);

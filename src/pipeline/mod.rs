@@ -47,13 +47,19 @@ mod merged;
 #[cfg(feature = "files")]
 mod moved;
 #[cfg(feature = "files")]
+mod nodes;
+#[cfg(feature = "files")]
 mod options;
 #[cfg(feature = "files")]
 mod pictures;
 #[cfg(feature = "files")]
 mod planar_map;
 #[cfg(feature = "files")]
+mod preset;
+#[cfg(feature = "files")]
 mod proven;
+#[cfg(feature = "files")]
+mod rebake;
 #[cfg(feature = "files")]
 mod repack;
 #[cfg(feature = "files")]
@@ -95,6 +101,8 @@ pub use measure_options::MeasureOptions;
 pub use options::{GivenSeams, NamedSeams, Options};
 #[cfg(feature = "files")]
 pub use pictures::{Drawn, Pictures};
+#[cfg(feature = "files")]
+pub use preset::Preset;
 #[cfg(feature = "files")]
 pub use proven::{Proven, ProvenBits, ProvenPadding};
 #[cfg(feature = "files")]

@@ -23,6 +23,8 @@ pub enum Stage {
     Deform,
     /// Charts are being packed.
     Pack,
+    /// Textures are being resampled.
+    Bake,
     /// The document is being written.
     Write,
     /// The written bytes are being read again and judged.
@@ -94,6 +96,7 @@ const fn begins_at(stage: Stage) -> f64 {
         Stage::Cut => 0.02,
         Stage::Map | Stage::Deform => 0.1,
         Stage::Pack => 0.8,
+        Stage::Bake => 0.86,
         Stage::Write => 0.9,
         Stage::Judge => 0.92,
     }

@@ -2,8 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::settings::{KeptMaps, PackingMode, Settings};
+use super::nodes::Nodes;
+use super::preset::Preset;
+use super::rebake::MOST_SIDE;
+use super::settings::{KeptMaps, PackingMode, Settings, within};
 use super::{Limits, PipelineError};
+use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
 use crate::certificate::{Claims, Overlap, Padding};
 use crate::charts::{Cut, Quality};
@@ -36,6 +40,8 @@ pub enum NamedSeams {
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
+    /// What the UVs are for.
+    pub preset: Preset,
     /// Distortion energy to minimize.
     pub energy: EnergyKind,
     /// Barrier that keeps every triangle from inverting; `none` is for comparison and never certified.
@@ -81,12 +87,22 @@ pub struct Options {
     pub texcoord: Option<u32>,
     /// Replace the UV set even if textures sample it.
     pub overwrite: bool,
+    /// Resample the textures of the materials for the new UVs, which then replace set 0 unless `texcoord` names another. Textures
+    /// that cannot be read or are of an unknown kind stay, and so do the UVs that they sample; the report lists them.
+    pub rebake: bool,
+    /// Texels along the sides of resampled textures. If absent, `resolution`, or the power of two up to 4096 at which the surface has
+    /// as many texels as it had, whichever is more.
+    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 8192))]
+    pub bake_size: Option<u32>,
     /// Texels along the side of the texture that `padding` is counted in.
     #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
     pub resolution: u32,
-    /// Least distance of two charts, in texels; at most an eighth of the resolution.
+    /// Least distance of two charts, in texels of the coarsest of the mip levels that count; at most an eighth of its side.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: u32,
+    /// Mip levels beyond the first in which charts keep the padding.
+    #[cfg_attr(feature = "service", schema(maximum = 12))]
+    pub mips: u32,
     /// Bits that tools will round the texture coordinates to, 12, 14 or 16: thin triangles and narrow gaps are opened so that the map
     /// stays bijective. The report says whether that is proven, and which faces are in doubt.
     #[cfg_attr(
@@ -116,6 +132,7 @@ impl Default for Options {
     fn default() -> Self {
         let settings = Settings::default();
         Self {
+            preset: Preset::Material,
             energy: settings.energy,
             barrier: settings.barrier,
             barrier_strength: settings.barrier_strength,
@@ -133,8 +150,11 @@ impl Default for Options {
             group_by: GroupBy::Mesh,
             texcoord: None,
             overwrite: false,
+            rebake: false,
+            bake_size: None,
             resolution: settings.resolution,
             padding: settings.padding,
+            mips: 0,
             quantization_safe: settings.quantization_safe,
             threads: settings.threads,
             time_budget: settings.time_budget,
@@ -153,6 +173,28 @@ impl Options {
         self.barrier != BarrierKind::None && !is_given
     }
 
+    /// With what follows from the preset.
+    pub(super) fn resolved(&self) -> Self {
+        let options = self.clone();
+        match self.preset {
+            Preset::Material => options,
+            Preset::Lightmap => Self {
+                group_by: GroupBy::Scene,
+                texcoord: self.texcoord.or(Some(1)),
+                mips: self.mips.max(LIGHTMAP_MIPS),
+                ..options
+            },
+        }
+    }
+
+    /// What counts as a surface.
+    pub(super) fn nodes(&self) -> Nodes {
+        match self.preset {
+            Preset::Material => Nodes::Shared,
+            Preset::Lightmap => Nodes::Separate,
+        }
+    }
+
     /// The part that concerns the geometry, within the limits.
     pub fn settings(&self) -> Settings {
         Settings {
@@ -168,7 +210,11 @@ impl Options {
             seam_weight: self.seam_weight,
             max_charts: self.max_charts,
             resolution: self.resolution,
-            padding: self.padding,
+            padding: self.padding << self.mips,
+            borders: match self.preset {
+                Preset::Material => Borders::Free,
+                Preset::Lightmap => Borders::OnTexels,
+            },
             quantization_safe: self.quantization_safe,
             threads: self.limits.threads(self.threads),
             time_budget: self.limits.time_budget(self.time_budget),
@@ -180,9 +226,10 @@ impl Options {
         Claims {
             overlap: Overlap::Test,
             padding: Some(Padding {
-                texels: self.padding,
+                texels: self.padding << self.mips,
                 resolution: self.resolution,
             }),
+            aligned: (self.preset == Preset::Lightmap).then_some(self.resolution),
             bits: self.quantization_safe,
             ..Claims::default()
         }
@@ -194,10 +241,20 @@ impl Options {
     }
 
     fn validate(&self) -> Result<(), String> {
+        check_mips(self.padding, self.mips)?;
         self.settings().validate()?;
         if self.cut == Cut::Seams && self.seams.is_none() {
             return Err("cut seams needs seams".to_owned());
         }
+        if self.rebake && self.format == OutputFormat::Obj {
+            return Err("rebake writes glTF, not OBJ".to_owned());
+        }
+        within(
+            "bake_size",
+            f64::from(self.bake_size.unwrap_or(MOST_SIDE)),
+            16.0,
+            f64::from(MOST_SIDE),
+        )?;
         match self.texcoord {
             Some(set) if set > MAX_TEXCOORD => Err(format!(
                 "texcoord must lie between 0 and {MAX_TEXCOORD}, not {set}"
@@ -207,5 +264,14 @@ impl Options {
     }
 }
 
+/// Mip levels for which padding of a lightmap holds: of a distant room a quarter of the texels is shown along a side.
+const LIGHTMAP_MIPS: u32 = 2;
+
 /// Highest UV set that may be asked for; no engine reads more than eight.
 const MAX_TEXCOORD: u32 = 7;
+
+/// Mip levels for which padding holds, and that this is no more texels than can be.
+pub(super) fn check_mips(padding: u32, mips: u32) -> Result<(), String> {
+    within("mips", f64::from(mips), 0.0, 12.0)?;
+    within("padding", f64::from(padding), 0.0, 8192.0)
+}

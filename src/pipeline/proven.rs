@@ -18,6 +18,8 @@ pub struct Proven {
     pub unmirrored: bool,
     /// The distance of charts; null where none was asked for.
     pub padding: Option<ProvenPadding>,
+    /// Whether charts end where texels end; null where that was not asked.
+    pub aligned: Option<bool>,
     /// The coarsest of 16, 14 and 12 bits b at which every group stays bijective however each coordinate moves by up to
     /// 1/(2(2ᵇ−1)) + 2⁻¹⁶; null when there is none.
     pub safe_bits: Option<u32>,
@@ -60,6 +62,10 @@ impl Proven {
             bijective: all(Certificate::is_bijective),
             unmirrored: all(|certificate| certificate.mirrored_charts == 0),
             padding: padding(certificates.clone()),
+            aligned: (certificates.clone())
+                .map(|certificate| certificate.unaligned_charts.map(|n| n == 0))
+                .reduce(|a, b| Some(a? && b?))
+                .flatten(),
             safe_bits: all(|certificate| certificate.safe_bits.is_some())
                 .then(|| certificates.clone().filter_map(|c| c.safe_bits).max())
                 .flatten(),
@@ -120,6 +126,9 @@ impl fmt::Display for Proven {
             if let Some(reached) = padding.reached_texels {
                 write!(f, " (nearest {reached:.3})")?;
             }
+        }
+        if let Some(aligned) = self.aligned {
+            write!(f, ", charts {}aligned to texels", not(aligned))?;
         }
         match (&self.bits, self.safe_bits) {
             (Some(bits), _) if !bits.hold => {

@@ -101,6 +101,8 @@ pub struct Seconds {
     pub read: f64,
     /// Cutting, mapping and packing.
     pub unwrap: f64,
+    /// Resampling textures.
+    pub bake: f64,
     /// Writing the document.
     pub write: f64,
     /// Reading the written bytes again and judging them.

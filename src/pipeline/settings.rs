@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
 use crate::charts::{Cut, Quality};
 use crate::energy::EnergyKind;
@@ -70,6 +71,8 @@ pub struct Settings {
     pub resolution: u32,
     /// Least distance of two charts, in texels.
     pub padding: u32,
+    /// Where charts may end; on borders of texels only where `resolution` is a power of two.
+    pub borders: Borders,
     /// Bits that texture coordinates will be rounded to, 12, 14 or 16: thin triangles and narrow gaps are opened so that the map stays
     /// bijective, as far as that is possible.
     pub quantization_safe: Option<u32>,
@@ -95,6 +98,7 @@ impl Default for Settings {
             max_charts: None,
             resolution: 1024,
             padding: 2,
+            borders: Borders::Free,
             quantization_safe: None,
             threads: None,
             time_budget: None,
@@ -115,6 +119,12 @@ impl Settings {
             1.0,
             1e9,
         )?;
+        if self.borders == Borders::OnTexels && !self.resolution.is_power_of_two() {
+            let given = self.resolution;
+            return Err(format!(
+                "charts end at texels where resolution is a power of two, not {given}"
+            ));
+        }
         match self.quantization_safe {
             None | Some(12 | 14 | 16) => {}
             Some(bits) => {

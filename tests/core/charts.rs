@@ -269,6 +269,42 @@ fn two_ways_are_cut_at_once() {
     assert_eq!(inside, [4, 5, 6, 7]);
 }
 
+/// The faces that are inside all minimum cuts, by trying every set of faces.
+fn nearest_minimum(twin: &[u32], capacity: &[u64], [source, sink]: [usize; 2]) -> Vec<bool> {
+    let n = twin.len() / 3;
+    let sides = (0_u32..1 << n).filter(|set| set >> source & 1 == 1 && set >> sink & 1 == 0);
+    let inside = |set: u32, h: usize| set >> (h / 3) & 1 == 1;
+    let cost = |set: u32| -> u64 {
+        let cut = (0..twin.len()).filter(|&h| inside(set, h) && !inside(set, twin[h] as usize));
+        cut.map(|h| capacity[h]).sum()
+    };
+    let least = sides.clone().map(cost).min().expect("a set");
+    let all = sides.filter(|&set| cost(set) == least);
+    let common = all.fold(u32::MAX, |common, set| common & set);
+    (0..n).map(|f| common >> f & 1 == 1).collect()
+}
+
+proptest! {
+    #[test]
+    fn no_cut_is_cheaper_or_nearer_to_the_source(
+        costs in prop::collection::vec(1_u64..6, 18),
+        sink in 1_usize..12,
+    ) {
+        let triangles = zoo::sphere(3, 2).triangles;
+        let ends = |h: usize| (triangles[h / 3][h % 3], triangles[h / 3][(h + 1) % 3]);
+        let across = |h: usize| {
+            let (a, b) = ends(h);
+            (0..36).find(|&t| ends(t) == (b, a)).expect("a closed surface")
+        };
+        let twin: Vec<u32> = (0..36).map(|h| across(h) as u32).collect();
+        let edges: Vec<usize> = (0..36).filter(|&h| h < across(h)).collect();
+        let edge = |h: usize| edges.iter().position(|&e| e == h.min(across(h))).expect("an edge");
+        let capacity: Vec<u64> = (0..36).map(|h| costs[edge(h)]).collect();
+        let found = min_cut(&twin, &capacity, &[0], &[sink as u32]);
+        prop_assert_eq!(found, nearest_minimum(&twin, &capacity, [0, sink]));
+    }
+}
+
 /// A flat chart of some of the unit squares of 3 by 3, each of 8 by 8 cells, mapped as it lies.
 fn plate(squares: &[[u32; 2]]) -> MappedChart {
     let mut mesh = zoo::grid(24, 24);

@@ -31,6 +31,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     ("picture", &["measure"], &["image", "rayon"]),
+    ("bake", &["document", "picture"], &["rayon"]),
     (
         "deform",
         &["embed", "picture"],
@@ -38,7 +39,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "pipeline",
-        &["charts", "atlas", "document", "deform"],
+        &["charts", "atlas", "bake", "deform"],
         &["serde_json", "rayon"],
     ),
     (

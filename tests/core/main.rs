@@ -1,5 +1,7 @@
 //! Tests of the geometry library.
 mod atlas;
+#[cfg(feature = "files")]
+mod bake;
 mod barrier;
 mod box_tree;
 mod cage;

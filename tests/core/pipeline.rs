@@ -6,7 +6,7 @@ use std::time::Duration;
 use unwrapd::certificate::{Overlap, certify, chart_ids};
 use unwrapd::charts::{Cut, Quality};
 use unwrapd::energy::EnergyKind;
-use unwrapd::measure::{MeasureOptions, VAxis, measure};
+use unwrapd::measure::{MeasureOptions, Measures, VAxis, measure};
 use unwrapd::pipeline::{Observer, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap};
 use unwrapd::solver::Control;
 
@@ -242,34 +242,43 @@ fn repeated_faces_lie_on_an_edge_of_a_neighbour() {
     assert!(corners(2).contains(&unwrapped.grid[mesh.triangles.len() - 1][0]));
 }
 
+/// Without cuts for a fuller atlas, which are another matter; with what the UVs measure.
+fn unwrapped_under(quality: Quality, mesh: &Mesh) -> Measures {
+    let settings = Settings {
+        quality,
+        seam_weight: 1e6,
+        ..Settings::default()
+    };
+    let unwrapped =
+        unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved).expect("a mesh");
+    assert_certified(mesh, settings.cut, &unwrapped);
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+    let uvs = unwrapped.corner_uvs();
+    let options = MeasureOptions::default();
+    let measures = measure(&positions, &mesh.triangles, &uvs, VAxis::Up, &options);
+    let mean = measures.distortion.sym_dirichlet_mean.expect("faces");
+    assert!(mean <= quality.bound(), "{quality:?}: {mean}");
+    measures
+}
+
 #[test]
 fn an_atlas_keeps_its_bound_with_few_charts() {
     let mesh = zoo::sphere(32, 24).with(&zoo::torus(32, 16).moved([4.0, 0.0, 0.0]));
-    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
-    let mut seams = Vec::new();
-    for quality in [Quality::Few, Quality::Balanced, Quality::Smooth] {
-        let settings = Settings {
-            quality,
-            // Cuts for a fuller atlas are another matter.
-            seam_weight: 1e6,
-            ..Settings::default()
-        };
-        let unwrapped = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved)
-            .expect("a sphere and a torus are a mesh");
-        assert_certified(&mesh, settings.cut, &unwrapped);
-        let measures = measure(
-            &positions,
-            &mesh.triangles,
-            &unwrapped.corner_uvs(),
-            VAxis::Up,
-            &MeasureOptions::default(),
-        );
-        let mean = measures.distortion.sym_dirichlet_mean.expect("faces");
-        assert!(mean <= quality.bound(), "{quality:?}: {mean}");
+    let seams = [Quality::Few, Quality::Balanced, Quality::Smooth].map(|quality| {
+        let measures = unwrapped_under(quality, &mesh);
         assert!(measures.seams.charts <= 12, "{quality:?}");
-        seams.push(measures.seams.seam_length);
-    }
+        measures.seams.seam_length
+    });
     assert!(seams[0] < seams[2], "{seams:?}");
+}
+
+#[test]
+fn a_tube_is_cut_open() {
+    // Without curvature, but whole it is a ring with an energy of more than 5.
+    let mesh = zoo::tube(48, 2.0);
+    let measures = unwrapped_under(Quality::Balanced, &mesh);
+    assert_eq!(measures.seams.charts, 1);
+    assert!((measures.seams.seam_length - 2.0).abs() < 1e-5);
 }
 
 #[test]

@@ -108,6 +108,23 @@ pub fn cone(n: u32) -> Mesh {
     mesh(&positions, &triangles)
 }
 
+/// The side of a cylinder of radius 1: `n` squares around.
+pub fn tube(n: u32, height: f32) -> Mesh {
+    let positions = [0.0, height].into_iter().flat_map(|z| {
+        (0..n).map(move |i| {
+            let t = TAU * i as f32 / n as f32;
+            [t.cos(), t.sin(), z]
+        })
+    });
+    let triangles: Vec<_> = (0..n)
+        .flat_map(|i| {
+            let next = (i + 1) % n;
+            [[i, next, n + next], [i, n + next, n + i]]
+        })
+        .collect();
+    mesh(&positions.collect::<Vec<_>>(), &triangles)
+}
+
 /// A sphere of `n` meridians and `m` parallels.
 pub fn sphere(n: u32, m: u32) -> Mesh {
     let mut positions = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];

@@ -64,3 +64,17 @@ async fn the_page_shows_jobs_of_other_kinds() {
     }
     assert!(!page.contains("layout.png"), "{page}");
 }
+
+#[tokio::test]
+async fn the_page_shows_what_is_proven() {
+    let server = Server::start();
+    let job = ended(&server, form("unwrap", "{}", ("plate.off", PLATE.into()))).await;
+    let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
+    let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
+    let Some(page) = page.expect("a browser") else {
+        return;
+    };
+    for words in ["no faces overlap", "holds at", "seam / √area", "layout.png"] {
+        assert!(page.contains(words), "{words}: {page}");
+    }
+}

@@ -56,6 +56,29 @@ fn unwrapped(asset: &str, folder: &Path, options: &[&str]) -> [PathBuf; 2] {
     [input, output]
 }
 
+/// How far the pictures of an asset are apart where it is seen.
+fn difference(answer: &Value) -> f64 {
+    let number = |key: &str| answer[key].as_f64().unwrap_or_else(|| panic!("{answer}"));
+    number("mean") / number("covered")
+}
+
+/// Resampled textures on new UVs look like the old ones on theirs: text, transforms, two UV sets, tangents.
+#[test]
+fn a_textured_asset_looks_the_same_with_resampled_textures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let textured = [
+        "MultiUVTest.glb",
+        "TextureTransformTest/TextureTransformTest.gltf",
+    ];
+    let pairs = textured.map(|asset| unwrapped(asset, folder.path(), &["--rebake"]));
+    let Some(compared) = compared(&pairs) else {
+        return;
+    };
+    for answer in compared {
+        assert!(difference(&answer) < 1.0, "{answer}");
+    }
+}
+
 /// Not a pixel changes, unless the textures' own UVs are replaced: then the difference is seen.
 #[test]
 fn a_textured_asset_looks_the_same_with_another_uv_set() {

@@ -1,9 +1,10 @@
 //! Images that lie beside the document.
 use super::body::{Body, Target};
-use super::json::{item_mut, items, remove};
+use super::json::{item, item_mut, items, remove, required};
 use super::uri;
 use crate::document::DocumentError;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The resources that images refer to.
@@ -51,6 +52,19 @@ pub(super) fn embed(
 
 /// Files by their names, and URIs of those that were not supplied.
 pub(super) type Beside = (Vec<(String, Vec<u8>)>, Vec<String>);
+
+/// The bytes of an image's file, wherever it lies.
+pub(super) fn bytes<'a>(
+    body: &'a Body,
+    index: usize,
+    resources: &'a BTreeMap<String, Vec<u8>>,
+) -> Result<Cow<'a, [u8]>, DocumentError> {
+    let image = item(&body.json, "images", index)?;
+    match image.get("uri").and_then(Value::as_str) {
+        Some(uri) => uri::resolve(uri, resources),
+        None => Ok(Cow::Borrowed(body.view(required(image, "bufferView")?)?.0)),
+    }
+}
 
 /// The supplied images, to be written beside the document.
 pub(super) fn beside(

@@ -6,6 +6,8 @@
 //! appends: new views and accessors behind the old ones, and the primitives point to them; accessors that something
 //! else may share are never changed.
 mod accessor;
+mod bake_plan;
+mod baked;
 mod body;
 mod bounds;
 mod buffers;
@@ -21,6 +23,8 @@ mod positions;
 mod primitives;
 mod references;
 mod rewrite;
+mod sampling;
+mod scene;
 mod split;
 mod subdivide;
 mod tangents;
@@ -31,15 +35,18 @@ mod vertices;
 mod write;
 
 use super::{
-    DocumentError, NewUvs, Primitive, SpaceMap, Subdivision, Upload, WriteOptions, Written,
+    BakePlan, BakedTextures, CornerTangents, DocumentError, Group, NewUvs, Primitive, SpaceMap,
+    Subdivision, Upload, WriteOptions, Written,
 };
 use crate::certificate::CornerUvs;
 pub use references::references;
+pub use tangents::tangents;
 
 use accessor::Accessor;
 use body::Body;
 use json::{invalid, item, items, unsigned};
 use serde_json::Value;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// A glTF document, decompressed.
@@ -149,6 +156,37 @@ impl GltfDocument {
         }
     }
 
+    /// The tangents per face corner; `None` where the primitive has none, or no normals that they would belong to.
+    pub fn corner_tangents(
+        &self,
+        primitive: usize,
+    ) -> Result<Option<Vec<CornerTangents>>, DocumentError> {
+        let attributes = &self.object(&self.primitives[primitive])?["attributes"];
+        let index = unsigned(attributes, "TANGENT")?.filter(|_| attributes.get("NORMAL").is_some());
+        let Some(index) = index else {
+            return Ok(None);
+        };
+        let tangents = self.corner_values(primitive, "TANGENT", index, "VEC4")?;
+        let single = tangents
+            .iter()
+            .map(|face| face.map(|t: [f64; 4]| t.map(|x| x as f32)));
+        Ok(Some(single.collect()))
+    }
+
+    /// The bytes of an image's file.
+    pub fn image(&self, index: usize) -> Result<Cow<'_, [u8]>, DocumentError> {
+        images::bytes(&self.body, index, &self.resources)
+    }
+
+    /// Which textures to make for new UVs of `groups`; `unreadable` says of images why they cannot be read.
+    pub fn bake_plan(
+        &self,
+        groups: &[Group],
+        unreadable: &BTreeMap<usize, String>,
+    ) -> Result<BakePlan, DocumentError> {
+        bake_plan::plan(self, groups, unreadable)
+    }
+
     /// The numbers of an accessor of `N` components at each face corner.
     fn corner_values<const N: usize>(
         &self,
@@ -192,6 +230,27 @@ impl GltfDocument {
         Ok(self)
     }
 
+    /// The document with a mesh for every node that shows one.
+    pub fn with_separate_meshes(mut self) -> Result<Self, DocumentError> {
+        scene::separate_meshes(&mut self.body.json)?;
+        (self.primitives, self.used) = primitives::collect(&self.body)?;
+        Ok(self)
+    }
+
+    /// The primitives where the first node that shows them has them; mirrored ones are mirrored back.
+    pub fn primitives_in_scene(&self) -> Result<Vec<Primitive>, DocumentError> {
+        let placements = scene::placements(&self.body.json)?;
+        let placed = |primitive: &Primitive| {
+            let placement = &placements[primitive.mesh];
+            let positions = primitive.positions.iter();
+            Primitive {
+                positions: positions.map(|p| scene::placed(placement, *p)).collect(),
+                ..primitive.clone()
+            }
+        };
+        Ok(self.primitives.iter().map(placed).collect())
+    }
+
     /// The document with its triangles where a map carries them.
     pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
         moved::move_surfaces(&mut self.body, &self.primitives, map)?;
@@ -199,8 +258,13 @@ impl GltfDocument {
         Ok(self)
     }
 
-    /// The document with `uvs` as a `TEXCOORD_n`.
-    pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
-        write::write(self, uvs, options)
+    /// The document with `uvs` as a `TEXCOORD_n`, and with textures made for them.
+    pub fn write(
+        &self,
+        uvs: &NewUvs,
+        options: &WriteOptions,
+        baked: Option<&BakedTextures>,
+    ) -> Result<Written, DocumentError> {
+        write::write(self, uvs, options, baked)
     }
 }

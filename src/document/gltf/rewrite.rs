@@ -3,10 +3,12 @@ use super::GltfDocument;
 use super::body::Body;
 use super::json::{object_mut, primitive_mut, remove};
 use super::split::split;
-use super::tangents::{CornerTangents, corner_tangents};
+use super::tangents::corner_tangents;
 use super::texcoord_set::Choice;
 use super::vertices::{NewIndices, gather_vertices, push_floats, write_indices};
-use crate::document::{Corners, DocumentError, PrimitiveNote, TangentsNote};
+use crate::document::{
+    BakedTextures, CornerTangents, Corners, DocumentError, PrimitiveNote, TangentsNote,
+};
 use serde_json::{Value, json};
 
 /// What must agree for corners to share a vertex: the bits of the UV, and of the tangent where it is new.
@@ -18,10 +20,13 @@ pub(super) fn rewrite(
     body: &mut Body,
     index: usize,
     uvs: &[Corners],
-    choice: &Choice,
+    (choice, baked): (&Choice, Option<&BakedTextures>),
 ) -> Result<PrimitiveNote, DocumentError> {
     let primitive = &document.primitives[index];
-    let (tangents, tangents_note) = new_tangents(document, index, uvs, choice)?;
+    let (tangents, tangents_note) = match baked {
+        Some(baked) if baked.plan.is_normal_mapped(index) => baked_tangents(baked, index),
+        _ => new_tangents(document, index, uvs, choice)?,
+    };
     let split = split(
         primitive.positions.len(),
         &primitive.triangles,
@@ -76,6 +81,17 @@ pub(super) fn rewrite(
     }
     *primitive_mut(&mut body.json, primitive.mesh, primitive.primitive)? = changed;
     Ok(note)
+}
+
+/// Tangents that a normal map was made for.
+fn baked_tangents(
+    baked: &BakedTextures,
+    index: usize,
+) -> (Option<Vec<CornerTangents>>, TangentsNote) {
+    match &baked.tangents[index] {
+        Some(tangents) => (Some(tangents.clone()), TangentsNote::Recomputed),
+        None => (None, TangentsNote::Dropped),
+    }
 }
 
 /// Tangents where the old ones belonged to a set that is replaced.

@@ -1,12 +1,7 @@
-//! Tangents for a replaced UV set, as MikkTSpace defines them.
+//! Tangents of a UV map, as MikkTSpace defines them.
 use super::GltfDocument;
-use super::accessor::Accessor;
-use super::json::unsigned;
-use crate::document::{DocumentError, Primitive};
+use crate::document::{CornerTangents, DocumentError, Primitive};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
-
-/// Tangent and sign of the three corners of a face.
-pub(super) type CornerTangents = [[f32; 4]; 3];
 
 /// The tangents of every corner for UVs with v up; `None` where the primitive has no usable normals.
 pub(super) fn corner_tangents(
@@ -14,25 +9,27 @@ pub(super) fn corner_tangents(
     index: usize,
     uvs: &[[[f32; 2]; 3]],
 ) -> Result<Option<Vec<CornerTangents>>, DocumentError> {
-    let primitive = &document.primitives[index];
-    let attributes = &document.object(primitive)?["attributes"];
-    let Some(normal) = unsigned(attributes, "NORMAL")? else {
+    let Some(normals) = document.corner_normals(index)? else {
         return Ok(None);
     };
-    let accessor = Accessor::open(&document.body, normal)?;
-    if !accessor.is("VEC3") {
-        return Ok(None);
-    }
-    let mut normals: Vec<[f32; 3]> = accessor.vectors()?;
-    if let Some(used) = &document.used[index] {
-        normals = used
-            .iter()
-            .map(|vertex| normals[*vertex as usize])
-            .collect();
-    }
-    if !normals.iter().flatten().all(|x| x.is_finite()) {
-        return Ok(None);
-    }
+    let normals = normals.iter().map(|face| face.map(|n| n.map(|x| x as f32)));
+    let normals: Vec<[[f32; 3]; 3]> = normals.collect();
+    let is_usable = normals
+        .as_flattened()
+        .as_flattened()
+        .iter()
+        .all(|x| x.is_finite());
+    Ok(is_usable
+        .then(|| tangents(&document.primitives[index], &normals, uvs))
+        .flatten())
+}
+
+/// The tangents of every corner of a primitive for normals and UVs with v up, as MikkTSpace defines them.
+pub fn tangents(
+    primitive: &Primitive,
+    normals: &[[[f32; 3]; 3]],
+    uvs: &[[[f32; 2]; 3]],
+) -> Option<Vec<CornerTangents>> {
     let tangents = vec![[[1.0, 0.0, 0.0, 1.0]; 3]; uvs.len()];
     let mut shape = Shape {
         primitive,
@@ -41,20 +38,14 @@ pub(super) fn corner_tangents(
         tangents,
     };
     // The error type has no values yet; should it get one, there are no tangents.
-    Ok(generate_tangents(&mut shape).ok().map(|()| shape.tangents))
+    generate_tangents(&mut shape).ok().map(|()| shape.tangents)
 }
 
 struct Shape<'a> {
     primitive: &'a Primitive,
-    normals: Vec<[f32; 3]>,
+    normals: &'a [[[f32; 3]; 3]],
     uvs: &'a [[[f32; 2]; 3]],
     tangents: Vec<CornerTangents>,
-}
-
-impl Shape<'_> {
-    fn vertex(&self, face: usize, corner: usize) -> usize {
-        self.primitive.triangles[face][corner] as usize
-    }
 }
 
 impl Geometry for Shape<'_> {
@@ -67,11 +58,11 @@ impl Geometry for Shape<'_> {
     }
 
     fn position(&self, face: usize, corner: usize) -> [f32; 3] {
-        self.primitive.positions[self.vertex(face, corner)]
+        self.primitive.positions[self.primitive.triangles[face][corner] as usize]
     }
 
     fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
-        self.normals[self.vertex(face, corner)]
+        self.normals[face][corner]
     }
 
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {

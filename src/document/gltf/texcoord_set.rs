@@ -1,7 +1,7 @@
 //! Which `TEXCOORD_n` the new UVs go to.
 use super::GltfDocument;
 use super::textures::{MaterialTextures, SetMask, materials};
-use crate::document::{DocumentError, Layout, NewUvs, WriteOptions};
+use crate::document::{BakePlan, DocumentError, Layout, NewUvs, WriteOptions};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -37,18 +37,21 @@ struct Candidate {
 }
 
 /// One choice per primitive that gets UVs. All primitives of a mesh get the same set, so that its atlas has one name:
-/// the one asked for; else set 0 where no texture samples it; else the first set that none of them has.
+/// the one asked for; else set 0 where no texture samples it; else the first set that none of them has. Textures of
+/// `plan` will not sample what they do; they may be shared by meshes, so that all of these get the same set then.
 pub(super) fn choose(
     document: &GltfDocument,
     uvs: &NewUvs,
     options: &WriteOptions,
+    plan: Option<&BakePlan>,
 ) -> Result<(Vec<Option<Choice>>, Textures), DocumentError> {
     let mut textures = Textures::new();
     let mut meshes: BTreeMap<usize, Vec<Candidate>> = BTreeMap::new();
     for (index, primitive) in document.primitives.iter().enumerate() {
         if uvs.corners[index].is_some() {
-            let candidate = candidate(document, index, &mut textures)?;
-            meshes.entry(primitive.mesh).or_default().push(candidate);
+            let candidate = candidate(document, index, plan, &mut textures)?;
+            let together = plan.map_or(primitive.mesh, |_| 0);
+            meshes.entry(together).or_default().push(candidate);
         }
     }
     let mut choices: Vec<Option<Choice>> = document.primitives.iter().map(|_| None).collect();
@@ -74,6 +77,7 @@ pub(super) fn choose(
 fn candidate(
     document: &GltfDocument,
     index: usize,
+    plan: Option<&BakePlan>,
     textures: &mut Textures,
 ) -> Result<Candidate, DocumentError> {
     let primitive = &document.primitives[index];
@@ -84,13 +88,14 @@ fn candidate(
         present: present_sets(object),
         sampled: own.sampled,
         normal_mapped: own.normal_mapped,
-        materials: materials(primitive, object)?,
+        materials: materials(primitive.material, object)?,
         own,
     };
     for &material in &candidate.materials {
-        let found = textures
-            .entry(material)
-            .or_insert_with(|| MaterialTextures::of_material(&document.body.json, material));
+        let found = textures.entry(material).or_insert_with(|| {
+            let found = MaterialTextures::of_material(&document.body.json, material);
+            plan.map_or_else(|| found.clone(), |plan| found.without(&plan.replaced))
+        });
         candidate.sampled |= found.sampled;
         candidate.normal_mapped |= found.normal_mapped;
     }

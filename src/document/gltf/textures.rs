@@ -2,8 +2,9 @@
 use super::json::{as_unsigned, extension, item, items, remove, remove_extension, unsigned};
 use crate::document::{AffectedTexture, DocumentError, Primitive};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
-const TRANSFORM: &str = "KHR_texture_transform";
+pub(super) const TRANSFORM: &str = "KHR_texture_transform";
 
 /// A place where a texture is named together with the UV set it is sampled by.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,7 +26,7 @@ pub(super) struct TextureUse {
 pub(super) type SetMask = u32;
 
 /// What one material samples.
-#[derive(Default)]
+#[derive(Default, Clone)]
 pub(super) struct MaterialTextures {
     pub uses: Vec<TextureUse>,
     pub sampled: SetMask,
@@ -33,6 +34,13 @@ pub(super) struct MaterialTextures {
 }
 
 impl MaterialTextures {
+    /// The same without the textures named at `places`.
+    pub fn without(&self, places: &BTreeSet<String>) -> Self {
+        let uses = self.uses.iter();
+        let others = uses.filter(|texture| !places.contains(&texture.pointer));
+        Self::new(others.cloned().collect())
+    }
+
     fn new(uses: Vec<TextureUse>) -> Self {
         let mask = |uses: &mut dyn Iterator<Item = &TextureUse>| {
             uses.fold(0, |mask, texture| {
@@ -72,12 +80,12 @@ impl MaterialTextures {
     }
 }
 
-/// The material of a primitive and those of its variants.
+/// The material of a primitive and those of its variants; `object` is its JSON.
 pub(super) fn materials(
-    primitive: &Primitive,
+    material: Option<usize>,
     object: &Value,
 ) -> Result<Vec<usize>, DocumentError> {
-    let mut materials: Vec<usize> = primitive.material.into_iter().collect();
+    let mut materials: Vec<usize> = material.into_iter().collect();
     if let Some(variants) = extension(object, "KHR_materials_variants") {
         for mapping in items(variants, "mappings")? {
             materials.extend(unsigned(mapping, "material")?);

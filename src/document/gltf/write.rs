@@ -1,4 +1,5 @@
 //! The document with a new UV set, as files.
+use super::baked;
 use super::body::Body;
 use super::json::{item_mut, remove_extension};
 use super::rewrite::rewrite;
@@ -6,22 +7,25 @@ use super::texcoord_set::{self, Choice, Textures};
 use super::textures::{affected, remove_transform};
 use super::{GltfDocument, extensions, glb, images, primitives, uri};
 use crate::document::{
-    DocumentError, Layout, NewUvs, OutputFormat, WriteNotes, WriteOptions, Written,
+    BakedTextures, DocumentError, Layout, NewUvs, OutputFormat, WriteNotes, WriteOptions, Written,
 };
 use crate::measure::VAxis;
 use serde_json::{Value, json};
-use std::collections::BTreeSet;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// An extension of meshes that names the indices of the primitives, which a split makes wrong.
 const MANIFOLD: &str = "EXT_mesh_manifold";
 
-/// Writes `document` with `uvs`.
+/// Writes `document` with `uvs`, and with the textures made for them.
 pub(super) fn write(
     document: &GltfDocument,
     uvs: &NewUvs,
     options: &WriteOptions,
+    baked: Option<&BakedTextures>,
 ) -> Result<Written, DocumentError> {
-    let (choices, textures) = texcoord_set::choose(document, uvs, options)?;
+    let plan = baked.map(|baked| &baked.plan);
+    let (choices, textures) = texcoord_set::choose(document, uvs, options, plan)?;
     let mut body = document.body.clone();
     let mut notes = WriteNotes {
         extensions_dropped: document.decompressed.clone(),
@@ -32,7 +36,7 @@ pub(super) fn write(
             continue;
         };
         let primitive = &document.primitives[index];
-        let note = rewrite(document, &mut body, index, &corners, choice)
+        let note = rewrite(document, &mut body, index, &corners, (choice, baked))
             .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
         notes.primitives.push(note);
         if !choice.missing.is_empty() {
@@ -45,6 +49,14 @@ pub(super) fn write(
     if uvs.layout == Layout::New {
         release_textures(&mut body.json, &choices, &textures, &mut notes);
     }
+    let resources = match baked {
+        Some(baked) => {
+            let set = choices.iter().flatten().map(|choice| choice.set).next();
+            let at = (set.unwrap_or(0), options.stem.as_str());
+            Cow::Owned(baked::insert(document, &mut body, baked, at, &mut notes)?)
+        }
+        None => Cow::Borrowed(&document.resources),
+    };
     drop_manifold(&mut body.json, &mut notes)?;
     let gone = ["KHR_texture_transform", MANIFOLD];
     let gone: Vec<&str> = gone
@@ -54,7 +66,7 @@ pub(super) fn write(
     notes
         .extensions_dropped
         .extend(extensions::prune(&mut body.json, &gone)?);
-    let files = files(document, body, options, &mut notes)?;
+    let files = files((body, &document.chunks), &resources, options, &mut notes)?;
     Ok(Written { files, notes })
 }
 
@@ -126,17 +138,17 @@ fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), Documen
 }
 
 fn files(
-    document: &GltfDocument,
-    mut body: Body,
+    (mut body, chunks): (Body, &[(u32, Vec<u8>)]),
+    resources: &BTreeMap<String, Vec<u8>>,
     options: &WriteOptions,
     notes: &mut WriteNotes,
 ) -> Result<Vec<(String, Vec<u8>)>, DocumentError> {
     let stem = &options.stem;
     let (files, outside) = match options.format {
         OutputFormat::Glb => {
-            let outside = images::embed(&mut body, &document.resources)?;
+            let outside = images::embed(&mut body, resources)?;
             body.seal()?;
-            let glb = glb::join(&to_json(&body.json, false), &body.bin, &document.chunks)?;
+            let glb = glb::join(&to_json(&body.json, false), &body.bin, chunks)?;
             (vec![(format!("{stem}.glb"), glb)], outside)
         }
         OutputFormat::Gltf => {
@@ -145,7 +157,7 @@ fn files(
             if !body.bin.is_empty() {
                 item_mut(&mut body.json, "buffers", 0)?["uri"] = json!(uri::encoded(&name));
             }
-            let (images, outside) = images::beside(&body.json, &document.resources)?;
+            let (images, outside) = images::beside(&body.json, resources)?;
             let mut files = vec![(format!("{stem}.gltf"), to_json(&body.json, true))];
             if !body.bin.is_empty() {
                 files.push((name, body.bin));

@@ -1,9 +1,11 @@
 // Uploads a mesh, shows how its job goes, and what came of it; shows jobs of any kind that others made. The options are read from
 // the service's own description.
 
+import { short, summary } from "./report.js";
+
 const byId = (id) => document.getElementById(id);
 const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
-const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "padding", "packing", "texcoord", "overwrite", "heatmap_measure", "format", "time_budget"];
+const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "heatmap_measure", "format", "time_budget"];
 
 let job = null;
 
@@ -160,10 +162,6 @@ function pairs(list, entries) {
   list.replaceChildren(...entries.map(([name, value]) => element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }))));
 }
 
-function short(number) {
-  return number == null ? "–" : Number(number.toPrecision(4)).toString();
-}
-
 function showEvent(event) {
   byId("state").textContent = event.stage ? `${event.state}: ${event.stage}` : event.state;
   byId("fraction").value = event.fraction;
@@ -194,19 +192,6 @@ function pictures(ended) {
   const captions = { "layout.png": "UV layout", "heatmap.png": "Distortion", result: ended.filename };
   const drawn = ended.links.files.filter((file) => file.name.endsWith(".png"));
   return drawn.map((file) => [file.href, captions[file.href.split("/").pop()] ?? file.name]);
-}
-
-// What a report says beside its parts, whichever kind it is of.
-function summary(report) {
-  const groups = report.groups ?? report.charts?.map((chart) => ({ name: `chart ${chart.chart}`, ...chart })) ?? [];
-  const words = (value) => (typeof value === "boolean" ? (value ? "yes" : "no") : typeof value === "number" ? short(value) : value);
-  const keys = ["certified", "bijective", "status", "iterations", "energy", "residual", "inverted", "smallest_ever", "voxels", "tets"];
-  const entries = keys.filter((key) => key in report).map((key) => [key.replaceAll("_", " "), words(report[key])]);
-  for (const group of groups.slice(0, 4)) {
-    const measures = group.measures ?? group;
-    entries.push(...["faces", "charts", "flipped", "overlapping_pairs"].filter((key) => key in measures).map((key) => [`${group.name} ${key.replaceAll("_", " ")}`, measures[key] ?? "–"]));
-  }
-  return entries;
 }
 
 // ---- wiring

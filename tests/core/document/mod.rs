@@ -1,7 +1,9 @@
 //! glTF read and written.
 mod build;
 mod invalid;
+mod lightmap;
 mod moved;
+mod rebake;
 mod roundtrip;
 mod survive;
 mod texcoord;

@@ -1,0 +1,175 @@
+//! Which face each texel belongs to.
+
+use rayon::prelude::*;
+
+use super::Corners;
+use super::triangle::nearest_on_edges;
+use crate::picture::{spans, steps};
+
+/// Rows that one task covers.
+const BAND: usize = 64;
+/// Bilinear filtering at a point of a chart reads centres of texels less than √2 texels away.
+const REACH: f64 = 1.5;
+/// A texel that belongs to no face.
+const EMPTY: u32 = u32::MAX;
+/// Marks a texel whose centre lies beside its face.
+const BESIDE: u32 = 1 << 31;
+
+/// For each texel of a square texture the face that its centre lies in, or beside which it lies within the reach of
+/// bilinear filtering.
+pub struct Coverage {
+    side: usize,
+    /// Corners of the faces, in texels.
+    faces: Vec<Corners>,
+    texels: Vec<u32>,
+}
+
+impl Coverage {
+    /// `faces`: UVs of the corners, v down, in the unit square; fewer than 2³¹. A centre on a common edge belongs to one
+    /// face; of overlapping faces the last wins.
+    pub fn new(faces: &[Corners], side: usize) -> Self {
+        let scale = side as f64;
+        let faces: Vec<Corners> = faces
+            .iter()
+            .map(|face| face.map(|uv| uv.map(|x| x * scale)))
+            .collect();
+        let mut bands: Vec<Vec<u32>> = vec![Vec::new(); side.div_ceil(BAND)];
+        for (face, corners) in (0..).zip(&faces) {
+            let [low, high] = extent(corners.map(|p| p[1]));
+            let last = ((high + REACH).max(0.0) as usize / BAND).min(bands.len() - 1);
+            let first = (low - REACH).max(0.0) as usize / BAND;
+            for band in bands.iter_mut().take(last + 1).skip(first) {
+                band.push(face);
+            }
+        }
+        let mut texels = vec![EMPTY; side * side];
+        texels
+            .par_chunks_mut(BAND * side)
+            .zip(&bands)
+            .enumerate()
+            .for_each(|(band, (texels, of_band))| {
+                Band {
+                    first_row: band * BAND,
+                    side,
+                    texels,
+                }
+                .cover(&faces, of_band);
+            });
+        Self {
+            side,
+            faces,
+            texels,
+        }
+    }
+
+    /// Texels along a side.
+    pub fn side(&self) -> usize {
+        self.side
+    }
+
+    /// The face of a texel; `None` where no chart is near.
+    pub(super) fn at(&self, x: usize, y: usize) -> Option<u32> {
+        let texel = self.texels[y * self.side + x];
+        (texel != EMPTY).then_some(texel & !BESIDE)
+    }
+
+    /// Whether a texel and all around it lie in faces.
+    pub(super) fn is_interior(&self, x: usize, y: usize) -> bool {
+        let last = self.side - 1;
+        let around = |c: usize| c.saturating_sub(1)..=(c + 1).min(last);
+        around(y).all(|y| around(x).all(|x| self.texels[y * self.side + x] & BESIDE == 0))
+    }
+
+    /// The corners of a face, in texels.
+    pub(super) fn corners(&self, face: u32) -> &Corners {
+        &self.faces[face as usize]
+    }
+}
+
+/// Some rows of a texture.
+struct Band<'a> {
+    first_row: usize,
+    side: usize,
+    texels: &'a mut [u32],
+}
+
+impl Band<'_> {
+    fn cover(&mut self, faces: &[Corners], of_band: &[u32]) {
+        let top = self.first_row as f64;
+        let size = [self.side, self.texels.len() / self.side];
+        let local = |face: u32| faces[face as usize].map(|[x, y]| [x, y - top]);
+        for &face in of_band {
+            for (row, columns) in spans(steps(local(face)), size) {
+                self.texels[row * self.side..][columns].fill(face);
+            }
+        }
+        let mut distances = vec![REACH * REACH; self.texels.len()];
+        for &face in of_band {
+            self.surround(face, &local(face), &mut distances);
+        }
+    }
+
+    /// Gives a face the texels beside it that lie in none and are nearer to it than to any before.
+    fn surround(&mut self, face: u32, corners: &Corners, distances: &mut [f64]) {
+        let rows = self.texels.len() / self.side;
+        let [low, high] = extent(corners.map(|p| p[1]));
+        for row in centres(low - REACH, high + REACH, rows) {
+            let y = row as f64 + 0.5;
+            let Some([left, right]) = width_between(corners, y - REACH, y + REACH) else {
+                continue;
+            };
+            for column in centres(left - REACH, right + REACH, self.side) {
+                let texel = row * self.side + column;
+                if self.texels[texel] & BESIDE == 0 {
+                    continue;
+                }
+                let (_, distance2) = nearest_on_edges(corners, [column as f64 + 0.5, y]);
+                if distance2 < distances[texel] {
+                    distances[texel] = distance2;
+                    self.texels[texel] = face | BESIDE;
+                }
+            }
+        }
+    }
+}
+
+/// Texels of `n` with their centres from `low` to `high`.
+fn centres(low: f64, high: f64, n: usize) -> std::ops::Range<usize> {
+    let first = (low - 0.5).ceil().max(0.0) as usize;
+    let end = ((high + 0.5).floor().max(0.0) as usize).min(n);
+    first.min(end)..end
+}
+
+fn extent(values: [f64; 3]) -> [f64; 2] {
+    let [a, b, c] = values;
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
+/// The least and greatest x of the part of a triangle between two heights.
+fn width_between(corners: &Corners, low: f64, high: f64) -> Option<[f64; 2]> {
+    let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+    for k in 0..3 {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        let (a, b) = if a[1] <= b[1] { (a, b) } else { (b, a) };
+        if b[1] < low || a[1] > high {
+            continue;
+        }
+        let height = b[1] - a[1];
+        for y in [a[1].max(low), b[1].min(high)] {
+            let t = if height > 0.0 {
+                (y - a[1]) / height
+            } else {
+                0.0
+            };
+            let x = a[0] + t * (b[0] - a[0]);
+            left = left.min(x);
+            right = right.max(x);
+        }
+        // A level edge has both its ends at one height.
+        if height <= 0.0 {
+            left = left.min(b[0]);
+            right = right.max(b[0]);
+        }
+    }
+    (left <= right).then_some([left, right])
+}

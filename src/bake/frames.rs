@@ -1,0 +1,76 @@
+//! Directions carried from one tangent frame to another.
+
+use super::triangle::Barycentric;
+
+/// Normals, and tangents with the sign of the bitangent, at the corners of faces.
+pub struct Frames {
+    /// Normals of the surface.
+    pub normals: Vec<[[f32; 3]; 3]>,
+    /// Tangents of the map that a direction comes from.
+    pub from: Vec<[[f32; 4]; 3]>,
+    /// Tangents of the map that it goes to.
+    pub to: Vec<[[f32; 4]; 3]>,
+}
+
+impl Frames {
+    /// Appends faces without directions.
+    pub fn skip(&mut self, n_faces: usize) {
+        let n = self.normals.len() + n_faces;
+        self.normals.resize(n, [[0.0; 3]; 3]);
+        self.from.resize(n, [[0.0; 4]; 3]);
+        self.to.resize(n, [[0.0; 4]; 3]);
+    }
+
+    /// A direction relative to the old frame at a place of a face, relative to the new one, of unit length; as it is
+    /// where a frame has no volume.
+    pub(super) fn carried(
+        &self,
+        face: usize,
+        weights: Barycentric,
+        direction: [f32; 3],
+    ) -> [f32; 3] {
+        let normal = unit(mean(weights, &self.normals[face]));
+        let from = basis(normal, mean(weights, &self.from[face]));
+        let to = basis(normal, mean(weights, &self.to[face]));
+        let [x, y, z] = direction;
+        let world = [0, 1, 2].map(|k| x * from[0][k] + y * from[1][k] + z * from[2][k]);
+        // Cramer's rule, the columns of the matrix being the axes of the new frame.
+        let volume = dot(to[0], cross(to[1], to[2]));
+        let carried =
+            [(1, 2), (2, 0), (0, 1)].map(|(a, b)| dot(world, cross(to[a], to[b])) / volume);
+        let carried = unit(carried);
+        if carried.iter().all(|x| x.is_finite()) {
+            carried
+        } else {
+            direction
+        }
+    }
+}
+
+/// Tangent, bitangent and normal as glTF defines them.
+fn basis(normal: [f32; 3], [x, y, z, sign]: [f32; 4]) -> [[f32; 3]; 3] {
+    let tangent = unit([x, y, z]);
+    let bitangent = unit(cross(normal, tangent)).map(|x| x * sign.signum());
+    [tangent, bitangent, normal]
+}
+
+fn mean<const N: usize>(weights: Barycentric, corners: &[[f32; N]; 3]) -> [f32; N] {
+    std::array::from_fn(|k| (0..3).map(|c| weights[c] as f32 * corners[c][k]).sum())
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(a: [f32; 3]) -> [f32; 3] {
+    let length = dot(a, a).sqrt();
+    a.map(|x| x / length)
+}

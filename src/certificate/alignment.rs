@@ -1,0 +1,27 @@
+//! Whether charts end where texels end.
+
+use super::topology::UvTopology;
+
+/// The charts whose bounding rectangle does not lie on borders of texels of a texture of `resolution`, exactly: f32 times a
+/// whole number below 2²⁸ is exact in f64.
+pub(super) fn unaligned_charts(topology: &UvTopology, resolution: u32) -> usize {
+    let n_charts = topology.charts.nonorientable.len();
+    let mut bounds: Vec<Option<[[f64; 2]; 2]>> = vec![None; n_charts];
+    for (face, corners) in topology.uvs.iter().enumerate() {
+        if !topology.is_judged(face) {
+            continue;
+        }
+        let bounds = &mut bounds[topology.charts.of_face[face] as usize];
+        for uv in corners {
+            let [low, high] = bounds.get_or_insert([*uv, *uv]);
+            for axis in 0..2 {
+                low[axis] = low[axis].min(uv[axis]);
+                high[axis] = high[axis].max(uv[axis]);
+            }
+        }
+    }
+    let is_border = |x: &f64| (x * f64::from(resolution)).fract() == 0.0;
+    let ends = bounds.iter().flatten();
+    ends.filter(|bounds| !bounds.as_flattened().iter().all(is_border))
+        .count()
+}

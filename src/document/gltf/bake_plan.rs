@@ -1,0 +1,212 @@
+//! Which textures to make for new UVs.
+use super::GltfDocument;
+use super::json::extension;
+use super::sampling::Resampled;
+use super::textures::{MaterialTextures, TextureUse, materials};
+use crate::document::bake::MaterialPlanes;
+use crate::document::{BakePlan, BakePlane, DocumentError, Encoding, Group, KeptTexture};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Directions of anisotropy are those of tangents: they turn with the UVs.
+const ANISOTROPY: &str = "KHR_materials_anisotropy";
+
+/// A texture of a material, and how to resample it or why not.
+struct Slot {
+    texture: TextureUse,
+    resampled: Result<Resampled, String>,
+}
+
+/// Indices of primitives by the material that they have, or have in a variant.
+type Users = BTreeMap<usize, BTreeSet<usize>>;
+
+/// The plan for new UVs of `groups`. `unreadable` says of images why they cannot be read.
+pub(super) fn plan(
+    document: &GltfDocument,
+    groups: &[Group],
+    unreadable: &BTreeMap<usize, String>,
+) -> Result<BakePlan, DocumentError> {
+    let users = users(document, groups)?;
+    let mut slots: BTreeMap<usize, Vec<Slot>> = users
+        .keys()
+        .map(|&material| (material, slots_of(document, material, unreadable)))
+        .collect();
+    keep_frames_together(&users, &mut slots);
+    let mut plan = BakePlan {
+        kept: kept(document, &slots)?,
+        ..BakePlan::default()
+    };
+    for (group, members) in groups.iter().enumerate() {
+        let members: BTreeSet<usize> = members.primitives.iter().copied().collect();
+        plan_group(
+            &mut plan,
+            (group, &groups[group].name),
+            &members,
+            &users,
+            &slots,
+        );
+    }
+    Ok(plan)
+}
+
+fn users(document: &GltfDocument, groups: &[Group]) -> Result<Users, DocumentError> {
+    let mut users = Users::new();
+    for &index in groups.iter().flat_map(|group| &group.primitives) {
+        let primitive = &document.primitives[index];
+        for material in materials(primitive.material, document.object(primitive)?)? {
+            users.entry(material).or_default().insert(index);
+        }
+    }
+    Ok(users)
+}
+
+fn slots_of(
+    document: &GltfDocument,
+    material: usize,
+    unreadable: &BTreeMap<usize, String>,
+) -> Vec<Slot> {
+    let json = &document.body.json;
+    let is_anisotropic = json
+        .pointer(&format!("/materials/{material}"))
+        .is_some_and(|object| extension(object, ANISOTROPY).is_some());
+    let textures = MaterialTextures::of_material(json, material).uses;
+    let slot = |texture: TextureUse| {
+        let resampled = Resampled::of(json, &texture).and_then(|resampled| {
+            match unreadable.get(&resampled.source.image) {
+                Some(reason) => Err(reason.clone()),
+                None if is_anisotropic => Err("its material is anisotropic".to_owned()),
+                None => Ok(resampled),
+            }
+        });
+        Slot { texture, resampled }
+    };
+    textures.into_iter().map(slot).collect()
+}
+
+/// A primitive has one tangent per vertex: where a normal map stays, so do all others of the primitives that have it.
+fn keep_frames_together(users: &Users, slots: &mut BTreeMap<usize, Vec<Slot>>) {
+    loop {
+        let keeps = |material: &usize| {
+            slots[material]
+                .iter()
+                .any(|slot| slot.texture.is_normal_map && slot.resampled.is_err())
+        };
+        let held: BTreeSet<usize> = (users.iter().filter(|(material, _)| keeps(material)))
+            .flat_map(|(_, primitives)| primitives.iter().copied())
+            .collect();
+        let mut changed = false;
+        for (material, slots) in &mut *slots {
+            let moves = |slot: &&mut Slot| slot.texture.is_normal_map && slot.resampled.is_ok();
+            if users[material].is_disjoint(&held) {
+                continue;
+            }
+            for slot in slots.iter_mut().filter(moves) {
+                slot.resampled = Err("another normal map of its surface stays".to_owned());
+                changed = true;
+            }
+        }
+        if !changed {
+            return;
+        }
+    }
+}
+
+fn kept(
+    document: &GltfDocument,
+    slots: &BTreeMap<usize, Vec<Slot>>,
+) -> Result<Vec<KeptTexture>, DocumentError> {
+    let mut kept = BTreeSet::new();
+    let mut keep = |texture: &TextureUse, reason: &str| {
+        kept.insert(KeptTexture {
+            material: texture.material,
+            slot: texture.slot.clone(),
+            reason: reason.to_owned(),
+        })
+    };
+    for slot in slots.values().flatten() {
+        if let Err(reason) = &slot.resampled {
+            keep(&slot.texture, reason);
+        }
+    }
+    for primitive in &document.primitives {
+        for texture in MaterialTextures::of_primitive(primitive, document.object(primitive)?).uses {
+            keep(&texture, "it belongs to the primitive, not to a material");
+        }
+    }
+    Ok(kept.into_iter().collect())
+}
+
+/// Adds the textures of one group: of each slot one for all materials, as long as no surface has two of them.
+fn plan_group(
+    plan: &mut BakePlan,
+    (group, name): (usize, &str),
+    members: &BTreeSet<usize>,
+    users: &Users,
+    slots: &BTreeMap<usize, Vec<Slot>>,
+) {
+    let first = plan.planes.len();
+    for (&material, slots) in slots {
+        let primitives: BTreeSet<usize> = users[&material].intersection(members).copied().collect();
+        if primitives.is_empty() {
+            continue;
+        }
+        let mut planes = Vec::new();
+        for slot in slots {
+            let Ok(resampled) = &slot.resampled else {
+                continue;
+            };
+            let wanted = BakePlane {
+                name: format!("{name}_{}", word(&slot.texture.slot)),
+                group,
+                encoding: resampled.encoding,
+                filters: resampled.filters,
+                sources: primitives
+                    .iter()
+                    .map(|&p| (p, resampled.source.clone()))
+                    .collect(),
+            };
+            planes.push((
+                slot.texture.slot.clone(),
+                joined(&mut plan.planes, first, wanted),
+            ));
+            plan.replaced.insert(slot.texture.pointer.clone());
+            if resampled.encoding == Encoding::Normal {
+                plan.normal_mapped.extend(&primitives);
+            }
+        }
+        if !planes.is_empty() {
+            plan.materials.push(MaterialPlanes {
+                material,
+                primitives,
+                slots: planes,
+            });
+        }
+    }
+}
+
+/// The plane that a texture becomes part of: one for the same slot in which its surfaces have nothing else, or a new one.
+fn joined(planes: &mut Vec<BakePlane>, first: usize, wanted: BakePlane) -> usize {
+    let takes = |plane: &BakePlane| {
+        let kind = |plane: &BakePlane| (plane.encoding, plane.filters);
+        let agrees = |(primitive, source)| {
+            let present = plane.sources.get(primitive);
+            present.is_none_or(|present| present == source)
+        };
+        let shares_name = plane.name == wanted.name;
+        kind(plane) == kind(&wanted)
+            && wanted.sources.iter().all(agrees)
+            && (shares_name || wanted.sources.keys().any(|p| plane.sources.contains_key(p)))
+    };
+    if let Some(found) = planes[first..].iter().position(takes) {
+        planes[first + found].sources.extend(wanted.sources);
+        first + found
+    } else {
+        planes.push(wanted);
+        planes.len() - 1
+    }
+}
+
+/// `baseColor` of `pbrMetallicRoughness/baseColorTexture`.
+fn word(slot: &str) -> &str {
+    let name = slot.rsplit('/').next().unwrap_or(slot);
+    name.strip_suffix("Texture").unwrap_or(name)
+}

@@ -1,0 +1,147 @@
+//! Nodes that show meshes.
+use super::json::{array_mut, as_unsigned, invalid, item, items, unsigned};
+use crate::document::DocumentError;
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+
+/// Three rows of a linear map and a shift.
+pub(super) type Affine = [[f64; 4]; 3];
+
+const IDENTITY: Affine = [
+    [1.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0],
+];
+
+/// Gives every node that shows a mesh a mesh of its own: the first keeps it, the others get copies with the same accessors.
+pub(super) fn separate_meshes(json: &mut Value) -> Result<(), DocumentError> {
+    let mut shown = BTreeSet::new();
+    for node in 0..items(json, "nodes")?.len() {
+        let Some(mesh) = unsigned(item(json, "nodes", node)?, "mesh")? else {
+            continue;
+        };
+        if shown.insert(mesh) {
+            continue;
+        }
+        let copy = item(json, "meshes", mesh)?.clone();
+        let meshes = array_mut(json, "meshes")?;
+        meshes.push(copy);
+        let own = meshes.len() - 1;
+        array_mut(json, "nodes")?[node]["mesh"] = json!(own);
+    }
+    Ok(())
+}
+
+/// Where in the scene each mesh lies, by the first node that shows it; where it is for meshes that no node shows, or that a skin
+/// moves. Mirrored ones are mirrored back, so that faces keep their winding.
+pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
+    let nodes = items(json, "nodes")?;
+    let mut parents = vec![None; nodes.len()];
+    for (parent, node) in nodes.iter().enumerate() {
+        for child in items(node, "children")? {
+            let child = as_unsigned(child).filter(|child| *child < nodes.len());
+            let child = child.ok_or_else(|| invalid("a node has a child that is not there"))?;
+            parents[child] = Some(parent);
+        }
+    }
+    let mut placements = vec![None; items(json, "meshes")?.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        let Some(mesh) = unsigned(node, "mesh")? else {
+            continue;
+        };
+        let placement = placements
+            .get_mut(mesh)
+            .ok_or_else(|| invalid(format!("there is no meshes[{mesh}]")))?;
+        if placement.is_none() && node.get("skin").is_none() {
+            *placement = Some(unmirrored(global(nodes, &parents, index)?));
+        }
+    }
+    Ok(placements
+        .into_iter()
+        .map(|p| p.unwrap_or(IDENTITY))
+        .collect())
+}
+
+/// The place of a point.
+pub(super) fn placed(placement: &Affine, point: [f32; 3]) -> [f32; 3] {
+    let [x, y, z] = point.map(f64::from);
+    placement.map(|[a, b, c, d]| (a * x + b * y + c * z + d) as f32)
+}
+
+fn global(
+    nodes: &[Value],
+    parents: &[Option<usize>],
+    node: usize,
+) -> Result<Affine, DocumentError> {
+    let mut transform = local(&nodes[node]);
+    let (mut at, mut steps) = (node, 0);
+    while let Some(parent) = parents[at] {
+        transform = product(&local(&nodes[parent]), &transform);
+        (at, steps) = (parent, steps + 1);
+        if steps > nodes.len() {
+            return Err(invalid("a node is its own ancestor"));
+        }
+    }
+    Ok(transform)
+}
+
+/// The transform of a node relative to its parent.
+fn local(node: &Value) -> Affine {
+    if let Some(m) = numbers::<16>(node, "matrix") {
+        return [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| m[4 * column + row]));
+    }
+    let [x, y, z, w] = numbers(node, "rotation").unwrap_or([0.0, 0.0, 0.0, 1.0]);
+    let scale: [f64; 3] = numbers(node, "scale").unwrap_or([1.0; 3]);
+    let shift: [f64; 3] = numbers(node, "translation").unwrap_or([0.0; 3]);
+    let turn = [
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - z * w),
+            2.0 * (x * z + y * w),
+        ],
+        [
+            2.0 * (x * y + z * w),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - x * w),
+        ],
+        [
+            2.0 * (x * z - y * w),
+            2.0 * (y * z + x * w),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
+    ];
+    [0, 1, 2].map(|row| {
+        let [a, b, c] = turn[row];
+        [a * scale[0], b * scale[1], c * scale[2], shift[row]]
+    })
+}
+
+fn numbers<const N: usize>(node: &Value, key: &str) -> Option<[f64; N]> {
+    let values: Option<Vec<f64>> = node
+        .get(key)?
+        .as_array()?
+        .iter()
+        .map(Value::as_f64)
+        .collect();
+    values?.try_into().ok()
+}
+
+/// b, then a.
+fn product(a: &Affine, b: &Affine) -> Affine {
+    a.map(|row| {
+        [0, 1, 2, 3].map(|column| {
+            let shift = if column == 3 { row[3] } else { 0.0 };
+            (0..3).map(|k| row[k] * b[k][column]).sum::<f64>() + shift
+        })
+    })
+}
+
+fn unmirrored([a, b, c]: Affine) -> Affine {
+    let minor = |j: usize, k: usize| b[j] * c[k] - b[k] * c[j];
+    let determinant = a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1);
+    if determinant < 0.0 {
+        [a.map(|x| -x), b, c]
+    } else {
+        [a, b, c]
+    }
+}

@@ -1,0 +1,111 @@
+//! The textures of a document, resampled for its new UVs.
+
+mod images;
+mod planes;
+mod surface;
+
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+use super::PipelineError;
+use super::options::Options;
+use crate::bake::{Coverage, MOST_TEXELS, baked, side_for};
+use crate::document::{BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs};
+use images::read_images;
+use planes::Bake;
+use surface::Surface;
+
+/// The largest side of a texture.
+pub(super) const MOST_SIDE: u32 = 8192;
+/// The distance of charts from which on bilinear filtering does not mix them.
+const FILTER_TEXELS: f64 = 2.0;
+
+/// Textures for `uvs`, v up, in place of all that can be read and are understood.
+pub(super) fn rebaked(
+    document: &Document,
+    groups: &[Group],
+    uvs: &NewUvs,
+    options: &Options,
+) -> Result<BakedTextures, PipelineError> {
+    let Document::Gltf(document) = document else {
+        let what = "new textures for another format than glTF".to_owned();
+        return Err(DocumentError::UnsupportedOutput(what).into());
+    };
+    let hoped = document.bake_plan(groups, &BTreeMap::new())?;
+    let (images, unreadable) = read_images(document, &hoped.planes)?;
+    let plan = document.bake_plan(groups, &unreadable)?;
+    let surfaces: Vec<Surface> = (0..document.primitives().len())
+        .into_par_iter()
+        .map(|index| Surface::new(document, index, uvs, plan.is_normal_mapped(index)))
+        .collect::<Result<_, _>>()?;
+    let bake = Bake {
+        document,
+        images: &images,
+        surfaces: &surfaces,
+    };
+    let files = files(&bake, &plan, groups, options)?;
+    Ok(BakedTextures {
+        plan,
+        files,
+        tangents: (surfaces.into_iter())
+            .map(Surface::written_tangents)
+            .collect(),
+    })
+}
+
+/// The side and the PNG file of each texture of a plan.
+fn files(
+    bake: &Bake,
+    plan: &BakePlan,
+    groups: &[Group],
+    options: &Options,
+) -> Result<Vec<(u32, Vec<u8>)>, DocumentError> {
+    let least = options
+        .bake_size
+        .unwrap_or(options.resolution.min(MOST_SIDE));
+    check_texels(u64::from(least).pow(2) * plan.planes.len() as u64)?;
+    let mut files = Vec::new();
+    let mut texels = 0;
+    // Textures of one group often have one size.
+    let mut last: Option<((usize, u32), Coverage)> = None;
+    for wanted in &plan.planes {
+        let members = &groups[wanted.group].primitives;
+        let (plane, faces) = (bake.plane(wanted, members)?, bake.faces(members));
+        let side = options
+            .bake_size
+            .unwrap_or_else(|| least.max(side_for(&plane, &faces)));
+        texels += u64::from(side).pow(2);
+        check_texels(texels)?;
+        let key = (wanted.group, side);
+        let known = last.take().filter(|(known, _)| *known == key);
+        let new = || (key, Coverage::new(&faces, side as usize));
+        let (_, coverage) = last.insert(known.unwrap_or_else(new));
+        files.push((side, baked(&plane, coverage).png()));
+    }
+    Ok(files)
+}
+
+/// What is to be said of textures in which charts are so near that bilinear filtering at the border of one reads texels of another.
+pub(super) fn remarks(baked: &BakedTextures, options: &Options) -> Vec<String> {
+    let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
+    sides.sort_unstable();
+    sides.dedup();
+    let texels = f64::from(options.settings().padding) / f64::from(options.resolution);
+    let gap = |side: u32| texels * f64::from(side);
+    let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
+    near.map(|side| {
+        let gap = gap(side);
+        format!("charts are {gap:.2} texels apart in textures of {side}: filtering mixes them; see padding")
+    })
+    .collect()
+}
+
+fn check_texels(texels: u64) -> Result<(), DocumentError> {
+    if texels <= MOST_TEXELS {
+        return Ok(());
+    }
+    let (most, wanted) = (MOST_TEXELS >> 20, texels >> 20);
+    Err(DocumentError::LimitExceeded(format!(
+        "the new textures would have {wanted} Mi texels or more; at most {most} Mi are made"
+    )))
+}
