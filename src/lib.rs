@@ -126,6 +126,10 @@
 //!   travels as a rigid body, so that half a turn of a bar's end does not pass through a point.
 //! - A body that is pulled from exact rest in one jump is shaken by a thousandth of its smallest element first: a pressed bar
 //!   would otherwise end on the saddle that its symmetry keeps it on.
+//! - A start that is supplied, UVs to be edited or positions of a problem, may have inversions: it is untangled with as few vertices
+//!   moved as it takes, or refused. Inverted rest shapes are refused.
+//! - Solids are factored like surfaces, ordered by nested dissection. A large cage starts where a coarser one ends, and where a
+//!   factorization would take more than 6 GiB conjugate gradients take over ([`numerics::linear_solver`] has the memory per element).
 //! - The inverse spline's support ends at s(λ⁰ − ε), as in the authors' code, so that it is zero at rest; the paper has sλ⁰.
 //!
 //! # Invariants

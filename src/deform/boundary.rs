@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::mesh::PlanarMesh;
+use crate::mesh::boundary_edges;
 
 /// What becomes of the boundary of a map of the plane that is pulled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,12 +17,13 @@ pub enum Boundary {
 }
 
 impl Boundary {
-    /// The vertices of `mesh` that stay, ascending.
-    pub(super) fn held(self, mesh: &PlanarMesh) -> Vec<u32> {
+    /// The vertices of `triangles` that stay, ascending.
+    pub(super) fn held(self, n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
         if self == Self::Free {
             return Vec::new();
         }
-        let mut boundary: Vec<u32> = mesh.boundary().iter().map(|edge| edge[0]).collect();
+        let edges = boundary_edges(n_vertices, triangles);
+        let mut boundary: Vec<u32> = edges.into_iter().flatten().collect();
         boundary.sort_unstable();
         boundary.dedup();
         boundary

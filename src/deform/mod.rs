@@ -22,6 +22,7 @@ mod problem_error;
 mod problem_file;
 mod pull;
 mod solve;
+mod untangle;
 pub mod uv;
 pub mod warp;
 

@@ -8,6 +8,7 @@ use super::body::Body;
 use super::handles::{Handle, bind};
 use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
+use super::untangle::{bad_elements, untangled};
 use crate::barrier::{Barrier, BarrierKind};
 use crate::energy::Row;
 use crate::solver::{Handles, LevenbergSettings};
@@ -19,6 +20,8 @@ pub struct Problem {
     pub body: Body,
     /// Start positions, coordinates one after another.
     pub start: Vec<f64>,
+    /// How many elements of the start were inverted and had to be untangled.
+    pub untangled: usize,
     /// The energy.
     pub energy: DeformationEnergy,
     /// The barrier.
@@ -111,6 +114,7 @@ impl Problem {
     pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
         Ok(Self {
             start: body.rest.clone(),
+            untangled: 0,
             energy: model.energy,
             barrier: model.barrier(&body, None)?,
             bound: model.bound,
@@ -120,22 +124,27 @@ impl Problem {
         })
     }
 
-    /// With a barrier no element of the start may be at ε or below.
-    pub fn check_start(&self) -> Result<(), ProblemError> {
+    /// With a barrier no element of the start may be at ε or below: those that are are untangled, as little as possible moved.
+    /// Handles move too; they travel from where they are then.
+    pub fn untangle_start(&mut self) -> Result<(), ProblemError> {
         if self.barrier.kind == BarrierKind::None {
             return Ok(());
         }
         let epsilon = self.barrier.epsilon;
-        let determinants = self.body.determinants_at(&self.start);
-        let is_outside = |&d: &f64| d <= epsilon || d.is_nan();
-        match determinants.iter().position(is_outside) {
-            Some(element) => Err(ProblemError::InfeasibleStart {
+        let bad = bad_elements(&self.body, &self.start, epsilon);
+        let Some(&element) = bad.first() else {
+            return Ok(());
+        };
+        let Some(start) = untangled(&self.body, &self.start, &[], epsilon) else {
+            return Err(ProblemError::InfeasibleStart {
                 element,
-                determinant: determinants[element],
+                determinant: self.body.determinants_at(&self.start)[element],
                 epsilon,
-            }),
-            None => Ok(()),
-        }
+            });
+        };
+        self.start = start;
+        self.untangled = bad.len();
+        Ok(())
     }
 
     /// Does the energy or the barrier keep every element from inverting?

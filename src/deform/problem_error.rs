@@ -70,9 +70,9 @@ pub enum ProblemError {
     /// One point of an element is to be at two places.
     #[error("a point has two handles with different targets")]
     ContradictoryPoints,
-    /// The start has an element at or below ε.
+    /// The start has an element at or below ε and cannot be untangled.
     #[error(
-        "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}"
+        "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}, and no valid start was found near it"
     )]
     InfeasibleStart {
         /// The element.

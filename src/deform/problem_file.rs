@@ -108,16 +108,17 @@ impl ProblemFile {
             bound: None,
         };
         let barrier = model.barrier(&body, self.eps)?;
-        let problem = Problem {
+        let mut problem = Problem {
             stations: self.stations(&body)?,
             levenberg: self.levenberg(),
             body,
             start,
+            untangled: 0,
             energy: self.energy,
             barrier,
             bound: None,
         };
-        problem.check_start()?;
+        problem.untangle_start()?;
         Ok(problem)
     }
 

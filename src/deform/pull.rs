@@ -128,6 +128,7 @@ pub(super) fn pull(
     );
     let problem = Problem {
         start: start.as_flattened().to_vec(),
+        untangled: 0,
         energy: model.energy,
         bound: model.bound,
         barrier: model.barrier(&body, Some(epsilon))?,

@@ -30,4 +30,5 @@ mod tutte;
 pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
 pub use pins::Pins;
 pub use rest::{RestShapes, rest_shapes};
+pub use star::{Corners, Star};
 pub use start::{hierarchical_start, is_positive, start, tutte_start};

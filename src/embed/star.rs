@@ -24,7 +24,7 @@ const FLATTEST: f64 = 1e-9;
 /// What a triangle's energy needs of its rest shape: ½·weight·‖J‖² = Σ edgesᵢ |edge opposite to corner i|², and det J in doubled
 /// areas.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corners {
+pub struct Corners {
     edges: [f64; 3],
     per_doubled_area: f64,
 }
@@ -52,12 +52,13 @@ struct Face {
 }
 
 /// The triangles around a vertex.
-#[derive(Default)]
-pub(super) struct Star {
+#[derive(Clone, Debug, Default)]
+pub struct Star {
     faces: Vec<Face>,
 }
 
 impl Star {
+    /// Takes all triangles out.
     pub fn clear(&mut self) {
         self.faces.clear();
     }
@@ -109,17 +110,24 @@ impl Star {
     }
 
     /// The energy with the vertex at `x`, +∞ if a triangle is not positive.
-    fn value(&self, x: [f64; 2]) -> f64 {
+    ///
+    /// Σ over the triangles of ½·weight·‖J‖²(1 + 1/det²J). Test: `embed::taylor_star`.
+    pub fn value(&self, x: [f64; 2]) -> f64 {
         self.faces.iter().map(|face| face.value(x)).sum()
+    }
+
+    /// The gradient and the entries xx, xy, yy of the Hessian with the vertex at `x`.
+    pub fn derivatives(&self, x: [f64; 2]) -> ([f64; 2], [f64; 3]) {
+        let (mut gradient, mut hessian) = ([0.0; 2], [0.0; 3]);
+        for face in &self.faces {
+            face.add_derivatives(x, &mut gradient, &mut hessian);
+        }
+        (gradient, hessian)
     }
 
     /// −|H|⁻¹g, each eigenvalue of the Hessian by its absolute value.
     fn newton_direction(&self, x: [f64; 2]) -> [f64; 2] {
-        let (mut g, mut h) = ([0.0; 2], [0.0; 3]);
-        for face in &self.faces {
-            face.add_derivatives(x, &mut g, &mut h);
-        }
-        let [a, b, c] = h;
+        let (g, [a, b, c]) = self.derivatives(x);
         let (mean, half) = (0.5 * (a + c), 0.5 * (a - c));
         let radius = half.hypot(b);
         let floor = (FLATTEST * (mean.abs() + radius)).max(f64::MIN_POSITIVE);

@@ -21,8 +21,9 @@ pub trait Density<const D: usize>: Send + Sync {
 
     /// The curvature against a rotation in the plane of the axes i and j, (ψᵢ + ψⱼ)/(σᵢ + σⱼ) given the gradient.
     ///
-    /// Only a density that minimizes a model other than its own Hessian, as [`FrozenArap`](super::FrozenArap) does, has a
-    /// reason to say something else.
+    /// A density has a reason to say it itself if it knows the quotient without dividing, as
+    /// [`FoldoverFree`](super::FoldoverFree) does, or minimizes a model other than its own Hessian, as
+    /// [`FrozenArap`](super::FrozenArap).
     fn twist(&self, sigma: &[f64; D], gradient: &[f64; D], i: usize, j: usize) -> f64 {
         // Where two singular values cancel a rotation has no axis; rounding of σ is of this relative size.
         (gradient[i] + gradient[j])

@@ -13,6 +13,7 @@
 
 mod arap;
 mod density;
+mod foldover_free;
 mod green;
 mod laplacian;
 mod lscm;
@@ -30,6 +31,7 @@ mod zero;
 
 pub use arap::{Arap, FrozenArap};
 pub use density::{Density, Guard};
+pub use foldover_free::FoldoverFree;
 pub use green::{Green, StVenantKirchhoff};
 pub use laplacian::{biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};
 pub use lscm::Lscm;

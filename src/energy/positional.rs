@@ -26,12 +26,14 @@ pub struct Positional {
 impl Positional {
     /// Cx: where each row is, coordinates one after another.
     pub fn places<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        self.rows.iter().flat_map(move |row| {
-            (0..self.dim).map(move |k| {
-                let weighted = row.iter().map(|&(v, w)| w * x[self.dim * v as usize + k]);
-                weighted.sum()
-            })
-        })
+        let rows = self.rows.iter();
+        rows.flat_map(move |row| (0..self.dim).map(move |k| self.place(row, k, x)))
+    }
+
+    /// Coordinate `k` of where a row is.
+    fn place(&self, row: &Row, k: usize, x: &[f64]) -> f64 {
+        let weighted = row.iter().map(|&(v, w)| w * x[self.dim * v as usize + k]);
+        weighted.sum()
     }
 
     /// Adds 2αCᵀ·`moves`: by how much the negative gradient grows where the targets move.
@@ -69,19 +71,17 @@ impl Term for Positional {
     }
 
     fn add_derivatives(&self, x: &[f64], _tau: f64, assembly: &mut Assembly) {
-        let gaps: Vec<f64> = self
-            .places(x)
-            .zip(&self.targets)
-            .map(|(place, t)| place - t)
-            .collect();
         for (index, row) in self.rows.iter().enumerate() {
-            let gap = &gaps[self.dim * index..self.dim * (index + 1)];
+            for k in 0..self.dim {
+                let gap = self.place(row, k, x) - self.targets[self.dim * index + k];
+                for &(v, weight) in row {
+                    let share = 2.0 * self.alpha * weight * gap;
+                    assembly.add_to_gradient(self.dim * v as usize + k, share);
+                }
+            }
             let mut pair = 0;
             for (j, &(v, weight)) in row.iter().enumerate() {
                 let factor = 2.0 * self.alpha * weight;
-                for (k, gap) in gap.iter().enumerate() {
-                    assembly.add_to_gradient(self.dim * v as usize + k, factor * gap);
-                }
                 assembly.add_diagonal_identity(v, factor * weight);
                 for &(_, other) in &row[..j] {
                     assembly.add_pair_identity(index, pair, factor * other);

@@ -70,7 +70,7 @@ pub(super) const CAUSES: [(&str, &str); 49] = [
     ),
     (
         "flipped_uvs",
-        "A face of the chart to be edited is flipped or empty",
+        "A face of the chart to be edited is flipped or empty, and untangling did not help",
     ),
     (
         "nonorientable_chart",
@@ -133,7 +133,7 @@ pub(super) const CAUSES: [(&str, &str); 49] = [
     ),
     (
         "infeasible_start",
-        "An element of the start is inverted or too small",
+        "An element of the start is inverted or too small, and untangling did not help",
     ),
     (
         "planar_energy",

@@ -29,7 +29,7 @@ pub use disk::{Disk, NotADisk};
 pub use edges::{CUT, Edges, next, origin, same_direction};
 pub use element_error::ElementError;
 pub(crate) use element_error::validate;
-pub use planar::PlanarMesh;
+pub use planar::{PlanarMesh, boundary_edges};
 pub use surface::{MeshError, Surface};
 pub use tets::{TetMesh, boundary_triangles};
 pub use union_find::UnionFind;

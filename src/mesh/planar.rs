@@ -80,16 +80,21 @@ impl PlanarMesh {
 
     /// Edges of one triangle only, the triangle on their left, in the order of the triangles.
     pub fn boundary(&self) -> Vec<[u32; 2]> {
-        let edges = Edges::new(self.vertices.len(), &self.triangles);
-        let mut alone: Vec<u32> = edges
-            .iter()
-            .filter(|halfedges| halfedges.len() == 1)
-            .map(|halfedges| halfedges[0])
-            .collect();
-        alone.sort_unstable();
-        let ends = |h: u32| [h, super::edges::next(h)].map(|h| origin(&self.triangles, h));
-        alone.into_iter().map(ends).collect()
+        boundary_edges(self.vertices.len(), &self.triangles)
     }
+}
+
+/// Edges of one triangle only, wound as that, in the order of the triangles.
+pub fn boundary_edges(n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let edges = Edges::new(n_vertices, triangles);
+    let mut alone: Vec<u32> = edges
+        .iter()
+        .filter(|halfedges| halfedges.len() == 1)
+        .map(|halfedges| halfedges[0])
+        .collect();
+    alone.sort_unstable();
+    let ends = |h: u32| [h, super::edges::next(h)].map(|h| origin(triangles, h));
+    alone.into_iter().map(ends).collect()
 }
 
 /// The first two counter-clockwise triangles that run along an edge the same way.

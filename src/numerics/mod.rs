@@ -1,12 +1,14 @@
 //! Small linear algebra, sparse Cholesky, exact predicates.
 //!
 //! What every other module computes with, and nothing about meshes: vectors and matrices of plane and space, a sparse
-//! factorization whose symbolic part is done once per pattern, and the exact sign of an orientation. Everything is
+//! factorization whose symbolic part is done once per pattern, conjugate gradients where it does not fit, and the exact sign of an orientation. Everything is
 //! plain `f64` arrays; nothing here allocates inside an iteration.
 
 pub mod block;
 pub mod cholesky;
+pub mod conjugate_gradients;
 pub mod hull;
+pub mod linear_solver;
 pub mod predicates;
 pub mod random;
 pub mod roots;

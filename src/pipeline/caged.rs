@@ -10,9 +10,10 @@ use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::observer::{Stage, Tracker};
 use super::solution::{Deformed, WriteMap, solve};
 use crate::certificate::{Crossings, crossings};
-use crate::deform::cage::{Cage, CagedSurface};
+use crate::deform::cage::{Cage, Caged, CagedSurface};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
 use crate::document::{Document, GroupBy, OutputFormat, Upload, Written};
+use crate::solver::Watch;
 use serde::Serialize;
 
 /// A document with all its triangles in one cage.
@@ -23,6 +24,7 @@ pub struct CagedDocument {
     document: Document,
     cage: Cage,
     problem: Problem,
+    handles: Vec<Handle>,
     idle_parts: usize,
     options: CageOptions,
 }
@@ -92,7 +94,7 @@ pub(super) fn deform(
     if options.frames {
         check_frames(format)?;
     }
-    let caged = CagedDocument::read(
+    let mut caged = CagedDocument::read(
         upload,
         &options.handles,
         CageOptions {
@@ -108,6 +110,7 @@ pub(super) fn deform(
             limits: options.limits,
         },
     )?;
+    caged.start_coarse(tracker);
     let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
     let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
     let solved = solve(caged.problem(), options.plan(), tracker, frames)?;
@@ -136,20 +139,8 @@ impl CagedDocument {
         if let Some(handle) = handles.iter().position(is_vertex) {
             return Err(ProblemError::VertexOfCage { handle }.into());
         }
-        let surfaces: Vec<Vec<[f64; 3]>> = document
-            .primitives()
-            .iter()
-            .map(|p| widened(&p.positions))
-            .collect();
-        let caged: Vec<CagedSurface> = surfaces
-            .iter()
-            .zip(document.primitives())
-            .map(|(positions, primitive)| CagedSurface {
-                positions,
-                triangles: &primitive.triangles,
-            })
-            .collect();
-        let cage = Cage::around(&caged, options.n_voxels)?;
+        let positions = positions(&document);
+        let cage = Cage::around(&surfaces(&document, &positions), options.n_voxels)?;
         let document = match options.surfaces {
             Surfaces::Whole => document,
             Surfaces::Split => {
@@ -164,9 +155,21 @@ impl CagedDocument {
             document,
             cage,
             problem,
+            handles: handles.to_vec(),
             idle_parts,
             options,
         })
+    }
+
+    /// Lets a large cage start where a coarser one ends.
+    fn start_coarse(&mut self, watch: &dyn Watch) {
+        let positions = positions(&self.document);
+        let caged = Caged {
+            surfaces: &surfaces(&self.document, &positions),
+            handles: &self.handles,
+            model: &self.options.model,
+        };
+        caged.start(&mut self.problem, &self.cage, self.options.n_voxels, watch);
     }
 
     /// The cage as a body, with its handles.
@@ -204,6 +207,23 @@ impl CagedDocument {
         };
         Ok((written, report))
     }
+}
+
+/// The positions of every primitive.
+fn positions(document: &Document) -> Vec<Vec<[f64; 3]>> {
+    let primitives = document.primitives().iter();
+    primitives.map(|p| widened(&p.positions)).collect()
+}
+
+/// The triangles of every primitive over its positions.
+fn surfaces<'a>(document: &'a Document, positions: &'a [Vec<[f64; 3]>]) -> Vec<CagedSurface<'a>> {
+    let primitives = positions.iter().zip(document.primitives());
+    primitives
+        .map(|(positions, primitive)| CagedSurface {
+            positions,
+            triangles: &primitive.triangles,
+        })
+        .collect()
 }
 
 fn crossings_of(document: &Document) -> Crossings {

@@ -44,6 +44,8 @@ pub struct EditReport {
 pub struct ChartEditReport {
     /// Its number among the charts of the document, in the order of their first faces.
     pub chart: u32,
+    /// How many of its faces were flipped or empty and had to be untangled first.
+    pub untangled: usize,
     /// What the map is worth; the certificate is about the bytes written.
     #[serde(flatten)]
     pub map: PullReport,
@@ -183,6 +185,7 @@ fn judge(
         };
         ChartEditReport {
             chart: chart.chart,
+            untangled: chart.untangled,
             map,
         }
     });

@@ -35,12 +35,14 @@ pub struct DeformReport {
     /// What the map is worth.
     #[serde(flatten)]
     pub worth: Worth,
+    /// Elements of the supplied start that were inverted and had to be untangled.
+    pub untangled: usize,
     /// The energy that minimizing without a barrier leads to from the solution, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_without_barrier: Option<f64>,
     /// The smallest size of an element over its rest size, over all iterates.
     pub smallest_ever: f64,
-    /// Seconds of reading and checking.
+    /// Seconds of reading and checking, of a large cage with those of the coarser ones it starts from.
     pub setup_seconds: f64,
     /// Seconds of everything after that, but for writing.
     pub solve_seconds: f64,
@@ -103,6 +105,7 @@ pub(super) fn solve(
         method: plan.method,
         summary: solution.summary,
         worth: solution.worth,
+        untangled: problem.untangled,
         energy_without_barrier,
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,

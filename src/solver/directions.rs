@@ -31,11 +31,13 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// For `n` unknowns.
-    pub fn new(n: usize, projection: Projection) -> Self {
+    /// For an objective. One whose Hessian is too large to factor is left to Newton's method.
+    pub fn new(objective: &mut Objective, projection: Projection) -> Self {
+        let n = objective.n();
+        let has_region = objective.keeps_factor() && projection == Projection::TrustRegion;
         Self {
             direction: vec![0.0; n],
-            region: (projection == Projection::TrustRegion).then(|| TrustRegion::new(n)),
+            region: has_region.then(|| TrustRegion::new(n)),
             is_near: false,
             served: 0,
             products: 0,
@@ -45,7 +47,8 @@ impl Directions {
         }
     }
 
-    /// Leaves the next one in `direction`, a change of less than `negligible` being the last; `None` if no matrix that could be factored gives one.
+    /// Leaves the next one in `direction`, a change of less than `negligible` being the last; `None` if no matrix that could
+    /// be factored gives one.
     pub fn next(
         &mut self,
         objective: &mut Objective,

@@ -9,6 +9,16 @@ pub(super) struct Held {
     entries: Vec<Entry>,
     values: Vec<f64>,
     gradient: Vec<f64>,
+    couplings: Vec<Coupling>,
+    moves: Vec<f64>,
+}
+
+/// An entry that couples a held unknown with one that is not, all three by their numbers.
+struct Coupling {
+    entry: u32,
+    /// Among those held.
+    held: u32,
+    free: usize,
 }
 
 impl Held {
@@ -22,11 +32,14 @@ impl Held {
         let unknowns = vertices
             .iter()
             .flat_map(|&v| dim * v as usize..dim * (v as usize + 1));
+        let unknowns: Vec<usize> = unknowns.collect();
         let entries = pattern.rows_and_columns(&chosen);
         Self {
             values: vec![0.0; entries.len()],
-            gradient: Vec::new(),
-            unknowns: unknowns.collect(),
+            gradient: Vec::with_capacity(unknowns.len()),
+            couplings: couplings(&entries, &unknowns, pattern.scalar().n),
+            moves: Vec::with_capacity(unknowns.len()),
+            unknowns,
             entries,
         }
     }
@@ -51,26 +64,20 @@ impl Held {
 
     /// Takes the moves of the held unknowns out of `direction`, and leaves in it what these moves do to the others: a right
     /// side to solve for.
-    pub fn take_moves(&self, direction: &mut [f64]) -> Vec<f64> {
-        let moves: Vec<f64> = self.unknowns.iter().map(|&i| direction[i]).collect();
-        let mut of_held = vec![None; direction.len()];
-        for (&i, &value) in self.unknowns.iter().zip(&moves) {
-            of_held[i] = Some(value);
-        }
+    pub fn take_moves(&mut self, direction: &mut [f64]) {
+        self.moves.clear();
+        self.moves
+            .extend(self.unknowns.iter().map(|&i| direction[i]));
         direction.fill(0.0);
-        for (&value, entry) in self.values.iter().zip(&self.entries) {
-            match (of_held[entry.row], of_held[entry.column]) {
-                (Some(row), None) => direction[entry.column] -= value * row,
-                (None, Some(column)) => direction[entry.row] -= value * column,
-                _ => {}
-            }
+        for coupling in &self.couplings {
+            let value = self.values[coupling.entry as usize];
+            direction[coupling.free] -= value * self.moves[coupling.held as usize];
         }
-        moves
     }
 
-    /// Puts the moves of the held unknowns back.
-    pub fn put_moves(&self, moves: &[f64], direction: &mut [f64]) {
-        for (&i, value) in self.unknowns.iter().zip(moves) {
+    /// Puts the moves that were taken back.
+    pub fn put_moves(&self, direction: &mut [f64]) {
+        for (&i, value) in self.unknowns.iter().zip(&self.moves) {
             direction[i] = *value;
         }
     }
@@ -86,6 +93,23 @@ impl Held {
         }
         change
     }
+}
+
+/// The entries of which one side only is held.
+fn couplings(entries: &[Entry], unknowns: &[usize], n: usize) -> Vec<Coupling> {
+    let mut place = vec![None; n];
+    for (k, &i) in unknowns.iter().enumerate() {
+        place[i] = Some(k as u32);
+    }
+    let coupling = |(entry, e): (u32, &Entry)| {
+        let (held, free) = match (place[e.row], place[e.column]) {
+            (Some(held), None) => (held, e.column),
+            (None, Some(held)) => (held, e.row),
+            _ => return None,
+        };
+        Some(Coupling { entry, held, free })
+    };
+    (0..).zip(entries).filter_map(coupling).collect()
 }
 
 /// What a stored entry of a symmetric matrix is multiplied with in d·Hd.

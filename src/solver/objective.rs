@@ -5,7 +5,7 @@ use super::settings::Summary;
 use super::watch::{Control, Iterate, Taken, Watch};
 use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
-use crate::numerics::cholesky::NotPositiveDefinite;
+use crate::numerics::cholesky::{NotPositiveDefinite, Work};
 
 /// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when a factorization is first
 /// wanted.
@@ -79,6 +79,22 @@ impl Objective {
     /// Holds these vertices, and only these, where they are.
     pub fn fix(&mut self, vertices: &[u32]) {
         self.model.hold(vertices);
+    }
+
+    /// Exchanges the terms for others with the same stencils, as where a parameter of an energy changes; the analysis stays.
+    ///
+    /// # Panics
+    /// If a stencil differs.
+    pub fn exchange(&mut self, terms: Vec<Box<dyn Term>>) {
+        let stencils = |terms: &[Box<dyn Term>]| -> Vec<_> {
+            terms.iter().map(|term| term.stencils()).collect()
+        };
+        assert!(
+            stencils(&terms) == stencils(&self.terms),
+            "terms with the same stencils"
+        );
+        self.scale = terms.iter().map(|term| term.scale()).sum();
+        self.terms = terms;
     }
 
     /// Number of unknowns.
@@ -218,9 +234,15 @@ impl Objective {
         self.model.factor()
     }
 
-    /// Replaces a vector by its product with the inverse of the matrix that was factored last.
-    pub fn precondition(&mut self, vector: &mut [f64]) {
-        self.model.precondition(vector);
+    /// Whether a factorization of one linearization stays while there are others; false where none fits into memory.
+    pub fn keeps_factor(&mut self) -> bool {
+        self.model.keeps_factor()
+    }
+
+    /// Replaces a vector by its product with the inverse of the matrix that was factored last; where none fits into memory, of the
+    /// present Hessian, unless that is not positive definite.
+    pub fn precondition(&mut self, vector: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+        self.model.solve(vector)
     }
 
     /// The product of the Hessian of the last [`linearize`](Self::linearize) with `vector`.
@@ -263,6 +285,13 @@ impl Objective {
     /// The mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), the constraints left out.
     pub fn mean_diagonal(&self) -> f64 {
         self.model.mean_diagonal()
+    }
+
+    /// What one factorization takes; `None` where that is more memory than [`MOST_BYTES`], and conjugate gradients take its place.
+    ///
+    /// [`MOST_BYTES`]: crate::numerics::linear_solver::MOST_BYTES
+    pub fn work(&self) -> Option<Work> {
+        self.model.work()
     }
 
     /// The sum of the weights.

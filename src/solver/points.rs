@@ -6,6 +6,8 @@ use super::objective::Objective;
 pub(super) struct Points {
     origins: Vec<f64>,
     ways: Vec<f64>,
+    /// Room for what is computed from them.
+    room: Vec<f64>,
     /// The energy's mean curvature at the start; 0 before it is known.
     unit: f64,
 }
@@ -21,8 +23,10 @@ impl Points {
             .iter()
             .zip(&origins)
             .map(|(target, origin)| target - origin);
+        let ways: Vec<f64> = ways.collect();
         Self {
-            ways: ways.collect(),
+            room: vec![0.0; ways.len()],
+            ways,
             origins,
             unit: 0.0,
         }
@@ -46,8 +50,11 @@ impl Points {
     }
 
     /// How far the targets move between two shares of the way.
-    pub fn moves(&self, from: f64, to: f64) -> Vec<f64> {
-        self.ways.iter().map(|way| (to - from) * way).collect()
+    pub fn moves(&mut self, from: f64, to: f64) -> &[f64] {
+        for (room, way) in self.room.iter_mut().zip(&self.ways) {
+            *room = (to - from) * way;
+        }
+        &self.room
     }
 
     /// Sets the targets to a share `s` of their way and their strength, in units of the energy's mean curvature, which is taken
@@ -61,7 +68,9 @@ impl Points {
             self.unit = objective.mean_diagonal();
         }
         let ways = self.origins.iter().zip(&self.ways);
-        let targets: Vec<f64> = ways.map(|(origin, way)| origin + s * way).collect();
-        objective.set_constraints(strength * self.unit, &targets);
+        for (room, (origin, way)) in self.room.iter_mut().zip(ways) {
+            *room = origin + s * way;
+        }
+        objective.set_constraints(strength * self.unit, &self.room);
     }
 }

@@ -3,13 +3,14 @@
 use super::held::{Held, form};
 use crate::energy::{Assembly, Term};
 use crate::numerics::block::{BlockPattern, Slots};
-use crate::numerics::cholesky::{Cholesky, NotPositiveDefinite};
+use crate::numerics::cholesky::{NotPositiveDefinite, SymmetricPattern, Work};
+use crate::numerics::linear_solver::{LinearSolver, MOST_BYTES};
 
 /// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of held vertices are those of a multiple of the identity.
 pub(super) struct QuadraticModel {
     pattern: BlockPattern,
     /// None until it is needed.
-    cholesky: Option<Cholesky>,
+    system: Option<LinearSolver>,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
     held: Held,
@@ -25,7 +26,7 @@ impl QuadraticModel {
     /// With this pattern, of nothing yet.
     pub fn new(pattern: BlockPattern) -> Self {
         Self {
-            cholesky: None,
+            system: None,
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             held: Held::default(),
@@ -90,36 +91,48 @@ impl QuadraticModel {
         self.shift += shift;
     }
 
-    /// Orders and analyzes the pattern and reserves the memory of the factor, once. Returns the Hessian with it.
-    pub fn prepare(&mut self) -> (&mut Cholesky, &[f64]) {
+    /// Orders and analyzes the pattern and reserves the memory that solving takes, once. With it the pattern and H.
+    pub fn prepare(&mut self) -> (&mut LinearSolver, &SymmetricPattern, &[f64]) {
         let Self {
-            cholesky,
+            system,
             pattern,
             hessian,
             ..
         } = self;
-        let analyze = || Cholesky::analyze(pattern.scalar(), pattern.dim());
-        (cholesky.get_or_insert_with(analyze), hessian)
+        let (scalar, block) = (pattern.scalar(), pattern.dim());
+        let analyze = || LinearSolver::within(scalar, block, MOST_BYTES);
+        (system.get_or_insert_with(analyze), scalar, hessian)
     }
 
-    /// Factors H.
+    /// Whether a factorization of H stays when H changes; false where none fits into memory.
+    pub fn keeps_factor(&mut self) -> bool {
+        matches!(self.prepare().0, LinearSolver::Direct(_))
+    }
+
+    /// Takes H for solving: factors it, if that fits into memory.
     pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
-        let (cholesky, hessian) = self.prepare();
-        cholesky.factor(hessian)
+        let (system, _, hessian) = self.prepare();
+        system.prepare(hessian)
     }
 
-    /// Solves with the factor.
-    pub fn precondition(&mut self, vector: &mut [f64]) {
-        self.prepare().0.solve(vector, 1);
+    /// Solves with the matrix that was factored last; if none fits into memory, with H.
+    pub fn solve(&mut self, x: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+        let (system, pattern, hessian) = self.prepare();
+        system.solve(pattern, hessian, x)
     }
 
-    /// Factors H, solves Hd = −g and returns −½g·d.
+    /// Hv.
+    pub fn apply(&self, vector: &[f64], product: &mut [f64]) {
+        (self.pattern.scalar()).multiply(&self.hessian, vector, product);
+    }
+
+    /// Solves Hd = −g and returns −½g·d.
     pub fn newton_direction(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
         self.factor()?;
         for (d, g) in direction.iter_mut().zip(&self.gradient) {
             *d = -g;
         }
-        self.precondition(direction);
+        self.solve(direction)?;
         let slope = dot(&self.gradient, direction);
         if slope <= 0.0 {
             Ok(-0.5 * slope)
@@ -128,12 +141,13 @@ impl QuadraticModel {
         }
     }
 
-    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side.
+    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side; as far as
+    /// the matrix is found to be positive definite.
     pub fn follow(&mut self, direction: &mut [f64], add_pull: impl FnOnce(&mut [f64])) {
-        let moves = self.held.take_moves(direction);
+        self.held.take_moves(direction);
         add_pull(direction);
-        self.precondition(direction);
-        self.held.put_moves(&moves, direction);
+        let _ = self.solve(direction);
+        self.held.put_moves(direction);
     }
 
     /// g·d + ½d·Hd, held vertices included.
@@ -154,13 +168,6 @@ impl QuadraticModel {
         quadratic
     }
 
-    /// Hv.
-    pub fn apply(&self, vector: &[f64], product: &mut [f64]) {
-        self.pattern
-            .scalar()
-            .multiply(&self.hessian, vector, product);
-    }
-
     pub fn pattern(&self) -> &BlockPattern {
         &self.pattern
     }
@@ -171,6 +178,10 @@ impl QuadraticModel {
 
     pub fn hessian(&self) -> &[f64] {
         &self.hessian
+    }
+
+    pub fn work(&self) -> Option<Work> {
+        self.system.as_ref().and_then(LinearSolver::work)
     }
 
     pub fn mean_diagonal(&self) -> f64 {

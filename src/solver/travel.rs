@@ -151,7 +151,7 @@ where
             }
         }
         let moves = self.points.moves(self.s, to);
-        objective.follow(&mut self.direction, &moves);
+        objective.follow(&mut self.direction, moves);
         for (d, n) in self.direction.iter_mut().zip(&self.newton) {
             *d += n;
         }

@@ -171,7 +171,9 @@ impl TrustRegion {
     /// P⁻¹r, and r·P⁻¹r.
     fn precondition(&mut self, objective: &mut Objective) -> f64 {
         self.preconditioned.copy_from_slice(&self.residual);
-        objective.precondition(&mut self.preconditioned);
+        if objective.precondition(&mut self.preconditioned).is_err() {
+            return f64::NAN;
+        }
         dot(&self.residual, &self.preconditioned)
     }
 

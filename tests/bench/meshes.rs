@@ -10,13 +10,18 @@ const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
 
 /// The files of a folder of the test data.
 pub fn of(folder: &str) -> Vec<String> {
-    let all = std::fs::read_dir(format!("{DATA}/{folder}")).expect("test data");
+    let all = std::fs::read_dir(path(folder)).expect("test data");
     let path = |entry: std::io::Result<std::fs::DirEntry>| entry.expect("readable").path();
     let mut files: Vec<String> = all
         .map(|entry| path(entry).to_string_lossy().into_owned())
         .collect();
     files.sort();
     files
+}
+
+/// A file or folder of the test data.
+pub fn path(file: &str) -> String {
+    format!("{DATA}/{file}")
 }
 
 /// What is in a file, if it can be read.

@@ -6,6 +6,7 @@ use faer::{Mat, Side};
 use proptest::prelude::*;
 use rayon::ThreadPoolBuilder;
 use unwrapd::numerics::cholesky::{Cholesky, NotPositiveDefinite, SymmetricPattern};
+use unwrapd::numerics::linear_solver::{LinearSolver, MOST_BYTES};
 
 /// The lower triangle of a matrix of full `block`×`block` blocks, for vertices and pairs of them.
 fn pattern(n_vertices: usize, block: usize, mut pairs: Vec<(usize, usize)>) -> SymmetricPattern {
@@ -125,6 +126,34 @@ fn solids_agree_with_another_sparse_cholesky() {
         for (i, x) in x.iter().enumerate() {
             assert!((x - expected[(i, 0)]).abs() < 1e-12);
         }
+    }
+}
+
+#[test]
+fn beyond_the_memory_allowed_conjugate_gradients_take_over() {
+    let pattern = grid([9, 9, 9], 3);
+    let solved = |most_bytes, diagonal| {
+        let values = values(&pattern, diagonal);
+        let mut solver = LinearSolver::within(&pattern, 3, most_bytes);
+        let mut x = right_sides(pattern.n, 1);
+        let outcome =
+            (solver.prepare(&values)).and_then(|()| solver.solve(&pattern, &values, &mut x));
+        (
+            matches!(solver, LinearSolver::Direct(_)),
+            outcome.map(|()| x),
+        )
+    };
+    let (is_direct, exact) = solved(MOST_BYTES, 12.0);
+    assert!(is_direct);
+    let (is_direct, near) = solved(0, 12.0);
+    assert!(!is_direct);
+    let (exact, near) = (exact.expect("definite"), near.expect("definite"));
+    for (near, exact) in near.iter().zip(&exact) {
+        assert!((near - exact).abs() < 1e-3 * exact.abs().max(0.1));
+    }
+    for most_bytes in [0, MOST_BYTES] {
+        assert_eq!(solved(most_bytes, -12.0).1, Err(NotPositiveDefinite));
+        assert_eq!(solved(most_bytes, 2.0).1, Err(NotPositiveDefinite));
     }
 }
 

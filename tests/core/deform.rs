@@ -72,6 +72,7 @@ fn problem(
         .fold(f64::INFINITY, f64::min);
     let groups = body.groups(vertices);
     Problem {
+        untangled: 0,
         start: body.rest.clone(),
         energy,
         barrier: Barrier {

@@ -1,14 +1,17 @@
 //! Starts and optimized maps: never a flip, sizes as promised.
 
 use proptest::prelude::*;
-use unwrapd::barrier::BarrierKind;
+use unwrapd::barrier::{BarrierKind, NoBarrier};
 use unwrapd::embed::{
-    InvalidStart, Options, hierarchical_start, optimize, parameterize, rest_shapes, start,
+    Corners, InvalidStart, Options, Star, hierarchical_start, optimize, parameterize, rest_shapes,
+    start,
 };
-use unwrapd::energy::EnergyKind;
+use unwrapd::energy::{EnergyKind, RestShape, SymmetricDirichlet, Term, Triangles};
 use unwrapd::mesh::Disk;
 use unwrapd::numerics::predicates::orient2d_sign;
 use unwrapd::solver::{Control, Iterate};
+
+use crate::taylor::assert_taylor;
 
 type Mesh = (Disk, Vec<[f64; 3]>);
 
@@ -251,6 +254,43 @@ fn the_watcher_may_end_it_with_a_valid_map() {
     let embedding = parameterize(&disk, &positions, &Options::default(), &twice);
     assert_eq!(embedding.summary.iterations, 2);
     assert_eq!(n_bad(&disk, &embedding.uv), 0);
+}
+
+/// The energy around a vertex is that of its triangles, and its derivatives belong to it.
+#[test]
+fn taylor_star() {
+    let at = |k: u32| {
+        let angle = f64::from(k) * 1.1;
+        [(1.0 + 0.2 * f64::from(k)) * angle.cos(), angle.sin()]
+    };
+    let triangles: Vec<[u32; 3]> = (1..5).map(|k| [0, k, k + 1]).collect();
+    let shapes: Vec<RestShape> = (1..5)
+        .map(|k| RestShape::from_edges([1.0, 0.1 * f64::from(k)], [0.3, 0.9]))
+        .collect();
+    let mut star = Star::default();
+    for (triangle, shape) in triangles.iter().zip(&shapes) {
+        // The vertex is another corner of each.
+        let corner = triangle[1] as usize % 3;
+        let ends = [at(triangle[1]), at(triangle[2])];
+        let [g1, g2] = shape.inverse;
+        let g0 = [-g1[0] - g2[0], -g1[1] - g2[1]];
+        let turned = [[g1, g2], [g0, g1], [g2, g0]][corner];
+        let turned = RestShape {
+            inverse: turned,
+            ..*shape
+        };
+        star.push(&Corners::new(&turned), corner, ends);
+    }
+    let position = |x: &[f64]| [x[0], x[1]];
+    let (x, d) = ([0.05, -0.1], [0.3, 0.2]);
+    let (gradient, [xx, xy, yy]) = star.derivatives(x);
+    let times = |v: &[f64]| vec![xx * v[0] + xy * v[1], xy * v[0] + yy * v[1]];
+    assert_taylor(|x| star.value(position(x)), &gradient, times, &x, &d);
+
+    let all: Vec<f64> = x.into_iter().chain((1..6).flat_map(at)).collect();
+    let sum = Triangles::new(&triangles, &shapes, SymmetricDirichlet, NoBarrier).value(&all);
+    assert!((star.value(x) - sum).abs() < 1e-12 * sum);
+    assert_eq!(star.value([9.0, 9.0]), f64::INFINITY);
 }
 
 proptest! {

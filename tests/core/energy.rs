@@ -4,9 +4,9 @@ use faer::{Mat, Side};
 use proptest::prelude::*;
 use unwrapd::barrier::{Barrier, BarrierKind, NoBarrier};
 use unwrapd::energy::{
-    Amips, Arap, Assembly, Density, FrozenArap, Green, Lscm, Mips, Modes, NeoHookean, Positional,
-    RestShape, StVenantKirchhoff, SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero,
-    biharmonic, dirichlet, uniform_biharmonic, voronoi_areas,
+    Amips, Arap, Assembly, Density, FoldoverFree, FrozenArap, Green, Lscm, Mips, Modes, NeoHookean,
+    Positional, RestShape, StVenantKirchhoff, SymmetricDirichlet, Term, Tetrahedra, Triangles,
+    Zero, biharmonic, dirichlet, uniform_biharmonic, voronoi_areas,
 };
 use unwrapd::numerics::block::BlockPattern;
 use unwrapd::numerics::square::{Matrix, Square, times, transposed};
@@ -128,6 +128,29 @@ fn taylor_densities_in_space() {
     assert_space_taylor(RUBBER, Barrier::NONE);
     assert_space_taylor(Mips, Barrier::NONE);
     assert_space_taylor(Amips { s: 1.5 }, Barrier::NONE);
+}
+
+/// Where elements are inverted, where they are not, and at ε = 0.
+#[test]
+fn taylor_foldover_free() {
+    let of = |epsilon| FoldoverFree {
+        epsilon,
+        lambda: 0.2,
+    };
+    for epsilon in [0.0, 0.1, 2.0] {
+        assert_plane_taylor(of(epsilon), Barrier::NONE);
+        assert_space_taylor(of(epsilon), Barrier::NONE);
+    }
+    let mirrored = |x: &[f64], dim: usize| -> Vec<f64> {
+        let sign = |i: usize| if i.is_multiple_of(dim) { -1.0 } else { 1.0 };
+        x.iter().enumerate().map(|(i, x)| sign(i) * x).collect()
+    };
+    let plane = Triangles::new(&TRIANGLES, &plane_rest(), of(0.3), NoBarrier);
+    let space = Tetrahedra::new(&TETRAHEDRA, &space_rest(), of(0.3), NoBarrier);
+    assert!(plane.smallest(&mirrored(&PLANE, 2)) < 0.0);
+    assert_term_taylor(&plane, &mirrored(&PLANE, 2), &PLANE_WAY);
+    assert!(space.smallest(&mirrored(&SPACE, 3)) < 0.0);
+    assert_term_taylor(&space, &mirrored(&SPACE, 3), &SPACE_WAY);
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod caged;
 mod certificate;
 mod charts;
 mod cholesky;
+mod coarse_cage;
 mod crossings;
 mod cut;
 mod deform;
@@ -44,6 +45,8 @@ mod separation;
 mod solver;
 mod taylor;
 mod texture_mapping;
+mod threads;
+mod untangle;
 mod uv_editing;
 mod uv_meshes;
 #[cfg(feature = "files")]

@@ -55,6 +55,17 @@ impl Sheets {
         sheets
     }
 
+    /// The same with one vertex at another UV.
+    fn with(vertex: u32, uv: [f64; 2]) -> Self {
+        let mut sheets = Self::new();
+        let corners = sheets.triangles.as_flattened().iter();
+        let uvs = sheets.uvs.as_flattened_mut().iter_mut();
+        for (corner, _) in uvs.zip(corners).filter(|c| *c.1 == vertex) {
+            *corner = uv;
+        }
+        sheets
+    }
+
     fn mesh(&self) -> UvMesh<'_> {
         UvMesh {
             positions: &self.positions,
@@ -207,6 +218,23 @@ fn an_anchor_outside_every_chart_moves_the_nearest_vertex() {
 }
 
 #[test]
+fn charts_with_flips_are_untangled_first() {
+    let sheets = Sheets::with(30, [0.4, 0.4]);
+    let target = [0.26, 0.52];
+    for options in [UvEditOptions::texture(), UvEditOptions::edit()] {
+        let edited = sheets.edit(&[to(40, target)], &options);
+        sheets.assert_valid(&edited);
+        assert!(edited.charts[0].untangled > 0);
+        assert_eq!(sheets.uv(&edited, 40), target);
+        // The other chart has none of it.
+        let n = sheets.uvs.len() / 2;
+        assert_eq!(edited.uvs[n..], sheets.uvs[n..]);
+    }
+    let valid = Sheets::new().edit(&[to(40, target)], &UvEditOptions::texture());
+    assert_eq!(valid.charts[0].untangled, 0);
+}
+
+#[test]
 fn what_cannot_be_edited_has_a_code() {
     let sheets = Sheets::new();
     let texture = UvEditOptions::texture();
@@ -226,17 +254,8 @@ fn what_cannot_be_edited_has_a_code() {
     let two = [middle, to(40, [0.26, 0.5])];
     assert_eq!(code(&sheets, &two, &texture), "contradictory_handles");
 
-    let mut flipped = Sheets::new();
-    let corners = flipped.triangles.as_flattened().iter();
-    for (uv, _) in flipped
-        .uvs
-        .as_flattened_mut()
-        .iter_mut()
-        .zip(corners)
-        .filter(|c| *c.1 == 30)
-    {
-        uv[0] = 0.4;
-    }
+    // A corner of the sheet, whose two boundary edges stay, is inside out.
+    let flipped = Sheets::with(8, [0.3, 0.2]);
     assert_eq!(code(&flipped, &[middle], &texture), "flipped_uvs");
     // The other chart has no flip.
     let other = to(121, [0.75, 0.5]);

@@ -6,14 +6,18 @@
 //! its creases, so that the surface follows it exactly. A cage without inverted tetrahedra then never folds the surface locally,
 //! and [`certificate::crossings`](crate::certificate::crossings()) counts where it passes through itself.
 //!
+//! A fine cage starts where a coarse one ends ([`Caged::start`]).
+//!
 //! Parts of a surface that are nearer to each other than a voxel share voxels and move together. A surface with holes larger than a
 //! voxel has no inside; its cage is a layer around it.
+mod coarse;
 mod embedding;
 mod error;
 mod grid;
 mod split;
 mod voxels;
 
+pub use coarse::Caged;
 pub use embedding::Embedding;
 pub use error::CageError;
 pub use split::{Added, SplitSurface};

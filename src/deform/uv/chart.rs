@@ -1,7 +1,9 @@
 //! Charts of a UV map as maps of the plane.
 
-use super::EditError;
+use super::{EditError, UvRest, body};
 use crate::certificate::{CornerUvs, PlanarCertificate, Start, UvTopology, certify_planar};
+use crate::deform::boundary::Boundary;
+use crate::deform::untangle::untangled;
 use crate::mesh::UnionFind;
 use crate::numerics::predicates::orient2d_sign;
 
@@ -70,7 +72,7 @@ fn ends(topology: &UvTopology, corner: u32) -> [u32; 2] {
     }
 }
 
-/// A chart, every triangle counter-clockwise.
+/// A chart, wound so that most of its area is counter-clockwise.
 pub(super) struct UvChart {
     /// The faces of the mesh that the triangles are.
     pub faces: ChartFaces,
@@ -82,6 +84,8 @@ pub(super) struct UvChart {
     pub positions: Vec<[f64; 3]>,
     /// Indices into `vertices`.
     pub triangles: Vec<[u32; 3]>,
+    /// The triangles that are not counter-clockwise, as the file has them or with its vertices joined.
+    pub flipped: Vec<u32>,
 }
 
 impl UvChart {
@@ -99,7 +103,7 @@ impl UvChart {
         });
         let faces = ChartFaces {
             faces: faces
-                .map(|f| (f as u32, topology.orientation[f] < 0))
+                .map(|f| (f as u32, positive * topology.charts.winding[f] < 0))
                 .collect(),
         };
         if topology.charts.nonorientable[chart as usize] {
@@ -117,24 +121,45 @@ impl UvChart {
             topology.points[topology.faces[corner / 3][corner % 3] as usize]
         };
         let uv = |&v: &u32| uv_vertices.uv(topology, v);
-        let chart = Self {
+        let mut chart = Self {
             triangles: corners.iter().map(|c| c.map(local)).collect(),
             uvs: vertices.iter().map(uv).collect(),
             positions: vertices.iter().map(space).collect(),
             vertices,
             faces,
+            flipped: Vec::new(),
         };
-        chart.check(topology, positive)?;
+        let is_flipped = |t: &u32| chart.is_flipped(*t as usize, topology, positive);
+        chart.flipped = (0..chart.triangles.len() as u32)
+            .filter(is_flipped)
+            .collect();
         Ok(chart)
     }
 
-    /// Every triangle must be positive, as the file has it and with its vertices joined.
-    fn check(&self, topology: &UvTopology, positive: i8) -> Result<(), EditError> {
-        for (&(face, _), triangle) in self.faces.faces.iter().zip(&self.triangles) {
-            let [a, b, c] = triangle.map(|v| self.uvs[v as usize]);
-            let face = face as usize;
-            if topology.orientation_in_chart(face) != positive || orient2d_sign(a, b, c) <= 0 {
-                return Err(EditError::Flipped { face });
+    fn is_flipped(&self, triangle: usize, topology: &UvTopology, positive: i8) -> bool {
+        let [a, b, c] = self.triangles[triangle].map(|v| self.uvs[v as usize]);
+        let face = self.faces.faces[triangle].0 as usize;
+        topology.orientation_in_chart(face) != positive || orient2d_sign(a, b, c) <= 0
+    }
+
+    /// Moves vertices around flipped triangles, none of those that the boundary holds, until no triangle is flipped. Fails
+    /// if that is not found.
+    pub fn untangle(&mut self, boundary: Boundary) -> Result<(), EditError> {
+        let Some(&first) = self.flipped.first() else {
+            return Ok(());
+        };
+        let held = boundary.held(self.uvs.len(), &self.triangles);
+        let (body, start, unit) = body(self, UvRest::Surface);
+        let is_repeated = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+        let moved = (!self.triangles.iter().any(is_repeated))
+            .then(|| untangled(&body, start.as_flattened(), &held, 0.0));
+        let Some(moved) = moved.flatten() else {
+            let face = self.faces.faces[first as usize].0 as usize;
+            return Err(EditError::Flipped { face });
+        };
+        for ((uv, before), now) in self.uvs.iter_mut().zip(start).zip(moved.as_chunks().0) {
+            if before != *now {
+                *uv = now.map(|x| x * unit);
             }
         }
         Ok(())

@@ -28,8 +28,10 @@ pub enum EditError {
     /// An anchor pulls at a boundary that stays.
     #[error("anchor {0} pulls at a vertex of a boundary, which is fixed")]
     OnBoundary(usize),
-    /// The present map has a flip where it should be pulled.
-    #[error("face {face} is flipped or empty in the present UVs of its chart")]
+    /// The present map has a flip where it should be pulled, and cannot be untangled.
+    #[error(
+        "face {face} is flipped or empty in the present UVs of its chart, and no map without flips was found near them"
+    )]
     Flipped {
         /// The face.
         face: usize,

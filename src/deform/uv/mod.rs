@@ -2,8 +2,8 @@
 //!
 //! Two uses, one function: [`UvEditOptions::edit`] keeps a map as it is but for what anchors pull (the paper's figure 16),
 //! [`UvEditOptions::texture`] aligns points of a surface with points of a texture at the least distortion of the surface (figure
-//! 17). They differ in the shapes that are kept and in whether boundaries stay. Either starts from the present UVs, which
-//! must be without flips, and never passes through one.
+//! 17). They differ in the shapes that are kept and in whether boundaries stay. Either starts from the present UVs and never
+//! passes through a flip. Charts with flips are untangled first, with as few vertices moved as it takes.
 
 mod anchors;
 mod chart;
@@ -97,12 +97,15 @@ pub struct EditedChart {
     pub chart: u32,
     /// Its faces.
     pub faces: ChartFaces,
+    /// How many of them were flipped or empty and had to be untangled first.
+    pub untangled: usize,
     /// What the map is worth.
     pub report: PullReport,
 }
 
 /// Pulls anchors to their targets, every triangle of their charts positive at every iterate. Other charts keep their UVs, bit
-/// by bit, and so does every vertex that does not move.
+/// by bit, and so does every vertex that does not move. A chart with flips is untangled first, and the places that anchors name
+/// are those of the map without flips.
 ///
 /// Charts are found as [`certify`](crate::certificate::certify) finds them.
 pub fn edit_uvs(
@@ -129,12 +132,15 @@ pub fn edit_uvs(
     };
     let mut moved: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
     for (number, held) in held {
-        let chart = UvChart::new(&topology, &vertices, number, positive[number as usize])?;
+        let mut chart = UvChart::new(&topology, &vertices, number, positive[number as usize])?;
+        chart.untangle(options.boundary)?;
         let (uvs, report) = edit_chart(&chart, &held, options, watch)?;
-        let changed = (0..uvs.len()).filter(|&v| uvs[v] != chart.uvs[v]);
+        let before = |v: usize| vertices.uv(&topology, chart.vertices[v]);
+        let changed = (0..uvs.len()).filter(|&v| !chart.flipped.is_empty() || uvs[v] != before(v));
         moved.extend(changed.map(|v| (chart.vertices[v], uvs[v])));
         edited.charts.push(EditedChart {
             chart: number,
+            untangled: chart.flipped.len(),
             faces: chart.faces,
             report,
         });
@@ -155,9 +161,9 @@ fn edit_chart(
     options: &UvEditOptions,
     watch: &dyn Watch,
 ) -> Result<(Vec<[f64; 2]>, PullReport), EditError> {
-    let planar = PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
+    PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
     let (body, start, unit) = body(chart, options.rest);
-    let mut holds = Holds::new(options.boundary.held(&planar));
+    let mut holds = Holds::new(options.boundary.held(chart.uvs.len(), &chart.triangles));
     // The targets of vertices as the caller has them.
     let mut targets = Vec::with_capacity(held.len());
     for anchor in held {

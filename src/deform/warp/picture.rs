@@ -171,7 +171,11 @@ fn warp_grid(
     let to_unit = |p: [f64; 2]| p.map(|x| x / unit);
     let scaled: Vec<[f64; 2]> = grid.vertices().iter().map(|&p| to_unit(p)).collect();
     let body = Body::planar(&scaled, grid.triangles());
-    let mut holds = Holds::new(options.boundary.held(grid));
+    let mut holds = Holds::new(
+        options
+            .boundary
+            .held(grid.vertices().len(), grid.triangles()),
+    );
     for (index, handle) in handles.iter().enumerate() {
         let is_inside = (0..2).all(|k| (0.0..=size[k]).contains(&handle.at[k]));
         if !is_inside {

@@ -15,6 +15,30 @@ pub(super) struct Branch {
     pub updates: [Vec<f64>; 2],
 }
 
+/// How much memory a branch takes, in numbers.
+pub(super) struct Extent {
+    pub fronts: Vec<u32>,
+    pub panels: usize,
+    pub updates: [usize; 2],
+}
+
+impl Extent {
+    pub fn bytes(&self) -> usize {
+        let [even, odd] = self.updates;
+        size_of::<f64>() * (self.panels + even + odd)
+    }
+}
+
+impl From<Extent> for Branch {
+    fn from(extent: Extent) -> Self {
+        Self {
+            fronts: extent.fronts,
+            panels: vec![0.0; extent.panels],
+            updates: extent.updates.map(|n| vec![0.0; n]),
+        }
+    }
+}
+
 impl Branch {
     /// Factors its fronts; `others` are the branches that grow on it, in order.
     pub fn factor(

@@ -31,7 +31,7 @@ mod tree;
 use faer::traits::pulp::Arch;
 use rayon::prelude::*;
 
-use branch::Branch;
+use branch::{Branch, Extent};
 use fronts::Front;
 use plan::Plan;
 use solve::Solve;
@@ -99,13 +99,31 @@ impl Cholesky {
     /// # Panics
     /// If the pattern is not as [`SymmetricPattern`] describes: that is a mistake of the caller, not of its input.
     pub fn analyze(pattern: &SymmetricPattern, block: usize) -> Self {
-        let (plan, branches) = Plan::new(pattern, block);
+        let (plan, extents) = Plan::new(pattern, block);
+        Self::planned(plan, extents)
+    }
+
+    /// The same if that is at most so many bytes, the analysis itself left out of account.
+    ///
+    /// # Panics
+    /// As [`analyze`](Self::analyze).
+    pub fn analyze_within(
+        pattern: &SymmetricPattern,
+        block: usize,
+        most_bytes: usize,
+    ) -> Option<Self> {
+        let (plan, extents) = Plan::new(pattern, block);
+        let bytes: usize = extents.iter().map(Extent::bytes).sum();
+        (bytes <= most_bytes).then(|| Self::planned(plan, extents))
+    }
+
+    fn planned(plan: Plan, extents: Vec<Extent>) -> Self {
         let height = plan.fronts.list.iter().map(Front::height).max();
         Self {
-            plan,
-            branches,
-            x: vec![0.0; pattern.n],
+            branches: extents.into_iter().map(Branch::from).collect(),
+            x: vec![0.0; plan.block * plan.order.len()],
             local: vec![0.0; height.unwrap_or(0)],
+            plan,
         }
     }
 

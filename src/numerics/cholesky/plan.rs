@@ -1,7 +1,7 @@
 //! What is known of the factorization before the values are.
 
 use super::SymmetricPattern;
-use super::branch::Branch;
+use super::branch::Extent;
 use super::fronts::{Front, Fronts};
 use super::graph::Graph;
 use super::order::fill_reducing_order;
@@ -36,9 +36,9 @@ pub(super) struct Place {
 }
 
 impl Plan {
-    pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<Branch>) {
+    pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<Extent>) {
         let graph = Graph::new(pattern, block);
-        let order = fill_reducing_order(&graph);
+        let order = fill_reducing_order(&graph, block);
         let (order, parent) = in_postorder(&graph, &order);
         let counts = tree::column_counts(&graph.reordered(&order), &parent);
         let supernodes = supernodes(&parent, &counts, block);
@@ -46,7 +46,7 @@ impl Plan {
         let reordered = graph.reordered(&order);
         let fronts = Fronts::new(&reordered, &supernodes, block);
         let scatter = Scatter::new(pattern, block, &graph, &reordered, &order, &fronts);
-        let (places, branches) = layout(&fronts);
+        let (places, extents) = layout(&fronts);
         let plan = Self {
             order,
             block,
@@ -54,7 +54,7 @@ impl Plan {
             places,
             scatter,
         };
-        (plan, branches)
+        (plan, extents)
     }
 }
 
@@ -83,8 +83,8 @@ fn composed(first: &[u32], second: &[u32]) -> Vec<u32> {
     second.iter().map(|&v| first[v as usize]).collect()
 }
 
-/// Gives each front its memory. The last branch is the trunk, on which the others grow.
-fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Branch>) {
+/// Gives each front its place in memory. The last branch is the trunk, on which the others grow.
+fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Extent>) {
     let branch_of = branches(fronts);
     let n_branches = branch_of.iter().max().map_or(1, |&b| b as usize + 1);
     let mut members = vec![Vec::new(); n_branches];
@@ -111,14 +111,14 @@ fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Branch>) {
             }
         }
     }
-    let branches = (members.into_iter().zip(panel_lens).zip(heights))
-        .map(|((fronts, panel_len), [even, odd])| Branch {
+    let extents = (members.into_iter().zip(panel_lens).zip(heights))
+        .map(|((fronts, panels), [even, odd])| Extent {
             fronts,
-            panels: vec![0.0; panel_len],
-            updates: [vec![0.0; even[1]], vec![0.0; odd[1]]],
+            panels,
+            updates: [even[1], odd[1]],
         })
         .collect();
-    (places, branches)
+    (places, extents)
 }
 
 /// The branch of each front: the largest subtrees that are small enough are one each, the rest is the trunk, the last.
