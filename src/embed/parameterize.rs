@@ -4,7 +4,7 @@ use super::closed::outer_loop;
 use super::pins::{Pins, distance, far_pair};
 use super::problem::Problem;
 use super::rest::rest_shapes;
-use super::start::{first_bad_triangle, hierarchical_start, start};
+use super::start::{first_bad_triangle, hierarchical_start_at, start};
 use crate::barrier::BarrierKind;
 use crate::energy::EnergyKind;
 use crate::mesh::Disk;
@@ -94,8 +94,10 @@ pub fn parameterize(
 
 /// Tutte's map where that is near enough, else the one found coarse to fine; at its best size.
 fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    let coarse_to_fine =
-        || hierarchical_start(problem.disk, positions).map(|uv| problem.at_best_size(&uv));
+    let coarse_to_fine = || {
+        hierarchical_start_at(problem.disk, positions, &problem.rest)
+            .map(|uv| problem.at_best_size(&uv))
+    };
     if problem.disk.triangles.len() >= LARGE
         && let Some(uv) = coarse_to_fine()
     {
@@ -142,7 +144,8 @@ fn nearly_isometric(
     watch: &dyn Watch,
 ) -> Option<(Vec<[f64; 2]>, bool)> {
     if problem.options.energy == EnergyKind::Lscm {
-        return hierarchical_start(problem.disk, positions).map(|near| (near, false));
+        return hierarchical_start_at(problem.disk, positions, &problem.rest)
+            .map(|near| (near, false));
     }
     let unshown = |iterate: &Iterate| watch.iterate(iterate);
     let (near, summary) = problem.minimum(first_map(problem, positions), &[], &unshown);

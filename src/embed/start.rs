@@ -2,7 +2,7 @@
 
 use super::closed::ClosedDisk;
 use super::hierarchy::coarse_to_fine;
-use super::rest::rest_shapes;
+use super::rest::{RestShapes, rest_shapes};
 use super::tutte::{Boundary, tutte_embedding};
 use crate::mesh::Disk;
 use crate::numerics::predicates::orient2d_sign;
@@ -33,7 +33,15 @@ pub fn tutte_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>>
 /// A map found coarse to fine. It takes longer than Tutte's but ends near an optimum, in the unit of [`rest_shapes`], and
 /// hardly ever fails.
 pub fn hierarchical_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
-    let rest = rest_shapes(positions, &disk.triangles);
+    hierarchical_start_at(disk, positions, &rest_shapes(positions, &disk.triangles))
+}
+
+/// The same, the rest shapes being known.
+pub(super) fn hierarchical_start_at(
+    disk: &Disk,
+    positions: &[[f64; 3]],
+    rest: &RestShapes,
+) -> Option<Vec<[f64; 2]>> {
     let closed = ClosedDisk::new(disk, positions);
     let relative: Vec<[f64; 3]> = (closed.positions.iter())
         .map(|p| p.map(|x| x / rest.scale))

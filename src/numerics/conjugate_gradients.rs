@@ -53,7 +53,7 @@ impl ConjugateGradients {
             if size <= enough {
                 break;
             }
-            matrix.apply(&self.direction, &mut self.image);
+            pattern.multiply(values, &self.direction, &mut self.image);
             let curvature = dot(&self.direction, &self.image);
             if curvature <= 0.0 || curvature.is_nan() {
                 return Err(NotPositiveDefinite);
@@ -88,20 +88,6 @@ impl Matrix<'_> {
         let (rows, values) = (&self.pattern.row_idx[slots.clone()], &self.values[slots]);
         let below = rows[1..].iter().zip(&values[1..]);
         (values[0], below.map(|(&row, &value)| (row, value)))
-    }
-
-    /// y = Ax.
-    fn apply(&self, x: &[f64], y: &mut [f64]) {
-        y.fill(0.0);
-        for j in 0..x.len() {
-            let (diagonal, below) = self.column(j);
-            let mut sum = diagonal * x[j];
-            for (i, a) in below {
-                y[i] += a * x[j];
-                sum += a * x[i];
-            }
-            y[j] += sum;
-        }
     }
 
     /// z with Mz = r.

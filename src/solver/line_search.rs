@@ -24,13 +24,13 @@ const MAX_HALVINGS: usize = 40;
 /// The longest of the steps t, t/2, t/4, … that lowers the energy enough, `trial` being where it leads; t is 1 or 0.95
 /// of the largest step inside the domain.
 ///
-/// `direction` must descend with slope −2·`decrement`. `None` if no step is good: the energy is at rounding, or the
+/// `slope` is that of the energy along `direction`, negative. `None` if no step is good: the energy is at rounding, or the
 /// direction is useless. Usually one evaluation, because the search starts inside the domain.
 pub fn line_search(
     objective: &Objective,
     x: &[f64],
     direction: &[f64],
-    (energy, decrement): (f64, f64),
+    (energy, slope): (f64, f64),
     trial: &mut [f64],
 ) -> Option<Step> {
     let mut length = (SAFETY * objective.largest_step(x, direction)).min(1.0);
@@ -39,7 +39,7 @@ pub fn line_search(
             *trial = x + length * d;
         }
         let new_energy = objective.value(trial);
-        if new_energy < energy && new_energy <= energy - 2.0 * SUFFICIENT * length * decrement {
+        if new_energy < energy && new_energy <= energy + SUFFICIENT * length * slope {
             return Some(Step {
                 length,
                 energy: new_energy,

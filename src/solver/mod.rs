@@ -1,12 +1,14 @@
 //! Projected Newton with an exact largest step.
 //!
-//! Minimizes a [`Term`](crate::energy::Term) from a feasible start over maps that all stay feasible. Each iteration
-//! solves one sparse linear system; its matrix is the Hessian with the negative curvature of each element removed, so
-//! the direction descends, and as the iterates settle the removed curvature is given back little by little
-//! ([`Settings::projection`]), which is what ends the slow tail. The step is never longer than 0.95 of the way to the
-//! first element that would leave the domain, found exactly, then halved until the energy falls enough.
+//! Minimizes a [`Term`](crate::energy::Term) from a feasible start over maps that all stay feasible. Far from a minimum each
+//! iteration solves one sparse linear system; its matrix is the Hessian with the negative curvature of each element removed,
+//! so the direction descends. Near one that matrix is too stiff: there it only preconditions, and the directions come from
+//! the true Hessian within a trust region, several from one factorization (`trust_region`, [`Settings::projection`]). The
+//! step is never longer than 0.95 of the way to the first element that would leave the domain, found exactly, then halved
+//! until the energy falls enough.
 //!
-//! [`follow()`] pulls handles to targets in the same way, the other vertices following each advance. [`levenberg()`] is the
+//! [`follow()`] pulls handles to targets by Newton's method, the other vertices following each advance, and gives the
+//! removed curvature back little by little instead: between advances there are few steps. [`levenberg()`] is the
 //! iteration of the paper itself, kept for comparison: it shifts the Hessian until it factors instead of projecting it,
 //! and holds handles by soft constraints.
 //!
@@ -14,6 +16,7 @@
 //! det J > 0 in every element, and while nothing travels the energy falls from iterate to iterate. The solver knows no
 //! energy by name, has no clock and no randomness; who watches may end it early ([`Watch`]).
 
+mod directions;
 mod follow;
 mod held;
 mod levenberg;
@@ -27,6 +30,7 @@ mod relaxation;
 mod scale;
 mod settings;
 mod travel;
+mod trust_region;
 mod watch;
 
 pub use follow::follow;

@@ -7,7 +7,8 @@ use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
 use crate::numerics::cholesky::{NotPositiveDefinite, Work};
 
-/// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when this is made.
+/// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when a factorization is first
+/// wanted.
 pub struct Objective {
     terms: Vec<Box<dyn Term>>,
     constraints: Option<Positional>,
@@ -221,6 +222,37 @@ impl Objective {
     /// The Hessian's lower triangle at the last [`linearize`](Self::linearize), shifted, and its pattern.
     pub fn hessian(&self) -> (&BlockPattern, &[f64]) {
         (self.model.pattern(), self.model.hessian())
+    }
+
+    /// Does the analysis that the first factorization would do, and allocates all that factoring and solving will need.
+    pub fn prepare(&mut self) {
+        self.model.prepare();
+    }
+
+    /// Factors the Hessian of the last [`linearize`](Self::linearize); the factor stays until the next one.
+    pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
+        self.model.factor()
+    }
+
+    /// Whether a factorization of one linearization stays while there are others; false where none fits into memory.
+    pub fn keeps_factor(&mut self) -> bool {
+        self.model.keeps_factor()
+    }
+
+    /// Replaces a vector by its product with the inverse of the matrix that was factored last; where none fits into memory, of the
+    /// present Hessian, unless that is not positive definite.
+    pub fn precondition(&mut self, vector: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+        self.model.solve(vector)
+    }
+
+    /// The product of the Hessian of the last [`linearize`](Self::linearize) with `vector`.
+    pub fn apply_hessian(&self, vector: &[f64], product: &mut [f64]) {
+        self.model.apply(vector, product);
+    }
+
+    /// d·Hd of the last [`linearize`](Self::linearize).
+    pub fn curvature(&self, direction: &[f64]) -> f64 {
+        self.model.curvature(direction)
     }
 
     /// Solves Hd = −g of the last [`linearize`](Self::linearize) and returns the Newton decrement −½g·d, positive.

@@ -3,13 +3,14 @@
 use super::held::{Held, form};
 use crate::energy::{Assembly, Term};
 use crate::numerics::block::{BlockPattern, Slots};
-use crate::numerics::cholesky::{NotPositiveDefinite, Work};
+use crate::numerics::cholesky::{NotPositiveDefinite, SymmetricPattern, Work};
 use crate::numerics::linear_solver::{LinearSolver, MOST_BYTES};
 
 /// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of held vertices are those of a multiple of the identity.
 pub(super) struct QuadraticModel {
     pattern: BlockPattern,
-    system: LinearSolver,
+    /// None until it is needed.
+    system: Option<LinearSolver>,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
     held: Held,
@@ -22,10 +23,10 @@ pub(super) struct QuadraticModel {
 const SHIFT: f64 = 1e-7;
 
 impl QuadraticModel {
-    /// Analyzes the pattern, once.
+    /// With this pattern, of nothing yet.
     pub fn new(pattern: BlockPattern) -> Self {
         Self {
-            system: LinearSolver::within(pattern.scalar(), pattern.dim(), MOST_BYTES),
+            system: None,
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             held: Held::default(),
@@ -90,14 +91,48 @@ impl QuadraticModel {
         self.shift += shift;
     }
 
+    /// Orders and analyzes the pattern and reserves the memory that solving takes, once. With it the pattern and H.
+    pub fn prepare(&mut self) -> (&mut LinearSolver, &SymmetricPattern, &[f64]) {
+        let Self {
+            system,
+            pattern,
+            hessian,
+            ..
+        } = self;
+        let (scalar, block) = (pattern.scalar(), pattern.dim());
+        let analyze = || LinearSolver::within(scalar, block, MOST_BYTES);
+        (system.get_or_insert_with(analyze), scalar, hessian)
+    }
+
+    /// Whether a factorization of H stays when H changes; false where none fits into memory.
+    pub fn keeps_factor(&mut self) -> bool {
+        matches!(self.prepare().0, LinearSolver::Direct(_))
+    }
+
+    /// Takes H for solving: factors it, if that fits into memory.
+    pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
+        let (system, _, hessian) = self.prepare();
+        system.prepare(hessian)
+    }
+
+    /// Solves with the matrix that was factored last; if none fits into memory, with H.
+    pub fn solve(&mut self, x: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+        let (system, pattern, hessian) = self.prepare();
+        system.solve(pattern, hessian, x)
+    }
+
+    /// Hv.
+    pub fn apply(&self, vector: &[f64], product: &mut [f64]) {
+        (self.pattern.scalar()).multiply(&self.hessian, vector, product);
+    }
+
     /// Solves Hd = −g and returns −½g·d.
     pub fn newton_direction(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
-        self.system.prepare(&self.hessian)?;
+        self.factor()?;
         for (d, g) in direction.iter_mut().zip(&self.gradient) {
             *d = -g;
         }
-        self.system
-            .solve(self.pattern.scalar(), &self.hessian, direction)?;
+        self.solve(direction)?;
         let slope = dot(&self.gradient, direction);
         if slope <= 0.0 {
             Ok(-0.5 * slope)
@@ -111,14 +146,18 @@ impl QuadraticModel {
     pub fn follow(&mut self, direction: &mut [f64], add_pull: impl FnOnce(&mut [f64])) {
         self.held.take_moves(direction);
         add_pull(direction);
-        let _ = self
-            .system
-            .solve(self.pattern.scalar(), &self.hessian, direction);
+        let _ = self.solve(direction);
         self.held.put_moves(direction);
     }
 
     /// g·d + ½d·Hd, held vertices included.
     pub fn change(&self, direction: &[f64]) -> f64 {
+        let cleared = self.held.model_change(self.stand_in(), direction);
+        dot(&self.gradient, direction) + 0.5 * self.curvature(direction) + cleared
+    }
+
+    /// d·Hd.
+    pub fn curvature(&self, direction: &[f64]) -> f64 {
         let pattern = self.pattern.scalar();
         let mut quadratic = 0.0;
         for j in 0..pattern.n {
@@ -126,8 +165,7 @@ impl QuadraticModel {
                 quadratic += self.hessian[slot] * form(direction, pattern.row_idx[slot], j);
             }
         }
-        let cleared = self.held.model_change(self.stand_in(), direction);
-        dot(&self.gradient, direction) + 0.5 * quadratic + cleared
+        quadratic
     }
 
     pub fn pattern(&self) -> &BlockPattern {
@@ -143,7 +181,7 @@ impl QuadraticModel {
     }
 
     pub fn work(&self) -> Option<Work> {
-        self.system.work()
+        self.system.as_ref().and_then(LinearSolver::work)
     }
 
     pub fn mean_diagonal(&self) -> f64 {

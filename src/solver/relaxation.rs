@@ -18,6 +18,11 @@ pub struct Relaxation {
 /// factorizations would fail otherwise.
 const MOST_PATIENCE: u32 = 16;
 
+/// Is the model good and the end slow? Thresholds half as strict cost up to 15 % more factorizations.
+pub fn is_settling(length: f64, relative_decrease: f64) -> bool {
+    length > 0.9 && relative_decrease < 0.01
+}
+
 impl Relaxation {
     pub fn new(projection: Projection) -> Self {
         Self {
@@ -34,22 +39,36 @@ impl Relaxation {
     }
 
     /// After a step: nearly full ones that gain less than 1 % mean that the model is good and the end slow, so ω falls;
-    /// short ones that the model is bad. Thresholds half as strict cost up to 15 % more factorizations.
+    /// short ones that the model is bad.
     pub fn after_step(&mut self, length: f64, relative_decrease: f64) {
         if self.projection == Projection::PositiveSemidefinite {
             return;
         }
         if self.wait > 0 {
             self.wait -= 1;
-        } else if length > 0.9 && relative_decrease < 0.01 {
-            self.omega = if self.omega < 4e-3 {
-                0.0
-            } else {
-                0.25 * self.omega
-            };
+        } else if is_settling(length, relative_decrease) {
+            self.lower();
         } else if length < 0.5 {
             self.omega = (4.0 * self.omega).clamp(0.05, 1.0);
         }
+    }
+
+    /// After a factorization that several directions came from: ω falls if none of them met negative curvature of the true
+    /// Hessian and the last gained little.
+    pub fn after_service(&mut self, met_negative: bool, relative_decrease: f64) {
+        if self.wait > 0 {
+            self.wait -= 1;
+        } else if !met_negative && is_settling(1.0, relative_decrease) {
+            self.lower();
+        }
+    }
+
+    fn lower(&mut self) {
+        self.omega = if self.omega < 4e-3 {
+            0.0
+        } else {
+            0.25 * self.omega
+        };
     }
 
     /// After a factorization that failed: false if the matrix was already the most definite one.

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 pub struct Settings {
     /// Steps at most.
     pub max_iterations: usize,
-    /// Converged when the Newton decrement −½g·d, the decrease the quadratic model promises, is at most this share of
-    /// the energy, and the step was full.
+    /// Converged when the decrease that the quadratic model promises at its minimum (for a Newton step the decrement −½g·d) is
+    /// at most this share of the energy, and the step was full.
     pub tolerance: f64,
     /// What to do about negative curvature.
     pub projection: Projection,
@@ -20,7 +20,7 @@ impl Settings {
         Self {
             max_iterations: 200,
             tolerance: 1e-4,
-            projection: Projection::Relaxed,
+            projection: Projection::TrustRegion,
         }
     }
 
@@ -45,6 +45,7 @@ impl Settings {
     pub fn follow() -> Self {
         Self {
             max_iterations: 5000,
+            projection: Projection::Relaxed,
             ..Self::normal()
         }
     }
@@ -59,8 +60,12 @@ impl Default for Settings {
 /// How negative curvature of a triangle enters the matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Projection {
-    /// Less and less of it is removed as full steps gain little.
+    /// It is removed until full steps gain little. From then on the factored matrix serves several directions, each found on
+    /// the true Hessian within a trust region.
     #[default]
+    TrustRegion,
+    /// Less and less of it is removed as full steps gain little: what handles are followed with, whose stations want few
+    /// steps each.
     Relaxed,
     /// It is always removed: best far from a minimum, slow near one.
     PositiveSemidefinite,

@@ -177,7 +177,7 @@ where
 
     /// The Newton step alone, with a line search; its length, 0 if none helps.
     fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
-        let from = (self.summary.energy_last, decrement);
+        let from = (self.summary.energy_last, -2.0 * decrement);
         line_search(objective, x, &self.newton, from, &mut self.trial).map_or(0.0, |step| {
             x.copy_from_slice(&self.trial);
             self.summary.energy_last = step.energy;

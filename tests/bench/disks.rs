@@ -5,6 +5,8 @@
 //! parts of one iteration. With `--out` the map is written beside it as OBJ, which `tests/bench/slim.py` judges and sets
 //! beside libigl's SLIM. Runs on one thread if `RAYON_NUM_THREADS=1`.
 
+#[expect(dead_code, reason = "only seconds of the processor are told here")]
+mod clock;
 #[expect(dead_code, reason = "disks are not subdivided here")]
 mod meshes;
 
@@ -13,8 +15,7 @@ use std::fmt::Write;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
-use nix::sys::resource::{UsageWho, getrusage};
-use nix::sys::time::TimeVal;
+use clock::Clock;
 use serde_json::json;
 use unwrapd::barrier::{Barrier, BarrierKind, MapEnergy, map_energy};
 use unwrapd::charts::{Chart, Cut, charts};
@@ -58,10 +59,12 @@ fn report(file: &str, chart: &Chart, energy: EnergyKind, out: Option<&Path>) {
         solver: Settings::exact(),
         ..Options::default()
     };
-    let begin = processor();
+    let clock = Clock::start();
     let trace = RefCell::new(Vec::new());
     let watch = |i: &Iterate| {
-        trace.borrow_mut().push((processor() - begin, i.energy));
+        trace
+            .borrow_mut()
+            .push((clock.seconds().processor, i.energy));
         Control::Continue
     };
     let map = parameterize(&chart.disk, &chart.positions, &options, &watch);
@@ -123,7 +126,7 @@ fn parts(chart: &Chart, energy: EnergyKind, map: &Embedding) -> serde_json::Valu
             epsilon: 0.0,
         },
     };
-    let begin = processor();
+    let clock = Clock::start();
     let term = map_energy(&chart.disk.triangles, &rest.shapes, &parameters);
     let mut objective = Objective::new(chart.disk.n_vertices, term);
     let scale = (chart.disk.triangles.len() as f64 / rest.area.max(f64::MIN_POSITIVE)).sqrt();
@@ -131,7 +134,7 @@ fn parts(chart: &Chart, energy: EnergyKind, map: &Embedding) -> serde_json::Valu
     let mut direction = vec![0.0; x.len()];
     objective.linearize(&x, 0.0);
     black_box(objective.newton_direction(&mut direction).is_ok());
-    let first = 1e3 * (processor() - begin);
+    let first = 1e3 * (clock.seconds().processor);
     json!({
         "order, symbolic analysis and first": first,
         "assembly": least(|| objective.linearize(&x, 0.0)),
@@ -149,16 +152,9 @@ fn parts(chart: &Chart, energy: EnergyKind, map: &Embedding) -> serde_json::Valu
 
 fn least(mut action: impl FnMut()) -> f64 {
     let times = (0..5).map(|_| {
-        let begin = processor();
+        let clock = Clock::start();
         action();
-        1e3 * (processor() - begin)
+        1e3 * (clock.seconds().processor)
     });
     times.fold(f64::INFINITY, f64::min)
-}
-
-/// User and system time of this process, in seconds.
-fn processor() -> f64 {
-    let usage = getrusage(UsageWho::RUSAGE_SELF).expect("every process may ask");
-    let seconds = |time: TimeVal| time.tv_sec() as f64 + 1e-6 * time.tv_usec() as f64;
-    seconds(usage.user_time()) + seconds(usage.system_time())
 }

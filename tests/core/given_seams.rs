@@ -10,9 +10,11 @@ use unwrapd::pipeline::{
 
 use crate::zoo::{self, Mesh};
 
+/// Without cuts that only make the atlas fuller: whether one pays turns on the last digits of a map.
 fn unwrapped(mesh: &Mesh, cut: Cut, seams: &Seams) -> Unwrapped {
     let settings = Settings {
         cut,
+        seam_weight: 1e6,
         ..Settings::default()
     };
     let made = unwrap_along(

@@ -97,7 +97,11 @@ const KINDS: [EnergyKind; 3] = [
 fn energy_falls_and_no_triangle_inverts_at_any_iterate() {
     let grid = grid(12);
     for energy in KINDS {
-        for projection in [Projection::Relaxed, Projection::PositiveSemidefinite] {
+        for projection in [
+            Projection::TrustRegion,
+            Projection::Relaxed,
+            Projection::PositiveSemidefinite,
+        ] {
             let mut objective =
                 grid.objective(&grid.curved_rest(), energy, BarrierKind::InverseSpline);
             let mut x = grid.start();
@@ -144,6 +148,32 @@ fn taylor_assembled_objective() {
         };
         assert_taylor(|x| objective.value(x), &gradient, times, &x, &d);
     }
+}
+
+#[test]
+fn one_factorization_serves_several_directions() {
+    let grid = grid(12);
+    let rest = grid.curved_rest();
+    let ended = |projection| {
+        let mut objective = grid.objective(&rest, EnergyKind::Arap, BarrierKind::InverseSpline);
+        let settings = Settings {
+            projection,
+            ..Settings::exact()
+        };
+        minimize(&mut objective, &mut grid.start(), &settings, &NO_WATCH)
+    };
+    let region = ended(Projection::TrustRegion);
+    let relaxed = ended(Projection::Relaxed);
+    assert_eq!(region.status, Status::Converged);
+    assert!(
+        (region.energy_last - relaxed.energy_last).abs() < 1e-8 * relaxed.energy_last,
+        "{region:?} and {relaxed:?}"
+    );
+    assert!(region.factorizations < region.iterations, "{region:?}");
+    assert!(
+        region.factorizations < relaxed.factorizations,
+        "{relaxed:?}"
+    );
 }
 
 #[test]

@@ -49,6 +49,23 @@ pub struct SymmetricPattern {
     pub row_idx: Vec<usize>,
 }
 
+impl SymmetricPattern {
+    /// The product of the matrix whose stored entries are `values` with a vector.
+    pub fn multiply(&self, values: &[f64], vector: &[f64], product: &mut [f64]) {
+        product.fill(0.0);
+        for j in 0..self.n {
+            let column = self.col_ptr[j]..self.col_ptr[j + 1];
+            let mut sum = values[column.start] * vector[j];
+            for slot in column.start + 1..column.end {
+                let row = self.row_idx[slot];
+                sum += values[slot] * vector[row];
+                product[row] += values[slot] * vector[j];
+            }
+            product[j] += sum;
+        }
+    }
+}
+
 /// The matrix has a pivot that is not positive (or not a number): a normal outcome for an indefinite Hessian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is not positive definite")]

@@ -1,0 +1,124 @@
+//! Where to go: by Newton's method while far from a minimum, within a trust region when near.
+
+use super::newton::newton_direction;
+use super::objective::Objective;
+use super::relaxation::{Relaxation, is_settling};
+use super::settings::Projection;
+use super::trust_region::{Descent, End, TrustRegion};
+
+/// Directions from one factorization, at most: after as many steps it belongs to another place.
+const MOST_DIRECTIONS: usize = 6;
+
+/// Products with the Hessian after which a better factorization is cheaper than more of them.
+const ENOUGH_PRODUCTS: usize = 20;
+
+/// But so many directions each must serve: where the true Hessian is indefinite no factorization is better.
+const LEAST_DIRECTIONS: usize = 3;
+
+/// Finds directions of descent and learns from the steps along them.
+pub(super) struct Directions {
+    pub direction: Vec<f64>,
+    /// None if all is left to Newton's method.
+    region: Option<TrustRegion>,
+    /// Does the region find the next one?
+    is_near: bool,
+    served: usize,
+    products: usize,
+    met_negative: bool,
+    /// Of the last step.
+    relative_decrease: f64,
+    norm: f64,
+}
+
+impl Directions {
+    /// For an objective. One whose Hessian is too large to factor is left to Newton's method.
+    pub fn new(objective: &mut Objective, projection: Projection) -> Self {
+        let n = objective.n();
+        let has_region = objective.keeps_factor() && projection == Projection::TrustRegion;
+        Self {
+            direction: vec![0.0; n],
+            region: has_region.then(|| TrustRegion::new(n)),
+            is_near: false,
+            served: 0,
+            products: 0,
+            met_negative: false,
+            relative_decrease: 1.0,
+            norm: 0.0,
+        }
+    }
+
+    /// Leaves the next one in `direction`, a change of less than `negligible` being the last; `None` if no matrix that could
+    /// be factored gives one.
+    pub fn next(
+        &mut self,
+        objective: &mut Objective,
+        x: &[f64],
+        negligible: f64,
+        relaxation: &mut Relaxation,
+        factorizations: &mut usize,
+    ) -> Option<Descent> {
+        let Some(region) = self.region.as_mut().filter(|_| self.is_near) else {
+            let direction = &mut self.direction;
+            let decrement = newton_direction(objective, x, relaxation, direction, factorizations)?;
+            (self.served, self.products, self.met_negative) = (0, 0, false);
+            return Some(Descent::of_newton(decrement));
+        };
+        let is_spent = self.products >= ENOUGH_PRODUCTS && self.served >= LEAST_DIRECTIONS;
+        if is_spent || self.served >= MOST_DIRECTIONS {
+            relaxation.after_service(self.met_negative, self.relative_decrease);
+            factor(objective, x, relaxation, factorizations)?;
+            region.rescale(self.norm, objective.curvature(&self.direction).sqrt());
+            (self.served, self.products, self.met_negative) = (0, 0, false);
+        }
+        objective.linearize(x, 1.0);
+        let descent = region.direction(objective, negligible, &mut self.direction);
+        self.served += 1;
+        self.products += descent.products;
+        self.met_negative |= descent.end == End::NegativeCurvature;
+        Some(descent)
+    }
+
+    /// After a step of this length, which lowered the energy by `decrease`.
+    pub fn after_step(
+        &mut self,
+        relaxation: &mut Relaxation,
+        descent: &Descent,
+        (energy, length, decrease): (f64, f64, f64),
+    ) {
+        self.norm = descent.norm;
+        self.relative_decrease = decrease / energy.abs();
+        match &mut self.region {
+            None => relaxation.after_step(length, self.relative_decrease),
+            Some(region) if self.is_near => region.after_step(descent, length, decrease),
+            Some(region) => {
+                self.is_near = is_settling(length, self.relative_decrease);
+                region.begin(descent.norm);
+            }
+        }
+    }
+
+    /// After a direction along which no step helped: false if there is no safer one.
+    pub fn after_useless_direction(&mut self, relaxation: &mut Relaxation) -> bool {
+        let was_near = std::mem::take(&mut self.is_near);
+        relaxation.after_useless_direction() || was_near
+    }
+}
+
+/// Factors the Hessian with as much of the negative curvature removed as it takes; `None` if all is not enough.
+fn factor(
+    objective: &mut Objective,
+    x: &[f64],
+    relaxation: &mut Relaxation,
+    factorizations: &mut usize,
+) -> Option<()> {
+    loop {
+        objective.linearize(x, relaxation.tau());
+        *factorizations += 1;
+        if objective.factor().is_ok() {
+            return Some(());
+        }
+        if !relaxation.after_indefinite() {
+            return None;
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! The true Hessian within a trust region, by conjugate gradients that an older factorization preconditions.
+//!
+//! Why: at the minimum of ARAP with a barrier four of five triangles are compressed a little, and each of those has a negative
+//! eigenvalue. None shows in the sum, which is positive definite there; but with all of them removed the matrix is far too
+//! stiff along the modes in which a surface buckles, and Newton's method converges linearly. The true Hessian is indefinite
+//! on most of the way, and so is every compromise that would be soft enough. But the eigenvalues of the true Hessian beside
+//! those of the projected one are 1 or less and mostly near 1, which is what conjugate gradients are good at: a few products
+//! find the modes that matter, negative curvature included, and one factorization serves several steps, because it need not
+//! be that of the present point. On ordinary disks ARAP with the barrier takes a fifth of the factorizations that
+//! [`Projection::Relaxed`](super::Projection::Relaxed) takes (`cargo bench --bench disks` counts them).
+//!
+//! From: Steihaug 1983, The Conjugate Gradient Method and Trust Regions in Large Scale Optimization.
+
+use super::objective::Objective;
+
+/// Products with the Hessian for one direction, at most: more are better spent at another point.
+const MOST_PRODUCTS: usize = 10;
+
+/// The residual's norm as a share of the gradient's at which a direction is good enough. A third of it takes as long.
+const FORCING: f64 = 0.3;
+
+/// The same for a direction that would be the last: slow modes hide in a residual.
+const SURE: f64 = 0.03;
+
+/// The first radius as a multiple of the last Newton step, which was a good one.
+const FIRST_RADIUS: f64 = 3.0;
+
+/// Factors of the radius after a step that the model foretold badly, and well.
+const SHRINK: f64 = 0.25;
+const GROW: f64 = 4.0;
+
+/// The ball in which the quadratic model is believed, in the norm ‖d‖² = d·Pd of the factored matrix P.
+pub struct TrustRegion {
+    radius: f64,
+    residual: Vec<f64>,
+    preconditioned: Vec<f64>,
+    conjugate: Vec<f64>,
+    product: Vec<f64>,
+}
+
+/// What is known of a direction d.
+#[derive(Clone, Copy, Debug)]
+pub struct Descent {
+    /// g·d, negative.
+    pub slope: f64,
+    /// g·d + ½d·Hd, negative.
+    pub change: f64,
+    /// The norm of d.
+    pub norm: f64,
+    /// Products with the Hessian that it took.
+    pub products: usize,
+    /// Why it ends where it does.
+    pub end: End,
+}
+
+impl Descent {
+    /// Newton's own direction, which has this decrement, in the norm of its matrix.
+    pub fn of_newton(decrement: f64) -> Self {
+        Self {
+            slope: -2.0 * decrement,
+            change: -decrement,
+            norm: (2.0 * decrement).sqrt(),
+            products: 0,
+            end: End::Minimum,
+        }
+    }
+}
+
+/// Why conjugate gradients ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At the model's minimum.
+    Minimum,
+    /// At the radius, the model being convex on the way.
+    Radius,
+    /// At the radius, along negative curvature.
+    NegativeCurvature,
+    /// After as many products as are made for one direction.
+    Limit,
+}
+
+impl TrustRegion {
+    /// For `n` unknowns; [`begin`](Self::begin) gives it a size.
+    pub fn new(n: usize) -> Self {
+        let zeros = || vec![0.0; n];
+        Self {
+            radius: 0.0,
+            residual: zeros(),
+            preconditioned: zeros(),
+            conjugate: zeros(),
+            product: zeros(),
+        }
+    }
+
+    /// Begins after a good Newton step of this norm.
+    pub fn begin(&mut self, norm: f64) {
+        self.radius = FIRST_RADIUS * norm;
+    }
+
+    /// Leaves in `direction` about the lowest point of the model within the region.
+    ///
+    /// The objective must be linearized with its true Hessian and have a factorization, of any nearby positive definite
+    /// matrix. A change of less than `negligible` is looked at more closely, so that it is not taken for the end when the
+    /// factorization is a bad one. Cost: a solve and a product with the Hessian per step of conjugate gradients, and one solve.
+    pub fn direction(
+        &mut self,
+        objective: &mut Objective,
+        negligible: f64,
+        direction: &mut [f64],
+    ) -> Descent {
+        direction.fill(0.0);
+        self.residual.copy_from_slice(objective.gradient());
+        let mut rz = self.precondition(objective);
+        for (p, z) in self.conjugate.iter_mut().zip(&self.preconditioned) {
+            *p = -z;
+        }
+        let first = rz;
+        let mut norms = Norms {
+            direction: 0.0,
+            mixed: 0.0,
+            conjugate: rz,
+        };
+        let mut change = 0.0;
+        let mut products = 0;
+        let end = loop {
+            objective.apply_hessian(&self.conjugate, &mut self.product);
+            products += 1;
+            let curvature = dot(&self.conjugate, &self.product);
+            let is_convex = curvature > 0.0;
+            let most = norms.step_to(self.radius);
+            let alpha = if is_convex {
+                (rz / curvature).min(most)
+            } else {
+                most
+            };
+            add_scaled(direction, alpha, &self.conjugate);
+            change += alpha * (0.5 * alpha * curvature - rz);
+            norms.advance(alpha);
+            if alpha == most {
+                break if is_convex {
+                    End::Radius
+                } else {
+                    End::NegativeCurvature
+                };
+            }
+            add_scaled(&mut self.residual, alpha, &self.product);
+            let next = self.precondition(objective);
+            let share = if -change <= negligible { SURE } else { FORCING };
+            if next <= share * share * first {
+                break End::Minimum;
+            }
+            if products == MOST_PRODUCTS {
+                break End::Limit;
+            }
+            let beta = next / rz;
+            for (p, z) in self.conjugate.iter_mut().zip(&self.preconditioned) {
+                *p = beta * *p - z;
+            }
+            norms.turn(beta, next);
+            rz = next;
+        };
+        Descent {
+            slope: dot(objective.gradient(), direction),
+            change,
+            norm: norms.direction.sqrt(),
+            products,
+            end,
+        }
+    }
+
+    /// P⁻¹r, and r·P⁻¹r.
+    fn precondition(&mut self, objective: &mut Objective) -> f64 {
+        self.preconditioned.copy_from_slice(&self.residual);
+        if objective.precondition(&mut self.preconditioned).is_err() {
+            return f64::NAN;
+        }
+        dot(&self.residual, &self.preconditioned)
+    }
+
+    /// Learns from a step of this length along a direction.
+    pub fn after_step(&mut self, descent: &Descent, length: f64, decrease: f64) {
+        let Descent { slope, change, .. } = descent;
+        let foretold = -length * (slope + length * (change - slope));
+        if length < 1.0 {
+            self.radius = length.max(SHRINK) * descent.norm;
+        } else if decrease < 0.25 * foretold {
+            self.radius = SHRINK * descent.norm;
+        } else if decrease > 0.75 * foretold && descent.end != End::Minimum {
+            self.radius = self.radius.max(GROW * descent.norm);
+        }
+    }
+
+    /// Takes over another norm, in which a direction that had the norm `from` has the norm `to`.
+    pub fn rescale(&mut self, from: f64, to: f64) {
+        self.radius *= to / from;
+    }
+}
+
+/// Squared norms of the direction d so far and of the conjugate direction p, and their product, known without the matrix.
+struct Norms {
+    direction: f64,
+    mixed: f64,
+    conjugate: f64,
+}
+
+impl Norms {
+    /// The t > 0 at which d + tp is as long as the radius.
+    fn step_to(&self, radius: f64) -> f64 {
+        let missing = (radius * radius - self.direction).max(0.0);
+        let root = (self.mixed * self.mixed + self.conjugate * missing).sqrt();
+        (root - self.mixed) / self.conjugate
+    }
+
+    /// d becomes d + tp.
+    fn advance(&mut self, t: f64) {
+        self.direction += t * (2.0 * self.mixed + t * self.conjugate);
+        self.mixed += t * self.conjugate;
+    }
+
+    /// p becomes βp − z, z being orthogonal to p and d and of this squared norm.
+    fn turn(&mut self, beta: f64, z: f64) {
+        self.mixed *= beta;
+        self.conjugate = z + beta * beta * self.conjugate;
+    }
+}
+
+fn add_scaled(sum: &mut [f64], factor: f64, share: &[f64]) {
+    for (sum, share) in sum.iter_mut().zip(share) {
+        *sum += factor * share;
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
