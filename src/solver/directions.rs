@@ -31,19 +31,24 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// For an objective. One whose Hessian is too large to factor is left to Newton's method.
-    pub fn new(objective: &mut Objective, projection: Projection) -> Self {
-        let n = objective.n();
-        let has_region = objective.keeps_factor() && projection == Projection::TrustRegion;
+    /// For `n` unknowns, of Newton's method until it is [prepared](Self::prepare).
+    pub fn new(n: usize) -> Self {
         Self {
             direction: vec![0.0; n],
-            region: has_region.then(|| TrustRegion::new(n)),
+            region: None,
             is_near: false,
             served: 0,
             products: 0,
             met_negative: false,
             relative_decrease: 1.0,
             norm: 0.0,
+        }
+    }
+
+    /// Allocates what the first direction would. An objective whose Hessian is too large to factor is left to Newton's method.
+    pub fn prepare(&mut self, objective: &mut Objective, projection: Projection) {
+        if objective.keeps_factor() && projection == Projection::TrustRegion {
+            self.region = Some(TrustRegion::new(objective.n()));
         }
     }
 

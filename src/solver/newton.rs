@@ -36,6 +36,7 @@ pub(super) fn minimize_with(
     watch: &dyn Watch,
 ) -> Summary {
     assert_eq!(x.len(), objective.n(), "coordinates of every vertex");
+    let mut directions = Directions::new(x.len());
     let mut trial = vec![0.0; x.len()];
     let mut summary = Summary::at_start(objective.value(x));
     if !summary.energy_first.is_finite() {
@@ -45,7 +46,7 @@ pub(super) fn minimize_with(
         return summary.ended(Status::Stopped);
     }
     // After the start was shown: who only wants a valid map, or has no time left, does not wait for it.
-    let mut directions = Directions::new(objective, settings.projection);
+    directions.prepare(objective, settings.projection);
     while summary.iterations < settings.max_iterations {
         let energy = summary.energy_last;
         let negligible = settings.tolerance * objective.reference(energy);
