@@ -1,6 +1,6 @@
 //! Where to go: by Newton's method while far from a minimum, within a trust region when near.
 
-use super::newton::newton_direction;
+use super::newton::{newton_direction, once_definite};
 use super::objective::Objective;
 use super::relaxation::{Relaxation, is_settling};
 use super::settings::Projection;
@@ -71,7 +71,7 @@ impl Directions {
         let is_spent = self.products >= ENOUGH_PRODUCTS && self.served >= LEAST_DIRECTIONS;
         if is_spent || self.served >= MOST_DIRECTIONS {
             relaxation.after_service(self.met_negative, self.relative_decrease);
-            factor(objective, x, relaxation, factorizations)?;
+            once_definite(objective, x, relaxation, factorizations, Objective::factor)?;
             region.rescale(self.norm, objective.curvature(&self.direction).sqrt());
             (self.served, self.products, self.met_negative) = (0, 0, false);
         }
@@ -106,24 +106,5 @@ impl Directions {
     pub fn after_useless_direction(&mut self, relaxation: &mut Relaxation) -> bool {
         let was_near = std::mem::take(&mut self.is_near);
         relaxation.after_useless_direction() || was_near
-    }
-}
-
-/// Factors the Hessian with as much of the negative curvature removed as it takes; `None` if all is not enough.
-fn factor(
-    objective: &mut Objective,
-    x: &[f64],
-    relaxation: &mut Relaxation,
-    factorizations: &mut usize,
-) -> Option<()> {
-    loop {
-        objective.linearize(x, relaxation.tau());
-        *factorizations += 1;
-        if objective.factor().is_ok() {
-            return Some(());
-        }
-        if !relaxation.after_indefinite() {
-            return None;
-        }
     }
 }

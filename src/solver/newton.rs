@@ -7,6 +7,7 @@ use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
 use super::trust_region::End;
 use super::watch::{Control, Taken, Watch};
+use crate::numerics::cholesky::NotPositiveDefinite;
 
 /// Moves `x` from a start inside the domain to a minimum of `objective` nearby.
 ///
@@ -88,8 +89,7 @@ pub(super) fn minimize_with(
     summary.ended(Status::IterationLimit)
 }
 
-/// Leaves −H⁻¹g in `direction` and returns the Newton decrement, projecting more until the matrix is positive definite;
-/// `None` if it is not even with all negative curvature removed, as happens only when derivatives overflow.
+/// Leaves −H⁻¹g in `direction` and returns the Newton decrement, as [`once_definite`] has it.
 pub(super) fn newton_direction(
     objective: &mut Objective,
     x: &[f64],
@@ -97,11 +97,24 @@ pub(super) fn newton_direction(
     direction: &mut [f64],
     factorizations: &mut usize,
 ) -> Option<f64> {
+    let solved = |objective: &mut Objective| objective.newton_direction(direction);
+    once_definite(objective, x, relaxation, factorizations, solved)
+}
+
+/// What comes of factoring the Hessian at `x`, with more and more of its negative curvature removed until it is positive
+/// definite; `None` if it is not even with all of it removed, as happens only when derivatives overflow.
+pub(super) fn once_definite<T>(
+    objective: &mut Objective,
+    x: &[f64],
+    relaxation: &mut Relaxation,
+    factorizations: &mut usize,
+    mut factored: impl FnMut(&mut Objective) -> Result<T, NotPositiveDefinite>,
+) -> Option<T> {
     loop {
         objective.linearize(x, relaxation.tau());
         *factorizations += 1;
-        if let Ok(decrement) = objective.newton_direction(direction) {
-            return Some(decrement);
+        if let Ok(found) = factored(objective) {
+            return Some(found);
         }
         if !relaxation.after_indefinite() {
             return None;
