@@ -18,7 +18,6 @@ const MOST_CHARTS: usize = 64;
 const WORDS_PER_CUT: u64 = 40;
 
 /// Charts and a draft of their layout.
-#[derive(Clone)]
 pub(super) struct Drafted {
     pub charts: Vec<MappedChart>,
     pub draft: Option<Draft>,
@@ -44,54 +43,86 @@ pub(super) fn compacted(
     options: &AtlasOptions,
     settings: &Settings,
 ) -> Result<Drafted, AtlasError> {
-    let Drafted { mut charts, draft } = Drafted::new(charts, options)?;
-    let Some(mut draft) = draft.filter(|_| charts.len() <= MOST_CHARTS) else {
-        return Drafted::new(charts, options);
+    let Drafted { charts, draft } = Drafted::new(charts, options)?;
+    let draft = match draft {
+        Some(draft) if charts.len() <= MOST_CHARTS => draft,
+        draft => return Ok(Drafted { charts, draft }),
     };
-    let words = options.search_words / WORDS_PER_CUT;
-    draft.improve(words, 0);
-    let unit = charts.iter().map(MappedChart::area).sum::<f64>().sqrt();
-    let split = |charts: &[MappedChart]| -> Vec<Option<Split>> {
-        let each = charts.par_iter().with_max_len(1);
-        each.map(|chart| chart.best_split(unit)).collect()
-    };
-    let mut splits = split(&charts);
-    let mut best = (draft.fill(), charts.clone(), draft.clone());
-    let (mut seam, mut worse) = (0.0, 0);
     let most_charts = settings.max_charts.map_or(usize::MAX, |n| n as usize);
+    let words = options.search_words / WORDS_PER_CUT;
+    let unit = charts.iter().map(MappedChart::area).sum::<f64>().sqrt();
+    let price = PRICE * settings.seam_weight / unit;
+    let mut cut = Cuts::new(charts, draft, unit);
+    cut.draft.improve(words, 0);
+    let mut best = cut.clone();
+    let mut worse = 0;
     for seed in 1..=MOST_CUTS {
-        if charts.len() >= most_charts {
+        if cut.charts.len() >= most_charts || worse == PATIENCE || !cut.cut(unit)? {
             break;
         }
-        let Some((cut, worst)) = most_worth(&splits) else {
-            break;
-        };
-        seam += worst.length / unit;
-        let parts = charts[cut].parted(worst);
-        let Some(replaced) = draft.replaced(cut, &chart_maps(&parts))? else {
-            break;
-        };
-        draft = replaced;
-        draft.improve(words, seed);
-        splits.remove(cut);
-        splits.extend(split(&parts));
-        charts.remove(cut);
-        charts.extend(parts);
-        let value = draft.fill() - PRICE * settings.seam_weight * seam;
+        cut.draft.improve(words, seed);
+        // The best is searched on as long: else the last would be the fullest because it was searched for longest.
+        best.draft.improve(words, seed);
         worse += 1;
-        if value > best.0 {
-            best = (value, charts.clone(), draft.clone());
+        if cut.value(price) > best.value(price) {
+            best = cut.clone();
             worse = 0;
         }
-        if worse == PATIENCE {
-            break;
+    }
+    Ok(Drafted {
+        charts: best.charts,
+        draft: Some(best.draft),
+    })
+}
+
+/// Charts after some cuts.
+#[derive(Clone)]
+struct Cuts {
+    charts: Vec<MappedChart>,
+    /// The best next cut of each.
+    splits: Vec<Option<Split>>,
+    draft: Draft,
+    /// The length of the cuts.
+    seam: f64,
+}
+
+impl Cuts {
+    fn new(charts: Vec<MappedChart>, draft: Draft, unit: f64) -> Self {
+        Self {
+            splits: best_splits(&charts, unit),
+            charts,
+            draft,
+            seam: 0.0,
         }
     }
-    let (_, charts, draft) = best;
-    Ok(Drafted {
-        charts,
-        draft: Some(draft),
-    })
+
+    /// The share of the square that is filled, less what the seams cost.
+    fn value(&self, price: f64) -> f64 {
+        self.draft.fill() - price * self.seam
+    }
+
+    /// Makes the cut that is worth most; false if there is none, or no place for its parts.
+    fn cut(&mut self, unit: f64) -> Result<bool, AtlasError> {
+        let Some((chart, split)) = most_worth(&self.splits) else {
+            return Ok(false);
+        };
+        let parts = self.charts[chart].parted(split);
+        let Some(draft) = self.draft.replaced(chart, &chart_maps(&parts))? else {
+            return Ok(false);
+        };
+        self.draft = draft;
+        self.seam += split.length;
+        self.splits.remove(chart);
+        self.splits.extend(best_splits(&parts, unit));
+        self.charts.remove(chart);
+        self.charts.extend(parts);
+        Ok(true)
+    }
+}
+
+fn best_splits(charts: &[MappedChart], unit: f64) -> Vec<Option<Split>> {
+    let each = charts.par_iter().with_max_len(1);
+    each.map(|chart| chart.best_split(unit)).collect()
 }
 
 /// The chart that a cut is worth most for, the first of equals, and the cut.
