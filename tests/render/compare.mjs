@@ -6,6 +6,7 @@ import { createReadStream, mkdtempSync, readFileSync, rmSync, writeFileSync } fr
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { basename, dirname, extname, join, normalize } from "node:path";
+import { setTimeout as wait } from "node:timers/promises";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -64,5 +65,14 @@ await new Promise((ended) => browser.on("exit", ended).on("error", ended));
 clearTimeout(limit);
 server.closeAllConnections();
 server.close();
-rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
+// The browser's other processes may write a little longer than it lives.
+for (let tries = 1; ; tries += 1) {
+  try {
+    rmSync(profile, { recursive: true, force: true });
+    break;
+  } catch (error) {
+    if (tries === 40) throw error;
+    await wait(250);
+  }
+}
 process.exitCode = compared === pairs.length ? 0 : 1;
