@@ -3,6 +3,7 @@ mod atlas;
 #[cfg(feature = "files")]
 mod bake;
 mod barrier;
+mod bodies;
 mod box_tree;
 mod cage;
 #[cfg(feature = "files")]

@@ -1,48 +1,13 @@
 //! Supplied starts with inversions: untangled with little moved, or refused.
 
 use unwrapd::deform::{Body, Handle, Model, Problem};
-use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::solver::{Control, Iterate, Settings};
 
+use crate::bodies::{block, sheet};
 #[cfg(feature = "files")]
 use crate::uv_meshes::shared_data;
 
 const SIDE: u32 = 20;
-
-/// `SIDE` × `SIDE` unit squares, two triangles each.
-fn sheet() -> PlanarMesh {
-    let n = SIDE + 1;
-    let vertices = (0..n * n).map(|v| [f64::from(v % n), f64::from(v / n)]);
-    let squares = (0..SIDE * SIDE).map(|s| s / SIDE * n + s % SIDE);
-    let triangles = squares.flat_map(|a| [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]);
-    PlanarMesh::new(vertices.collect(), triangles.collect()).expect("a sheet")
-}
-
-/// 4 × 4 × 4 unit cubes, six tetrahedra each.
-fn block() -> TetMesh {
-    let id = |[x, y, z]: [u32; 3]| x + 5 * (y + 5 * z);
-    let vertices = (0..125_u32).map(|v| [v % 5, v / 5 % 5, v / 25].map(f64::from));
-    let axes = [
-        [0, 1, 2],
-        [0, 2, 1],
-        [1, 0, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [2, 1, 0],
-    ];
-    let tets = (0..64_u32).flat_map(|c| {
-        axes.map(|order| {
-            let mut corner = [c % 4, c / 4 % 4, c / 16];
-            let mut tet = [id(corner); 4];
-            for (place, axis) in tet[1..].iter_mut().zip(order) {
-                corner[axis] += 1;
-                *place = id(corner);
-            }
-            tet
-        })
-    });
-    TetMesh::new(vertices.collect(), tets.collect()).expect("a block")
-}
 
 fn problem(body: Body) -> Problem {
     let to = body.rest[..body.dim()].to_vec();
@@ -62,7 +27,7 @@ fn noise(i: usize) -> f64 {
 
 #[test]
 fn a_tangled_start_is_untangled_where_it_is() {
-    let mut problem = problem(Body::from(&sheet()));
+    let mut problem = problem(Body::from(&sheet(SIDE)));
     // All but the corners of a 5 × 5 patch far from the boundary are thrown about.
     for j in 8..12 {
         for i in 8..12 {
@@ -88,7 +53,7 @@ fn a_tangled_start_is_untangled_where_it_is() {
 
 #[test]
 fn a_whole_sheet_and_a_block_thrown_about_are_untangled() {
-    for body in [Body::from(&sheet()), Body::from(&block())] {
+    for body in [Body::from(&sheet(SIDE)), Body::from(&block(4))] {
         let mut problem = problem(body);
         for (i, x) in problem.start.iter_mut().enumerate() {
             *x += 0.9 * noise(i);
@@ -102,7 +67,7 @@ fn a_whole_sheet_and_a_block_thrown_about_are_untangled() {
 
 #[test]
 fn a_valid_start_stays_bit_by_bit() {
-    let mut problem = problem(Body::from(&block()));
+    let mut problem = problem(Body::from(&block(4)));
     for (i, x) in problem.start.iter_mut().enumerate() {
         *x += 0.05 * noise(i);
     }
@@ -113,7 +78,7 @@ fn a_valid_start_stays_bit_by_bit() {
 
 #[test]
 fn what_is_no_start_is_refused() {
-    let mut problem = problem(Body::from(&sheet()));
+    let mut problem = problem(Body::from(&sheet(SIDE)));
     problem.start[100] = f64::NAN;
     let error = problem.untangle_start().expect_err("no position");
     assert_eq!(error.code(), "infeasible_start");
