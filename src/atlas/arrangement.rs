@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use super::poses::Poses;
-use super::sheet::Sheet;
+use super::sheet::{Sheet, Window};
 use crate::numerics::random::Random;
 
 /// An order and a pose for every chart, and what comes of it.
@@ -28,24 +28,29 @@ impl Arrangement {
         largest: u32,
     ) -> Option<()> {
         sheet.clear(largest);
-        let mut reach = 0;
+        let (mut reach, mut side) = (0, 0);
+        let last = self.order.len().saturating_sub(1);
         for (place, &chart) in self.order.iter().enumerate() {
             let mask = poses[chart].mask(self.pose[chart]);
             if place >= first {
-                let (_, spot) = sheet.find(std::slice::from_ref(mask), [0, 0])?;
+                let (_, spot) = sheet.find(std::slice::from_ref(mask), Window::ALL)?;
                 self.corners[chart] = [spot.x, spot.y];
             }
             let [x, y] = self.corners[chart];
-            sheet.take(mask, [x, y]);
+            if place < last {
+                sheet.take(mask, [x, y]);
+            }
             let [width, height] = mask.size();
-            reach += (x + width).max(y + height);
+            let far = (x + width).max(y + height);
+            reach += far;
+            side = side.max(far);
         }
-        if sheet.side > largest {
+        if side > largest {
             return None;
         }
-        self.side = sheet.side;
-        let most = f64::from(sheet.side) * self.order.len() as f64 + 1.0;
-        self.cost = f64::from(sheet.side) + f64::from(reach) / most;
+        self.side = side;
+        let most = f64::from(side) * self.order.len() as f64 + 1.0;
+        self.cost = f64::from(side) + f64::from(reach) / most;
         Some(())
     }
 

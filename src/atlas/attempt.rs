@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use super::GRID_SIDE;
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
-use super::plan::{Plan, QuarterTurns};
-use super::sheet::{Sheet, Spot, Turned};
+use super::plan::{Near, Plan, QuarterTurns};
+use super::sheet::{Sheet, Spot, Turned, Window};
 
 /// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
 /// A smaller chart, far below a texel, is enlarged to that: nothing smaller can be represented.
@@ -77,10 +77,11 @@ impl Packing<'_> {
                     WORK_PER_CHART + WORK_PER_EDGE * self.plan.outlines[i].edges().len() as u64;
                 let [w, h] = turned[0].size();
                 let row = lowest.entry([w.min(h), w.max(h)]).or_insert(0);
-                let near = self.plan.corners.get(i);
-                let from = near.map_or([0, *row], |p| p.map(|x| (x * f64::from(target)) as u32));
                 let before = sheet.work;
-                let spot = sheet.find(&turned, from);
+                let spot = match &self.plan.near {
+                    Some(near) => find_near(near, i, &mut sheet, &turned, target),
+                    None => sheet.find(&turned, Window::from([0, *row])),
+                };
                 *work += sheet.work - before;
                 let (mask, spot) = spot.ok_or(placed / area)?;
                 if self.is_crowded() {
@@ -128,4 +129,22 @@ impl Packing<'_> {
             (turned, stretch)
         })
     }
+}
+
+/// A place for a chart near where it should lie, or else to the right and up of that.
+fn find_near(
+    near: &Near,
+    chart: usize,
+    sheet: &mut Sheet,
+    turned: &[Turned],
+    side: u32,
+) -> Option<(usize, Spot)> {
+    let cells = |share: f64| (share * f64::from(side)) as u32;
+    let lowest = near.corners[chart];
+    let window = Window {
+        lowest: lowest.map(cells),
+        highest: lowest.map(|share| cells(share + near.window)),
+    };
+    let found = sheet.find(turned, window);
+    found.or_else(|| sheet.find(turned, Window::from(window.lowest)))
 }

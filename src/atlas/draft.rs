@@ -6,7 +6,7 @@ use super::arrangement::Arrangement;
 use super::layout::padding;
 use super::mask::Distances;
 use super::outline::{Outline, outlines};
-use super::plan::{Plan, QuarterTurns};
+use super::plan::{Near, Plan, QuarterTurns, by_size, level};
 use super::poses::Poses;
 use super::sheet::Sheet;
 use super::{AtlasError, AtlasOptions, ChartMap, Turns};
@@ -25,8 +25,8 @@ const MOST_CHARTS: usize = 128;
 const MANY: u64 = 8;
 /// Searches from different seeds.
 const SEEDS: usize = 4;
-/// Larger squares that a search accepts at its begin and at its end: about one cell and a tenth of one.
-const TEMPERATURES: [f64; 2] = [1.3, 0.13];
+/// Larger squares that a search accepts at its begin and at its end: about half a cell and a tenth of one.
+const TEMPERATURES: [f64; 2] = [0.65, 0.13];
 /// What a trial costs for each chart beside the words it reads.
 const WORDS_PER_CHART: u64 = 1000;
 
@@ -76,48 +76,40 @@ impl Draft {
         if longest > f64::from(SIDES[2]) {
             return None;
         }
-        let n = plan.outlines.len();
-        let draft = Self {
-            poses: plan.outlines.iter().map(|o| raster.poses(o)).collect(),
-            raster,
-            state: Arrangement {
-                order: plan.order.clone(),
-                pose: vec![0; n],
-                corners: vec![[0; 2]; n],
-                side: 0,
-                cost: f64::INFINITY,
-            },
-        };
-        draft.lay_out()
+        let poses = plan.outlines.iter().map(|o| raster.poses(o)).collect();
+        Self::laid_out(poses, raster)
     }
 
-    /// The same with some parts, which come last among the charts, in place of one chart; the order keeps their place.
+    /// The same with some parts, which come last among the charts, in place of one chart, laid out anew.
     pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Option<Self>, AtlasError> {
-        let mut draft = self.clone();
-        let angle = self.poses[chart].outline(self.state.pose[chart]);
+        let mut poses = self.poses.clone();
+        poses.remove(chart);
+        let total = HOPE * (f64::from(RASTER) / self.raster.scale).powi(2);
         let outlines = outlines(parts)?;
-        let turned = outlines
-            .iter()
-            .map(|outline| self.raster.poses(&outline.turned_as(angle)));
-        draft.poses.extend(turned);
-        draft.poses.remove(chart);
-        let Arrangement {
-            order,
-            pose,
-            corners,
-            ..
-        } = &mut draft.state;
-        let turns = pose.remove(chart) % 4;
-        pose.resize(draft.poses.len(), turns);
-        corners.resize(draft.poses.len(), [0; 2]);
-        let n = self.poses.len();
-        if let Some(place) = order.iter().position(|&c| c == chart) {
-            order.splice(place..=place, n..n + parts.len());
-        }
-        for c in order.iter_mut().filter(|c| **c > chart) {
-            *c -= 1;
-        }
-        Ok(draft.lay_out())
+        let leveled = outlines.iter().map(|outline| level(outline, total));
+        poses.extend(leveled.map(|outline| self.raster.poses(&outline)));
+        Ok(Self::laid_out(poses, self.raster))
+    }
+
+    /// All charts placed, the largest first, in a square as large as that takes within reason.
+    fn laid_out(poses: Vec<Arc<Poses>>, raster: Raster) -> Option<Self> {
+        let level: Vec<&Outline> = poses.iter().map(|poses| poses.outline(0)).collect();
+        let mut state = Arrangement {
+            order: by_size(&level),
+            pose: vec![0; poses.len()],
+            corners: vec![[0; 2]; poses.len()],
+            side: 0,
+            cost: f64::INFINITY,
+        };
+        SIDES.into_iter().find_map(|largest| {
+            let mut sheet = raster.sheet(largest);
+            state.lay_out(&poses, &mut sheet, 0, largest)
+        })?;
+        Some(Self {
+            poses,
+            raster,
+            state,
+        })
     }
 
     /// The share of the square that is filled, less what whole cells of the coarse raster lose.
@@ -128,9 +120,6 @@ impl Draft {
 
     /// The drafts that several searches make of this one, together reading about so many words; the best first.
     pub(super) fn searched(&self, words: u64) -> Vec<Self> {
-        // A few charts have few layouts.
-        let n = (self.poses.len() as u64).min(MANY);
-        let words = words * n * n / (MANY * MANY);
         let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
         let mut drafts: Vec<Self> = seeds
             .map(|seed| {
@@ -143,11 +132,14 @@ impl Draft {
         drafts
     }
 
-    /// Searches a smaller square; reads about so many words. Never worse than before.
+    /// Searches a smaller square; reads about so many words, less of few charts. Never worse than before.
     pub fn improve(&mut self, words: u64, seed: u64) {
         if self.state.order.is_empty() {
             return;
         }
+        // A few charts have few layouts.
+        let n = (self.poses.len() as u64).min(MANY);
+        let words = words * n * n / (MANY * MANY);
         let mut random = Random::new(seed);
         let largest = self.state.side + self.state.side / 16;
         let mut sheet = self.raster.sheet(largest);
@@ -170,18 +162,6 @@ impl Draft {
         }
     }
 
-    /// All charts placed, in a square as large as that takes within reason.
-    fn lay_out(mut self) -> Option<Self> {
-        for largest in SIDES {
-            let mut sheet = self.raster.sheet(largest);
-            let laid_out = self.state.lay_out(&self.poses, &mut sheet, 0, largest);
-            if laid_out.is_some() {
-                return Some(self);
-            }
-        }
-        None
-    }
-
     /// As a plan for a fine raster.
     pub(super) fn plan(&self) -> Plan {
         let Arrangement {
@@ -189,7 +169,7 @@ impl Draft {
             pose,
             corners,
             side,
-            ..
+            cost,
         } = &self.state;
         let share = |cells: u32| f64::from(cells.saturating_sub(1)) / f64::from(*side.max(&1));
         let posed = || self.poses.iter().zip(pose);
@@ -202,7 +182,11 @@ impl Draft {
                 .map(|&pose| QuarterTurns::Only(Poses::turns(pose)))
                 .collect(),
             order: order.clone(),
-            corners: corners.iter().map(|corner| corner.map(share)).collect(),
+            near: Some(Near {
+                corners: corners.iter().map(|corner| corner.map(share)).collect(),
+                window: 3.0 / f64::from(*side.max(&1)),
+                extent: (cost + self.raster.padding) / self.raster.scale,
+            }),
         }
     }
 }

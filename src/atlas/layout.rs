@@ -32,14 +32,17 @@ const ATTEMPTS: [usize; 2] = [12, 400];
 /// fill hardly depends on luck, and every attempt costs more.
 const NEAR: f64 = 1.003;
 const NEAR_IF_MANY: f64 = 1.015;
+/// The same for a layout that is known from a coarser raster, and by how much the scale is lowered should it not fit.
+const NEAR_IF_KNOWN: f64 = 1.0005;
+const LOWERED: f64 = 0.993;
 /// The share of the square that the first attempt hopes to fill.
 const HOPE: f64 = 0.75;
 
 /// Cells along a side.
 fn raster(n_charts: usize) -> u32 {
     match n_charts {
-        0..=4_000 => 1024,
-        4_001..=60_000 => 2048,
+        0..=1_000 => 1024,
+        1_001..=60_000 => 2048,
         60_001..=1_000_000 => 4096,
         _ => 16384,
     }
@@ -79,12 +82,16 @@ pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Opti
 
 /// The scale (cells per mesh unit) with the best fill, and its layout.
 fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
-    let near = if packing.is_crowded() {
-        NEAR_IF_MANY
-    } else {
-        NEAR
+    let known = packing.plan.near.as_ref();
+    let near = match known {
+        Some(_) => NEAR_IF_KNOWN,
+        None if packing.is_crowded() => NEAR_IF_MANY,
+        None => NEAR,
     };
-    let mut scale = first_scale(packing);
+    let mut scale = known.map_or_else(
+        || first_scale(packing),
+        |near| f64::from(packing.cells) / near.extent,
+    );
     let mut best: Option<(f64, Attempt)> = None;
     let mut failed = f64::INFINITY;
     let mut work = 0;
@@ -104,8 +111,12 @@ fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
             }
             not_yet => {
                 failed = failed.min(scale);
-                let room = not_yet.map_or_else(f64::sqrt, |attempt| room(packing, &attempt));
-                room.clamp(0.5, 1.0 / near)
+                if known.is_some() {
+                    LOWERED
+                } else {
+                    let room = not_yet.map_or_else(f64::sqrt, |attempt| room(packing, &attempt));
+                    room.clamp(0.5, 1.0 / near)
+                }
             }
         };
         if let Some((good, _)) = best {

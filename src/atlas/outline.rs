@@ -57,11 +57,6 @@ impl Outline {
         turned
     }
 
-    /// With the same horizontal axis as another outline in the same plane.
-    pub(super) fn turned_as(&self, other: &Self) -> Self {
-        self.turned(other.axis)
-    }
-
     /// Turned counter-clockwise by an angle.
     pub(super) fn rotated(&self, angle: f64) -> Self {
         let ([c, s], (sin, cos)) = (self.axis, angle.sin_cos());

@@ -13,7 +13,7 @@ use super::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Place
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
 /// Results of searches that are laid out in full.
-const FINALISTS: usize = 3;
+const FINALISTS: usize = 4;
 
 /// Places every chart in the unit square, each triangle strictly positive on the grid, any two charts
 /// at least the padding apart.
@@ -69,7 +69,7 @@ fn best(
 ) -> Option<(Plan, Layout)> {
     let mut plans = Vec::new();
     if let Some(draft) = draft {
-        let drafts = draft.searched(options.search_words / 2);
+        let drafts = draft.searched(options.search_words / 4);
         plans.extend(drafts.iter().take(FINALISTS).map(Draft::plan));
     }
     plans.push(first);

@@ -13,8 +13,19 @@ pub(super) struct Plan {
     pub turns: Vec<QuarterTurns>,
     /// Indices of the charts that have triangles, in the order in which they are placed.
     pub order: Vec<usize>,
-    /// For each chart how far to the right and up it lies at least, as shares of the side; empty where nothing is known.
+    /// Where the charts lie about, if that is known.
+    pub near: Option<Near>,
+}
+
+/// A layout on a coarser raster, near which a finer one is looked for.
+#[derive(Clone, Debug)]
+pub(super) struct Near {
+    /// For each chart how far to the right and up it lies at least, as shares of the side.
     pub corners: Vec<[f64; 2]>,
+    /// How much farther it may lie before it is looked for elsewhere.
+    pub window: f64,
+    /// Mesh units along the side.
+    pub extent: f64,
 }
 
 /// The quarter turns that a chart may be placed with.
@@ -28,29 +39,16 @@ impl Plan {
     /// The largest first, each in the smallest rectangle.
     pub(super) fn largest_first(outlines: &[Outline], turns: Turns) -> Self {
         let total: f64 = outlines.iter().map(|o| o.size * o.size).sum();
-        let turned = outlines.iter().map(|outline| {
-            // A chart that is most of the atlas decides its side; others fit better as rectangles.
-            let bounds = if turns == Turns::Quarters {
-                Bounds::Given
-            } else if 2.0 * outline.size * outline.size > total {
-                Bounds::Square
-            } else {
-                Bounds::Rectangle
-            };
-            let hull = convex_hull(outline.corners());
-            outline.turned(orientation::direction(&hull, bounds))
-        });
-        let outlines: Vec<Outline> = turned.collect();
-        let mut order: Vec<usize> = (0..outlines.len())
-            .filter(|&i| outlines[i].n_triangles > 0)
-            .collect();
-        let half_perimeter = |i: usize| outlines[i].extent[0] + outlines[i].extent[1];
-        order.sort_by(|&i, &j| half_perimeter(j).total_cmp(&half_perimeter(i)));
+        let level = |outline: &Outline| match turns {
+            Turns::Any => level(outline, total),
+            Turns::Quarters => turned(outline, Bounds::Given),
+        };
+        let outlines: Vec<Outline> = outlines.iter().map(level).collect();
         Self {
+            order: by_size(&outlines.iter().collect::<Vec<_>>()),
             turns: vec![QuarterTurns::Any; outlines.len()],
-            corners: Vec::new(),
+            near: None,
             outlines,
-            order,
         }
     }
 
@@ -58,4 +56,33 @@ impl Plan {
     pub(super) fn area(&self) -> f64 {
         self.outlines.iter().map(|o| o.size * o.size).sum()
     }
+}
+
+/// A chart turned to its smallest rectangle; one that is most of an atlas with an area of `total` decides its side, and is
+/// turned to the smallest square.
+pub(super) fn level(outline: &Outline, total: f64) -> Outline {
+    let is_most = 2.0 * outline.size * outline.size > total;
+    turned(
+        outline,
+        if is_most {
+            Bounds::Square
+        } else {
+            Bounds::Rectangle
+        },
+    )
+}
+
+fn turned(outline: &Outline, bounds: Bounds) -> Outline {
+    let hull = convex_hull(outline.corners());
+    outline.turned(orientation::direction(&hull, bounds))
+}
+
+/// The charts that have triangles, the largest first.
+pub(super) fn by_size(outlines: &[&Outline]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..outlines.len())
+        .filter(|&i| outlines[i].n_triangles > 0)
+        .collect();
+    let half_perimeter = |i: usize| outlines[i].extent[0] + outlines[i].extent[1];
+    order.sort_by(|&i, &j| half_perimeter(j).total_cmp(&half_perimeter(i)));
+    order
 }

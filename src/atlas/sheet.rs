@@ -2,7 +2,7 @@
 //!
 //! All positions of one row are tested together, 64 to a machine word: a run of a mask, of length
 //! between 2ᵏ and 2ᵏ⁺¹, is blocked at x when one of two windows of 2ᵏ cells is, and for each k the
-//! sheet keeps one bit per window.
+//! sheet keeps one bit per window. Runs longer than two of the widest windows take more of them.
 use super::bitmap::{Run, set_bits};
 use super::mask::Mask;
 
@@ -17,6 +17,26 @@ pub(super) struct Spot {
     /// Size of the body *before* it is turned, in cells.
     pub width: u32,
     pub height: u32,
+}
+
+/// Where a place is looked for: columns and rows from `lowest` to `highest`, both included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    pub lowest: [u32; 2],
+    pub highest: [u32; 2],
+}
+
+impl Window {
+    /// Everywhere.
+    pub(super) const ALL: Self = Self::from([0; 2]);
+
+    /// To the right and up.
+    pub(super) const fn from(lowest: [u32; 2]) -> Self {
+        Self {
+            lowest,
+            highest: [u32::MAX - 1; 2],
+        }
+    }
 }
 
 /// One of the four turned versions of a mask, with the runs of its reach in the order of the test.
@@ -83,6 +103,9 @@ fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
     runs
 }
 
+/// Widths of windows at most: up to 64 cells.
+const WIDTHS: usize = 7;
+
 /// The occupied cells of a square.
 pub(super) struct Sheet {
     /// Side of the square that may be used, in cells.
@@ -90,8 +113,9 @@ pub(super) struct Sheet {
     /// Free cells on each side of it, so that a reach may stick out.
     frame: u32,
     words: usize,
-    /// `windows[k]`, one row of `words` after the other: bit x says that a cell of x..x + 2ᵏ is taken.
-    windows: Vec<Vec<u64>>,
+    widths: usize,
+    /// Row after row, in each for every width 2ᵏ `words` of bits: bit x says that a cell of x..x + 2ᵏ is taken.
+    rows: Vec<u64>,
     blocked: Vec<u64>,
     /// Side of the square used so far.
     pub side: u32,
@@ -106,13 +130,13 @@ impl Sheet {
     pub(super) fn new(capacity: u32, frame: u32, side: u32) -> Self {
         let cells = capacity + 2 * frame;
         let words = cells.div_ceil(64) as usize + 2;
-        let levels = (u32::BITS - cells.leading_zeros()) as usize;
-        let windows = vec![vec![0; words * cells as usize]; levels];
+        let widths = WIDTHS.min((u32::BITS - cells.leading_zeros()) as usize);
         Self {
             capacity,
             frame,
             words,
-            windows,
+            widths,
+            rows: vec![0; words * widths * cells as usize],
             blocked: Vec::new(),
             side,
             top: 0,
@@ -122,27 +146,26 @@ impl Sheet {
 
     /// Empty again, with another side that may be used, at most that of before.
     pub(super) fn clear(&mut self, capacity: u32) {
-        let used = (self.top + self.frame + 1) as usize * self.words;
-        for windows in &mut self.windows {
-            let end = used.min(windows.len());
-            windows[..end].fill(0);
-        }
+        let used = (self.top + self.frame + 1) as usize * self.words * self.widths;
+        let end = used.min(self.rows.len());
+        self.rows[..end].fill(0);
         self.capacity = capacity;
         (self.side, self.top) = (0, 0);
     }
 
-    /// The place that makes the used square grow least, and for which of the masks; of those the lowest. Only columns and rows
-    /// from `lowest` on are searched.
-    pub(super) fn find(&mut self, turned: &[Turned], lowest: [u32; 2]) -> Option<(usize, Spot)> {
+    /// The place within the window that makes the used square grow least, and for which of the masks; of those the lowest.
+    pub(super) fn find(&mut self, turned: &[Turned], window: Window) -> Option<(usize, Spot)> {
+        let Window { lowest, highest } = window;
         let mut best: Option<(u32, (usize, Spot))> = None;
-        for y in lowest[1]..self.capacity {
+        for y in lowest[1]..self.capacity.min(highest[1] + 1) {
             for (index, mask) in turned.iter().enumerate() {
                 let limit = best.map_or(self.capacity, |(side, _)| side - 1);
                 let [width, height] = mask.size;
                 if width > limit || y + height > limit {
                     continue;
                 }
-                if let Some(x) = self.first_free(mask, y, [lowest[0], limit - width]) {
+                let columns = [lowest[0], highest[0].min(limit - width)];
+                if let Some(x) = self.first_free(mask, y, columns) {
                     let (width, height) = if mask.turns % 2 == 0 {
                         (width, height)
                     } else {
@@ -183,15 +206,23 @@ impl Sheet {
             self.blocked[n - 1] = u64::MAX << (last % 64 + 1);
         }
         set_bits(&mut self.blocked, 0, first);
+        let inset = self.frame - mask.margin;
         for run in &mask.reach {
-            let k = (run.end - run.start).ilog2();
-            let row = (y + self.frame - mask.margin + run.row) as usize * self.words;
-            let row = &self.windows[k as usize][row..row + self.words];
-            let first = self.frame - mask.margin + run.start;
-            let second = self.frame - mask.margin + run.end - (1 << k);
-            self.work += n as u64;
-            if merge(&mut self.blocked, row, first, second) {
-                return None;
+            let k = (run.end - run.start).ilog2().min(self.widths as u32 - 1);
+            let row = (y + inset + run.row) as usize * self.widths + k as usize;
+            let row = &self.rows[row * self.words..][..self.words];
+            let width = 1 << k;
+            let (mut first, last) = (inset + run.start, inset + run.end - width);
+            loop {
+                let second = (first + width).min(last);
+                self.work += n as u64;
+                if merge(&mut self.blocked, row, first, second) {
+                    return None;
+                }
+                if second == last {
+                    break;
+                }
+                first = (second + width).min(last);
             }
         }
         let word = self.blocked.iter().position(|&word| word != u64::MAX)?;
@@ -201,28 +232,34 @@ impl Sheet {
     /// Takes the cells of a mask's body, whose lower left cell comes to lie at `corner`.
     pub(super) fn take(&mut self, mask: &Turned, corner: [u32; 2]) {
         let x = corner[0] + self.frame;
-        for run in &mask.body {
-            let row = (corner[1] + self.frame + run.row) as usize;
-            let words = &mut self.windows[0][row * self.words..(row + 1) * self.words];
-            set_bits(words, x + run.start, x + run.end);
-            self.refresh(row, x + run.start, x + run.end);
+        let stride = self.words * self.widths;
+        for runs in mask.body.chunk_by(|a, b| a.row == b.row) {
+            let row = (corner[1] + self.frame + runs[0].row) as usize;
+            let row = &mut self.rows[row * stride..][..stride];
+            for run in runs {
+                set_bits(&mut row[..self.words], x + run.start, x + run.end);
+            }
+            let taken = [x + runs[0].start, x + runs[runs.len() - 1].end];
+            widen(row, self.words, taken);
         }
         self.top = self.top.max(corner[1] + mask.size[1]);
         self.side = self.side.max(corner[0] + mask.size[0]).max(self.top);
     }
+}
 
-    /// Derives the wider windows of a row from its cells, where cells `start..end` were taken.
-    fn refresh(&mut self, row: usize, start: u32, end: u32) {
-        let range = row * self.words..(row + 1) * self.words;
-        for k in 1..self.windows.len() {
-            let (narrow, wide) = self.windows.split_at_mut(k);
-            let narrow = &narrow[k - 1][range.clone()];
-            let first = (start.saturating_sub(1 << k) / 64) as usize;
-            let last = (end / 64) as usize;
-            for (i, word) in wide[0][range.clone()][first..=last].iter_mut().enumerate() {
-                *word = narrow[first + i] | shifted(narrow, first + i, 1 << (k - 1));
-            }
+/// Derives the wider windows of a row from its cells, of which some between `start` and `end` were taken.
+fn widen(row: &mut [u64], words: usize, [start, end]: [u32; 2]) {
+    let last = (end / 64) as usize;
+    let mut rest = row;
+    let mut width = 1;
+    while rest.len() > words {
+        let (narrow, wide) = rest.split_at_mut(words);
+        let first = (start.saturating_sub(2 * width) / 64) as usize;
+        let pairs = narrow[first..=last + 1].windows(2);
+        for (wide, pair) in wide[first..=last].iter_mut().zip(pairs) {
+            *wide = pair[0] | pair[0] >> width | pair[1] << (64 - width);
         }
+        (rest, width) = (wide, 2 * width);
     }
 }
 
@@ -241,11 +278,4 @@ fn merge(blocked: &mut [u64], row: &[u64], first: u32, second: u32) -> bool {
         all &= blocked[i];
     }
     all == u64::MAX
-}
-
-/// Word `i` of a row shifted down by `by` bits.
-fn shifted(row: &[u64], i: usize, by: u32) -> u64 {
-    let at = |i: usize| row.get(i).copied().unwrap_or(0);
-    let i = i + (by / 64) as usize;
-    at(i) >> (by % 64) | at(i + 1) << 1 << (63 - by % 64)
 }

@@ -23,7 +23,7 @@ pub struct Chord {
     pub area: f64,
     /// Length of the border between piece and rest on the surface.
     pub length: f64,
-    /// By how much the areas of the two parts' convex hulls fall short of that of the whole.
+    /// By how much the two parts take up less room than the whole.
     pub gain: f64,
 }
 
@@ -35,20 +35,21 @@ struct Part {
     support: Support,
 }
 
-/// Chords from 32 directions of which piece and rest have at least the area `crumb` each.
+/// Chords from 32 directions of which piece and rest have at least the area `crumb` each, for an atlas that a square of area
+/// `square` should hold.
 ///
 /// As a line recedes over the map, what lies beyond it grows and unites; of each part that hangs together the hull is known, and
 /// of what lies before the line too, so all chords of a direction cost little more than sorting. O(n) for n clusters.
-pub fn chords(clusters: &Clusters, crumb: f64) -> Vec<Chord> {
+pub fn chords(clusters: &Clusters, crumb: f64, square: f64) -> Vec<Chord> {
     (0..SWEEPS)
         .flat_map(|k| {
             let (sin, cos) = (TAU * f64::from(k) / f64::from(SWEEPS)).sin_cos();
-            sweep(clusters, crumb, [cos, sin])
+            sweep(clusters, crumb, square, [cos, sin])
         })
         .collect()
 }
 
-fn sweep(clusters: &Clusters, crumb: f64, direction: [f64; 2]) -> Vec<Chord> {
+fn sweep(clusters: &Clusters, crumb: f64, square: f64, direction: [f64; 2]) -> Vec<Chord> {
     let mut order: Vec<(f64, u32)> = (clusters.centre.iter().zip(0..))
         .map(|(&centre, cluster)| (dot(centre, direction), cluster))
         .collect();
@@ -71,7 +72,7 @@ fn sweep(clusters: &Clusters, crumb: f64, direction: [f64; 2]) -> Vec<Chord> {
         before[i] = before[i + 1].clone();
         before[i].unite(&hull(&order[end(i)..end(i + 1)]));
     }
-    let whole = hull(&order).area();
+    let whole = hull(&order).room(square);
     let mut beyond = Beyond::new(clusters);
     let mut chords = Vec::new();
     let mut begin = 0;
@@ -81,7 +82,7 @@ fn sweep(clusters: &Clusters, crumb: f64, direction: [f64; 2]) -> Vec<Chord> {
         }
         begin = end(i);
         for (cluster, part, rest) in beyond.parts(before, crumb) {
-            let gain = whole - part.support.area() - rest.area();
+            let gain = whole - part.support.room(square) - rest.room(square);
             chords.push(Chord {
                 direction,
                 offset: stop(i),

@@ -19,11 +19,14 @@ const BAND: f64 = 0.04;
 const CRUMB: f64 = 0.005;
 /// What a seam costs beside its length, in the unit of the price.
 const PER_SEAM: f64 = 0.05;
-/// Chords at most that are made seams on the mesh before the best counts.
+/// Seams along chords of which the best counts, and chords at most that are tried for them: near some there is none.
 const REFINED: usize = 4;
-/// What a cut is worth beside what the hulls gain, as a share of the smaller part's area: small charts leave less of a square
+const TRIED: usize = 32;
+/// What a cut is worth beside the room it gains, as a share of the smaller part's area: small charts leave less of a square
 /// empty than large ones.
 const SMALLER: f64 = 0.05;
+/// The share of its square that an atlas should fill: no square around one chart should be larger.
+const HOPE: f64 = 0.85;
 
 /// A seam that parts a chart in two.
 #[derive(Clone, Debug)]
@@ -47,14 +50,14 @@ impl MappedChart {
         let labels = vec![0; disk.triangles.len()];
         let sheet = Sheet::divide(mesh, &twins(disk), &labels, 1).pop()?;
         let splitter = Splitter::new(self, &sheet, unit);
-        let mut chords = chords(&splitter.clusters, splitter.crumb);
+        let mut chords = chords(&splitter.clusters, splitter.crumb, splitter.square);
         let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, chord.length);
         chords.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-        let splits = chords
-            .iter()
+        let tried = chords.iter().take(TRIED);
+        let splits = tried.filter_map(|chord| splitter.split(chord));
+        splits
             .take(REFINED)
-            .filter_map(|chord| splitter.split(chord));
-        splits.max_by(|a, b| a.worth.total_cmp(&b.worth))
+            .max_by(|a, b| a.worth.total_cmp(&b.worth))
     }
 
     /// The two parts, mapped as the whole is, each seen from its front.
@@ -75,7 +78,9 @@ struct Splitter<'a> {
     /// For each halfedge what a seam along it costs.
     cost: Vec<f64>,
     area: f64,
-    hull: f64,
+    /// The room that it takes up, and the square that should be enough for the atlas.
+    room: f64,
+    square: f64,
     /// The least area of a part, and what a seam costs beside its length.
     crumb: f64,
     per_seam: f64,
@@ -94,7 +99,8 @@ impl<'a> Splitter<'a> {
         let mut splitter = Self {
             cost: edge_costs(sheet),
             area: clusters.area.iter().sum(),
-            hull: 0.0,
+            room: 0.0,
+            square: unit * unit / HOPE,
             crumb: CRUMB * unit * unit,
             per_seam: PER_SEAM * unit,
             directions: Directions::default(),
@@ -102,7 +108,7 @@ impl<'a> Splitter<'a> {
             uv,
             clusters,
         };
-        splitter.hull = splitter.hull_area(|_| true);
+        splitter.room = splitter.room_of(|_| true);
         splitter
     }
 
@@ -122,7 +128,7 @@ impl<'a> Splitter<'a> {
             t != CUT && h < t && is_piece[h as usize / 3] != is_piece[t as usize / 3]
         });
         let length = seam.map(|(h, _)| self.sheet.length(h)).sum();
-        let gain = self.hull - self.hull_area(|f| is_piece[f]) - self.hull_area(|f| !is_piece[f]);
+        let gain = self.room - self.room_of(|f| is_piece[f]) - self.room_of(|f| !is_piece[f]);
         (n_parts == 2).then(|| Split {
             is_piece,
             length,
@@ -130,7 +136,7 @@ impl<'a> Splitter<'a> {
         })
     }
 
-    /// What a cut is worth whose hulls gain so much area and of which the one part has some.
+    /// What a cut is worth that gains so much room and of which the one part has some.
     fn worth(&self, gain: f64, area: f64, length: f64) -> f64 {
         (gain + SMALLER * area.min(self.area - area)) / (length + self.per_seam)
     }
@@ -220,8 +226,8 @@ impl<'a> Splitter<'a> {
         corners.iter().map(|&p| dot(p, direction)).sum::<f64>() / 3.0
     }
 
-    /// The area of the convex hull of some faces, from the edges at which they end.
-    fn hull_area(&self, is_in: impl Fn(usize) -> bool) -> f64 {
+    /// The room that some faces take up, from the edges at which they end.
+    fn room_of(&self, is_in: impl Fn(usize) -> bool) -> f64 {
         let mut hull = Support::EMPTY;
         for (h, &t) in (0u32..).zip(&self.sheet.twin) {
             if is_in(h as usize / 3) && (t == CUT || !is_in(t as usize / 3)) {
@@ -230,6 +236,6 @@ impl<'a> Splitter<'a> {
                 }
             }
         }
-        hull.area()
+        hull.room(self.square)
     }
 }

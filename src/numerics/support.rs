@@ -42,6 +42,35 @@ impl Support {
         };
         (0..N).map(edge).sum::<f64>() / 2.0
     }
+
+    /// The area of the smallest square around the points, of those at 32 angles; 0 of no points.
+    pub fn square(&self) -> f64 {
+        const SHARES: usize = 4;
+        if self.0[0] == f64::NEG_INFINITY {
+            return 0.0;
+        }
+        let step = TAU / N as f64;
+        let sides = (0..N / 4).flat_map(|i| {
+            (0..SHARES).map(move |k| {
+                let share = k as f64 / SHARES as f64;
+                // Between two directions the farthest point is where their two bounds meet.
+                let weights = [1.0 - share, share].map(|x| (x * step).sin() / step.sin());
+                let reach = |quarter: usize| {
+                    let j = i + quarter * N / 4;
+                    weights[0] * self.0[j % N] + weights[1] * self.0[(j + 1) % N]
+                };
+                (reach(0) + reach(2)).max(reach(1) + reach(3))
+            })
+        });
+        sides.fold(f64::INFINITY, f64::min).powi(2)
+    }
+
+    /// The area of the hull, and twice by how much the smallest square around it exceeds another: what the points take up of an
+    /// atlas for which that other square should be enough. What a hull leaves empty other charts fill in part, what is too
+    /// long for the square nothing makes good.
+    pub fn room(&self, square: f64) -> f64 {
+        self.area() + 2.0 * (self.square() - square).max(0.0)
+    }
 }
 
 /// The directions of every [`Support`].

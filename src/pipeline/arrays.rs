@@ -19,8 +19,8 @@ pub type GridCorners = [[i32; 2]; 3];
 
 /// Words that packing all meshes of a document may read, and the least and most of one mesh: a hundred meshes shall not take a
 /// hundred times as long.
-const SEARCH_WORDS: u64 = 1_000_000_000;
-const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 400_000_000];
+const SEARCH_WORDS: u64 = 2_400_000_000;
+const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 1_200_000_000];
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
 /// another scale rounds it differently.

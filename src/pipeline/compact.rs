@@ -5,17 +5,19 @@ use super::settings::Settings;
 use crate::atlas::{AtlasError, AtlasOptions, Draft};
 use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// The share of the square that a seam as long as the side of the surface's square must gain.
-const PRICE: f64 = 0.025;
-/// Cuts at most.
-const MOST_CUTS: u64 = 20;
-/// Cuts in a row that may leave the atlas no better than the best before.
-const PATIENCE: usize = 9;
+const PRICE: f64 = 0.015;
+/// A further chart costs as much as a seam of this length in the same unit.
+const PER_CHART: f64 = 0.4;
+/// Cuts at most, in all and for each chart that there was.
+const MOST_CUTS: u64 = 12;
+const MOST_CUTS_PER_CHART: u64 = 5;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
 const MOST_CHARTS: usize = 64;
-/// What share of the words for packing the layout may read after each cut.
-const WORDS_PER_CUT: u64 = 40;
+/// Words for packing without which one more cut is not looked at.
+const WORDS_PER_CUT: u64 = 4_000_000;
 
 /// Charts and a draft of their layout.
 pub(super) struct Drafted {
@@ -33,11 +35,11 @@ impl Drafted {
     }
 }
 
-/// The charts after the cuts that pay: each gains more of the square than its length costs.
+/// The charts after as many cuts as pay: what they gain of the square is more than their length costs.
 ///
 /// The cut is made first that is worth most by the hulls and sizes of its parts, which say well where to cut but not when to stop:
-/// a coarse layout is improved a little after each, and the best one counts, since some cuts gain only together. Maps
-/// stay as they are. `seam_weight` multiplies the price of a seam: with 0 all cuts that gain anything are made.
+/// that a search for full layouts decides, in which the charts before and after each cut compete. Maps stay as they are.
+/// `seam_weight` multiplies the price of a seam: with 0 all cuts that gain anything are made.
 pub(super) fn compacted(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
@@ -48,79 +50,89 @@ pub(super) fn compacted(
         Some(draft) if charts.len() <= MOST_CHARTS => draft,
         draft => return Ok(Drafted { charts, draft }),
     };
-    let most_charts = settings.max_charts.map_or(usize::MAX, |n| n as usize);
-    let words = options.search_words / WORDS_PER_CUT;
-    let unit = charts.iter().map(MappedChart::area).sum::<f64>().sqrt();
-    let price = PRICE * settings.seam_weight / unit;
-    let mut cut = Cuts::new(charts, draft, unit);
-    cut.draft.improve(words, 0);
-    let mut best = cut.clone();
-    let mut worse = 0;
-    for seed in 1..=MOST_CUTS {
-        if cut.charts.len() >= most_charts || worse == PATIENCE || !cut.cut(unit)? {
-            break;
-        }
-        cut.draft.improve(words, seed);
-        // The best is searched on as long: else the last would be the fullest because it was searched for longest.
-        best.draft.improve(words, seed);
-        worse += 1;
-        if cut.value(price) > best.value(price) {
-            best = cut.clone();
-            worse = 0;
-        }
-    }
+    let words = options.search_words / 4 * 3;
+    let n_charts = charts.len() as u64;
+    let wanted = settings.max_charts.map_or(u64::MAX, u64::from);
+    let most_cuts = (wanted.saturating_sub(n_charts))
+        .min(MOST_CUTS)
+        .min(MOST_CUTS_PER_CHART * n_charts)
+        .min(words / WORDS_PER_CUT);
+    let candidates = candidates(charts, draft, settings.seam_weight, most_cuts as usize)?;
+    let Candidate { charts, draft, .. } = fullest(candidates, words);
     Ok(Drafted {
-        charts: best.charts,
-        draft: Some(best.draft),
+        charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
+        draft: Some(draft),
     })
 }
 
 /// Charts after some cuts.
 #[derive(Clone)]
-struct Cuts {
-    charts: Vec<MappedChart>,
-    /// The best next cut of each.
-    splits: Vec<Option<Split>>,
+struct Candidate {
+    charts: Vec<Arc<MappedChart>>,
     draft: Draft,
-    /// The length of the cuts.
-    seam: f64,
+    /// What the cuts cost, as a share of the square.
+    cost: f64,
 }
 
-impl Cuts {
-    fn new(charts: Vec<MappedChart>, draft: Draft, unit: f64) -> Self {
-        Self {
-            splits: best_splits(&charts, unit),
-            charts,
-            draft,
-            seam: 0.0,
-        }
-    }
-
-    /// The share of the square that is filled, less what the seams cost.
-    fn value(&self, price: f64) -> f64 {
-        self.draft.fill() - price * self.seam
-    }
-
-    /// Makes the cut that is worth most; false if there is none, or no place for its parts.
-    fn cut(&mut self, unit: f64) -> Result<bool, AtlasError> {
-        let Some((chart, split)) = most_worth(&self.splits) else {
-            return Ok(false);
-        };
-        let parts = self.charts[chart].parted(split);
-        let Some(draft) = self.draft.replaced(chart, &chart_maps(&parts))? else {
-            return Ok(false);
-        };
-        self.draft = draft;
-        self.seam += split.length;
-        self.splits.remove(chart);
-        self.splits.extend(best_splits(&parts, unit));
-        self.charts.remove(chart);
-        self.charts.extend(parts);
-        Ok(true)
+impl Candidate {
+    /// The share of the square that is filled, less what the cuts cost.
+    fn value(&self) -> f64 {
+        self.draft.fill() - self.cost
     }
 }
 
-fn best_splits(charts: &[MappedChart], unit: f64) -> Vec<Option<Split>> {
+/// The charts as they are, after the cut that is worth most, after another, and so on.
+fn candidates(
+    charts: Vec<MappedChart>,
+    draft: Draft,
+    seam_weight: f64,
+    most_cuts: usize,
+) -> Result<Vec<Candidate>, AtlasError> {
+    let unit = charts.iter().map(MappedChart::area).sum::<f64>().sqrt();
+    let mut candidate = Candidate {
+        charts: charts.into_iter().map(Arc::new).collect(),
+        draft,
+        cost: 0.0,
+    };
+    let mut splits = best_splits(&candidate.charts, unit);
+    let mut candidates = vec![candidate.clone()];
+    while candidates.len() <= most_cuts && candidate.cost < 1.0 {
+        let Some((chart, split)) = most_worth(&splits) else {
+            break;
+        };
+        let parts = candidate.charts[chart].parted(split);
+        let Some(draft) = candidate.draft.replaced(chart, &chart_maps(&parts))? else {
+            break;
+        };
+        candidate.draft = draft;
+        candidate.cost += PRICE * seam_weight * (split.length / unit + PER_CHART);
+        candidate.charts.remove(chart);
+        splits.remove(chart);
+        let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
+        splits.extend(best_splits(&parts, unit));
+        candidate.charts.extend(parts);
+        candidates.push(candidate.clone());
+    }
+    Ok(candidates)
+}
+
+/// The candidate of most value, and a full layout of it.
+///
+/// All are searched equally long, those that are worth more go on, half as many and each twice as long, until two are left.
+/// From: Karnin, Koren, Somekh 2013, Almost Optimal Exploration in Multi-Armed Bandits (successive halving).
+fn fullest(mut candidates: Vec<Candidate>, words: u64) -> Candidate {
+    let rounds = u64::from(candidates.len().next_power_of_two().ilog2().max(1));
+    for round in 0..rounds {
+        let share = words / rounds / candidates.len() as u64;
+        let each = candidates.par_iter_mut().with_max_len(1);
+        each.for_each(|candidate| candidate.draft.improve(share, round));
+        candidates.sort_by(|a, b| b.value().total_cmp(&a.value()));
+        candidates.truncate(candidates.len().div_ceil(2));
+    }
+    candidates.swap_remove(0)
+}
+
+fn best_splits(charts: &[Arc<MappedChart>], unit: f64) -> Vec<Option<Split>> {
     let each = charts.par_iter().with_max_len(1);
     each.map(|chart| chart.best_split(unit)).collect()
 }

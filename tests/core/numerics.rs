@@ -56,6 +56,35 @@ fn supports_know_the_area_of_hulls() {
 }
 
 #[test]
+fn supports_know_the_smallest_square_around() {
+    let directions = Directions::default();
+    let rectangle = |[width, height]: [f64; 2], angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let mut support = Support::EMPTY;
+        for [x, y] in [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]] {
+            support.add([x * cos - y * sin, x * sin + y * cos], &directions);
+        }
+        support
+    };
+    for k in 0..20 {
+        let angle = 0.1 * f64::from(k);
+        // A needle lies along the diagonal, a square in itself.
+        let needle = rectangle([10.0, 0.0], angle).square();
+        assert!((needle / 50.0 - 1.0).abs() < 0.05, "{angle}: {needle}");
+        let square = rectangle([3.0, 3.0], angle).square();
+        assert!((square / 9.0 - 1.0).abs() < 0.05, "{angle}: {square}");
+    }
+    let bar = rectangle([4.0, 1.0], 0.3);
+    assert_eq!(bar.room(bar.square()), bar.area());
+    let excess = bar.room(10.0) - bar.area();
+    assert!(
+        (excess - 2.0 * (bar.square() - 10.0)).abs() < 1e-12,
+        "{excess}"
+    );
+    assert_eq!(Support::EMPTY.room(1.0), 0.0);
+}
+
+#[test]
 fn random_numbers_are_spread_evenly_and_repeat() {
     let mut random = Random::new(7);
     let mut counts = [0; 10];
