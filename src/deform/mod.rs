@@ -7,6 +7,7 @@
 
 mod body;
 mod boundary;
+pub mod boundary_barrier;
 pub mod cage;
 mod continuation;
 mod handles;

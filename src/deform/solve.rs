@@ -2,9 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::body::BodyElements;
+use super::boundary_barrier::BoundaryBarrier;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
 use crate::barrier::Barrier;
+use crate::certificate::boundary_crossings;
 use crate::energy::{Positional, Term};
 use crate::solver::{
     Continued, Handles, LevenbergSettings, Objective, Settings, Status, Summary, Watch, follow,
@@ -48,6 +51,9 @@ pub struct Worth {
     pub inverted: usize,
     /// The smallest determinant over its value at rest.
     pub smallest: f64,
+    /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossings: Option<u64>,
 }
 
 /// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's edge, so that a
@@ -121,9 +127,16 @@ impl Problem {
     }
 
     fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
-        self.energy
-            .terms(&self.body, barrier, self.bound)
-            .ok_or(ProblemError::PlanarEnergy)
+        let terms = self.energy.terms(&self.body, barrier, self.bound);
+        let mut terms = terms.ok_or(ProblemError::PlanarEnergy)?;
+        terms.extend(self.boundary_term().map(|term| Box::new(term) as _));
+        Ok(terms)
+    }
+
+    /// The barrier of the boundary, as strong as that of an ordinary element.
+    fn boundary_term(&self) -> Option<BoundaryBarrier> {
+        let beta = self.barrier.beta * self.energy.mean_weight(&self.body);
+        Some(self.boundary_barrier.as_ref()?.with_beta(beta))
     }
 
     /// Moves free vertices a little, the same way each time, if that leaves the map inside the domain.
@@ -139,14 +152,15 @@ impl Problem {
         for &v in self.stations.iter().flat_map(|handles| &handles.vertices) {
             is_held[v as usize] = true;
         }
-        let mut shaken = x.to_vec();
-        for (i, x) in shaken.iter_mut().enumerate() {
-            if !is_held[i / dim] {
-                *x += amplitude * (12.9898 * (i + 1) as f64).sin();
+        let move_of = |i: usize| match is_held[i / dim] {
+            true => 0.0,
+            false => amplitude * (12.9898 * (i + 1) as f64).sin(),
+        };
+        let moves: Vec<f64> = (0..x.len()).map(move_of).collect();
+        if objective.largest_step(x, &moves) > 1.0 {
+            for (x, d) in x.iter_mut().zip(moves) {
+                *x += d;
             }
-        }
-        if objective.value(&shaken).is_finite() {
-            x.copy_from_slice(&shaken);
         }
     }
 
@@ -170,13 +184,21 @@ impl Problem {
             .map(|(now, rest)| now / rest);
         Worth {
             energy: unmodified.iter().map(|term| term.value(x)).sum(),
-            barrier: guarded.iter().map(|term| term.barrier(x)).sum(),
+            barrier: (guarded.iter().map(|term| term.barrier(x)))
+                .chain(self.boundary_term().map(|term| term.value(x)))
+                .sum(),
             residual: self
                 .stations
                 .last()
                 .map_or(0.0, |last| distance_squared(last, self.body.dim(), x)),
             inverted: now.iter().filter(|&&d| d <= 0.0).count(),
             smallest: ratios.fold(f64::INFINITY, f64::min),
+            crossings: match &self.body.elements {
+                BodyElements::Triangles { corners, .. } => {
+                    Some(boundary_crossings(x.as_chunks().0, corners))
+                }
+                BodyElements::Tetrahedra { .. } => None,
+            },
         }
     }
 }

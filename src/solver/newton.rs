@@ -14,7 +14,8 @@ use crate::numerics::cholesky::NotPositiveDefinite;
 /// `x` is flat, the coordinates of a vertex one after another. A start outside the domain is left as it is and reported
 /// as [`Status::Stalled`]. Energy falls with every step. Costs per iteration, far from a minimum, one
 /// factorization, one solve, one assembly and about 1.2 evaluations; near one a fifth of a factorization, two to eleven solves and
-/// products with the Hessian, one assembly and one or two evaluations. No memory is allocated inside the loop.
+/// products with the Hessian, one assembly and one or two evaluations. No memory is allocated inside the loop, unless a term
+/// [renews](crate::energy::Term::renew) its stencils.
 ///
 /// # Panics
 /// If `x` does not hold the coordinates of the objective's vertices.
