@@ -2,12 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::body::BodyElements;
 use super::boundary_barrier::BoundaryBarrier;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
+use super::worth::Worth;
 use crate::barrier::Barrier;
-use crate::certificate::boundary_crossings;
 use crate::energy::{Positional, Term};
 use crate::solver::{
     Continued, Handles, LevenbergSettings, Objective, Settings, Status, Summary, Watch, follow,
@@ -37,25 +36,6 @@ pub struct Solution {
     pub worth: Worth,
 }
 
-/// What a map is worth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub struct Worth {
-    /// The deformation energy, without the barrier.
-    pub energy: f64,
-    /// The barrier's share, β included.
-    pub barrier: f64,
-    /// The sum of the squared distances of the handles from their targets.
-    pub residual: f64,
-    /// Elements whose determinant is not positive.
-    pub inverted: usize,
-    /// The smallest determinant over its value at rest.
-    pub smallest: f64,
-    /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub crossings: Option<u64>,
-}
-
 impl Solution {
     /// The one of the smaller residual, with the work of both.
     fn or(self, other: Self) -> Self {
@@ -70,6 +50,10 @@ impl Solution {
         }
     }
 }
+
+/// How ways are bent, one after the other, where straight ones do not lead to the targets: two that change places then pass each
+/// other at half the distance that they had.
+const BENDS: [f64; 2] = [0.5, -0.5];
 
 /// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's edge, so that a
 /// straight bar that is pressed at once buckles instead of staying on the saddle that its symmetry keeps it on.
@@ -87,11 +71,7 @@ impl Problem {
         if self.boundary_barrier.is_none() {
             return Ok(best);
         }
-        for bend in std::env::var("BENDS").map_or(vec![1.0, -1.0], |s| {
-            s.split(',')
-                .map(|w| w.parse().unwrap())
-                .collect::<Vec<f64>>()
-        }) {
+        for bend in BENDS {
             if best.summary.status != Status::TargetsUnreachable {
                 break;
             }
@@ -185,7 +165,7 @@ impl Problem {
     }
 
     /// The barrier of the boundary, as strong as that of an ordinary element.
-    fn boundary_term(&self) -> Option<BoundaryBarrier> {
+    pub(super) fn boundary_term(&self) -> Option<BoundaryBarrier> {
         let beta = self.barrier.beta * self.energy.mean_weight(&self.body);
         Some(self.boundary_barrier.as_ref()?.with_beta(beta))
     }
@@ -203,9 +183,12 @@ impl Problem {
         for &v in self.stations.iter().flat_map(|handles| &handles.vertices) {
             is_held[v as usize] = true;
         }
-        let move_of = |i: usize| match is_held[i / dim] {
-            true => 0.0,
-            false => amplitude * (12.9898 * (i + 1) as f64).sin(),
+        let move_of = |i: usize| {
+            if is_held[i / dim] {
+                0.0
+            } else {
+                amplitude * (12.9898 * (i + 1) as f64).sin()
+            }
         };
         let moves: Vec<f64> = (0..x.len()).map(move_of).collect();
         if objective.largest_step(x, &moves) > 1.0 {
@@ -222,50 +205,4 @@ impl Problem {
             x,
         }
     }
-
-    /// Judges a map, whoever made it.
-    pub fn worth(&self, x: &[f64]) -> Worth {
-        let terms = |barrier| self.energy.terms(&self.body, barrier, None);
-        let unmodified = terms(Barrier::NONE).unwrap_or_default();
-        let guarded = terms(self.barrier).unwrap_or_default();
-        let now = self.body.determinants_at(x);
-        let ratios = now
-            .iter()
-            .zip(self.body.determinants())
-            .map(|(now, rest)| now / rest);
-        Worth {
-            energy: unmodified.iter().map(|term| term.value(x)).sum(),
-            barrier: (guarded.iter().map(|term| term.barrier(x)))
-                .chain(self.boundary_term().map(|term| term.value(x)))
-                .sum(),
-            residual: self
-                .stations
-                .last()
-                .map_or(0.0, |last| distance_squared(last, self.body.dim(), x)),
-            inverted: now.iter().filter(|&&d| d <= 0.0).count(),
-            smallest: ratios.fold(f64::INFINITY, f64::min),
-            crossings: match &self.body.elements {
-                BodyElements::Triangles { corners, .. } => {
-                    Some(boundary_crossings(x.as_chunks().0, corners))
-                }
-                BodyElements::Tetrahedra { .. } => None,
-            },
-        }
-    }
-}
-
-fn distance_squared(handles: &Handles, dim: usize, x: &[f64]) -> f64 {
-    let held = handles.vertices.iter();
-    let places = held.flat_map(|&v| &x[dim * v as usize..dim * (v as usize + 1)]);
-    let points = Positional {
-        dim,
-        rows: handles.points.clone(),
-        targets: Vec::new(),
-        alpha: 0.0,
-    };
-    let held: f64 = places
-        .zip(&handles.targets)
-        .map(|(x, t)| (x - t) * (x - t))
-        .sum();
-    held + points.residual(x, &handles.point_targets)
 }

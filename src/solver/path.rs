@@ -18,8 +18,8 @@ pub struct Handles {
     pub points: Vec<Row>,
     /// Their targets, coordinates one after another.
     pub point_targets: Vec<f64>,
-    /// How far every way, of a group or a point, bends to its left, in halves of its length; in the plane only. 0 is straight, and
-    /// with ±1 two that change places go round each other.
+    /// How far every way, of a group or a point, bends to its left, in halves of its length; in the plane only. 0 is straight;
+    /// otherwise those that change places pass each other.
     pub bend: f64,
 }
 

@@ -216,7 +216,7 @@ fn what_cannot_be_kept_bijective_is_refused() {
     };
     let of = |vertices: Vec<[f64; 2]>, model: &Model| {
         let mesh = PlanarMesh::new(vertices, vec![[0, 1, 2], [3, 4, 5]]).expect("triangles");
-        Problem::new(Body::from(&mesh), &[held.clone()], model).map(|_| ())
+        Problem::new(Body::from(&mesh), std::slice::from_ref(&held), model).map(|_| ())
     };
     let corner = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     let beside = |by: f64| [&corner[..], &corner.map(|p| [p[0] + by, p[1]])].concat();

@@ -3,7 +3,7 @@
 //! A map without inverted triangles is bijective as long as its boundary does not meet itself, and a boundary that moves without
 //! a jump first meets itself where one of its vertices comes upon one of its edges. So beside the barrier of elements there is
 //! one of such pairs: zero while they are apart, infinite as their distance goes to zero. With steps that end before the first
-//! contact no iterate has crossed, whatever its step was: that is decided on the whole way ([`contact`]), not at its ends.
+//! contact no iterate has crossed, whatever its step was: that is decided on the whole way (`contact`), not at its ends.
 //!
 //! Which pairs are near changes as the map moves, and with them the pattern of the Hessian. It is neither approximated nor
 //! kept: pairs have full blocks, a search finds them anew at every point, and where one comes near that the pattern does not
