@@ -9,6 +9,9 @@ use super::trust_region::End;
 use super::watch::{Control, Taken, Watch};
 use crate::numerics::cholesky::NotPositiveDefinite;
 
+/// A step of at least this length confirms what the model promised of a full one: less than a quarter of that is left to gain.
+const CONFIRMING: f64 = 0.5;
+
 /// Moves `x` from a start inside the domain to a minimum of `objective` nearby.
 ///
 /// `x` is flat, the coordinates of a vertex one after another. A start outside the domain is left as it is and reported
@@ -83,7 +86,7 @@ pub(super) fn minimize_with(
         if objective.show(x, &summary, taken, watch) == Control::Finish {
             return summary.ended(Status::Stopped);
         }
-        if is_small && step.length == 1.0 {
+        if is_small && step.length >= CONFIRMING {
             return summary.ended(Status::Converged);
         }
     }
