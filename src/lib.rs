@@ -126,6 +126,9 @@
 //!   at the end. Substepping (the paper's equations 10 and 11) would do nothing for a projected Newton, whose shift is nearly 0:
 //!   the targets advance instead as far as inversions and the quadratic model allow. A group of handles that elements connect
 //!   travels as a rigid body, so that half a turn of a bar's end does not pass through a point.
+//! - Where a map of the plane shall stay bijective its boundary has a barrier of its own, between vertices and edges, whose blocks join the
+//!   Hessian as they come near: the pattern is analyzed again, which is rare, instead of leaving them out. Handles whose straight
+//!   ways do not lead to their targets try ways that are bent to one side.
 //! - A body that is pulled from exact rest in one jump is shaken by a thousandth of its smallest element first: a pressed bar
 //!   would otherwise end on the saddle that its symmetry keeps it on.
 //! - A start that is supplied, UVs to be edited or positions of a problem, may have inversions: it is untangled with as few vertices

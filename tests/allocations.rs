@@ -3,9 +3,11 @@
 #[path = "core/bodies.rs"]
 mod bodies;
 
-use std::sync::Mutex;
+use std::sync::{Barrier, Mutex};
 
-use rayon::ThreadPoolBuilder;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use unwrapd::deform::{Body, Handle, Model, Problem};
 use unwrapd::embed::{Options, parameterize};
@@ -17,7 +19,7 @@ static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;
 
 /// Allocations in each iteration, those at the start of a minimization left out, of a body whose first vertex stays, whose last
 /// is pulled away by half of its length, and in which a point is pulled too.
-fn allocations(body: Body, n_threads: usize) -> Vec<usize> {
+fn allocations(body: Body, pool: &ThreadPool) -> Vec<usize> {
     let dim = body.dim();
     let last = body.rest.len() - dim;
     let length = body.rest[last];
@@ -38,14 +40,14 @@ fn allocations(body: Body, n_threads: usize) -> Vec<usize> {
         },
     ];
     let problem = Problem::new(body, &handles, &Model::default()).expect("a problem");
-    counted(n_threads, |watch| {
+    counted(pool, |watch| {
         let solution = problem.solve(&Settings::follow(), watch).expect("solved");
         assert_eq!(solution.worth.inverted, 0);
     })
 }
 
 /// Allocations in each iteration of mapping a bent sheet, which ends within a trust region.
-fn chart_allocations(sheet: &PlanarMesh, n_threads: usize) -> Vec<usize> {
+fn chart_allocations(sheet: &PlanarMesh, pool: &ThreadPool) -> Vec<usize> {
     let disk = Disk::new(sheet.vertices().len(), sheet.triangles().to_vec()).expect("a disk");
     let bent = |&[x, y]: &[f64; 2]| [x, y, 20.0 * (0.13 * x).sin() * (0.11 * y).cos()];
     let positions: Vec<[f64; 3]> = sheet.vertices().iter().map(bent).collect();
@@ -53,7 +55,7 @@ fn chart_allocations(sheet: &PlanarMesh, n_threads: usize) -> Vec<usize> {
         solver: Settings::exact(),
         ..Options::default()
     };
-    counted(n_threads, |watch| {
+    counted(pool, |watch| {
         let summary = parameterize(&disk, &positions, &options, watch).summary;
         // So it was in the trust region, where one factorization serves several directions.
         assert!(summary.factorizations < summary.iterations, "{summary:?}");
@@ -61,9 +63,8 @@ fn chart_allocations(sheet: &PlanarMesh, n_threads: usize) -> Vec<usize> {
 }
 
 /// Allocations from one iterate to the next while `work` is watched.
-fn counted(n_threads: usize, work: impl FnOnce(&dyn Watch) + Send) -> Vec<usize> {
-    let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();
-    pool.expect("threads").install(|| {
+fn counted(pool: &ThreadPool, work: impl FnOnce(&dyn Watch) + Send) -> Vec<usize> {
+    pool.install(|| {
         let region = Region::new(ALLOCATOR);
         let seen = Mutex::new(Vec::with_capacity(10_000));
         let watch = |i: &Iterate| {
@@ -80,6 +81,33 @@ fn counted(n_threads: usize, work: impl FnOnce(&dyn Watch) + Send) -> Vec<usize>
     })
 }
 
+/// Threads that have worked already: each allocates when it takes work, and when it multiplies matrices, for the first time; and
+/// when it ends.
+fn pool(n_threads: usize) -> ThreadPool {
+    let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();
+    let pool = pool.expect("threads");
+    let everyone = Barrier::new(n_threads);
+    pool.scope(|scope| {
+        for _ in 0..n_threads {
+            scope.spawn(|_| {
+                everyone.wait();
+                let matrix = Mat::<f64>::identity(500, 500);
+                let mut product = Mat::zeros(500, 500);
+                matmul(
+                    &mut product,
+                    Accum::Replace,
+                    &matrix,
+                    &matrix,
+                    1.0,
+                    Par::Seq,
+                );
+                assert_eq!(product, matrix);
+            });
+        }
+    });
+    pool
+}
+
 /// The first iteration may fill what is kept from then on.
 fn assert_none(name: &str, counts: &[usize]) {
     assert!(counts.len() > 5, "{name}: {} iterations", counts.len());
@@ -89,12 +117,13 @@ fn assert_none(name: &str, counts: &[usize]) {
 /// One test, so that nothing else runs in the process.
 #[test]
 fn iterations_allocate_nothing() {
-    for n_threads in [1, 2] {
+    let pools = [1, 2].map(pool);
+    for pool in &pools {
         let sheet = bodies::sheet(100);
-        assert_none("chart", &chart_allocations(&sheet, n_threads));
-        assert_none("sheet", &allocations(Body::from(&sheet), n_threads));
+        assert_none("chart", &chart_allocations(&sheet, pool));
+        assert_none("sheet", &allocations(Body::from(&sheet), pool));
         // Has fronts of more than 320 rows, which go through faer's products.
         let block = Body::from(&bodies::block(10));
-        assert_none("block", &allocations(block, n_threads));
+        assert_none("block", &allocations(block, pool));
     }
 }

@@ -15,7 +15,8 @@
 //! when its orientation, so corrected, is not the one that carries most UV area in its chart. A mirrored chart is therefore
 //! valid, a Möbius strip in one piece is not.
 //!
-//! Maps without UVs are judged by the same predicates: [`certify_planar`] a deformed mesh of the plane, [`crossings()`] whether a
+//! Maps without UVs are judged by the same predicates: [`certify_planar`] a deformed mesh of the plane, [`boundary_crossings`]
+//! its boundary alone, [`crossings()`] whether a
 //! surface in space passes through itself.
 //!
 //! **Distances.** Whether charts keep a distance ([`Certificate::padding`]), and whether the map stays bijective however a tool rounds
@@ -53,6 +54,7 @@ pub(crate) use overlap::OrientedFaces;
 pub use padding::PaddingVerdict;
 pub use planar::{PlanarCertificate, certify_planar};
 pub(crate) use rounding::largest_move;
+pub use simple::boundary_crossings;
 pub(crate) use simple::meeting_point;
 pub(crate) use topology::UvTopology;
 

@@ -1,6 +1,7 @@
 //! Whether polygons meet themselves or each other, exactly.
 
 use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
+use crate::mesh::boundary_edges;
 use crate::numerics::predicates::orient2d_sign;
 use crate::numerics::vec2::{dot, sub};
 
@@ -31,6 +32,31 @@ pub(crate) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
     });
     // Only segments that lie in heaps exhaust the search; they would have to meet.
     found.or_else(|| (visit == Visit::Truncated).then(|| segments[0][0]))
+}
+
+/// How many pairs of a planar mesh's boundary edges have a common point other than a vertex that both end at, exactly; at least so
+/// many where they lie in such heaps that the search ends early.
+///
+/// A mesh without inverted triangles whose boundary crossed nothing as it moved has none, and is bijective.
+pub fn boundary_crossings(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> u64 {
+    let edges = boundary_edges(vertices.len(), triangles);
+    let segment = |edge: [u32; 2]| edge.map(|v| vertices[v as usize]);
+    let boxes: Vec<Bounds> = (edges.iter())
+        .map(|&edge| enlarged(bounds_of(&segment(edge))))
+        .collect();
+    let mut n_crossings = 0;
+    BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        let [e, f] = [edges[i as usize], edges[j as usize]];
+        let meet = match e.iter().find(|v| f.contains(v)) {
+            None => intersect(segment(e), segment(f)),
+            Some(&shared) => {
+                let other = |edge: [u32; 2]| edge[usize::from(edge[0] == shared)];
+                turns_back(segment([other(e), shared]), segment([shared, other(f)]))
+            }
+        };
+        n_crossings += u64::from(meet);
+    });
+    n_crossings
 }
 
 /// Whether a segment runs back over the one that ends where it begins.

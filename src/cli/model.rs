@@ -22,6 +22,9 @@ pub(super) struct ModelArgs {
     /// Keep the conformal distortion of every triangle, its longest over its shortest stretch, below this; plane only
     #[arg(long, value_name = "K")]
     max_conformal: Option<f64>,
+    /// Keep the boundary from crossing itself, so that the map stays bijective; plane only
+    #[arg(long)]
+    bijective: bool,
 }
 
 impl ModelArgs {
@@ -32,6 +35,7 @@ impl ModelArgs {
             beta: self.beta,
             s: self.s,
             bound: self.max_conformal,
+            bijective: self.bijective,
         }
     }
 }

@@ -71,14 +71,17 @@ fn summarize(Deformed { report, .. }: &Deformed) {
     }
     let (summary, worth) = (report.summary, report.worth);
     say(format_args!(
-        "{:?}: {} iterations, {} factorizations, energy {:.6e}, barrier {:.3e}, residual {:.1e}, {} inverted",
+        "{:?}: {} iterations, {} factorizations, energy {:.6e}, barrier {:.3e}, residual {:.1e}, {} inverted{}",
         summary.status,
         summary.iterations,
         summary.factorizations,
         worth.energy,
         worth.barrier,
         worth.residual,
-        worth.inverted
+        worth.inverted,
+        (worth.crossings).map_or(String::new(), |n| format!(
+            ", {n} crossings of the boundary"
+        ))
     ));
 }
 

@@ -55,6 +55,7 @@ impl Problem {
     ) -> Result<f64, ProblemError> {
         let mut free = self.from(solution);
         free.barrier.kind = BarrierKind::None;
+        free.boundary_barrier = None;
         Ok(free.solve(settings, watch)?.worth.energy)
     }
 

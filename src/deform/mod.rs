@@ -7,6 +7,7 @@
 
 mod body;
 mod boundary;
+pub mod boundary_barrier;
 pub mod cage;
 mod continuation;
 mod handles;
@@ -25,6 +26,7 @@ mod solve;
 mod untangle;
 pub mod uv;
 pub mod warp;
+mod worth;
 
 pub use body::{Body, BodyElements};
 pub use boundary::Boundary;
@@ -39,4 +41,5 @@ pub use problem_error::ProblemError;
 #[cfg(feature = "files")]
 pub use problem_file::{ProblemFile, Rest};
 pub use pull::PullReport;
-pub use solve::{Method, Solution, Worth};
+pub use solve::{Method, Solution};
+pub use worth::Worth;

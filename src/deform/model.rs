@@ -59,6 +59,16 @@ impl DeformationEnergy {
         self == Self::Green
     }
 
+    /// The mean weight of an element.
+    pub(super) fn mean_weight(self, body: &Body) -> f64 {
+        let weights: Vec<f64> = match &body.elements {
+            _ if self.is_unweighted() => return 1.0,
+            BodyElements::Triangles { rest, .. } => rest.iter().map(|r| r.weight).collect(),
+            BodyElements::Tetrahedra { rest, .. } => rest.iter().map(|r| r.weight).collect(),
+        };
+        weights.iter().sum::<f64>() / weights.len().max(1) as f64
+    }
+
     /// The terms of the energy of `body` with a barrier, in which an element's size is the determinant of its edges, twice
     /// its area or six times its volume, and with a bound of the conformal distortion if one is given. `None` for an energy or
     /// a bound that the body's dimension does not have.

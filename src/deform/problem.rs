@@ -4,13 +4,15 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
-use super::body::Body;
+use super::body::{Body, BodyElements};
+use super::boundary_barrier::BoundaryBarrier;
 use super::handles::{Handle, bind};
 use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
 use super::untangle::{bad_elements, untangled};
 use crate::barrier::{Barrier, BarrierKind};
-use crate::energy::Row;
+use crate::certificate::certify_planar;
+use crate::energy::{Row, Term};
 use crate::solver::{Handles, LevenbergSettings};
 
 /// A problem with its mesh, checked.
@@ -28,6 +30,8 @@ pub struct Problem {
     pub barrier: Barrier,
     /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything.
     pub bound: Option<f64>,
+    /// What keeps the boundary from crossing itself, if anything does.
+    pub boundary_barrier: Option<BoundaryBarrier>,
     /// The stations of the handles, the last of them their targets.
     pub stations: Vec<Handles>,
     /// What `levenberg` is told.
@@ -50,6 +54,8 @@ pub struct Model {
     /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything; more than 1, in the plane only.
     #[serde(rename = "max_conformal")]
     pub bound: Option<f64>,
+    /// Whether, beside the elements, the boundary is kept from crossing itself, so that the map stays bijective; in the plane only.
+    pub bijective: bool,
 }
 
 impl Default for Model {
@@ -60,6 +66,7 @@ impl Default for Model {
             beta: None,
             s: 1.0,
             bound: None,
+            bijective: false,
         }
     }
 }
@@ -112,16 +119,43 @@ impl Model {
 impl Problem {
     /// A body at rest and handles to pull it by.
     pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
-        Ok(Self {
+        let problem = Self {
             start: body.rest.clone(),
             untangled: 0,
             energy: model.energy,
             barrier: model.barrier(&body, None)?,
             bound: model.bound,
+            boundary_barrier: None,
             stations: vec![bind(&body, handles)?],
             levenberg: LevenbergSettings::default(),
             body,
-        })
+        };
+        problem.guarded(model)
+    }
+
+    /// The same with a barrier between the parts of its boundary, if the model wants it. The start must not overlap itself, and
+    /// something must keep elements from inverting: a boundary alone does not make a map bijective.
+    pub(super) fn guarded(mut self, model: &Model) -> Result<Self, ProblemError> {
+        if !model.bijective {
+            return Ok(self);
+        }
+        let BodyElements::Triangles { corners, .. } = &self.body.elements else {
+            return Err(ProblemError::PlanarBijectivity);
+        };
+        if !self.forbids_inversion() {
+            let (name, range) = (
+                "bijective",
+                "off where nothing keeps elements from inverting",
+            );
+            return Err(ProblemError::BadParameter { name, range });
+        }
+        let barrier = BoundaryBarrier::new(corners, &self.start);
+        let is_apart = barrier.value(&self.start).is_finite();
+        if !(is_apart && certify_planar(self.start.as_chunks().0, corners).is_bijective()) {
+            return Err(ProblemError::OverlappingStart);
+        }
+        self.boundary_barrier = Some(barrier);
+        Ok(self)
     }
 
     /// With a barrier no element of the start may be at ε or below: those that are are untangled, as little as possible moved.

@@ -93,6 +93,14 @@ pub enum ProblemError {
     /// The energy is not defined for the body.
     #[error("this energy is defined in the plane only")]
     PlanarEnergy,
+    /// Only a map of the plane can be kept bijective.
+    #[error(
+        "bijective maps are those of the plane; the boundary of a solid is not kept from crossing itself"
+    )]
+    PlanarBijectivity,
+    /// The map should be kept bijective, which it is not at the start.
+    #[error("the start overlaps or touches itself, so that no way from it stays bijective")]
+    OverlappingStart,
     /// The start does not belong to the mesh.
     #[error("the start has {found} numbers, the mesh {expected}")]
     WrongStart {
@@ -124,6 +132,8 @@ impl ProblemError {
             Self::InfeasibleStart { .. } => "infeasible_start",
             Self::BadParameter { .. } => "bad_parameter",
             Self::PlanarEnergy => "planar_energy",
+            Self::PlanarBijectivity => "planar_bijectivity",
+            Self::OverlappingStart => "overlapping_start",
             Self::WrongStart { .. } => "wrong_start",
         }
     }

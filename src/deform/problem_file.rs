@@ -41,6 +41,9 @@ pub struct ProblemFile {
     pub gamma: f64,
     /// ε; 1e-4 of the smallest rest determinant if absent.
     pub eps: Option<f64>,
+    /// Whether the boundary, too, is kept from crossing itself.
+    #[serde(default)]
+    pub bijective: bool,
     /// Of `levenberg` only: do the targets retreat while the shift is large?
     pub substepping: Option<bool>,
     /// Of `levenberg` only: does α grow?
@@ -106,6 +109,7 @@ impl ProblemFile {
             beta: self.beta,
             s: self.gamma,
             bound: None,
+            bijective: self.bijective,
         };
         let barrier = model.barrier(&body, self.eps)?;
         let mut problem = Problem {
@@ -117,9 +121,10 @@ impl ProblemFile {
             energy: self.energy,
             barrier,
             bound: None,
+            boundary_barrier: None,
         };
         problem.untangle_start()?;
-        Ok(problem)
+        problem.guarded(&model)
     }
 
     fn levenberg(&self) -> LevenbergSettings {

@@ -31,6 +31,8 @@ pub struct PullReport {
     pub residual: f64,
     /// The smallest area of a triangle over its area at rest.
     pub smallest: f64,
+    /// Pairs of boundary edges that cross or touch, exactly, before the map is rounded for a file.
+    pub crossings: u64,
     /// Whether every triangle is positive and no two overlap: the certificate's conclusion.
     pub bijective: bool,
     /// What is proven about the result by exact predicates.
@@ -131,11 +133,13 @@ pub(super) fn pull(
         untangled: 0,
         energy: model.energy,
         bound: model.bound,
+        boundary_barrier: None,
         barrier: model.barrier(&body, Some(epsilon))?,
         stations: vec![holds.handles(&body, start)?],
         levenberg: LevenbergSettings::default(),
         body,
-    };
+    }
+    .guarded(model)?;
     let solution = problem.solve(&Settings::follow(), watch)?;
     let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
     arrive(&mut vertices, &problem.stations[0]);
@@ -149,6 +153,7 @@ pub(super) fn pull(
             energy: worth.energy,
             residual: worth.residual * unit * unit,
             smallest: worth.smallest,
+            crossings: worth.crossings.unwrap_or_default(),
             bijective: certificate.is_bijective(),
             certificate,
         },

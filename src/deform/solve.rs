@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::boundary_barrier::BoundaryBarrier;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
+use super::worth::Worth;
 use crate::barrier::Barrier;
 use crate::energy::{Positional, Term};
 use crate::solver::{
@@ -34,21 +36,24 @@ pub struct Solution {
     pub worth: Worth,
 }
 
-/// What a map is worth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub struct Worth {
-    /// The deformation energy, without the barrier.
-    pub energy: f64,
-    /// The barrier's share, β included.
-    pub barrier: f64,
-    /// The sum of the squared distances of the handles from their targets.
-    pub residual: f64,
-    /// Elements whose determinant is not positive.
-    pub inverted: usize,
-    /// The smallest determinant over its value at rest.
-    pub smallest: f64,
+impl Solution {
+    /// The one of the smaller residual, with the work of both.
+    fn or(self, other: Self) -> Self {
+        let (best, worse) = if other.worth.residual < self.worth.residual {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        Self {
+            summary: worse.summary.followed_by(&best.summary),
+            ..best
+        }
+    }
 }
+
+/// How ways are bent, one after the other, where straight ones do not lead to the targets: two that change places then pass each
+/// other at half the distance that they had.
+const BENDS: [f64; 2] = [0.5, -0.5];
 
 /// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's edge, so that a
 /// straight bar that is pressed at once buckles instead of staying on the saddle that its symmetry keeps it on.
@@ -57,7 +62,35 @@ const SHAKE: f64 = 1e-3;
 impl Problem {
     /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`]). With a barrier
     /// every iterate is without inversion.
+    ///
+    /// Where the boundary may not cross itself, handles that change places stand in each other's way. Those that do not arrive
+    /// straight try again from the start with all ways bent to one side, and then to the other; the map with the smallest residual is
+    /// the solution.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
+        let mut best = self.solve_along(0.0, settings, watch)?;
+        if self.boundary_barrier.is_none() {
+            return Ok(best);
+        }
+        for bend in BENDS {
+            if best.summary.status != Status::TargetsUnreachable {
+                break;
+            }
+            let counted = Continued {
+                watch,
+                before: best.summary.iterations,
+            };
+            let next = self.solve_along(bend, settings, &counted)?;
+            best = best.or(next);
+        }
+        Ok(best)
+    }
+
+    fn solve_along(
+        &self,
+        bend: f64,
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
         let mut objective = self.objective()?;
         let mut x = self.start.clone();
         if x == self.body.rest && self.stations.len() == 1 {
@@ -68,7 +101,11 @@ impl Problem {
         } else {
             follow::<3>
         };
-        let total = follow(&mut objective, &mut x, &self.stations, settings, watch);
+        let stations = self.stations.iter().cloned();
+        let stations: Vec<Handles> = stations
+            .map(|handles| Handles { bend, ..handles })
+            .collect();
+        let total = follow(&mut objective, &mut x, &stations, settings, watch);
         Ok(self.solution(x, total))
     }
 
@@ -121,9 +158,16 @@ impl Problem {
     }
 
     fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
-        self.energy
-            .terms(&self.body, barrier, self.bound)
-            .ok_or(ProblemError::PlanarEnergy)
+        let terms = self.energy.terms(&self.body, barrier, self.bound);
+        let mut terms = terms.ok_or(ProblemError::PlanarEnergy)?;
+        terms.extend(self.boundary_term().map(|term| Box::new(term) as _));
+        Ok(terms)
+    }
+
+    /// The barrier of the boundary, as strong as that of an ordinary element.
+    pub(super) fn boundary_term(&self) -> Option<BoundaryBarrier> {
+        let beta = self.barrier.beta * self.energy.mean_weight(&self.body);
+        Some(self.boundary_barrier.as_ref()?.with_beta(beta))
     }
 
     /// Moves free vertices a little, the same way each time, if that leaves the map inside the domain.
@@ -139,14 +183,18 @@ impl Problem {
         for &v in self.stations.iter().flat_map(|handles| &handles.vertices) {
             is_held[v as usize] = true;
         }
-        let mut shaken = x.to_vec();
-        for (i, x) in shaken.iter_mut().enumerate() {
-            if !is_held[i / dim] {
-                *x += amplitude * (12.9898 * (i + 1) as f64).sin();
+        let move_of = |i: usize| {
+            if is_held[i / dim] {
+                0.0
+            } else {
+                amplitude * (12.9898 * (i + 1) as f64).sin()
             }
-        }
-        if objective.value(&shaken).is_finite() {
-            x.copy_from_slice(&shaken);
+        };
+        let moves: Vec<f64> = (0..x.len()).map(move_of).collect();
+        if objective.largest_step(x, &moves) > 1.0 {
+            for (x, d) in x.iter_mut().zip(moves) {
+                *x += d;
+            }
         }
     }
 
@@ -157,42 +205,4 @@ impl Problem {
             x,
         }
     }
-
-    /// Judges a map, whoever made it.
-    pub fn worth(&self, x: &[f64]) -> Worth {
-        let terms = |barrier| self.energy.terms(&self.body, barrier, None);
-        let unmodified = terms(Barrier::NONE).unwrap_or_default();
-        let guarded = terms(self.barrier).unwrap_or_default();
-        let now = self.body.determinants_at(x);
-        let ratios = now
-            .iter()
-            .zip(self.body.determinants())
-            .map(|(now, rest)| now / rest);
-        Worth {
-            energy: unmodified.iter().map(|term| term.value(x)).sum(),
-            barrier: guarded.iter().map(|term| term.barrier(x)).sum(),
-            residual: self
-                .stations
-                .last()
-                .map_or(0.0, |last| distance_squared(last, self.body.dim(), x)),
-            inverted: now.iter().filter(|&&d| d <= 0.0).count(),
-            smallest: ratios.fold(f64::INFINITY, f64::min),
-        }
-    }
-}
-
-fn distance_squared(handles: &Handles, dim: usize, x: &[f64]) -> f64 {
-    let held = handles.vertices.iter();
-    let places = held.flat_map(|&v| &x[dim * v as usize..dim * (v as usize + 1)]);
-    let points = Positional {
-        dim,
-        rows: handles.points.clone(),
-        targets: Vec::new(),
-        alpha: 0.0,
-    };
-    let held: f64 = places
-        .zip(&handles.targets)
-        .map(|(x, t)| (x - t) * (x - t))
-        .sum();
-    held + points.residual(x, &handles.point_targets)
 }

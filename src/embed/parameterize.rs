@@ -8,7 +8,7 @@ use super::start::{first_bad_triangle, hierarchical_start_at, start};
 use crate::barrier::BarrierKind;
 use crate::energy::EnergyKind;
 use crate::mesh::Disk;
-use crate::solver::{Iterate, Settings, Status, Summary, Watch};
+use crate::solver::{Iterate, Objective, Settings, Status, Summary, Watch};
 
 /// From this many triangles on the start is found coarse to fine, which costs less than the Newton steps it saves.
 const LARGE: usize = 1_000;
@@ -84,12 +84,28 @@ pub fn parameterize(
         options,
     };
     match options.pins {
-        Pins::None => problem.minimized(first_map(&problem, positions), &[], watch),
+        Pins::None => {
+            let (start, objective) = first_map_and_objective(&problem, positions);
+            problem.minimized(objective, start, &[], watch)
+        }
         Pins::Two => {
             let (start, pinned) = pinned_map(&problem, positions, watch);
-            problem.minimized(start, &pinned, watch)
+            problem.minimized(problem.objective(&start), start, &pinned, watch)
         }
     }
+}
+
+/// The first map, and what is minimized from it.
+fn first_map_and_objective(
+    problem: &Problem,
+    positions: &[[f64; 3]],
+) -> (Vec<[f64; 2]>, Objective) {
+    if problem.disk.triangles.len() >= LARGE && rayon::current_num_threads() > 1 {
+        return problem.objective_beside(|| first_map(problem, positions));
+    }
+    let start = first_map(problem, positions);
+    let objective = problem.objective(&start);
+    (start, objective)
 }
 
 /// Tutte's map where that is near enough, else the one found coarse to fine; at its best size.
@@ -148,7 +164,8 @@ fn nearly_isometric(
             .map(|near| (near, false));
     }
     let unshown = |iterate: &Iterate| watch.iterate(iterate);
-    let (near, summary) = problem.minimum(first_map(problem, positions), &[], &unshown);
+    let (start, objective) = first_map_and_objective(problem, positions);
+    let (near, summary) = problem.minimum(objective, start, &[], &unshown);
     Some((near, summary.status == Status::Stopped))
 }
 
@@ -174,5 +191,6 @@ pub fn optimize(
         rest: rest_shapes(positions, &disk.triangles),
         options,
     };
-    Ok(problem.minimized(problem.at_best_size(start), &[], watch))
+    let start = problem.at_best_size(start);
+    Ok(problem.minimized(problem.objective(&start), start, &[], watch))
 }

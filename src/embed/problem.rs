@@ -85,9 +85,35 @@ impl Problem<'_> {
         self.term(uv).value(uv.as_flattened()) / self.rest.shapes.len() as f64
     }
 
+    /// What is minimized from this start.
+    pub fn objective(&self, start: &[[f64; 2]]) -> Objective {
+        Objective::new(self.disk.n_vertices, self.term(start))
+    }
+
+    /// The same, analyzed while the start is found: the analysis takes about as long where that is found coarse to fine.
+    pub fn objective_beside(
+        &self,
+        start: impl FnOnce() -> Vec<[f64; 2]> + Send,
+    ) -> (Vec<[f64; 2]>, Objective) {
+        let analyzed = || {
+            let mut objective = Objective::new(self.disk.n_vertices, self.term_with(0.0));
+            objective.prepare();
+            objective
+        };
+        let (start, mut objective) = rayon::join(start, analyzed);
+        objective.exchange(vec![self.term(&start)]);
+        (start, objective)
+    }
+
     /// The map that minimizing from this start leads to, in the mesh's unit.
-    pub fn minimized(&self, start: Vec<[f64; 2]>, pinned: &[u32], watch: &dyn Watch) -> Embedding {
-        let (uv, summary) = self.minimum(start, pinned, watch);
+    pub fn minimized(
+        &self,
+        objective: Objective,
+        start: Vec<[f64; 2]>,
+        pinned: &[u32],
+        watch: &dyn Watch,
+    ) -> Embedding {
+        let (uv, summary) = self.minimum(objective, start, pinned, watch);
         Embedding {
             uv: self.in_mesh_unit(&uv),
             summary,
@@ -97,11 +123,11 @@ impl Problem<'_> {
     /// The same in the unit of the rest shapes: pinned vertices stay where they are.
     pub fn minimum(
         &self,
+        mut objective: Objective,
         start: Vec<[f64; 2]>,
         pinned: &[u32],
         watch: &dyn Watch,
     ) -> (Vec<[f64; 2]>, Summary) {
-        let mut objective = Objective::new(self.disk.n_vertices, self.term(&start));
         objective.fix(pinned);
         let affordable = (STEP_BUDGET / self.rest.shapes.len()).max(LEAST_STEPS);
         let settings = Settings {

@@ -13,8 +13,13 @@ pub trait Term: Send + Sync {
     /// D: coordinates per vertex, 2 or 3.
     fn dim(&self) -> usize;
 
-    /// The vertices of each summand.
+    /// The vertices of each summand, the same at all times but as [`renew`](Self::renew) says.
     fn stencils(&self) -> Stencils;
+
+    /// Takes note of where derivatives are wanted next; true if its stencils are now others than before.
+    fn renew(&mut self, _x: &[f64]) -> bool {
+        false
+    }
 
     /// The value that counts as large, such as the sum of the weights: an energy far below it is rounding.
     fn scale(&self) -> f64 {
@@ -39,7 +44,7 @@ pub trait Term: Send + Sync {
         f64::INFINITY
     }
 
-    /// The share of the value that is there only to keep elements from inverting.
+    /// The share of the value that is there only to keep the map valid.
     fn barrier(&self, _x: &[f64]) -> f64 {
         0.0
     }

@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 49] = [
+pub(super) const CAUSES: [(&str, &str); 51] = [
     // Handles.
     ("malformed_handles", "The list of handles is not one"),
     ("no_handle", "There is no handle"),
@@ -102,6 +102,14 @@ pub(super) const CAUSES: [(&str, &str); 49] = [
     ),
     ("invalid_seams", "The seams given do not fit the mesh"),
     ("invalid_uvs", "The new UVs do not fit the document"),
+    (
+        "planar_bijectivity",
+        "Only maps of the plane can be kept bijective",
+    ),
+    (
+        "overlapping_start",
+        "The map that should be kept bijective overlaps or touches itself at the start",
+    ),
     // Pictures and drawings.
     ("invalid_image", "The picture is damaged"),
     (

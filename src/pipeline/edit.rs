@@ -72,7 +72,8 @@ pub fn edit_document(
         let written = write(&document, &whole, &edited, upload, options)?;
         tracker.stage(Stage::Judge);
         let report = judge(&document, &edited, &written, (options.texcoord, how.rest))?;
-        if !report.certified && options.model.barrier != BarrierKind::None {
+        let is_kept = report.certified || options.model.barrier == BarrierKind::None;
+        if !is_kept || options.model.bijective && !report.bijective {
             return Err(PipelineError::NotCertified);
         }
         Ok(EditedDocument {

@@ -60,7 +60,7 @@ pub enum PipelineError {
     Atlas(#[from] AtlasError),
     /// The UVs that were written are not those that were promised: a mistake of this program, found by the certificate.
     #[cfg(feature = "files")]
-    #[error("a face is flipped or degenerate in the bytes that were to be written")]
+    #[error("a face is flipped, degenerate or overlapped in the bytes that were to be written")]
     NotCertified,
     /// The UVs cannot be edited.
     #[cfg(feature = "files")]
@@ -77,6 +77,9 @@ pub enum PipelineError {
     /// Handles were pulled to a map with an inverted element.
     #[error("no map without inversion was found")]
     Inverted,
+    /// A boundary that may not cross itself does, by rounding.
+    #[error("no map was found whose boundary stays clear of itself")]
+    Crossed,
     /// The seams given do not fit the mesh.
     #[error("seams: {0}")]
     Seams(String),
@@ -106,7 +109,7 @@ impl PipelineError {
             Self::NoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
-            Self::Atlas(_) | Self::Inverted => "no_valid_result",
+            Self::Atlas(_) | Self::Inverted | Self::Crossed => "no_valid_result",
             #[cfg(feature = "files")]
             Self::NotCertified => "no_valid_result",
             Self::Threads(_) => "internal_error",
@@ -126,7 +129,7 @@ impl PipelineError {
             | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
             Self::Document(_) | Self::Edit(_) | Self::Outline(_) | Self::Warp(_) => 3,
-            Self::Atlas(_) | Self::Inverted => 4,
+            Self::Atlas(_) | Self::Inverted | Self::Crossed => 4,
             #[cfg(feature = "files")]
             Self::NotCertified => 4,
             Self::Threads(_) => 1,

@@ -101,6 +101,9 @@ pub(super) fn solve(
     if solution.worth.inverted > 0 && problem.forbids_inversion() {
         return Err(PipelineError::Inverted);
     }
+    if problem.boundary_barrier.is_some() && solution.worth.crossings > Some(0) {
+        return Err(PipelineError::Crossed);
+    }
     let report = DeformReport {
         method: plan.method,
         summary: solution.summary,

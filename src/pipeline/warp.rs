@@ -83,7 +83,7 @@ pub struct WarpedPicture {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct WarpReport {
-    /// Whether the map is proven to have no inverted triangle and, with a fixed border, to be bijective.
+    /// Whether the map is proven to have no inverted triangle and, with a fixed border or if asked for, to be bijective.
     pub certified: bool,
     /// Where the upper left corner of the result lies, in pixels of the original.
     pub origin: [i64; 2],
@@ -109,9 +109,10 @@ pub fn warp_file(
             model: options.model,
         };
         let warped = warp_picture(&image, &options.handles, &how, &tracker)?;
-        let certified = match how.boundary {
-            Boundary::Free => warped.report.certificate.is_valid(),
-            Boundary::Fixed => warped.report.bijective,
+        let certified = if how.boundary == Boundary::Fixed || options.model.bijective {
+            warped.report.bijective
+        } else {
+            warped.report.certificate.is_valid()
         };
         if !certified && options.model.barrier != BarrierKind::None {
             return Err(PipelineError::Inverted);

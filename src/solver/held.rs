@@ -44,6 +44,12 @@ impl Held {
         }
     }
 
+    /// Which vertices, each with so many unknowns.
+    pub fn vertices(&self, dim: usize) -> Vec<u32> {
+        let firsts = self.unknowns.iter().step_by(dim);
+        firsts.map(|&i| (i / dim) as u32).collect()
+    }
+
     /// Clears rows and columns but for a diagonal of this size, and the gradient.
     pub fn clear(
         &mut self,

@@ -180,16 +180,18 @@ impl Run {
         Some(self.sigma * self.direction.iter().map(|d| d * d).sum::<f64>().sqrt())
     }
 
-    /// Halves or doubles σ; the point stays where no step of a length that matters helps.
+    /// Halves or doubles σ; the point stays where no step of a length that matters helps. Steps that would pass out of the domain and
+    /// into it again are too long.
     fn search(&mut self, objective: &Objective, x: &mut [f64]) {
         let before = objective.value(x);
+        let largest = objective.largest_step(x, &self.direction);
         let mut sigma = self.sigma;
         let mut is_first = true;
         while sigma > LEAST_SIGMA {
             for ((trial, x), d) in self.trial.iter_mut().zip(&*x).zip(&self.direction) {
                 *trial = x + sigma * d;
             }
-            if objective.value(&self.trial) < before {
+            if sigma < largest && objective.value(&self.trial) < before {
                 x.copy_from_slice(&self.trial);
                 self.sigma = sigma;
                 if is_first {

@@ -9,12 +9,16 @@ use super::trust_region::End;
 use super::watch::{Control, Taken, Watch};
 use crate::numerics::cholesky::NotPositiveDefinite;
 
+/// A step of at least this length confirms what the model promised of a full one: less than a quarter of that is left to gain.
+const CONFIRMING: f64 = 0.5;
+
 /// Moves `x` from a start inside the domain to a minimum of `objective` nearby.
 ///
 /// `x` is flat, the coordinates of a vertex one after another. A start outside the domain is left as it is and reported
 /// as [`Status::Stalled`]. Energy falls with every step. Costs per iteration, far from a minimum, one
 /// factorization, one solve, one assembly and about 1.2 evaluations; near one a fifth of a factorization, two to eleven solves and
-/// products with the Hessian, one assembly and one or two evaluations. No memory is allocated inside the loop.
+/// products with the Hessian, one assembly and one or two evaluations. No memory is allocated inside the loop, unless a term
+/// [renews](crate::energy::Term::renew) its stencils.
 ///
 /// # Panics
 /// If `x` does not hold the coordinates of the objective's vertices.
@@ -82,7 +86,7 @@ pub(super) fn minimize_with(
         if objective.show(x, &summary, taken, watch) == Control::Finish {
             return summary.ended(Status::Stopped);
         }
-        if is_small && step.length == 1.0 {
+        if is_small && step.length >= CONFIRMING {
             return summary.ended(Status::Converged);
         }
     }

@@ -9,7 +9,7 @@ use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
 
 /// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when a factorization is first
-/// wanted.
+/// wanted, and again only where a term [renews](Term::renew) its stencils.
 pub struct Objective {
     terms: Vec<Box<dyn Term>>,
     constraints: Option<Positional>,
@@ -58,16 +58,7 @@ impl Objective {
         terms: Vec<Box<dyn Term>>,
         constraints: Option<Positional>,
     ) -> Self {
-        let dim = terms[0].dim();
-        let all = terms.iter().map(AsRef::as_ref);
-        let all = all.chain(constraints.iter().map(|c| c as &dyn Term));
-        let stencils: Vec<_> = all
-            .map(|term| {
-                assert_eq!(term.dim(), dim, "terms of one dimension");
-                term.stencils()
-            })
-            .collect();
-        let (pattern, slots) = BlockPattern::new(dim, n_vertices, &stencils);
+        let (pattern, slots) = pattern(n_vertices, all(&terms, constraints.as_ref()));
         Self {
             model: QuadraticModel::new(pattern),
             scale: terms.iter().map(|term| term.scale()).sum(),
@@ -109,8 +100,7 @@ impl Objective {
     }
 
     fn all(&self) -> impl Iterator<Item = &dyn Term> {
-        let constraints = self.constraints.iter().map(|c| c as &dyn Term);
-        self.terms.iter().map(AsRef::as_ref).chain(constraints)
+        all(&self.terms, self.constraints.as_ref())
     }
 
     /// The soft constraints.
@@ -195,4 +185,27 @@ impl Objective {
     pub fn scale(&self) -> f64 {
         self.scale
     }
+}
+
+/// The terms, the constraints last.
+fn all<'a>(
+    terms: &'a [Box<dyn Term>],
+    constraints: Option<&'a Positional>,
+) -> impl Iterator<Item = &'a dyn Term> {
+    let constraints = constraints.map(|c| c as &dyn Term);
+    terms.iter().map(AsRef::as_ref).chain(constraints)
+}
+
+/// The pattern of a sum of terms of one dimension, and the slots of each.
+fn pattern<'a>(
+    n_vertices: usize,
+    terms: impl Iterator<Item = &'a dyn Term>,
+) -> (BlockPattern, Vec<Slots>) {
+    let (dims, stencils): (Vec<_>, Vec<_>) =
+        terms.map(|term| (term.dim(), term.stencils())).unzip();
+    assert!(
+        dims.iter().all(|dim| *dim == dims[0]),
+        "terms of one dimension"
+    );
+    BlockPattern::new(dims[0], n_vertices, &stencils)
 }

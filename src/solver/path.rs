@@ -16,14 +16,17 @@ pub struct Handles {
     pub groups: Vec<u32>,
     /// Points inside elements that must come to given positions too: held by soft constraints that harden in the end.
     pub points: Vec<Row>,
-    /// Their targets, coordinates one after another; they travel straight.
+    /// Their targets, coordinates one after another.
     pub point_targets: Vec<f64>,
+    /// How far every way, of a group or a point, bends to its left, in halves of its length; in the plane only. 0 is straight;
+    /// otherwise those that change places pass each other.
+    pub bend: f64,
 }
 
 /// The way of handles from where they are to their targets, as a function of s from 0 to 1.
 ///
 /// A group turns by the rotation that best takes it to its targets, at constant speed about its centroid, which moves
-/// straight; what is left, because the targets are not a rigid copy, is added in proportion to s.
+/// straight or on a bend; what is left, because the targets are not a rigid copy, is added in proportion to s.
 pub struct Path<const D: usize> {
     groups: Vec<RigidMotion<D>>,
     /// Of each handle its group, its place relative to the centroid, and what the rigid motion leaves of its way.
@@ -33,6 +36,7 @@ pub struct Path<const D: usize> {
 struct RigidMotion<const D: usize> {
     from: [f64; D],
     to: [f64; D],
+    bend: f64,
     /// The rotation is exp(s·log).
     log: Matrix<D>,
 }
@@ -50,7 +54,10 @@ where
         for (i, (&v, &g)) in handles.vertices.iter().zip(&handles.groups).enumerate() {
             members[g as usize].push((at(v), target(i)));
         }
-        let groups: Vec<_> = members.iter().map(|m| RigidMotion::fit(m)).collect();
+        let groups: Vec<_> = members
+            .iter()
+            .map(|m| RigidMotion::fit(m, handles.bend))
+            .collect();
         let placed = handles.vertices.iter().zip(&handles.groups).enumerate();
         let handles = placed.map(|(i, (&v, &g))| {
             let motion = &groups[g as usize];
@@ -76,7 +83,7 @@ impl<const D: usize> RigidMotion<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    fn fit(members: &[([f64; D], [f64; D])]) -> Self {
+    fn fit(members: &[([f64; D], [f64; D])], bend: f64) -> Self {
         let n = members.len().max(1) as f64;
         let (mut from, mut to) = ([0.0; D], [0.0; D]);
         for (p, q) in members {
@@ -101,13 +108,30 @@ where
         } else {
             [[0.0; D]; D]
         };
-        Self { from, to, log }
+        Self {
+            from,
+            to,
+            bend,
+            log,
+        }
     }
 
     fn place(&self, arm: [f64; D], s: f64) -> [f64; D] {
         let turned = apply(&Matrix::<D>::exp(&self.log, s), &arm);
-        std::array::from_fn(|k| (1.0 - s) * self.from[k] + s * self.to[k] + turned[k])
+        let aside = aside(difference(self.to, self.from), self.bend, s);
+        std::array::from_fn(|k| (1.0 - s) * self.from[k] + s * self.to[k] + turned[k] + aside[k])
     }
+}
+
+/// How far from a straight way one with this bend is at `s`; in space nothing.
+pub(super) fn aside<const D: usize>(way: [f64; D], bend: f64, s: f64) -> [f64; D] {
+    let mut aside = [0.0; D];
+    if D == 2 && bend != 0.0 {
+        let height = 2.0 * bend * s * (1.0 - s);
+        aside[0] = -height * way[1];
+        aside[1] = height * way[0];
+    }
+    aside
 }
 
 fn difference<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {

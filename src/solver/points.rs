@@ -1,11 +1,13 @@
 //! Points inside elements on their way to their targets: soft constraints of an objective.
 
 use super::objective::Objective;
+use super::path::{Handles, aside};
 
-/// Points that travel straight, held by a strength relative to the energy's curvature.
+/// Points that travel straight or on a bend, held by a strength relative to the energy's curvature.
 pub(super) struct Points {
     origins: Vec<f64>,
     ways: Vec<f64>,
+    bend: f64,
     /// Room for what is computed from them.
     room: Vec<f64>,
     /// The energy's mean curvature at the start; 0 before it is known.
@@ -13,20 +15,21 @@ pub(super) struct Points {
 }
 
 impl Points {
-    /// The constraints of `objective`, from where they are in `x` to these targets; they have no strength yet.
-    pub fn new(objective: &mut Objective, x: &[f64], targets: &[f64]) -> Self {
+    /// The constraints of `objective`, from where they are in `x` to their targets; they have no strength yet.
+    pub fn new(objective: &mut Objective, x: &[f64], handles: &Handles) -> Self {
         let origins: Vec<f64> = objective
             .constraints()
             .map_or(Vec::new(), |constraints| constraints.places(x).collect());
         objective.set_constraints(0.0, &origins);
+        let targets = handles.point_targets.iter();
         let ways = targets
-            .iter()
             .zip(&origins)
             .map(|(target, origin)| target - origin);
         let ways: Vec<f64> = ways.collect();
         Self {
             room: vec![0.0; ways.len()],
             ways,
+            bend: handles.bend,
             origins,
             unit: 0.0,
         }
@@ -54,7 +57,21 @@ impl Points {
         for (room, way) in self.room.iter_mut().zip(&self.ways) {
             *room = (to - from) * way;
         }
+        self.bend_room(to, 1.0);
+        self.bend_room(from, -1.0);
         &self.room
+    }
+
+    /// Adds so many times to the room how far the points are from a straight way at `s`.
+    fn bend_room(&mut self, s: f64, times: f64) {
+        if self.bend == 0.0 {
+            return;
+        }
+        let ways = self.ways.as_chunks::<2>().0;
+        for (room, way) in self.room.as_chunks_mut::<2>().0.iter_mut().zip(ways) {
+            let aside = aside(*way, times * self.bend, s);
+            *room = [room[0] + aside[0], room[1] + aside[1]];
+        }
     }
 
     /// Sets the targets to a share `s` of their way and their strength, in units of the energy's mean curvature, which is taken
@@ -71,6 +88,7 @@ impl Points {
         for (room, (origin, way)) in self.room.iter_mut().zip(ways) {
             *room = origin + s * way;
         }
+        self.bend_room(s, 1.0);
         objective.set_constraints(strength * self.unit, &self.room);
     }
 }

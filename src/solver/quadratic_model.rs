@@ -11,6 +11,8 @@ pub(super) struct QuadraticModel {
     pattern: BlockPattern,
     /// None until it is needed.
     system: Option<LinearSolver>,
+    /// Was the system analyzed for another pattern?
+    is_stale: bool,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
     held: Held,
@@ -27,6 +29,7 @@ impl QuadraticModel {
     pub fn new(pattern: BlockPattern) -> Self {
         Self {
             system: None,
+            is_stale: false,
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             held: Held::default(),
@@ -39,6 +42,14 @@ impl QuadraticModel {
     /// Holds these vertices, and only these.
     pub fn hold(&mut self, vertices: &[u32]) {
         self.held = Held::new(&self.pattern, vertices);
+    }
+
+    /// Takes another pattern of as many unknowns, of nothing yet. What was factored last still solves.
+    pub fn exchange_pattern(&mut self, pattern: BlockPattern) {
+        self.held = Held::new(&pattern, &self.held.vertices(pattern.dim()));
+        self.hessian = vec![0.0; pattern.scalar().row_idx.len()];
+        self.pattern = pattern;
+        self.is_stale = true;
     }
 
     /// Begins a model: then the summands are added, measured, and with the constraints finished.
@@ -111,6 +122,9 @@ impl QuadraticModel {
 
     /// Takes H for solving: factors it, if that fits into memory.
     pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
+        if std::mem::take(&mut self.is_stale) {
+            self.system = None;
+        }
         let (system, _, hessian) = self.prepare();
         system.prepare(hessian)
     }

@@ -8,7 +8,7 @@ pub struct Settings {
     /// Steps at most.
     pub max_iterations: usize,
     /// Converged when the decrease that the quadratic model promises at its minimum (for a Newton step the decrement −½g·d) is
-    /// at most this share of the energy, and the step was full.
+    /// at most this share of the energy, and at least half of the step could be taken.
     pub tolerance: f64,
     /// What to do about negative curvature.
     pub projection: Projection,

@@ -63,7 +63,7 @@ where
         Self {
             handles,
             path: Path::new(handles, x),
-            points: Points::new(objective, x, &handles.point_targets),
+            points: Points::new(objective, x, handles),
             s: 0.0,
             stride: FIRST_ADVANCE,
             summary: Summary::at_start(objective.value(x)),

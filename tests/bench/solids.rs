@@ -4,9 +4,10 @@
 //! cage of N voxels along its longest side: 27 give 13,000 tetrahedra, 57 give 100,000, 100 give 500,000), `plane-N` (N×N
 //! squares, two triangles each). One end is held; the other is turned by a right angle and shifted by a tenth of the length, in
 //! cages shifted by a fifth. Prints iterations, factorizations, seconds and peak memory for Green's energy and for ARAP, both with
-//! the barrier, and then the milliseconds of the parts of one iteration at the solution. What cages spend on coarser cages is
-//! in the seconds before the first iterate.
+//! the barrier, and then the milliseconds on the wall of the parts of one iteration at the solution. What cages spend on coarser
+//! cages is in the seconds before the first iterate.
 
+mod clock;
 #[expect(
     dead_code,
     reason = "solids are not subdivided, nor read from a folder"
@@ -14,10 +15,8 @@
 mod meshes;
 
 use std::hint::black_box;
-use std::time::Instant;
 
-use nix::sys::resource::{UsageWho, getrusage};
-use nix::sys::time::TimeVal;
+use clock::{Clock, Seconds, peak_megabytes};
 use unwrapd::deform::cage::{Cage, Caged, CagedSurface};
 use unwrapd::deform::{Body, DeformationEnergy, Handle, Model, Problem, Solution};
 use unwrapd::mesh::io::gmsh;
@@ -201,30 +200,29 @@ fn report(case: &str, energy: DeformationEnergy) {
         ..Model::default()
     };
     forget_peak();
-    let (clock, begin) = (Instant::now(), processor());
+    let clock = Clock::start();
     let problem = problem(case, &model);
     let body = &problem.body;
     let n_elements = body.determinants().len();
     let first = std::cell::Cell::new(None);
     let watch = |_: &Iterate| {
         if first.get().is_none() {
-            first.set(Some(processor() - begin));
+            first.set(Some(clock.seconds().processor));
         }
         Control::Continue
     };
     let solution = problem
         .solve(&Settings::follow(), &watch)
         .expect("a problem that can be solved");
+    let Seconds { wall, processor } = clock.seconds();
     let summary = &solution.summary;
     println!(
-        "{case} {energy:?}: {n_elements} elements, {} vertices, {:?}, {} iterations, {} factorizations, {:.2} s, \
-         {:.2} s of the processor ({:.2} s of it before the first iterate), {} inverted, smallest {:.2e}, peak {} MB",
+        "{case} {energy:?}: {n_elements} elements, {} vertices, {:?}, {} iterations, {} factorizations, {wall:.2} s, \
+         {processor:.2} s of the processor ({:.2} s of it before the first iterate), {} inverted, smallest {:.2e}, peak {} MB",
         body.n_vertices(),
         summary.status,
         summary.iterations,
         summary.factorizations,
-        clock.elapsed().as_secs_f64(),
-        processor() - begin,
         first.get().unwrap_or_default(),
         solution.worth.inverted,
         solution.worth.smallest,
@@ -275,31 +273,17 @@ fn parts(case: &str, problem: &Problem, solution: &Solution) {
     );
 }
 
-/// Milliseconds of the processor, least of three.
+/// Milliseconds on the wall, least of five.
 fn least(mut action: impl FnMut()) -> f64 {
-    let times = (0..3).map(|_| {
-        let begin = processor();
+    let times = (0..5).map(|_| {
+        let clock = Clock::start();
         action();
-        1e3 * (processor() - begin)
+        1e3 * clock.seconds().wall
     });
     times.fold(f64::INFINITY, f64::min)
-}
-
-/// User and system time of this process, in seconds.
-fn processor() -> f64 {
-    let usage = getrusage(UsageWho::RUSAGE_SELF).expect("every process may ask");
-    let seconds = |time: TimeVal| time.tv_sec() as f64 + 1e-6 * time.tv_usec() as f64;
-    seconds(usage.user_time()) + seconds(usage.system_time())
 }
 
 /// Lets the peak of memory begin anew.
 fn forget_peak() {
     let _ = std::fs::write("/proc/self/clear_refs", "5");
-}
-
-fn peak_megabytes() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
-    kilobytes.unwrap_or(0) / 1024
 }

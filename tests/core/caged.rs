@@ -41,6 +41,7 @@ fn options(n_voxels: u32, format: OutputFormat) -> CageOptions {
             beta: None,
             s: 1.0,
             bound: None,
+            bijective: false,
         },
         format,
         stem: "out".to_owned(),

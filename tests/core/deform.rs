@@ -82,6 +82,7 @@ fn problem(
             epsilon: 1e-4 * smallest,
         },
         bound: None,
+        boundary_barrier: None,
         stations: vec![Handles {
             vertices: vertices.to_vec(),
             targets,
@@ -444,6 +445,7 @@ const ARAP: Model = Model {
     beta: None,
     s: 1.0,
     bound: None,
+    bijective: false,
 };
 
 #[test]

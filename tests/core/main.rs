@@ -3,6 +3,7 @@ mod atlas;
 #[cfg(feature = "files")]
 mod bake;
 mod barrier;
+mod bijective;
 mod bodies;
 mod box_tree;
 mod cage;

@@ -137,6 +137,21 @@ fn anchors_arrive_and_other_charts_stay() {
 }
 
 #[test]
+fn a_chart_that_shall_stay_bijective_does() {
+    let sheets = Sheets::new();
+    // Two corners of one side change places.
+    let anchors = [to(0, [0.45, 0.1]), to(SIDE, [0.05, 0.1])];
+    let free = sheets.edit(&anchors, &UvEditOptions::edit());
+    assert!(!free.charts[0].report.bijective && free.charts[0].report.crossings > 0);
+    let mut options = UvEditOptions::edit();
+    options.model.bijective = true;
+    let kept = sheets.edit(&anchors, &options);
+    sheets.assert_valid(&kept);
+    let report = &kept.charts[0].report;
+    assert!(report.bijective && report.crossings == 0, "{report:?}");
+}
+
+#[test]
 fn anchors_that_pull_nowhere_move_nothing_much() {
     let sheets = Sheets::new();
     let anchors = [to(0, [0.05_f32, 0.1].map(f64::from))];

@@ -105,7 +105,7 @@ async fn bodies_are_pulled() {
     let ends = r#"{"handles": [{"center": [0, 0.5, 0.5], "radius": 0.8, "to": [0, 0.5, 0.5]},
         {"center": [6, 0.5, 0.5], "radius": 0.8, "to": [4, 3, 0.5]}]}"#;
     let plate = r#"{"handles": [{"center": [0, 30], "radius": 20, "to": [0, 30]}, {"at": [90, 30], "to": [60, 90]}],
-        "triangles": 500, "bias": true, "barrier_continuation": true}"#;
+        "triangles": 500, "bijective": true, "bias": true, "barrier_continuation": true}"#;
     let everything =
         r#"{"handles": [{"center": [0, 0, 0], "radius": 1e3, "to": [1, 2, 3]}], "cage": 6}"#;
     let cases: [(&str, &str, Vec<u8>, &str); 3] = [
@@ -143,6 +143,10 @@ async fn bodies_are_pulled() {
             "{report}"
         );
         assert_eq!(
+            report["crossings"] == 0,
+            name != "bar.tet" && name != "surfaces.glb"
+        );
+        assert_eq!(
             report["energy_without_barrier"].is_number(),
             name == "plate.svg",
             "{report}"
@@ -173,10 +177,13 @@ async fn pictures_are_warped_and_uvs_are_edited() {
     .await;
     let (at, to) = ("[0.5, 0.5]", "[0.52, 0.49]");
     for (kind, list) in [("edit_uv", "anchors"), ("texture_map", "points")] {
-        let options = format!(r#"{{"{list}": [{{"at": {at}, "to": {to}}}], "boundary": "free"}}"#);
+        let options = format!(
+            r#"{{"{list}": [{{"at": {at}, "to": {to}}}], "boundary": "free", "bijective": true}}"#
+        );
         let edit = form(kind, &options, ("mapped.glb", mapped.clone()));
         let (report, media_type, glb) = outcome(&server, edit).await;
         assert_eq!(report["certified"], true, "{report}");
+        assert_eq!(report["bijective"], true, "{report}");
         assert_eq!(media_type, "model/gltf-binary");
         assert_ne!(glb, mapped);
     }

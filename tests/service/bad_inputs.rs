@@ -53,8 +53,8 @@ impl Bad {
     /// The code that a job ends with, or is refused with.
     async fn code_of_job(&self, server: &Server) -> Value {
         let json = |text: &str| match text.parse::<f64>() {
-            Ok(_) => text.to_owned(),
-            Err(_) => format!("{text:?}"),
+            Err(_) if text != "true" => format!("{text:?}"),
+            _ => text.to_owned(),
         };
         let others: Vec<String> = self
             .options
@@ -117,11 +117,10 @@ impl Bad {
             list.into_iter()
                 .flat_map(|list| [list.to_owned(), text(path("h.json"))]),
         );
-        arguments.extend(
-            self.options
-                .iter()
-                .map(|(name, value)| format!("--{}={value}", name.replace('_', "-"))),
-        );
+        arguments.extend(self.options.iter().map(|(name, value)| match *value {
+            "true" => format!("--{name}"),
+            _ => format!("--{}={value}", name.replace('_', "-")),
+        }));
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
         let run = unwrapd(&arguments);
         let said = String::from_utf8_lossy(&run.stderr).into_owned();
@@ -218,6 +217,18 @@ async fn bodies_that_cannot_be_pulled_have_codes() {
         ),
         bad("deform", ("bar.tet", bar(2)), one, "bad_target"),
         bad("deform", ("bar.tet", bar(2)), space, "planar_energy").with(&[("energy", "lscm")]),
+        bad("deform", ("bar.tet", bar(2)), space, "planar_bijectivity")
+            .with(&[("bijective", "true")]),
+        bad(
+            "deform",
+            (
+                "two.off",
+                "OFF\n6 2 0\n0 0 0\n2 0 0\n0 2 0\n1 0.5 0\n3 0.5 0\n1 2.5 0\n3 0 1 2\n3 3 4 5\n",
+            ),
+            one,
+            "overlapping_start",
+        )
+        .with(&[("bijective", "true")]),
         bad("deform", ("pyramid.off", PYRAMID), space, "vertex_of_cage").with(&[("cage", "4")]),
         bad(
             "deform",

@@ -65,6 +65,15 @@ fn the_papers_tables_are_drawn() {
 }
 
 #[test]
+fn bijective_maps_are_judged() {
+    let Some(text) = printed("bijective.py", &["woody-lo_pt_swapAL_arap_spline"]) else {
+        return;
+    };
+    // Crossings, status and distance to the targets with `bijective`.
+    assert!(text.contains(" | 0 | converged | 0 | "), "{text}");
+}
+
+#[test]
 fn reference_problems_are_judged() {
     let checker = Path::new(ROOT).join("../shared/tools/lim_check.py");
     let arguments = [

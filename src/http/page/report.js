@@ -34,7 +34,7 @@ const MEASURES = {
 // What a report says beside its parts, whichever kind it is of.
 export function summary(report) {
   const groups = report.groups ?? report.charts?.map((chart) => ({ name: `chart ${chart.chart}`, ...chart })) ?? [];
-  const keys = ["certified", "bijective", "status", "iterations", "energy", "residual", "inverted", "smallest_ever", "voxels", "tets"];
+  const keys = ["certified", "bijective", "status", "iterations", "energy", "residual", "inverted", "crossings", "smallest_ever", "voxels", "tets"];
   const entries = report.proven ? proofs(report.proven) : [];
   entries.push(...keys.filter((key) => key in report).map((key) => [key.replaceAll("_", " "), words(report[key])]));
   for (const group of groups.slice(0, 4)) {

@@ -4,6 +4,7 @@ use super::NotPositiveDefinite;
 use super::dense::{factor_panel, write_update};
 use super::fronts::{Front, Run};
 use super::plan::Plan;
+use super::solve::Vectors;
 
 /// Fronts, children before parents, their panels, and two stacks for their updates.
 ///
@@ -13,19 +14,27 @@ pub(super) struct Branch {
     pub fronts: Vec<u32>,
     pub panels: Vec<f64>,
     pub updates: [Vec<f64>; 2],
+    pub vectors: Vectors,
 }
 
 /// How much memory a branch takes, in numbers.
+#[derive(Default)]
 pub(super) struct Extent {
     pub fronts: Vec<u32>,
     pub panels: usize,
     pub updates: [usize; 2],
+    /// Of all its fronts.
+    pub pivots: usize,
+    pub below: usize,
+    /// Rows of the highest panel.
+    pub highest: usize,
 }
 
 impl Extent {
     pub fn bytes(&self) -> usize {
         let [even, odd] = self.updates;
-        size_of::<f64>() * (self.panels + even + odd)
+        let vectors = self.pivots + self.below + self.highest;
+        size_of::<f64>() * (self.panels + even + odd + vectors)
     }
 }
 
@@ -35,6 +44,7 @@ impl From<Extent> for Branch {
             fronts: extent.fronts,
             panels: vec![0.0; extent.panels],
             updates: extent.updates.map(|n| vec![0.0; n]),
+            vectors: Vectors::new(extent.pivots, extent.below, extent.highest),
         }
     }
 }
@@ -51,33 +61,28 @@ impl Branch {
             fronts,
             panels,
             updates,
+            ..
         } = self;
         let [even, odd] = updates;
         for &k in fronts.iter() {
-            let k = k as usize;
-            let front = &plan.fronts.list[k];
-            let place = &plan.places[k];
+            let (front, place) = plan.front(k);
             let (mine, theirs) = if front.depth.is_multiple_of(2) {
                 (&mut *even, &*odd)
             } else {
                 (&mut *odd, &*even)
             };
             let children = || {
-                plan.fronts.children[front.children.clone()]
-                    .iter()
-                    .map(|&child| {
-                        let front = &plan.fronts.list[child as usize];
-                        let at = &plan.places[child as usize];
-                        let stack = match others.get(at.branch as usize) {
-                            Some(other) => &other.updates[front.depth % 2],
-                            None => theirs,
-                        };
-                        (front, &stack[at.update..at.update + front.update_len()])
-                    })
+                plan.children(front).map(|(child, at)| {
+                    let stack = match others.get(at.branch as usize) {
+                        Some(other) => &other.updates[child.depth % 2],
+                        None => theirs,
+                    };
+                    (child, &stack[at.update..at.update + child.update_len()])
+                })
             };
             let panel = &mut panels[place.panel..place.panel + front.panel_len()];
             panel.fill(0.0);
-            plan.scatter.add(k, values, panel, front.stride());
+            plan.scatter.add(k as usize, values, panel, front.stride());
             for (child, update) in children() {
                 let mut target = Target {
                     columns: 0..front.padded(),
@@ -105,6 +110,15 @@ impl Branch {
             }
         }
         Ok(())
+    }
+
+    /// Writes the solution at its pivots in the order of the matrix.
+    pub fn put_solution(&self, plan: &Plan, x: &mut [f64]) {
+        for &k in &self.fronts {
+            let (front, place) = plan.front(k);
+            let pivots = &self.vectors.pivots[place.pivots..][..front.pivots];
+            plan.scatter_back(front, pivots, x);
+        }
     }
 }
 

@@ -53,11 +53,6 @@ impl Front {
         self.pivots.next_multiple_of(LANES)
     }
 
-    /// Its pivots among all unknowns, in the new numbering.
-    pub fn pivot_range(&self) -> Range<usize> {
-        self.first..self.first + self.pivots
-    }
-
     /// Rows of the panel.
     pub fn height(&self) -> usize {
         self.padded() + self.update_stride()

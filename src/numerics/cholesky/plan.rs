@@ -27,12 +27,14 @@ pub(super) struct Plan {
     pub scatter: Scatter,
 }
 
-/// Where a front's panel and update are.
+/// Where a front's numbers are in its branch.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Place {
     pub branch: u32,
     pub panel: usize,
     pub update: usize,
+    pub pivots: usize,
+    pub below: usize,
 }
 
 impl Plan {
@@ -59,12 +61,35 @@ impl Plan {
 }
 
 impl Plan {
-    /// The unknowns of a front that are not its pivots, in the new numbering.
-    pub fn below(&self, front: &Front) -> impl Iterator<Item = usize> {
-        let rows = &self.fronts.rows[front.rows.clone()];
-        let block = self.block;
-        rows.iter()
-            .flat_map(move |&v| block * v as usize..block * (v as usize + 1))
+    pub fn front(&self, k: u32) -> (&Front, &Place) {
+        (&self.fronts.list[k as usize], &self.places[k as usize])
+    }
+
+    /// The fronts whose updates it takes.
+    pub fn children(&self, front: &Front) -> impl Iterator<Item = (&Front, &Place)> {
+        let children = &self.fronts.children[front.children.clone()];
+        children.iter().map(|&child| self.front(child))
+    }
+
+    /// The first unknown of each of its pivots' vertices in the matrix.
+    fn vertices(&self, front: &Front) -> impl Iterator<Item = usize> {
+        let vertices = front.first / self.block..(front.first + front.pivots) / self.block;
+        let old = &self.order[vertices];
+        old.iter().map(|&old| self.block * old as usize)
+    }
+
+    /// Takes the values at its pivots from a vector in the order of the matrix.
+    pub fn gather(&self, front: &Front, from: &[f64], pivots: &mut [f64]) {
+        for (own, old) in (pivots.chunks_exact_mut(self.block)).zip(self.vertices(front)) {
+            own.copy_from_slice(&from[old..][..self.block]);
+        }
+    }
+
+    /// Puts them there.
+    pub fn scatter_back(&self, front: &Front, pivots: &[f64], to: &mut [f64]) {
+        for (own, old) in pivots.chunks_exact(self.block).zip(self.vertices(front)) {
+            to[old..][..self.block].copy_from_slice(own);
+        }
     }
 }
 
@@ -87,37 +112,35 @@ fn composed(first: &[u32], second: &[u32]) -> Vec<u32> {
 fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Extent>) {
     let branch_of = branches(fronts);
     let n_branches = branch_of.iter().max().map_or(1, |&b| b as usize + 1);
-    let mut members = vec![Vec::new(); n_branches];
-    let mut panel_lens = vec![0; n_branches];
-    // Of each branch and stack: the present and the greatest height.
-    let mut heights = vec![[[0_usize; 2]; 2]; n_branches];
+    let mut extents: Vec<Extent> = (0..n_branches).map(|_| Extent::default()).collect();
+    // Of each branch and stack of updates: the present height.
+    let mut heights = vec![[0_usize; 2]; n_branches];
     let mut places = Vec::with_capacity(fronts.list.len());
     for (k, front) in fronts.list.iter().enumerate() {
         let branch = branch_of[k] as usize;
-        let [now, most] = &mut heights[branch][front.depth % 2];
+        let (extent, height) = (&mut extents[branch], &mut heights[branch]);
+        let now = &mut height[front.depth % 2];
         places.push(Place {
             branch: branch as u32,
-            panel: panel_lens[branch],
+            panel: extent.panels,
             update: *now,
+            pivots: extent.pivots,
+            below: extent.below,
         });
-        members[branch].push(k as u32);
-        panel_lens[branch] += front.panel_len();
         *now += front.update_len();
+        let most = &mut extent.updates[front.depth % 2];
         *most = (*most).max(*now);
+        extent.fronts.push(k as u32);
+        extent.panels += front.panel_len();
+        extent.pivots += front.pivots;
+        extent.below += front.below;
+        extent.highest = extent.highest.max(front.height());
         for &child in &fronts.children[front.children.clone()] {
             if branch_of[child as usize] as usize == branch {
-                heights[branch][(front.depth + 1) % 2][0] -=
-                    fronts.list[child as usize].update_len();
+                height[(front.depth + 1) % 2] -= fronts.list[child as usize].update_len();
             }
         }
     }
-    let extents = (members.into_iter().zip(panel_lens).zip(heights))
-        .map(|((fronts, panels), [even, odd])| Extent {
-            fronts,
-            panels,
-            updates: [even[1], odd[1]],
-        })
-        .collect();
     (places, extents)
 }
 

@@ -10,56 +10,115 @@ use super::fronts::Front;
 use super::kernels::LANES;
 use super::plan::Plan;
 
-/// Replaces `x`, in the order of elimination, by the solution of LLᵀ x = b.
-pub(super) struct Solve<'a> {
-    pub plan: &'a Plan,
-    pub branches: &'a [Branch],
-    pub x: &'a mut [f64],
-    /// As long as the highest panel: a front's unknowns as its panel has them.
-    pub local: &'a mut [f64],
+/// A right-hand side on its way through the fronts of a branch, and back as the solution.
+pub(super) struct Vectors {
+    /// Of front after front, the values at its pivots.
+    pub pivots: Vec<f64>,
+    /// Of front after front, what it adds below its pivots; on the way back the solution there.
+    pub below: Vec<f64>,
+    /// A front's unknowns as its panel has them: as long as the highest panel.
+    local: Vec<f64>,
 }
 
-impl WithSimd for Solve<'_> {
+impl Vectors {
+    pub fn new(pivots: usize, below: usize, highest: usize) -> Self {
+        Self {
+            pivots: vec![0.0; pivots],
+            below: vec![0.0; below],
+            local: vec![0.0; highest],
+        }
+    }
+}
+
+/// Solves Ly = b for the pivots of a branch; `others` are the branches that grow on it, which are done.
+pub(super) struct Forward<'a> {
+    pub plan: &'a Plan,
+    pub branch: &'a mut Branch,
+    pub others: &'a [Branch],
+    /// In the order of the matrix.
+    pub b: &'a [f64],
+}
+
+impl WithSimd for Forward<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self {
-            plan,
-            branches,
-            x,
-            local,
-        } = self;
-        let n = plan.fronts.list.len();
-        let panel = |k: usize| {
-            let place = plan.places[k];
-            &branches[place.branch as usize].panels[place.panel..]
-        };
-        for k in 0..n {
-            let front = &plan.fronts.list[k];
-            let local = &mut local[..front.height()];
+        let Self { plan, others, .. } = self;
+        let Branch {
+            fronts,
+            panels,
+            vectors,
+            ..
+        } = self.branch;
+        for &k in fronts.iter() {
+            let (front, place) = plan.front(k);
+            let local = &mut vectors.local[..front.height()];
             local.fill(0.0);
-            local[..front.pivots].copy_from_slice(&x[front.pivot_range()]);
+            plan.gather(front, self.b, local);
+            for (child, at) in plan.children(front) {
+                let other = others.get(at.branch as usize);
+                let below = other.map_or(&vectors.below, |other| &other.vectors.below);
+                let below = &below[at.below..][..child.below];
+                for run in &plan.fronts.runs[child.runs.clone()] {
+                    let length = run.length as usize;
+                    let target = &mut local[run.parent as usize..][..length];
+                    for (t, s) in target.iter_mut().zip(&below[run.child as usize..]) {
+                        *t += s;
+                    }
+                }
+            }
             for first in (0..front.pivots).step_by(LANES) {
-                Tile::new(front, panel(k), first).forward(simd, local);
+                Tile::new(front, &panels[place.panel..], first).forward(simd, local);
             }
-            x[front.pivot_range()].copy_from_slice(&local[..front.pivots]);
-            for (v, value) in plan.below(front).zip(&local[front.padded()..]) {
-                x[v] += value;
-            }
+            let (own, below) = local.split_at(front.padded());
+            vectors.pivots[place.pivots..][..front.pivots].copy_from_slice(&own[..front.pivots]);
+            vectors.below[place.below..][..front.below].copy_from_slice(&below[..front.below]);
         }
-        for k in (0..n).rev() {
-            let front = &plan.fronts.list[k];
-            let local = &mut local[..front.height()];
+    }
+}
+
+/// Solves Lᵀx = y for the pivots of a branch, what is below them being known, and tells it to those that grow on them.
+pub(super) struct Backward<'a> {
+    pub plan: &'a Plan,
+    pub branch: &'a mut Branch,
+    pub others: &'a mut [Branch],
+}
+
+impl WithSimd for Backward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { plan, others, .. } = self;
+        let Branch {
+            fronts,
+            panels,
+            vectors,
+            ..
+        } = self.branch;
+        for &k in fronts.iter().rev() {
+            let (front, place) = plan.front(k);
+            let local = &mut vectors.local[..front.height()];
             local.fill(0.0);
-            local[..front.pivots].copy_from_slice(&x[front.pivot_range()]);
-            for (v, value) in plan.below(front).zip(&mut local[front.padded()..]) {
-                *value = x[v];
-            }
+            let pivots = &mut vectors.pivots[place.pivots..][..front.pivots];
+            local[..front.pivots].copy_from_slice(pivots);
+            local[front.padded()..][..front.below]
+                .copy_from_slice(&vectors.below[place.below..][..front.below]);
             for first in (0..front.pivots).step_by(LANES).rev() {
-                Tile::new(front, panel(k), first).backward(simd, local);
+                Tile::new(front, &panels[place.panel..], first).backward(simd, local);
             }
-            x[front.pivot_range()].copy_from_slice(&local[..front.pivots]);
+            pivots.copy_from_slice(&local[..front.pivots]);
+            for (child, at) in plan.children(front) {
+                let other = others.get_mut(at.branch as usize);
+                let below = other.map_or(&mut vectors.below, |other| &mut other.vectors.below);
+                let below = &mut below[at.below..][..child.below];
+                for run in &plan.fronts.runs[child.runs.clone()] {
+                    let length = run.length as usize;
+                    below[run.child as usize..][..length]
+                        .copy_from_slice(&local[run.parent as usize..][..length]);
+                }
+            }
         }
     }
 }

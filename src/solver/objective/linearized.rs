@@ -1,12 +1,18 @@
 //! The function as it looks from a point: its gradient, its Hessian and what is solved with that.
 
-use super::Objective;
+use super::{Objective, pattern};
 use crate::numerics::block::BlockPattern;
 use crate::numerics::cholesky::{NotPositiveDefinite, Work};
 
 impl Objective {
     /// Evaluates gradient and Hessian at `x`, negative eigenvalues of each summand's share times `tau`.
     pub fn linearize(&mut self, x: &[f64], tau: f64) {
+        let renewed = self.terms.iter_mut().map(|term| term.renew(x));
+        if renewed.fold(false, |any, is_renewed| any | is_renewed) {
+            let (pattern, slots) = pattern(self.n() / self.dim(), self.all());
+            self.model.exchange_pattern(pattern);
+            self.slots = slots;
+        }
         self.model.clear();
         for (term, slots) in self.terms.iter().zip(&self.slots) {
             self.model.add(term.as_ref(), slots, x, tau);

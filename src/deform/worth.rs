@@ -1,0 +1,77 @@
+//! What a map is worth, whoever made it.
+
+use serde::{Deserialize, Serialize};
+
+use super::body::BodyElements;
+use super::problem::Problem;
+use crate::barrier::Barrier;
+use crate::certificate::boundary_crossings;
+use crate::energy::{Positional, Term};
+use crate::solver::Handles;
+
+/// What a map is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Worth {
+    /// The deformation energy, without the barrier.
+    pub energy: f64,
+    /// The barrier's share, β included.
+    pub barrier: f64,
+    /// The sum of the squared distances of the handles from their targets.
+    pub residual: f64,
+    /// Elements whose determinant is not positive.
+    pub inverted: usize,
+    /// The smallest determinant over its value at rest.
+    pub smallest: f64,
+    /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossings: Option<u64>,
+}
+
+impl Problem {
+    /// Judges a map, whoever made it.
+    pub fn worth(&self, x: &[f64]) -> Worth {
+        let terms = |barrier| self.energy.terms(&self.body, barrier, None);
+        let unmodified = terms(Barrier::NONE).unwrap_or_default();
+        let guarded = terms(self.barrier).unwrap_or_default();
+        let now = self.body.determinants_at(x);
+        let ratios = now
+            .iter()
+            .zip(self.body.determinants())
+            .map(|(now, rest)| now / rest);
+        Worth {
+            energy: unmodified.iter().map(|term| term.value(x)).sum(),
+            barrier: (guarded.iter().map(|term| term.barrier(x)))
+                .chain(self.boundary_term().map(|term| term.value(x)))
+                .sum(),
+            residual: self
+                .stations
+                .last()
+                .map_or(0.0, |last| distance_squared(last, self.body.dim(), x)),
+            inverted: now.iter().filter(|&&d| d <= 0.0).count(),
+            smallest: ratios.fold(f64::INFINITY, f64::min),
+            crossings: match &self.body.elements {
+                BodyElements::Triangles { corners, .. } => {
+                    Some(boundary_crossings(x.as_chunks().0, corners))
+                }
+                BodyElements::Tetrahedra { .. } => None,
+            },
+        }
+    }
+}
+
+fn distance_squared(handles: &Handles, dim: usize, x: &[f64]) -> f64 {
+    let held = handles.vertices.iter();
+    let places = held.flat_map(|&v| &x[dim * v as usize..dim * (v as usize + 1)]);
+    let points = Positional {
+        dim,
+        rows: handles.points.clone(),
+        targets: Vec::new(),
+        alpha: 0.0,
+    };
+    let held: f64 = places
+        .zip(&handles.targets)
+        .map(|(x, t)| (x - t) * (x - t))
+        .sum();
+    held + points.residual(x, &handles.point_targets)
+}
