@@ -12,7 +12,7 @@ use crate::energy::EnergyKind;
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub enum PackingMode {
-    /// About a second.
+    /// Two to three seconds of the processor.
     #[default]
     Fast,
     /// Ten times as long.

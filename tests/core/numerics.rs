@@ -68,11 +68,11 @@ fn supports_know_the_smallest_square_around() {
     };
     for k in 0..20 {
         let angle = 0.1 * f64::from(k);
-        // A needle lies along the diagonal, a square in itself.
-        let needle = rectangle([10.0, 0.0], angle).square();
-        assert!((needle / 50.0 - 1.0).abs() < 0.05, "{angle}: {needle}");
-        let square = rectangle([3.0, 3.0], angle).square();
-        assert!((square / 9.0 - 1.0).abs() < 0.05, "{angle}: {square}");
+        // A needle lies along the diagonal, a square in itself. What is known of them is a little larger than they are.
+        let needle = rectangle([10.0, 0.0], angle).square() / 50.0;
+        assert!((1.0 - 1e-9..1.22).contains(&needle), "{angle}: {needle}");
+        let square = rectangle([3.0, 3.0], angle).square() / 9.0;
+        assert!((1.0 - 1e-9..1.22).contains(&square), "{angle}: {square}");
     }
     let bar = rectangle([4.0, 1.0], 0.3);
     assert_eq!(bar.room(bar.square()), bar.area());
