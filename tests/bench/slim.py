@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Sets `cargo bench --bench disks` beside libigl's SLIM on the same disks, in one run.
 
-    python3 tests/bench/slim.py [--limit SECONDS] [FILE...]
+    python3 tests/bench/slim.py [--limit SECONDS] [--reference DIR] [FILE...]
 
 Needs numpy, scipy and libigl from PyPI. Each program maps each disk on one thread, one after the other; energies are means
 by area, recomputed from positions. SLIM starts from Tutte's map, which is counted, and ends when a step gains less than 1e-9
@@ -9,7 +9,9 @@ of the energy, or at the limit. Seconds are the processor's, so that other work 
 
 Symmetric Dirichlet (4 for an isometry): "lowest" is the lowest energy that either reached; "own end" is each one's last.
 ARAP (0 for an isometry): ours has the barrier and SLIM none. Ours is timed by ARAP and barrier together, to 1 % and 1e-6 of its
-own end; SLIM until its ARAP energy alone is within 1 % of ours, and to 1e-6 of its own end if that is as low.
+own end; SLIM until its ARAP energy alone is within 1 % of ours, and to 1e-6 of its own end if that is as low. DIR holds the
+results of the code of the authors of Locally Injective Mappings: the seconds that it took for ARAP with the barrier to within 1 %
+of its own end, its set-up left out, on another machine, are set beside ours.
 """
 import argparse
 import json
@@ -152,6 +154,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--limit", type=float, default=120.0, help="seconds for SLIM on one disk")
     parser.add_argument("--disks", help="the built benchmark; without it cargo builds it")
+    parser.add_argument("--reference", type=Path, help="results of the authors' code")
     parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()
     files = arguments.files or sorted(map(str, (ROOT / "../shared/data/disk").resolve().iterdir()))
@@ -166,12 +169,12 @@ def main():
                 print(file, ran[0]["error"])
                 continue
             for run in ran:
-                for name, value in beside(run, arguments.limit):
+                for name, value in [*beside(run, arguments.limit), *authors(run, arguments.reference)]:
                     ratios.setdefault(name, []).append(value)
     for name, values in ratios.items():
         known = [value for value in values if value]
-        print(f"{name}: median ratio {statistics.median(known):.1f}, least {min(known):.2f}, of {len(known)} disks; on "
-              f"{len(values) - len(known)} more SLIM does not get there")
+        told = f"median ratio {statistics.median(known):.1f}, least {min(known):.2f}, of " if known else ""
+        print(f"{name}: {told}{len(known)} disks; {len(values) - len(known)} more do not get there")
 
 
 def beside(run, limit):
@@ -198,6 +201,16 @@ def beside(run, limit):
     print(" | ".join(map(str, [*row, *(f"{r:.1f}" if r else "only ours" for r in (near, end))])), flush=True)
     yield f"{run['energy']} to 1 %", near
     yield f"{run['energy']} to 1e-6 of its own end", end
+
+
+def authors(run, reference):
+    """The ratio of the authors' code's seconds to ours, where it ran on this disk."""
+    result = reference / "results" / f"{Path(run['file']).stem}_u_param_arap_pin1_spline.json" if reference else None
+    if run["energy"] == "Arap" and result and result.exists():
+        theirs = json.loads(result.read_text())["cpu_to_1e-02"]
+        mine = seconds_to(run["trace"], 1.01 * run["trace"][-1][1])
+        print(f"{Path(run['file']).stem}: the authors' code, ARAP to 1 %: {theirs:.2f} s, ratio {theirs / mine:.1f}", flush=True)
+        yield "ARAP to 1 %, the authors' code", theirs / mine
 
 
 def own_end(trace):
