@@ -8,8 +8,8 @@
 use super::cholesky::{Cholesky, NotPositiveDefinite, SymmetricPattern, Work};
 use super::conjugate_gradients::ConjugateGradients;
 
-/// The memory that a factorization may take, its fronts' updates included: half a million tetrahedra need two thirds of it
-/// (`tests/bench/solids.rs`).
+/// The memory that a factorization may take, its fronts' updates included. The factor of half a million tetrahedra is 2.4 GB, the
+/// whole process then has 4.9 (`tests/bench/solids.rs`).
 pub const MOST_BYTES: usize = 6 << 30;
 
 /// A factorization where its memory, which is known once the pattern is analyzed, is within a bound; conjugate gradients beyond.

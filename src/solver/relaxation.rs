@@ -18,7 +18,7 @@ pub struct Relaxation {
 /// factorizations would fail otherwise.
 const MOST_PATIENCE: u32 = 16;
 
-/// Is the model good and the end slow? Thresholds half as strict cost up to 15 % more factorizations.
+/// Is the model good and the end slow?
 pub fn is_settling(length: f64, relative_decrease: f64) -> bool {
     length > 0.9 && relative_decrease < 0.01
 }

@@ -16,7 +16,7 @@ use super::objective::Objective;
 /// Products with the Hessian for one direction, at most: more are better spent at another point.
 const MOST_PRODUCTS: usize = 10;
 
-/// The residual's norm as a share of the gradient's at which a direction is good enough. A third of it takes as long.
+/// The residual's norm as a share of the gradient's at which a direction is good enough.
 const FORCING: f64 = 0.3;
 
 /// The same for a direction that would be the last: slow modes hide in a residual.
