@@ -144,18 +144,23 @@ impl Watch for Uncrossed<'_> {
     }
 }
 
-/// The back of the horseshoe held and the middles of its ends pulled to these places.
-fn pulled(mesh: &PlanarMesh, ends: [[f64; 2]; 2], bijective: bool) -> Solution {
-    let at = |vertex: u32, to: [f64; 2]| Handle::Vertex {
+/// The middles of the horseshoe's ends, pulled to these places.
+fn ends(to: [[f64; 2]; 2]) -> [Handle; 2] {
+    let vertex = |vertex: u32, to: [f64; 2]| Handle::Vertex {
         vertex,
         to: to.to_vec(),
     };
+    [vertex(1, to[0]), vertex(3 * SECTIONS + 1, to[1])]
+}
+
+/// The back of the horseshoe held and its ends pulled.
+fn pulled(mesh: &PlanarMesh, [first, second]: [Handle; 2], bijective: bool) -> Solution {
     let back = 3 * (SECTIONS / 2) + 1;
-    let handles = [
-        at(back, mesh.vertices()[back as usize]),
-        at(1, ends[0]),
-        at(3 * SECTIONS + 1, ends[1]),
-    ];
+    let held = Handle::Vertex {
+        vertex: back,
+        to: mesh.vertices()[back as usize].to_vec(),
+    };
+    let handles = [held, first, second];
     let model = Model {
         bijective,
         ..Model::default()
@@ -178,22 +183,38 @@ fn pulled(mesh: &PlanarMesh, ends: [[f64; 2]; 2], bijective: bool) -> Solution {
 #[test]
 fn ends_of_a_horseshoe_are_dragged_through_one_another() {
     let mesh = horseshoe();
-    // Each to where the other was.
-    let ends = [3 * SECTIONS + 1, 1].map(|v| mesh.vertices()[v as usize]);
-    let free = pulled(&mesh, ends, false);
-    assert_eq!(free.summary.status, Status::Converged);
-    assert!(free.worth.crossings > Some(0), "{:?}", free.worth);
+    // Each to where the other was: vertices, and points inside the first and the last triangle.
+    let vertices = ends([3 * SECTIONS + 1, 1].map(|v| mesh.vertices()[v as usize]));
+    let middle = |triangle: &[u32; 3]| {
+        let sum = |k: usize| {
+            triangle
+                .iter()
+                .map(|&v| mesh.vertices()[v as usize][k])
+                .sum::<f64>()
+        };
+        vec![sum(0) / 3.0, sum(1) / 3.0]
+    };
+    let [a, b] = [0, mesh.triangles().len() - 1].map(|t| middle(&mesh.triangles()[t]));
+    let point = |at: &[f64], to: &[f64]| Handle::Point {
+        at: at.to_vec(),
+        to: to.to_vec(),
+    };
+    for ends in [vertices, [point(&a, &b), point(&b, &a)]] {
+        let free = pulled(&mesh, ends.clone(), false);
+        assert_eq!(free.summary.status, Status::Converged);
+        assert!(free.worth.crossings > Some(0), "{:?}", free.worth);
 
-    let kept = pulled(&mesh, ends, true);
-    assert_eq!(kept.worth.crossings, Some(0));
-    assert_eq!(kept.summary.status, Status::Converged, "{:?}", kept.worth);
-    assert!(kept.worth.residual < 1e-20 && kept.worth.energy > free.worth.energy);
+        let kept = pulled(&mesh, ends, true);
+        assert_eq!(kept.worth.crossings, Some(0));
+        assert_eq!(kept.summary.status, Status::Converged, "{:?}", kept.worth);
+        assert!(kept.worth.residual < 1e-16 && kept.worth.energy > free.worth.energy);
+    }
 }
 
 #[test]
 fn targets_in_one_place_are_not_reached() {
     let mesh = horseshoe();
-    let kept = pulled(&mesh, [[3.4, 0.01], [3.4, 0.01]], true);
+    let kept = pulled(&mesh, ends([[3.4, 0.01]; 2]), true);
     assert_eq!(kept.summary.status, Status::TargetsUnreachable);
     assert_eq!(kept.worth.crossings, Some(0));
     // They come as near as the barrier lets them.
