@@ -35,6 +35,15 @@ impl Quality {
         }
     }
 
+    /// What a seam costs that is there only to fill the square, beside what it costs else: who wants few charts wants no more of
+    /// them for the sake of texels.
+    pub fn seam_price(self) -> f64 {
+        match self {
+            Self::Smooth | Self::Balanced => 1.0,
+            Self::Few => 5.0,
+        }
+    }
+
     /// The next one that allows more distortion.
     pub fn looser(self) -> Option<Self> {
         match self {

@@ -17,9 +17,10 @@ use crate::solver::Summary;
 /// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`].
 pub type GridCorners = [[i32; 2]; 3];
 
-/// Words that packing all meshes of a document may read, and the least and most of one mesh: a hundred meshes shall not take a
-/// hundred times as long.
+/// Words that packing all meshes of a document may read, those of one mesh for each of its faces, and the least and most of one: a
+/// hundred meshes shall not take a hundred times as long, nor small ones as long as large ones.
 const SEARCH_WORDS: u64 = 2_400_000_000;
+const SEARCH_WORDS_PER_FACE: u64 = 250_000;
 const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 1_200_000_000];
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
@@ -145,23 +146,11 @@ pub(super) fn unwrap_all(
     let seams: Vec<&Seams> = meshes.iter().map(|mesh| mesh.seams).collect();
     let mapped = mapped_charts(&surfaces, &seams, settings, tracker);
     tracker.stage(Stage::Pack);
-    let options = AtlasOptions {
-        resolution: settings.resolution,
-        padding_texels: padding_texels(settings),
-        turns: if are_given(settings) {
-            Turns::Quarters
-        } else {
-            Turns::Any
-        },
-        borders: settings.borders,
-        search_words: settings.packing.passes()
-            * (SEARCH_WORDS / meshes.len() as u64)
-                .clamp(SEARCH_WORDS_OF_MESH[0], SEARCH_WORDS_OF_MESH[1]),
-    };
     let folds = folds(settings);
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
         .map(|((mesh, surface), charts)| {
+            let options = atlas_options(settings, meshes.len(), surface.triangles.len());
             let drafted = match settings.cut {
                 Cut::Auto | Cut::Fast if folds == Folds::Cut => {
                     compacted(charts, &options, settings)?
@@ -172,6 +161,23 @@ pub(super) fn unwrap_all(
             Ok(assemble(*mesh, surface, &charts, &atlas))
         })
         .collect()
+}
+
+/// How to pack one of so many meshes, which has so many faces.
+fn atlas_options(settings: &Settings, n_meshes: usize, n_faces: usize) -> AtlasOptions {
+    let [least, most] = SEARCH_WORDS_OF_MESH;
+    let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
+    AtlasOptions {
+        resolution: settings.resolution,
+        padding_texels: padding_texels(settings),
+        turns: if are_given(settings) {
+            Turns::Quarters
+        } else {
+            Turns::Any
+        },
+        borders: settings.borders,
+        search_words: settings.packing.passes() * words.clamp(least, most),
+    }
 }
 
 /// The padding asked for, or what keeps charts apart when UVs are rounded.
