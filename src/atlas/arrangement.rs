@@ -40,7 +40,7 @@ impl Arrangement {
             if place < last {
                 sheet.take(mask, [x, y]);
             }
-            let [width, height] = mask.size();
+            let [width, height] = mask.size;
             let far = (x + width).max(y + height);
             reach += far;
             side = side.max(far);

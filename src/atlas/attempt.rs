@@ -6,7 +6,8 @@ use super::GRID_SIDE;
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
 use super::plan::{Near, Plan, QuarterTurns};
-use super::sheet::{Sheet, Spot, Turned, Window};
+use super::sheet::{Sheet, Spot, Window};
+use super::turned::Turned;
 
 /// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
 /// A smaller chart, far below a texel, is enlarged to that: nothing smaller can be represented.
@@ -75,7 +76,7 @@ impl Packing<'_> {
                 let (turned, stretch) = turned.ok_or(placed / area)?;
                 *work +=
                     WORK_PER_CHART + WORK_PER_EDGE * self.plan.outlines[i].edges().len() as u64;
-                let [w, h] = turned[0].size();
+                let [w, h] = turned[0].size;
                 let row = lowest.entry([w.min(h), w.max(h)]).or_insert(0);
                 let before = sheet.work;
                 let spot = match &self.plan.near {

@@ -29,6 +29,7 @@ mod poses;
 mod relax;
 mod sheet;
 mod snap;
+mod turned;
 
 pub use clear::cleared;
 pub use draft::Draft;

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::mask::{Distances, Mask};
 use super::outline::Outline;
-use super::sheet::Turned;
+use super::turned::Turned;
 
 /// Angles within a quarter turn.
 const ANGLES: usize = 16;

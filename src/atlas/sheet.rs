@@ -3,8 +3,8 @@
 //! All positions of one row are tested together, 64 to a machine word: a run of a mask, of length
 //! between 2ᵏ and 2ᵏ⁺¹, is blocked at x when one of two windows of 2ᵏ cells is, and for each k the
 //! sheet keeps one bit per window. Runs longer than two of the widest windows take more of them.
-use super::bitmap::{Run, set_bits};
-use super::mask::Mask;
+use super::bitmap::set_bits;
+use super::turned::Turned;
 
 /// A place for one mask.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,70 +37,6 @@ impl Window {
             highest: [u32::MAX - 1; 2],
         }
     }
-}
-
-/// One of the four turned versions of a mask, with the runs of its reach in the order of the test.
-pub(super) struct Turned {
-    turns: u32,
-    body: Vec<Run>,
-    size: [u32; 2],
-    reach: Vec<Run>,
-    margin: u32,
-}
-
-impl Turned {
-    /// The mask after so many quarter turns.
-    pub(super) fn new(mask: Mask, turns: u32) -> Self {
-        let turned = (0..turns).fold(mask, |mask, _| mask.quarter_turn());
-        Self::of(&turned, turns)
-    }
-
-    /// The quarter turns that differ: four, or one of a square.
-    pub(super) fn all(mask: Mask) -> Vec<Self> {
-        let mut masks = vec![mask];
-        for turns in 1..4 {
-            let turned = masks[turns - 1].quarter_turn();
-            if turned == masks[0] {
-                break;
-            }
-            masks.push(turned);
-        }
-        let turned = masks.into_iter().zip(0..);
-        turned.map(|(mask, turns)| Self::of(&mask, turns)).collect()
-    }
-
-    fn of(turned: &Mask, turns: u32) -> Self {
-        Self {
-            turns,
-            reach: scattered(turned.reach.runs()),
-            body: turned.body.runs(),
-            size: [turned.body.width, turned.body.height],
-            margin: turned.margin,
-        }
-    }
-
-    /// Width and height, in cells.
-    pub(super) fn size(&self) -> [u32; 2] {
-        self.size
-    }
-}
-
-/// The longest run first, then runs far from each other before their neighbours: an occupied place
-/// is found out early.
-fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
-    let bits = usize::BITS - runs.len().leading_zeros();
-    let mut keyed: Vec<(usize, Run)> = runs
-        .drain(..)
-        .enumerate()
-        .map(|(i, run)| (i.reverse_bits() >> (usize::BITS - bits.max(1)), run))
-        .collect();
-    keyed.sort_unstable_by_key(|&(key, _)| key);
-    let mut runs: Vec<Run> = keyed.into_iter().map(|(_, run)| run).collect();
-    let longest = (0..runs.len()).max_by_key(|&i| (runs[i].end - runs[i].start, usize::MAX - i));
-    if let Some(longest) = longest {
-        runs.swap(0, longest);
-    }
-    runs
 }
 
 /// Widths of windows at most: up to 64 cells.

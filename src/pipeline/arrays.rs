@@ -2,26 +2,21 @@
 
 use rayon::prelude::*;
 
-use super::clearance::{open_charts, texels_apart};
+use super::clearance::open_charts;
 use super::compact::{Drafted, compacted};
-use super::map::{are_given, folds, mapped_charts};
+use super::map::{folds, mapped_charts};
 use super::observer::{Observer, Stage, Tracker};
+use super::packing::atlas_options;
 use super::seams::Seams;
 use super::settings::Settings;
 use super::{PipelineError, repeated};
-use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Draft, Placed, Turns};
+use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Draft, Placed};
 use crate::charts::{Cut, Folds, MappedChart};
 use crate::mesh::{Defects, Surface};
 use crate::solver::Summary;
 
 /// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`].
 pub type GridCorners = [[i32; 2]; 3];
-
-/// Words that packing all meshes of a document may read, those of one mesh for each of its faces, and the least and most of one: a
-/// hundred meshes shall not take a hundred times as long, nor small ones as long as large ones.
-const SEARCH_WORDS: u64 = 2_400_000_000;
-const SEARCH_WORDS_PER_FACE: u64 = 250_000;
-const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 1_200_000_000];
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
 /// another scale rounds it differently.
@@ -161,30 +156,6 @@ pub(super) fn unwrap_all(
             Ok(assemble(*mesh, surface, &charts, &atlas))
         })
         .collect()
-}
-
-/// How to pack one of so many meshes, which has so many faces.
-fn atlas_options(settings: &Settings, n_meshes: usize, n_faces: usize) -> AtlasOptions {
-    let [least, most] = SEARCH_WORDS_OF_MESH;
-    let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
-    AtlasOptions {
-        resolution: settings.resolution,
-        padding_texels: padding_texels(settings),
-        turns: if are_given(settings) {
-            Turns::Quarters
-        } else {
-            Turns::Any
-        },
-        borders: settings.borders,
-        search_words: settings.packing.passes() * words.clamp(least, most),
-    }
-}
-
-/// The padding asked for, or what keeps charts apart when UVs are rounded.
-fn padding_texels(settings: &Settings) -> u32 {
-    let safe = settings.quantization_safe;
-    let least = safe.map_or(0, |bits| texels_apart(bits, settings.resolution));
-    settings.padding.max(least)
 }
 
 /// The charts of one mesh in an atlas. Where rounding to the grid made a chart overlap itself it is cut once more, where one is too

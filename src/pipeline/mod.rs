@@ -50,6 +50,7 @@ mod moved;
 mod nodes;
 #[cfg(feature = "files")]
 mod options;
+mod packing;
 #[cfg(feature = "files")]
 mod pictures;
 #[cfg(feature = "files")]

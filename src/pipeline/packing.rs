@@ -1,0 +1,36 @@
+//! How charts are packed, from the settings.
+
+use super::clearance::texels_apart;
+use super::map::are_given;
+use super::settings::Settings;
+use crate::atlas::{AtlasOptions, Turns};
+
+/// Words that packing all meshes of a document may read, those of one mesh for each of its faces, and the least and most of one: a
+/// hundred meshes shall not take a hundred times as long, nor small ones as long as large ones.
+const SEARCH_WORDS: u64 = 2_400_000_000;
+const SEARCH_WORDS_PER_FACE: u64 = 250_000;
+const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 1_200_000_000];
+
+/// How to pack one of so many meshes, which has so many faces.
+pub(super) fn atlas_options(settings: &Settings, n_meshes: usize, n_faces: usize) -> AtlasOptions {
+    let [least, most] = SEARCH_WORDS_OF_MESH;
+    let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
+    AtlasOptions {
+        resolution: settings.resolution,
+        padding_texels: padding_texels(settings),
+        turns: if are_given(settings) {
+            Turns::Quarters
+        } else {
+            Turns::Any
+        },
+        borders: settings.borders,
+        search_words: settings.packing.passes() * words.clamp(least, most),
+    }
+}
+
+/// The padding asked for, or what keeps charts apart when UVs are rounded.
+fn padding_texels(settings: &Settings) -> u32 {
+    let safe = settings.quantization_safe;
+    let least = safe.map_or(0, |bits| texels_apart(bits, settings.resolution));
+    settings.padding.max(least)
+}
