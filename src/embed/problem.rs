@@ -90,7 +90,8 @@ impl Problem<'_> {
         Objective::new(self.disk.n_vertices, self.term(start))
     }
 
-    /// The same, analyzed while the start is found: the analysis takes about as long where that is found coarse to fine.
+    /// The same, analyzed while the start is found: the analysis takes about as long where that is found coarse to fine. Who wants
+    /// nothing but the start waits for the longer of the two.
     pub fn objective_beside(
         &self,
         start: impl FnOnce() -> Vec<[f64; 2]> + Send,
