@@ -1,71 +1,34 @@
 //! Few charts under a bound on their distortion.
 
 use super::chart::{Cut, charts};
-use super::distortion::excess_and_area;
+use super::distortion::{excess_and_area, stretched_area};
 use super::mapped::{Folds, MappedChart, Observer, map_chart};
+use super::quality::Bound;
 use super::slits::Slits;
 use crate::embed;
 use crate::mesh::Surface;
 use crate::solver::Control;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
-/// How evenly the surface is spread over the atlas: a bound on the mean symmetric Dirichlet energy (its minimum, for an
-/// isometry, is 4).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub enum Quality {
-    /// At most 4.05.
-    Smooth,
-    /// At most 4.1.
-    #[default]
-    Balanced,
-    /// At most 4.5: few charts, visibly distorted.
-    Few,
-}
-
-impl Quality {
-    /// The bound.
-    pub fn bound(self) -> f64 {
-        match self {
-            Self::Smooth => 4.05,
-            Self::Balanced => 4.1,
-            Self::Few => 4.5,
-        }
-    }
-
-    /// What a seam costs that is there only to fill the square, beside what it costs else: who wants few charts wants no more of
-    /// them for the sake of texels.
-    pub fn seam_price(self) -> f64 {
-        match self {
-            Self::Smooth | Self::Balanced => 1.0,
-            Self::Few => 5.0,
-        }
-    }
-
-    /// The next one that allows more distortion.
-    pub fn looser(self) -> Option<Self> {
-        match self {
-            Self::Smooth => Some(Self::Balanced),
-            Self::Balanced => Some(Self::Few),
-            Self::Few => None,
-        }
-    }
-}
-
-/// The share of the budget that is spent; the rest is for what rounding to the grid of the atlas adds.
-const MARGIN: f64 = 0.99;
 
 /// Mapped excess over predicted, before a chart has been mapped: a map trades angles for areas and does better than the
 /// conformal flattening it is predicted by. Measured on 14 meshes: 0.1 to 0.3.
 const MAPPED_OVER_PREDICTED: f64 = 0.17;
 
+/// What each round promises of what the one before promised.
+const PROMISE: f64 = 0.95;
+
+/// Triangles up to which the next round goes half of the way to the bound: slits gain more than is expected of them, and of what is
+/// too much nothing comes back. With more of them a round costs seconds.
+const PATIENT: usize = 30_000;
+
+/// The share of the mean excess that is aimed at where the stretch is too large.
+const TIGHTER: f64 = 0.7;
+
 /// The least and most that [`MAPPED_OVER_PREDICTED`] may become where a map says otherwise. One that got stuck far from its optimum
 /// would ask for dozens of slits; the next round shows what is really missing.
 const LEAST_AND_MOST_RATIO: [f64; 2] = [0.05, 0.5];
 
-/// Rounds of cutting and mapping at most. Two to four are the rule.
+/// Rounds of cutting and mapping at most. One to three are the rule.
 const MOST_ROUNDS: usize = 8;
 
 /// A round that leaves more than this share of the excess, and that many times more than there may be, shows that slits do
@@ -76,17 +39,17 @@ const HOPELESS: [f64; 2] = [0.7, 4.0];
 ///
 /// Each component is opened to a disk; disks are slit where the predictor says that they would be distorted most, until the sum
 /// promises to keep the bound; then they are mapped, parted where a map overlaps itself, and slit further where the maps were
-/// worse than promised. The bound is one for all charts: a slit is spent where the excess is largest. A surface on which
-/// this does not lead below the bound is divided as by [`Cut::Fast`] if that does better.
+/// worse than promised. The bound is one for all charts: a slit is spent where the excess is largest. Where the stretch is too
+/// large the same goes on as for a smaller mean. A surface on which this does not lead below the bound is divided as by
+/// [`Cut::Fast`] if that does better.
 pub fn charts_under_bound(
     surface: &Surface,
-    quality: Quality,
+    bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
-    let bound = MARGIN * (quality.bound() - 4.0);
     let slit = slit_and_mapped(surface, bound, options, observer);
-    if mean_excess(&slit) <= bound || observer.control() == Control::Finish {
+    if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
         return slit.into_iter().filter_map(|piece| piece.map).collect();
     }
     let divided: Vec<Piece> = charts(surface, Cut::Fast)
@@ -116,13 +79,27 @@ struct Piece {
 
 fn mean_excess(pieces: &[Piece]) -> f64 {
     let excess: f64 = pieces.iter().map(|piece| piece.excess).sum();
+    excess / total_area(pieces)
+}
+
+fn total_area(pieces: &[Piece]) -> f64 {
     let area: f64 = pieces.iter().map(|piece| piece.area).sum();
-    excess / area.max(f64::MIN_POSITIVE)
+    area.max(f64::MIN_POSITIVE)
+}
+
+/// Whether more of the area is stretched beyond the bound than may be.
+fn is_stretched(pieces: &[Piece], bound: &Bound) -> bool {
+    let Some(most) = bound.stretch else {
+        return false;
+    };
+    let maps = pieces.iter().filter_map(|piece| piece.map.as_ref());
+    let stretched: f64 = maps.map(|map| stretched_area(map, most)).sum();
+    !Bound::allows_stretched(stretched / total_area(pieces))
 }
 
 fn slit_and_mapped(
     surface: &Surface,
-    bound: f64,
+    bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<Piece> {
@@ -130,9 +107,10 @@ fn slit_and_mapped(
         .into_par_iter()
         .map(|chart| Piece::unmapped(Slits::new(chart)))
         .collect();
-    let mut wanted = bound;
+    let budget = bound.budget();
+    let mut wanted = budget;
     let mut before = f64::INFINITY;
-    for _ in 0..MOST_ROUNDS {
+    for round in 0..MOST_ROUNDS {
         slit(&mut pieces, wanted, observer);
         pieces = pieces
             .into_par_iter()
@@ -140,14 +118,24 @@ fn slit_and_mapped(
             .flat_map_iter(|piece| piece.mapped(options, observer))
             .collect();
         let reached = mean_excess(&pieces);
-        let is_hopeless = reached > HOPELESS[0] * before && reached > HOPELESS[1] * bound;
-        let is_over = observer.control() == Control::Finish;
-        if reached <= bound || is_hopeless || is_over {
+        let is_hopeless = reached > HOPELESS[0] * before && reached > HOPELESS[1] * budget;
+        if is_hopeless || observer.control() == Control::Finish {
             break;
         }
+        wanted = if reached > budget {
+            // Where maps keep falling short of what they promised, less is promised.
+            let promised = budget * PROMISE.powi(round as i32);
+            if surface.triangles.len() <= PATIENT {
+                (reached * promised).sqrt().min(2.0 * promised)
+            } else {
+                promised
+            }
+        } else if is_stretched(&pieces, bound) {
+            TIGHTER * reached
+        } else {
+            break;
+        };
         before = reached;
-        // Where maps keep falling short of what they promised, less is promised.
-        wanted *= 0.95;
     }
     pieces
 }

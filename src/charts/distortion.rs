@@ -12,23 +12,38 @@ const LARGEST: f64 = 1e6;
 
 /// By how much the symmetric Dirichlet energy of a map exceeds its minimum of 4 per area, summed over the area, and that area.
 pub fn excess_and_area(mapped: &MappedChart) -> [f64; 2] {
+    summed(mapped, |sigma| {
+        let halved = SymmetricDirichlet.value(&sigma);
+        (2.0 * halved - 4.0).clamp(0.0, LARGEST)
+    })
+}
+
+/// The area of the faces whose stretch, max(σ₁, 1/σ₂), is more than this.
+pub fn stretched_area(mapped: &MappedChart, most: f64) -> f64 {
+    summed(mapped, |[first, second]| {
+        let is_stretched = first > most || second * most < 1.0;
+        f64::from(u8::from(is_stretched))
+    })[0]
+}
+
+/// The sum over the area of a function of the singular values σ₁ ≥ σ₂, and that area.
+fn summed(mapped: &MappedChart, of: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     let triangles = &mapped.chart.disk.triangles;
     let rest = rest_shapes(&mapped.chart.positions, triangles);
-    let (mut excess, mut weight) = (0.0, 0.0);
+    let (mut sum, mut weight) = (0.0, 0.0);
     for (triangle, shape) in triangles.iter().zip(&rest.shapes) {
         let corners = triangle.map(|v| mapped.embedding.uv[v as usize].map(|x| x / rest.scale));
-        excess += shape.weight * excess_of(corners, shape);
+        sum += shape.weight * of(singular_values(corners, shape));
         weight += shape.weight;
     }
-    let per_area = excess / weight.max(f64::MIN_POSITIVE);
+    let per_area = sum / weight.max(f64::MIN_POSITIVE);
     [per_area * rest.true_area, rest.true_area]
 }
 
-fn excess_of([a, b, c]: [[f64; 2]; 3], rest: &RestShape) -> f64 {
+fn singular_values([a, b, c]: [[f64; 2]; 3], rest: &RestShape) -> [f64; 2] {
     let (first, second) = (sub(b, a), sub(c, a));
     let edges = [[first[0], second[0]], [first[1], second[1]]];
     let jacobian = times(&edges, &rest.inverse);
     let det = doubled_area(a, b, c) / (2.0 * rest.size);
-    let halved = SymmetricDirichlet.value(&jacobian.singular_values(det));
-    (2.0 * halved - 4.0).clamp(0.0, LARGEST)
+    jacobian.singular_values(det)
 }

@@ -1,7 +1,9 @@
 //! Charts with their maps.
 
+use super::apart::pushed_apart;
 use super::fold::{lengths, one_side, overlaps};
 use super::part::{parted, parts, twins};
+use super::rejoin::rejoined;
 use super::{Chart, halves};
 use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};
@@ -132,17 +134,21 @@ impl MappedChart {
         }
     }
 
-    /// The parts into which the cheapest seams divide the chart so that none overlaps itself; each part of several is optimized
-    /// again from where it lies, which counts if it does not fold over itself anew.
-    fn free_of_overlaps(self, options: &embed::Options, watch: &dyn Watch) -> Vec<Self> {
-        let map = self.embedding.uv.clone();
-        let mut parts = self.unfolded(&map);
-        if parts.len() > 1 {
-            parts = (parts.into_iter())
-                .map(|part| part.relaxed(options, watch))
-                .collect();
+    /// The chart pushed apart where it overlaps itself, or else the parts into which the cheapest seams divide it; each of several is
+    /// optimized again from where it lies, which counts if it does not fold over itself anew.
+    fn free_of_overlaps(mut self, options: &embed::Options, watch: &dyn Watch) -> Vec<Self> {
+        let pairs = overlaps(&self.chart.disk, &self.embedding.uv);
+        if pairs.is_empty() {
+            return vec![self];
         }
-        parts
+        self.embedding.uv = pushed_apart(&self.chart, &self.embedding.uv, pairs, options, watch).0;
+        let parts = self.clone().unfolded(&self.embedding.uv);
+        if parts.len() == 1 {
+            return parts;
+        }
+        (rejoined(&self, parts, options, watch).into_iter())
+            .map(|part| part.relaxed(options, watch))
+            .collect()
     }
 
     /// The parts into which the cheapest seams divide the chart so that none overlaps itself in `image`, a map without flips like
@@ -207,17 +213,18 @@ impl MappedChart {
         }
     }
 
-    /// Optimized from its present map, if the result does not overlap itself.
+    /// Optimized from its present map, if the result does not overlap itself or can be pushed apart.
     fn relaxed(mut self, options: &embed::Options, watch: &dyn Watch) -> Self {
         let Chart {
             disk, positions, ..
         } = &self.chart;
         if let Ok(embedding) = embed::optimize(disk, positions, &self.embedding.uv, options, watch)
             && embed::is_positive(&disk.triangles, &embedding.uv)
-            && overlaps(disk, &embedding.uv).is_empty()
+            && let pairs = overlaps(disk, &embedding.uv)
+            && let (uv, 0) = pushed_apart(&self.chart, &embedding.uv, pairs, options, watch)
         {
             self.embedding = Embedding {
-                uv: embedding.uv,
+                uv,
                 summary: self.embedding.summary.followed_by(&embedding.summary),
             };
         }

@@ -14,16 +14,19 @@
 //! Few charts are spiky, and spiky charts leave much of a square empty. [`MappedChart::best_split`] says where to cut one so that
 //! its parts fill their convex hulls; whether that pays only a packed atlas can tell.
 //!
-//! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, the chart is cut along the cheapest seam
-//! that parts two of its sheets, a minimum cut of the dual graph, as often as it takes; where floating point finds no valid map,
-//! into [`halves()`].
+//! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, slight folds are pushed apart; for the others the
+//! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes, and
+//! what was cut off but holds together without them is joined again. Where floating point finds no valid map, a chart is cut into
+//! [`halves()`].
 
+mod apart;
 mod bound;
 mod chart;
 mod chord;
 mod clusters;
 mod compact;
 mod cone;
+mod contact;
 mod crease;
 mod distortion;
 mod facets;
@@ -34,16 +37,20 @@ mod merge;
 mod min_cut;
 mod part;
 mod predictor;
+mod quality;
 mod regions;
+mod rejoin;
 mod slits;
 mod smooth;
+mod surroundings;
 
-pub use bound::{Quality, charts_under_bound};
+pub use bound::charts_under_bound;
 pub use chart::{Chart, Cut, charts};
 pub use compact::Split;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, Observer, map_chart, map_chart_from};
 pub use min_cut::min_cut;
+pub use quality::{Bound, Quality};
 
 #[cfg(doc)]
 use crate::mesh::Disk;

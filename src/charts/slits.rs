@@ -16,8 +16,8 @@ pub struct Slits {
     /// For each halfedge what a seam along it costs.
     cost: Vec<f64>,
     predictor: Predictor,
-    /// For each vertex whether it lies on the boundary or on a slit.
-    on_seam: Vec<bool>,
+    /// For each vertex the loop of the boundary that it lies on, or whose slits it lies on; that with most edges is 0.
+    seam: Vec<Option<u32>>,
     log_scale: Vec<f64>,
     /// Halfedges along the slits.
     edges: Vec<u32>,
@@ -40,8 +40,8 @@ impl Slits {
         let sheet = Sheet::divide(mesh, &twin, &label, 1).swap_remove(0);
         let neighbors = Neighbors::new(&sheet);
         let mut predictor = Predictor::new(&sheet.positions, sheet.vertex.as_chunks().0);
-        let on_seam = sheet.on_boundary();
-        let log_scale = predictor.log_scale(&on_seam);
+        let seam = boundary_loops(&chart, &sheet);
+        let log_scale = predictor.log_scale(&are_some(&seam));
         Self {
             excess: predictor.excess(&log_scale),
             area: predictor.area(),
@@ -51,7 +51,7 @@ impl Slits {
             sheet,
             neighbors,
             predictor,
-            on_seam,
+            seam,
             log_scale,
         }
     }
@@ -61,7 +61,7 @@ impl Slits {
     /// slits that are new than these are long. One factorization.
     pub fn cut(&mut self, is_far: bool) -> bool {
         let most = if is_far {
-            1 + self.on_seam.len() / VERTICES_PER_SLIT
+            1 + self.seam.len() / VERTICES_PER_SLIT
         } else {
             1
         };
@@ -71,15 +71,16 @@ impl Slits {
             let Some(tip) = self.worst_vertex(&new) else {
                 break;
             };
-            let Some(length) = self.slit([tip], |_| false) else {
+            let Some((length, hole)) = self.slit([tip], None) else {
                 break;
             };
+            self.slit_from(hole);
             new.push((self.sheet.positions[tip as usize], length));
         }
-        if new.is_empty() && (self.is_cut() || !self.slit_from_hole()) {
+        if new.is_empty() && (self.is_cut() || !self.slit_from_largest_hole()) {
             return false;
         }
-        self.log_scale = self.predictor.log_scale(&self.on_seam);
+        self.log_scale = self.predictor.log_scale(&are_some(&self.seam));
         self.excess = self.predictor.excess(&self.log_scale);
         true
     }
@@ -93,57 +94,65 @@ impl Slits {
         };
         (0u32..)
             .zip(&self.log_scale)
-            .filter(|&(v, &u)| u != 0.0 && !self.on_seam[v as usize] && !is_near(v))
+            .filter(|&(v, &u)| u != 0.0 && self.seam[v as usize].is_none() && !is_near(v))
             .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()).then(b.0.cmp(&a.0)))
             .map(|(v, _)| v)
     }
 
-    /// Plans the cheapest slit from the hole with most edges to another loop; false if there is no hole.
+    /// Plans the cheapest slit from the hole with most edges to another seam; false if there is no hole.
     ///
     /// The predictor lets holes be as they are. A tube has no curvature, so it sees nothing to slit there, and yet the map that
     /// leaves the tube whole is a ring.
-    fn slit_from_hole(&mut self) -> bool {
-        let holes = self.chart.disk.loops.iter().skip(1);
-        let Some(hole) = holes.max_by_key(|hole| hole.len()) else {
-            return false;
-        };
-        let mut is_of_chart = vec![false; self.chart.disk.n_vertices];
-        for &v in hole {
-            is_of_chart[v as usize] = true;
-        }
-        let mut is_of_hole = vec![false; self.on_seam.len()];
-        let of_chart = self.chart.disk.triangles.as_flattened();
-        for (&v, &of_sheet) in of_chart.iter().zip(&self.sheet.vertex) {
-            is_of_hole[of_sheet as usize] = is_of_chart[v as usize];
-        }
-        let rim = (0u32..)
-            .zip(&is_of_hole)
-            .filter_map(|(v, is)| is.then_some(v));
-        self.slit(rim, |v| is_of_hole[v as usize]).is_some()
+    fn slit_from_largest_hole(&mut self) -> bool {
+        let holes = 1..self.chart.disk.loops.len() as u32;
+        let has_edges = |hole: &u32| self.chart.disk.loops[*hole as usize].len();
+        let hole = holes.rev().max_by_key(has_edges);
+        hole.is_some_and(|hole| self.slit_from(hole))
     }
 
-    /// Plans the cheapest slit from some vertices to a seam that has none of the vertices with `is_from`; its length.
+    /// Plans slits on from a hole until it hangs together with the outer boundary; false if there is nothing to do.
+    ///
+    /// A hole alone leaves the surface around it as it is. One with slits to it opens, and the surface wrapped around it could be
+    /// laid into the plane only as a ring.
+    fn slit_from(&mut self, hole: u32) -> bool {
+        let mut seam = hole;
+        while seam != 0 {
+            let of_seam = |(v, s): (u32, &Option<u32>)| (*s == Some(seam)).then_some(v);
+            let from: Vec<u32> = (0..).zip(&self.seam).filter_map(of_seam).collect();
+            let Some((_, reached)) = self.slit(from, Some(seam)) else {
+                break;
+            };
+            for of_vertex in self.seam.iter_mut().filter(|s| **s == Some(seam)) {
+                *of_vertex = Some(reached);
+            }
+            seam = reached;
+        }
+        seam != hole
+    }
+
+    /// Plans the cheapest slit from some vertices to a seam other than their own: its length and the seam it belongs to from now on.
     fn slit(
         &mut self,
         from: impl IntoIterator<Item = u32>,
-        is_from: impl Fn(u32) -> bool,
-    ) -> Option<f64> {
+        own: Option<u32>,
+    ) -> Option<(f64, u32)> {
         let (distances, end) = distances_until(
             &self.sheet,
             &self.neighbors,
             from,
             |h| self.cost[h as usize],
-            |v| self.on_seam[v as usize] && !is_from(v),
+            |v| self.seam[v as usize].is_some_and(|seam| Some(seam) != own),
         );
+        let reached = self.seam[end? as usize];
         let path: Vec<u32> = distances.path(&self.sheet, end?).collect();
         for &h in &path {
             for v in self.sheet.ends(h) {
-                self.on_seam[v as usize] = true;
+                self.seam[v as usize] = reached;
             }
         }
         let length = path.iter().map(|&h| self.sheet.length(h)).sum();
         self.edges.extend(path);
-        Some(length)
+        Some((length, reached?))
     }
 
     /// Whether a slit is planned.
@@ -161,4 +170,24 @@ impl Slits {
         let parts = parts(&self.chart, &twin);
         parts.into_iter().map(|(part, _)| part).collect()
     }
+}
+
+/// For each vertex of a chart's sheet the loop of the boundary that it lies on.
+fn boundary_loops(chart: &Chart, sheet: &Sheet) -> Vec<Option<u32>> {
+    let mut of_chart = vec![None; chart.disk.n_vertices];
+    for (number, boundary) in (0..).zip(&chart.disk.loops) {
+        for &v in boundary {
+            of_chart[v as usize] = Some(number);
+        }
+    }
+    let mut of_sheet = vec![None; sheet.positions.len()];
+    let corners = chart.disk.triangles.as_flattened();
+    for (&v, &numbered_anew) in corners.iter().zip(&sheet.vertex) {
+        of_sheet[numbered_anew as usize] = of_chart[v as usize];
+    }
+    of_sheet
+}
+
+fn are_some<T>(values: &[Option<T>]) -> Vec<bool> {
+    values.iter().map(Option::is_some).collect()
 }

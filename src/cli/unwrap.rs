@@ -16,7 +16,8 @@ use crate::document::{GroupBy, WriteNotes};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
-    self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode, Preset,
+    self, BoundReport, GivenSeams, GroupReport, KeptMaps, Limits, NamedSeams, Options, Outcome,
+    PackingMode, Preset,
 };
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
@@ -65,6 +66,12 @@ pub(super) struct Args {
     /// How distorted the atlas may be with `--cut auto`: mean symmetric Dirichlet energy up to 4.05, 4.1 or 4.5
     #[arg(long, default_value = "balanced", value_parser = word::<Quality>(QUALITIES))]
     quality: Quality,
+    /// The bound on the mean symmetric Dirichlet energy in the place of `--quality`'s; 4 is an isometry
+    #[arg(long, value_name = "E")]
+    max_distortion: Option<f64>,
+    /// Bound on the stretch max(σ₁, 1/σ₂) that all but a hundredth of the area keeps; more is cut until it does
+    #[arg(long, value_name = "S")]
+    max_stretch: Option<f64>,
     /// Search the fullest layout for about a second, or ten times as long
     #[arg(long, default_value = "fast", value_parser = word::<PackingMode>(PACKINGS))]
     packing: PackingMode,
@@ -134,6 +141,8 @@ impl Args {
             max_charts: self.max_charts,
             pin: self.pin,
             quality: self.quality,
+            max_distortion: self.max_distortion,
+            max_stretch: self.max_stretch,
             packing: self.packing,
             seam_weight: self.seam_weight,
             group_by: self.group_by,
@@ -196,6 +205,17 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
+/// A line where the atlas is more distorted than was asked for.
+fn warn_of_bound(group: &GroupReport) {
+    let bound = group.atlas.as_ref().and_then(|atlas| atlas.bound);
+    if let Some(BoundReport { kept: false, .. }) = bound {
+        let name = &group.name;
+        say(format_args!(
+            "warning: {name} is more distorted than was asked for"
+        ));
+    }
+}
+
 /// A line per texture that is not right any more, or could not be resampled.
 fn warn_of_textures(written: &WriteNotes) {
     let of = |material: Option<usize>| {
@@ -219,6 +239,7 @@ fn warn_of_textures(written: &WriteNotes) {
 pub(super) fn summarize(outcome: &Outcome) {
     for group in &outcome.report.groups {
         super::measure::print_group(group);
+        warn_of_bound(group);
     }
     if let Some(written) = &outcome.report.written {
         warn_of_textures(written);

@@ -37,6 +37,8 @@ pub struct Distortion {
     pub sym_dirichlet_max: Option<f64>,
     /// Symmetric Dirichlet, median.
     pub sym_dirichlet_median: Option<f64>,
+    /// max(σ₁, 1/σ₂), 99th percentile; ideal 1.
+    pub stretch_p99: Option<f64>,
     /// (σ₁−1)² + (σ₂−1)², mean; ideal 0.
     pub arap_mean: Option<f64>,
 }
@@ -120,6 +122,7 @@ impl Distortion {
             sym_dirichlet_p99: dirichlet.quantile(0.99),
             sym_dirichlet_max: dirichlet.max(),
             sym_dirichlet_median: dirichlet.quantile(0.5),
+            stretch_p99: sorted(Stretch::greatest).quantile(0.99),
             arap_mean: mean(Stretch::arap),
         }
     }
@@ -181,6 +184,10 @@ impl Stretch {
     /// σ₁⁻² + σ₂⁻².
     fn squared_inverse(&self) -> f64 {
         self.squares / (self.determinant * self.determinant)
+    }
+
+    fn greatest(&self) -> f64 {
+        self.sigma[0].max(1.0 / self.sigma[1])
     }
 
     fn arap(&self) -> f64 {

@@ -8,9 +8,10 @@ use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
 use super::rebake::{self, rebaked};
-use super::report::{AtlasReport, GroupReport, Report, Seconds};
+use super::report::{AtlasReport, BoundReport, GroupReport, Report, Seconds};
 use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
+use crate::charts::Cut;
 use crate::document::{
     BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
     WriteOptions, Written,
@@ -83,7 +84,7 @@ fn unwrap_in_pool(
     tracker.stage(Stage::Judge);
     let uvs = WrittenUvs::read(&written, (group_by, nodes))?;
     let mut groups = uvs.judge(&options.claims());
-    add_history(&mut groups, &atlases);
+    add_history(&mut groups, &atlases, options);
     seconds.judge = watch.lap();
 
     let mut report = Report::new(groups);
@@ -171,10 +172,14 @@ pub(super) fn stem(name: &str) -> String {
 }
 
 /// Adds to each group what only unwrapping knows.
-fn add_history(groups: &mut [GroupReport], atlases: &[Unwrapped]) {
+fn add_history(groups: &mut [GroupReport], atlases: &[Unwrapped], options: &Options) {
+    let bound = (options.cut == Cut::Auto).then(|| options.settings().bound());
     for (group, atlas) in groups.iter_mut().zip(atlases) {
         group.defects = Some(atlas.defects);
-        group.atlas = Some(AtlasReport::new(atlas));
+        group.atlas = Some(AtlasReport {
+            bound: bound.map(|bound| BoundReport::new(&bound, &group.measures.distortion)),
+            ..AtlasReport::new(atlas)
+        });
     }
 }
 

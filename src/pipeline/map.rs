@@ -9,7 +9,8 @@ use super::settings::{KeptMaps, Settings};
 use crate::barrier::BarrierKind;
 use crate::certificate::CornerUvs;
 use crate::charts::{
-    Chart, Cut, Folds, MappedChart, charts, charts_under_bound, map_chart, map_chart_from,
+    Bound, Chart, Cut, Folds, MappedChart, Quality, charts, charts_under_bound, map_chart,
+    map_chart_from,
 };
 use crate::embed::{self, Pins};
 use crate::mesh::Surface;
@@ -57,12 +58,18 @@ fn under_bound(
     tracker: &Tracker,
 ) -> Vec<MappedChart> {
     let most = settings.max_charts.map_or(usize::MAX, |n| n as usize);
-    let mut quality = settings.quality;
-    let mut fewest = charts_under_bound(surface, quality, options, tracker);
+    let mut bound = settings.bound();
+    let mut fewest = charts_under_bound(surface, &bound, options, tracker);
     while fewest.len() > most {
-        let next = quality.looser();
+        let next = Quality::looser_than(bound.mean);
         let others = match next {
-            Some(looser) => charts_under_bound(surface, looser, options, tracker),
+            Some(mean) => {
+                bound = Bound {
+                    mean,
+                    stretch: None,
+                };
+                charts_under_bound(surface, &bound, options, tracker)
+            }
             None => charts(surface, Cut::Disk)
                 .into_iter()
                 .flat_map(|chart| map_chart(chart, options, Folds::Cut, tracker))
@@ -71,10 +78,9 @@ fn under_bound(
         if others.len() < fewest.len() {
             fewest = others;
         }
-        let Some(looser) = next else {
+        if next.is_none() {
             break;
-        };
-        quality = looser;
+        }
     }
     fewest
 }

@@ -109,7 +109,9 @@ pub use proven::{Proven, ProvenBits, ProvenPadding};
 #[cfg(feature = "files")]
 pub use repack::{RepackOptions, repack_document};
 #[cfg(feature = "files")]
-pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
+pub use report::{
+    AtlasReport, BoundReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds,
+};
 #[cfg(feature = "files")]
 pub use solution::{DeformReport, Deformed};
 #[cfg(feature = "files")]

@@ -71,6 +71,14 @@ pub struct Options {
     pub pin: u32,
     /// The bound on the mean symmetric Dirichlet energy that `cut` `auto` keeps: 4.05, 4.1 or 4.5; 4 is an isometry.
     pub quality: Quality,
+    /// The bound on the mean symmetric Dirichlet energy in the place of what `quality` says. With `cut` `auto`; the report says whether
+    /// it was kept.
+    #[cfg_attr(feature = "service", schema(minimum = 4.0001, maximum = 1e6))]
+    pub max_distortion: Option<f64>,
+    /// A bound on the stretch max(σ₁, 1/σ₂) that all but a hundredth of the area keeps: more is cut until it does. With `cut` `auto`;
+    /// the report says whether it was kept.
+    #[cfg_attr(feature = "service", schema(minimum = 1.001, maximum = 1e6))]
+    pub max_stretch: Option<f64>,
     /// How long the fullest layout is searched for.
     pub packing: PackingMode,
     /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts wherever that gains anything, a
@@ -144,6 +152,8 @@ impl Default for Options {
             kept_maps: settings.kept_maps,
             pin: settings.pin,
             quality: settings.quality,
+            max_distortion: settings.max_distortion,
+            max_stretch: settings.max_stretch,
             packing: settings.packing,
             seam_weight: settings.seam_weight,
             max_charts: settings.max_charts,
@@ -206,6 +216,8 @@ impl Options {
             kept_maps: self.kept_maps,
             pin: self.pin,
             quality: self.quality,
+            max_distortion: self.max_distortion,
+            max_stretch: self.max_stretch,
             packing: self.packing,
             seam_weight: self.seam_weight,
             max_charts: self.max_charts,

@@ -7,8 +7,9 @@ use super::limits::Limits;
 use super::options::Options;
 use super::proven::Proven;
 use crate::certificate::Certificate;
+use crate::charts::Bound;
 use crate::document::WriteNotes;
-use crate::measure::Measures;
+use crate::measure::{Distortion, Measures};
 use crate::mesh::Defects;
 use crate::solver::Status;
 
@@ -69,8 +70,24 @@ pub struct AtlasReport {
     pub scale: f64,
     /// Padding kept between charts, in texels at the resolution asked for.
     pub padding_texels: f64,
+    /// What was asked of the distortion, and whether it was kept; absent where `cut` is not `auto`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound: Option<BoundReport>,
     /// One entry per chart.
     pub charts: Vec<ChartReport>,
+}
+
+/// A bound on the distortion of an atlas.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct BoundReport {
+    /// The largest mean symmetric Dirichlet energy that was asked for.
+    pub max_distortion: f64,
+    /// The largest stretch of all but a hundredth of the area that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_stretch: Option<f64>,
+    /// Whether `sym_dirichlet_mean` and `stretch_p99`, measured on the written bytes, keep them.
+    pub kept: bool,
 }
 
 /// How a chart was mapped.
@@ -132,7 +149,23 @@ impl AtlasReport {
         Self {
             scale: unwrapped.scale,
             padding_texels: unwrapped.padding_texels,
+            bound: None,
             charts: unwrapped.charts.iter().map(ChartReport::new).collect(),
+        }
+    }
+}
+
+impl BoundReport {
+    pub(super) fn new(bound: &Bound, measured: &Distortion) -> Self {
+        let keeps = |most: Option<f64>, measured: Option<f64>| {
+            most.zip(measured)
+                .is_none_or(|(most, measured)| measured <= most)
+        };
+        Self {
+            max_distortion: bound.mean,
+            max_stretch: bound.stretch,
+            kept: keeps(Some(bound.mean), measured.sym_dirichlet_mean)
+                && keeps(bound.stretch, measured.stretch_p99),
         }
     }
 }

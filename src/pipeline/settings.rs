@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
-use crate::charts::{Cut, Quality};
+use crate::charts::{Bound, Cut, Quality};
 use crate::energy::EnergyKind;
 
 /// How long the fullest layout of an atlas is searched for.
@@ -60,6 +60,10 @@ pub struct Settings {
     pub pin: u32,
     /// How distorted the atlas may be with [`Cut::Auto`].
     pub quality: Quality,
+    /// The largest mean symmetric Dirichlet energy with [`Cut::Auto`] in the place of what `quality` says; 4 is an isometry.
+    pub max_distortion: Option<f64>,
+    /// The largest stretch max(σ₁, 1/σ₂) of all but a hundredth of the area with [`Cut::Auto`], cut for where it can be had.
+    pub max_stretch: Option<f64>,
     /// How long the fullest layout is searched for.
     pub packing: PackingMode,
     /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts wherever that gains anything, a
@@ -93,6 +97,8 @@ impl Default for Settings {
             kept_maps: KeptMaps::Optimized,
             pin: 0,
             quality: Quality::default(),
+            max_distortion: None,
+            max_stretch: None,
             packing: PackingMode::default(),
             seam_weight: 1.0,
             max_charts: None,
@@ -106,7 +112,20 @@ impl Default for Settings {
     }
 }
 
+/// The least that [`Settings::max_distortion`] and [`Settings::max_stretch`] may be: at their minima, 4 and 1, each face would have
+/// to be a chart.
+const LEAST_DISTORTION: f64 = 4.0001;
+const LEAST_STRETCH: f64 = 1.001;
+
 impl Settings {
+    /// How distorted the atlas may be.
+    pub fn bound(&self) -> Bound {
+        Bound {
+            mean: self.max_distortion.unwrap_or(self.quality.bound()),
+            stretch: self.max_stretch,
+        }
+    }
+
     /// Checks every number against its range; the text names the option.
     pub fn validate(&self) -> Result<(), String> {
         within("barrier_strength", self.barrier_strength, 1e-9, 1e9)?;
@@ -124,6 +143,15 @@ impl Settings {
             return Err(format!(
                 "charts end at texels where resolution is a power of two, not {given}"
             ));
+        }
+        for (name, given, least) in [
+            ("max_distortion", self.max_distortion, LEAST_DISTORTION),
+            ("max_stretch", self.max_stretch, LEAST_STRETCH),
+        ] {
+            within(name, given.unwrap_or(least), least, 1e6)?;
+            if given.is_some() && self.cut != Cut::Auto {
+                return Err(format!("{name} goes with cut auto"));
+            }
         }
         match self.quantization_safe {
             None | Some(12 | 14 | 16) => {}

@@ -237,6 +237,50 @@ fn a_number_of_charts_loosens_the_bound() {
     assert_eq!(one, 1, "of {free}");
 }
 
+/// A saddle whose angle at the centre is 5° more than a full turn.
+fn saddle(n_rays: u32, n_rings: u32) -> Mesh {
+    let at = |ring: u32, ray: u32| {
+        let (sin, cos) = (std::f32::consts::TAU * ray as f32 / n_rays as f32).sin_cos();
+        let r = ring as f32 / n_rings as f32;
+        [r * cos, r * sin, r * 0.276 * sin * cos]
+    };
+    let vertex = |ring: u32, ray: u32| match ring {
+        0 => 0,
+        _ => 1 + (ring - 1) * n_rays + ray % n_rays,
+    };
+    let outer = (1..=n_rings).flat_map(|ring| (0..n_rays).map(move |ray| at(ring, ray)));
+    let mut triangles = Vec::new();
+    for ray in 0..n_rays {
+        triangles.push([0, vertex(1, ray), vertex(1, ray + 1)]);
+        for ring in 1..n_rings {
+            let [a, b] = [vertex(ring, ray), vertex(ring + 1, ray)];
+            let [c, d] = [vertex(ring + 1, ray + 1), vertex(ring, ray + 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Mesh {
+        name: "saddle".into(),
+        positions: [[0.0; 3]].into_iter().chain(outer).collect(),
+        triangles,
+    }
+}
+
+#[test]
+fn the_sides_of_a_slit_are_pushed_apart() {
+    // Slit to the centre, an isometric map would overlap itself by 5°: a sliver that is no chart of its own.
+    let (n_rays, n_rings) = (48, 16);
+    let ray = (0..n_rings).map(|ring| match ring {
+        0 => [0, 1],
+        _ => [1 + (ring - 1) * n_rays, 1 + ring * n_rays],
+    });
+    let seams = Seams {
+        edges: Some(ray.collect()),
+        ..Seams::default()
+    };
+    let made = unwrapped(&saddle(n_rays, n_rings), Cut::Seams, &seams);
+    assert_eq!(made.charts.len(), 1);
+}
+
 #[test]
 fn seams_that_do_not_fit_are_refused() {
     let mesh = zoo::grid(2, 2);

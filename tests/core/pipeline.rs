@@ -7,7 +7,9 @@ use unwrapd::certificate::{Overlap, certify, chart_ids};
 use unwrapd::charts::{Cut, Quality};
 use unwrapd::energy::EnergyKind;
 use unwrapd::measure::{MeasureOptions, Measures, VAxis, measure};
-use unwrapd::pipeline::{Observer, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap};
+use unwrapd::pipeline::{
+    Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap,
+};
 use unwrapd::solver::Control;
 
 use crate::zoo::{self, Mesh};
@@ -243,11 +245,10 @@ fn repeated_faces_lie_on_an_edge_of_a_neighbour() {
 }
 
 /// Without cuts for a fuller atlas, which are another matter; with what the UVs measure.
-fn unwrapped_under(quality: Quality, mesh: &Mesh) -> Measures {
+fn measured(settings: Settings, mesh: &Mesh) -> Measures {
     let settings = Settings {
-        quality,
         seam_weight: 1e6,
-        ..Settings::default()
+        ..settings
     };
     let unwrapped =
         unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved).expect("a mesh");
@@ -255,10 +256,65 @@ fn unwrapped_under(quality: Quality, mesh: &Mesh) -> Measures {
     let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
     let uvs = unwrapped.corner_uvs();
     let options = MeasureOptions::default();
-    let measures = measure(&positions, &mesh.triangles, &uvs, VAxis::Up, &options);
+    measure(&positions, &mesh.triangles, &uvs, VAxis::Up, &options)
+}
+
+fn unwrapped_under(quality: Quality, mesh: &Mesh) -> Measures {
+    let settings = Settings {
+        quality,
+        ..Settings::default()
+    };
+    let measures = measured(settings, mesh);
     let mean = measures.distortion.sym_dirichlet_mean.expect("faces");
     assert!(mean <= quality.bound(), "{quality:?}: {mean}");
     measures
+}
+
+#[test]
+fn bounds_of_ones_own_are_kept() {
+    let mesh = zoo::sphere(48, 31);
+    let under = |max_distortion, max_stretch| {
+        let settings = Settings {
+            max_distortion,
+            max_stretch,
+            ..Settings::default()
+        };
+        let Measures {
+            distortion, seams, ..
+        } = measured(settings, &mesh);
+        let mean = distortion.sym_dirichlet_mean.expect("faces");
+        let stretch = distortion.stretch_p99.expect("faces");
+        (mean, stretch, seams.seam_length)
+    };
+    let loose = under(Some(5.0), None);
+    let tight = under(Some(4.03), None);
+    assert!(loose.0 <= 5.0 && tight.0 <= 4.03 && loose.2 < tight.2);
+    let most = 0.5 * (1.0 + loose.1);
+    let (mean, stretch, _) = under(Some(5.0), Some(most));
+    assert!(mean <= 5.0 && stretch <= most, "{stretch} over {most}");
+}
+
+#[test]
+fn bounds_without_sense_are_refused() {
+    let mesh = zoo::sphere(8, 5);
+    let refused = |cut, max_distortion, max_stretch| {
+        let settings = Settings {
+            max_distortion,
+            max_stretch,
+            ..settings(cut)
+        };
+        let made = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved);
+        matches!(made, Err(PipelineError::InvalidOptions(_)))
+    };
+    for distortion in [4.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(refused(Cut::Auto, Some(distortion), None), "{distortion}");
+    }
+    for stretch in [1.0, 0.0, f64::NAN, f64::INFINITY] {
+        assert!(refused(Cut::Auto, None, Some(stretch)), "{stretch}");
+    }
+    assert!(refused(Cut::Fast, Some(4.2), None));
+    assert!(refused(Cut::Disk, None, Some(2.0)));
+    assert!(!refused(Cut::Auto, Some(4.2), Some(2.0)));
 }
 
 #[test]

@@ -187,6 +187,15 @@ async fn pictures_are_warped_and_uvs_are_edited() {
         assert_eq!(media_type, "model/gltf-binary");
         assert_ne!(glb, mapped);
     }
+    let bounded = form(
+        "unwrap",
+        r#"{"max_distortion": 4.3, "max_stretch": 1.4}"#,
+        ("hills.glb", meshes::small()),
+    );
+    let (report, _, _) = outcome(&server, bounded).await;
+    let bound = &report["groups"][0]["atlas"]["bound"];
+    assert_eq!(bound["max_distortion"], 4.3, "{report}");
+    assert_eq!(bound["kept"], true, "{report}");
     let repack = form(
         "repack",
         r#"{"padding": 8}"#,

@@ -105,6 +105,18 @@ fn each_kind_of_failure_has_its_exit_status_and_one_line() {
             "padding",
         ),
         (
+            &[
+                "unwrap",
+                &input,
+                "-o",
+                &path("a.glb"),
+                "--max-distortion",
+                "4",
+            ],
+            2,
+            "max_distortion",
+        ),
+        (
             &["unwrap", &path("absent.glb"), "-o", &path("a.glb")],
             3,
             "absent.glb",
