@@ -9,8 +9,8 @@ after `--` goes to unwrapd. uvunwrap runs twice: as it is, and with the padding 
 keeps, so that the shares of the square compare.
 
 Per mesh and tool: charts, seam length over the square root of the area, mean symmetric Dirichlet energy, share of the square,
-smallest gap of two charts in texels at 1024, seconds of the processors, and of the wall for packing; then means, medians and
-ratios to uvunwrap.
+faults (faces flipped or without area, pairs that overlap), smallest gap of two charts in texels at 1024, seconds of the
+processors, and of the wall for packing; then means, medians and ratios to uvunwrap.
 """
 import argparse
 import json
@@ -24,20 +24,23 @@ from pathlib import Path
 import numpy as np
 
 
-def welded(out):
-    """Positions in f32 and triangles of an OBJ file."""
-    positions, faces = [], []
-    for line in out.read_text().splitlines():
+def read_obj(path):
+    """Positions, welded where equal in f32, triangles with three corners, and their UVs (faces, 3, 2)."""
+    positions, places, faces = [], [], []
+    for line in path.read_text().splitlines():
         kind, *words = line.split() or [""]
         if kind == "v":
             positions.append([float(w) for w in words[:3]])
+        elif kind == "vt":
+            places.append([float(w) for w in words[:2]])
         elif kind == "f":
-            corners = [int(w.split("/")[0]) - 1 for w in words]
+            corners = [[int(i) - 1 for i in w.split("/")[:2]] for w in words]
             faces += [[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)]
     positions, index = np.unique(np.array(positions, np.float32), axis=0, return_inverse=True)
-    faces = index.reshape(-1)[np.array(faces)]
+    faces = np.array(faces)
+    uv, faces = np.array(places)[faces[..., 1]], index.reshape(-1)[faces[..., 0]]
     proper = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    return positions, faces[proper]
+    return positions, faces[proper], uv[proper]
 
 
 def write_obj(path, positions, faces, uv):
@@ -78,10 +81,11 @@ PEERS = {
 
 
 def judged(judge, path):
-    done = subprocess.run([sys.executable, judge, path, "--json", "--no-pairs"], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, judge, path, "--json"], capture_output=True, text=True)
     m = json.loads(done.stdout)
-    return {"charts": m["charts"], "seam": m["seam_length"] / m["area_3d"] ** 0.5, "E": m["sym_dirichlet_mean"],
-            "fill": m["pack_square"], "gap": m.get("gap_texels_1024")}
+    faults = sum(m[key] for key in ("flipped", "uv_degenerate", "uv_collapsed", "overlap_pairs"))
+    return {"faults": faults, "charts": m["charts"], "seam": m["seam_length"] / m["area_3d"] ** 0.5, "E": m["sym_dirichlet_mean"],
+            "fill": m["pack_square"], "gap": m.get("gap_texels_1024"), "spread": m["density_p95_over_p5"]}
 
 
 def cpu(who):
@@ -112,7 +116,7 @@ def theirs(arguments, name, positions, faces, folder):
 def show(mesh, tool, row):
     number = lambda key, digits: "" if row[key] is None else f"{row[key]:.{digits}f}"
     print(f"{mesh:20} | {tool:16} | {row['charts']:5} | {row['seam']:6.2f} | {row['E']:.3f} | {row['fill']:.3f} | "
-          f"{number('gap', 1):>5} | {row['cpu']:6.2f} | {number('pack', 2)}", flush=True)
+          f"{row['faults']:4} | {number('gap', 1):>5} | {row['cpu']:6.2f} | {number('pack', 2)}", flush=True)
 
 
 def summarize(rows):
@@ -141,12 +145,12 @@ def main():
     arguments = parser.parse_args(sys.argv[1:split])
     arguments.options = sys.argv[split + 1:]
     rows = []
-    print("mesh | tool | charts | seam | E | fill | gap | cpu s | packing s")
+    print("mesh | tool | charts | seam | E | fill | faults | gap | cpu s | packing s")
     with tempfile.TemporaryDirectory() as folder:
         for mesh in arguments.meshes:
             folder = Path(folder)
             row = {"unwrapd": ours(arguments, mesh, folder)}
-            positions, faces = welded(folder / "ours.obj")
+            positions, faces, _ = read_obj(folder / "ours.obj")
             for name in PEERS:
                 row[name] = theirs(arguments, name, positions, faces, folder)
             for tool, figures in row.items():
