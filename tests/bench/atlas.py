@@ -4,9 +4,10 @@
     python3 tests/bench/atlas.py --judge path/to/uvmetrics.py --unwrapd target/release/unwrapd MESH... [-- --packing tight]
 
 JUDGE is a program `JUDGE FILE --json` that prints its measures of a file's UVs. The interpreter needs numpy, uvunwrap and xatlas
-from PyPI. Every tool gets the same mesh: positions in f32, welded where equal, faces without three corners dropped. What stands
-after `--` goes to unwrapd. uvunwrap runs twice: as it is, and with the padding that leaves the gap of 2 texels that unwrapd
-keeps, so that the shares of the square compare.
+from PyPI, and open3d for `--peers UVAtlas`. Every tool gets the same mesh: positions in f32, welded where equal, faces without
+three corners dropped. What stands after `--` goes to unwrapd. uvunwrap runs twice: as it is, and with the padding that leaves
+the gap of 2 texels that unwrapd keeps, so that the shares of the square compare. xatlas gets the mesh with a diagonal of 1000,
+because what it takes for an area of zero does not scale.
 
 Per mesh and tool: charts, seam length over the square root of the area, mean symmetric Dirichlet energy, share of the square,
 faults (faces flipped or without area, pairs that overlap), smallest gap of two charts in texels at 1024, seconds of the
@@ -67,16 +68,25 @@ def run_uvunwrap(positions, faces, padding):
 def run_xatlas(positions, faces):
     import xatlas
     atlas = xatlas.Atlas()
-    atlas.add_mesh(positions, faces.astype(np.uint32))
+    scale = 1000 / np.linalg.norm(np.ptp(positions, axis=0))
+    atlas.add_mesh(positions * scale.astype(np.float32), faces.astype(np.uint32))
     atlas.generate()
     _, indices, uv = atlas[0]
     return squared(np.asarray(uv, float)[indices], atlas)
+
+
+def run_uvatlas(positions, faces):
+    import open3d
+    mesh = open3d.t.geometry.TriangleMesh(open3d.core.Tensor(positions), open3d.core.Tensor(faces))
+    mesh.compute_uvatlas(size=1024, gutter=2.0)
+    return mesh.triangle.texture_uvs.numpy()
 
 
 PEERS = {
     "uvunwrap": lambda v, f: run_uvunwrap(v, f, {}),
     "uvunwrap, gap 2": lambda v, f: run_uvunwrap(v, f, {"padding": 1}),
     "xatlas": run_xatlas,
+    "UVAtlas": run_uvatlas,
 }
 
 
@@ -141,6 +151,7 @@ def main():
     parser.add_argument("meshes", nargs="+", type=Path)
     parser.add_argument("--judge", required=True, type=Path)
     parser.add_argument("--unwrapd", default="target/release/unwrapd")
+    parser.add_argument("--peers", nargs="+", choices=PEERS, default=list(PEERS)[:3])
     split = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     arguments = parser.parse_args(sys.argv[1:split])
     arguments.options = sys.argv[split + 1:]
@@ -151,7 +162,7 @@ def main():
             folder = Path(folder)
             row = {"unwrapd": ours(arguments, mesh, folder)}
             positions, faces, _ = read_obj(folder / "ours.obj")
-            for name in PEERS:
+            for name in arguments.peers:
                 row[name] = theirs(arguments, name, positions, faces, folder)
             for tool, figures in row.items():
                 show(mesh.stem, tool, figures)

@@ -18,8 +18,7 @@ from pathlib import Path
 from atlas import ours
 
 ENERGIES = ["symmetric-dirichlet", "arap", "lscm"]
-BOUNDS = {4.02: ["--max-distortion", "4.02"], 4.05: ["--quality", "smooth"], 4.1: ["--quality", "balanced"],
-          4.2: ["--max-distortion", "4.2"], 4.5: ["--quality", "few"]}
+BOUNDS = {4.05: ["--quality", "smooth"], 4.1: ["--quality", "balanced"], 4.5: ["--quality", "few"]}
 PRICES = ["0", "0.5", "1", "2", "4", "1000"]
 MEASURES = {"charts": "charts", "seam": "seam length / √area", "fill": "share of the square"}
 COLOURS = ["#1f5fa8", "#d9822b", "#3c9a5f", "#7a869a", "#a05195"]

@@ -34,7 +34,7 @@ MESHES = {
     "Hand": ("disk/hand_lowres.obj", (20, 10, "y"), "Max Planck Society via SMPL, CC BY 4.0"),
 }
 TOOLS = {"unwrapd": "unwrapd", "uvunwrap, gap 2": "uvunwrap", "xatlas": "xatlas"}
-SIDE, MARGIN, LINE, CHECKS, COLOURS = 260, 16, 32, 24, 128
+SIDE, MARGIN, LINE, CHECKS, COLOURS = 252, 16, 32, 24, 96
 FONTS = Path("/usr/share/fonts/truetype/dejavu")
 
 
@@ -61,7 +61,7 @@ def cell(figures, charts, view):
     plural = "" if figures["charts"] == 1 else "s"
     text = (f"{figures['charts']} chart{plural} · seam {figures['seam']:.1f} · E {figures['E']:.2f} · "
             f"fill {100 * figures['fill']:.0f} %")
-    pen.text((picture.width / 2, SIDE + LINE / 2 + 3), text, "#333", font(20), "mm")
+    pen.text((picture.width / 2, SIDE + LINE / 2 + 3), text, "#333", font(21), "mm")
     return picture
 
 
@@ -79,14 +79,14 @@ def row(arguments, name, folder):
 def sheet(rows):
     """All cells under the names of the tools."""
     wide, high = rows[0][1][0].size
-    step, pitch = wide + 2 * MARGIN, high + LINE
-    picture = Image.new("RGB", (len(TOOLS) * step, len(rows) * pitch + 3 * LINE), "white")
+    step, pitch = wide + 2 * MARGIN, high + LINE + MARGIN
+    picture = Image.new("RGB", (len(TOOLS) * step, len(rows) * pitch + 2 * LINE), "white")
     pen = ImageDraw.Draw(picture)
     for k, tool in enumerate(TOOLS.values()):
         pen.text((k * step + step / 2, LINE), tool, "black", font(26, k == 0), "mm")
     for j, (title, cells) in enumerate(rows):
         top = 3 * LINE + j * pitch
-        pen.text((MARGIN, top - 6), title, "#777", font(16), "ls")
+        pen.text((MARGIN, top - 6), title, "#777", font(17), "ls")
         for k, picture_of_cell in enumerate(cells):
             picture.paste(picture_of_cell, (k * step + MARGIN, top))
     return picture
