@@ -22,7 +22,7 @@ fn raw(
 async fn what_is_not_a_mesh_is_refused_before_202() {
     let server = Server::start();
     let bytes = "application/octet-stream";
-    let cases: [(&str, &str, Vec<u8>, u16, &str); 16] = [
+    let cases: [(&str, &str, Vec<u8>, u16, &str); 18] = [
         ("", bytes, b"hello, world".to_vec(), 422, "unknown_format"),
         ("", bytes, Vec::new(), 422, "unknown_format"),
         (
