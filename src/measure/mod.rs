@@ -4,6 +4,7 @@
 //! definitions are those of an independent script in NumPy (`uvmetrics`), so that the figures can be checked against it:
 //!
 //! - Positions are welded by equality; charts, seams and winding are those of [`certificate`](crate::certificate).
+//! - With a texture that is not square u is multiplied by its width over its height at first: lengths are those of texels.
 //! - UVs are scaled by s = √(A₃d / A_uv) before distortion is taken, so that total areas agree; σ₁ ≥ σ₂ are the singular values of
 //!   a face's scaled map from the surface to UV. Means are weighted by surface area, percentiles too.
 //! - A face is degenerate in 3D when its area is 0, below 10⁻⁹ of its longest edge squared, or below 10⁻¹⁴ of the bounding box
@@ -18,6 +19,7 @@ mod faces;
 mod gaps;
 mod overlaps;
 mod packing;
+mod pages;
 mod quantile;
 mod seams;
 mod size;
@@ -28,6 +30,7 @@ pub use distortion::{Distortion, FaceDistortion, face_distortion};
 pub use gaps::Gaps;
 pub use overlaps::Overlaps;
 pub use packing::Packing;
+pub use pages::Page;
 pub use seams::Seams;
 pub use size::Size;
 pub use validity::Validity;
@@ -44,6 +47,8 @@ pub struct MeasureOptions {
     pub raster_texels: u32,
     /// Whether overlapping pairs of faces are counted.
     pub overlap: Overlap,
+    /// Width of the texture over its height: u is multiplied by it, so that all lengths are of its texels.
+    pub aspect: f64,
 }
 
 impl MeasureOptions {
@@ -56,6 +61,7 @@ impl Default for MeasureOptions {
         MeasureOptions {
             raster_texels: 4096,
             overlap: Overlap::Test,
+            aspect: 1.0,
         }
     }
 }
@@ -88,6 +94,8 @@ pub struct Measures {
     /// Distances between charts.
     #[serde(flatten)]
     pub gaps: Gaps,
+    /// The pages that hold charts: one where UVs lie in the unit square.
+    pub pages: Vec<Page>,
     /// No face is flipped, degenerate, collapsed or without finite UVs.
     pub locally_injective: bool,
     /// Locally injective, and no faces overlap by more than rounding; null when overlaps were not searched.
@@ -105,9 +113,13 @@ pub fn measure(
     v_axis: VAxis,
     options: &MeasureOptions,
 ) -> Measures {
-    let topology = UvTopology::new(positions, triangles, uvs);
+    let aspect = options.aspect;
+    let uvs: Vec<CornerUvs> = (uvs.iter())
+        .map(|face| face.map(|[u, v]| [u * aspect, v]))
+        .collect();
+    let topology = UvTopology::new(positions, triangles, &uvs);
     let faces = FaceMeasures::new(&topology);
-    let size = Size::new(triangles, &topology, &faces);
+    let size = Size::new(triangles, &topology, &faces, aspect);
     let validity = Validity::new(&topology, &faces, v_axis);
     let overlaps = Overlaps::new(&topology, options.overlap);
     let locally_injective = validity.flipped == 0
@@ -121,8 +133,13 @@ pub fn measure(
         packing: Packing::new(
             &topology,
             options.raster_texels.clamp(1, MeasureOptions::MAX_RASTER),
+            aspect,
         ),
-        gaps: Gaps::new(&topology, &faces),
+        gaps: Gaps::new(&topology, &faces, aspect),
+        pages: pages::pages(&topology, &faces, aspect, |v| match v_axis {
+            VAxis::Up => v,
+            VAxis::Down => 1.0 - v,
+        }),
         bijective: overlaps
             .overlap_pairs
             .map(|pairs| locally_injective && pairs == 0),

@@ -34,7 +34,7 @@ pub struct Unwrapped {
     pub charts: Vec<ChartRecord>,
     /// What was found to be wrong with the mesh.
     pub defects: Defects,
-    /// UV length of one unit of length of the mesh.
+    /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
     /// Padding that was kept, in texels; less than asked for only where the charts alone would fill the square.
     pub padding_texels: f64,
@@ -145,9 +145,11 @@ pub(super) fn unwrap_all(
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
         .map(|((mesh, surface), charts)| {
-            let options = atlas_options(settings, meshes.len(), surface.triangles.len());
+            let options = atlas_options(settings, meshes.len(), surface.triangles.len(), &charts);
             let drafted = match settings.cut {
-                Cut::Auto | Cut::Fast if folds == Folds::Cut => {
+                Cut::Auto | Cut::Fast
+                    if folds == Folds::Cut && !atlas::fits(&chart_maps(&charts), &options)? =>
+                {
                     compacted(charts, &options, settings)?
                 }
                 _ => Drafted::new(charts, &options)?,

@@ -82,7 +82,7 @@ fn unwrap_in_pool(
 
     tracker.stage(Stage::Judge);
     let uvs = WrittenUvs::read(&written, (group_by, nodes))?;
-    let mut groups = uvs.judge(&options.claims());
+    let mut groups = uvs.judge(&options.claims(), options.resolution);
     add_history(&mut groups, &atlases);
     seconds.judge = watch.lap();
 

@@ -109,6 +109,7 @@ impl PipelineError {
             Self::NoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
+            Self::Atlas(AtlasError::TextureTooSmall(_)) => "texture_too_small",
             Self::Atlas(_) | Self::Inverted | Self::Crossed => "no_valid_result",
             #[cfg(feature = "files")]
             Self::NotCertified => "no_valid_result",
@@ -123,6 +124,7 @@ impl PipelineError {
             Self::Mesh(_)
             | Self::TooManyTriangles { .. }
             | Self::NoTriangles
+            | Self::Atlas(AtlasError::TextureTooSmall(_))
             | Self::Cage(_)
             | Self::Problem(_)
             | Self::Seams(_)

@@ -9,7 +9,7 @@ use super::measure_options::MeasureOptions;
 use super::nodes::Nodes;
 use super::proven::Proven;
 use super::report::{GroupReport, Report};
-use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, certify};
+use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, Resolution, certify};
 use crate::document::{Document, Group, GroupBy, Primitive, Upload, Written};
 use crate::measure::{self, Measures, VAxis};
 
@@ -73,11 +73,11 @@ impl WrittenUvs {
         })
     }
 
-    /// Measures and certifies every group.
-    pub(super) fn judge(&self, claims: &Claims) -> Vec<GroupReport> {
+    /// Measures and certifies every group, in texels of a texture.
+    pub(super) fn judge(&self, claims: &Claims, texture: Resolution) -> Vec<GroupReport> {
         self.groups
             .par_iter()
-            .map(|group| group.judge(&self.told(claims)))
+            .map(|group| group.judge(&self.told(claims), texture))
             .collect()
     }
 
@@ -138,8 +138,11 @@ impl GroupUvs {
         certify(&self.positions, &self.triangles, &self.uvs, claims)
     }
 
-    fn measure(&self, v_axis: VAxis) -> Measures {
-        let options = measure::MeasureOptions::default();
+    fn measure(&self, v_axis: VAxis, texture: Resolution) -> Measures {
+        let options = measure::MeasureOptions {
+            aspect: texture.aspect(),
+            ..measure::MeasureOptions::default()
+        };
         measure::measure(
             &self.positions,
             &self.triangles,
@@ -149,11 +152,16 @@ impl GroupUvs {
         )
     }
 
-    fn judge(&self, claims: &Claims) -> GroupReport {
-        let (measures, certificate) =
-            rayon::join(|| self.measure(claims.v_axis), || self.certify(claims));
+    fn judge(&self, claims: &Claims, texture: Resolution) -> GroupReport {
+        let (measures, certificate) = rayon::join(
+            || self.measure(claims.v_axis, texture),
+            || self.certify(claims),
+        );
+        let squared = measures.size.area_uv / measures.size.area_3d;
         GroupReport {
             name: self.name.clone(),
+            texels_per_unit: (measures.size.area_3d > 0.0)
+                .then(|| f64::from(texture.height) * squared.sqrt()),
             measures,
             certificate,
             defects: None,
@@ -186,7 +194,7 @@ pub fn measure_document(
     options: &MeasureOptions,
 ) -> Result<Report, PipelineError> {
     with_uvs(upload, options, |uvs| {
-        Report::new(uvs.judge(&options.claims(Overlap::Test)))
+        Report::new(uvs.judge(&options.claims(Overlap::Test), options.resolution))
     })
 }
 

@@ -105,7 +105,7 @@ pub use pictures::{Drawn, Pictures};
 #[cfg(feature = "files")]
 pub use preset::Preset;
 #[cfg(feature = "files")]
-pub use proven::{Proven, ProvenBits, ProvenPadding};
+pub use proven::{Proven, ProvenBits, ProvenPadding, ProvenPages};
 #[cfg(feature = "files")]
 pub use repack::{RepackOptions, repack_document};
 #[cfg(feature = "files")]

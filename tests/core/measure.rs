@@ -83,6 +83,7 @@ fn a_coarse_raster_agrees_with_a_fine_one() {
     let options = |raster_texels| MeasureOptions {
         raster_texels,
         overlap: Overlap::Skip,
+        aspect: 1.0,
     };
     let mesh = UvMesh::grid(5).map_uvs(|[u, v]| [0.1 + 0.7 * u - 0.1 * v, 0.2 + 0.2 * u + 0.5 * v]);
     let area = mesh.measure_with(VAxis::Up, options(8)).size.area_uv;
