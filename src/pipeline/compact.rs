@@ -11,7 +11,7 @@ use std::sync::Arc;
 const PRICE: f64 = 0.015;
 /// A further chart costs as much as a seam of this length in the same unit.
 const PER_CHART: f64 = 0.4;
-/// Cuts at most, in all and for each chart that there was.
+/// Cuts at most for each page, in all and for each chart that there was.
 const MOST_CUTS: u64 = 12;
 const MOST_CUTS_PER_CHART: u64 = 5;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
@@ -51,14 +51,14 @@ pub(super) fn compacted(
         draft => return Ok(Drafted { charts, draft }),
     };
     let words = options.search_words / 4 * 3;
-    let n_charts = charts.len() as u64;
+    let (n_charts, pages) = (charts.len() as u64, u64::from(options.texture.pages));
     let wanted = settings.max_charts.map_or(u64::MAX, u64::from);
     let most_cuts = (wanted.saturating_sub(n_charts))
-        .min(MOST_CUTS)
-        .min(MOST_CUTS_PER_CHART * n_charts)
+        .min(MOST_CUTS * pages)
+        .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
     let seam_weight = settings.seam_weight * settings.quality.seam_price();
-    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize)?;
+    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize, pages as f64)?;
     let Candidate { charts, draft, .. } = fullest(candidates, words);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
@@ -88,14 +88,16 @@ fn candidates(
     draft: Draft,
     seam_weight: f64,
     most_cuts: usize,
+    pages: f64,
 ) -> Result<Vec<Candidate>, AtlasError> {
-    let unit = charts.iter().map(MappedChart::area).sum::<f64>().sqrt();
+    let area = charts.iter().map(MappedChart::area).sum::<f64>();
+    let (unit, of_page) = (area.sqrt(), (area / pages).sqrt());
     let mut candidate = Candidate {
         charts: charts.into_iter().map(Arc::new).collect(),
         draft,
         cost: 0.0,
     };
-    let mut splits = best_splits(&candidate.charts, unit);
+    let mut splits = best_splits(&candidate.charts, of_page);
     let mut candidates = vec![candidate.clone()];
     while candidates.len() <= most_cuts && candidate.cost < 1.0 {
         let Some((chart, split)) = most_worth(&splits) else {
@@ -110,7 +112,7 @@ fn candidates(
         candidate.charts.remove(chart);
         splits.remove(chart);
         let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
-        splits.extend(best_splits(&parts, unit));
+        splits.extend(best_splits(&parts, of_page));
         candidate.charts.extend(parts);
         candidates.push(candidate.clone());
     }

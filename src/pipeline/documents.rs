@@ -68,7 +68,7 @@ fn unwrap_in_pool(
     let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
     seconds.unwrap = watch.lap();
 
-    let uvs = new_uvs(&document, &groups, &atlases);
+    let uvs = new_uvs(&document, &groups, &atlases, options.pages);
     let mut baked = None;
     if options.rebake {
         tracker.stage(Stage::Bake);
@@ -100,6 +100,7 @@ fn unwrap_in_pool(
         report,
         pictures: Pictures {
             uvs,
+            texture: options.resolution,
             shown: options.heatmap_measure,
             threads: options.settings().threads,
         },
@@ -136,7 +137,7 @@ fn group_by(options: &Options) -> GroupBy {
 }
 
 /// The atlases as UVs of the document.
-fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped]) -> NewUvs {
+fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped], pages: u32) -> NewUvs {
     let primitives = document.primitives();
     let mut corners = vec![None; primitives.len()];
     for (group, atlas) in groups.iter().zip(atlases) {
@@ -149,6 +150,7 @@ fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped]) -> NewU
     }
     NewUvs {
         layout: Layout::New,
+        pages,
         v_axis: VAxis::Up,
         corners,
     }
