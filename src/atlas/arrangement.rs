@@ -2,7 +2,8 @@
 use std::sync::Arc;
 
 use super::poses::Poses;
-use super::sheet::{Corner, Sheet, Window};
+use super::sheet::Sheet;
+use super::spot::{Corner, Window};
 use crate::numerics::random::Random;
 
 /// An order and a pose for every chart, and what comes of it.

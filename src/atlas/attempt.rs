@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
 use super::plan::{Near, Plan, QuarterTurns};
-use super::sheet::{Corner, Sheet, Spot, Window};
+use super::sheet::Sheet;
+use super::spot::{Corner, Spot, Window};
 use super::texture::{Form, Texture};
 use super::turned::Turned;
 

@@ -1,11 +1,14 @@
 //! What would do where charts do not fit at the scale that is asked for.
 
+use std::fmt;
+
 use super::draft::Draft;
-use super::layout::layout;
+use super::layout::{SLACK, layout};
+use super::outline::outlines;
 use super::pack::best;
 use super::plan::Plan;
 use super::texture::Texture;
-use super::{AtlasOptions, Borders, Enough, Scale};
+use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale};
 use crate::certificate::Resolution;
 
 /// By how much a larger texture exceeds what the best layout needs: searches in two textures differ.
@@ -15,59 +18,72 @@ const WHOLE: u32 = 16;
 /// The longest side of a texture.
 const LONGEST: u32 = 65_536;
 
-/// A resolution, and a number of pages, that would do for so many texels per mesh unit.
-pub(super) fn enough(
-    first: &Plan,
-    draft: Option<&Draft>,
-    slack: &[f64],
-    texels: f64,
-    options: &AtlasOptions,
-) -> Enough {
-    Enough {
-        resolution: resolution(first, draft, slack, texels, options),
-        pages: pages(first, slack, options),
+/// A texture that would do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Enough {
+    /// A resolution with as many pages.
+    pub resolution: Option<Resolution>,
+    /// So many pages of the same resolution.
+    pub pages: Option<u32>,
+}
+
+/// After what is too small.
+impl fmt::Display for Enough {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.resolution, self.pages) {
+            (Some(resolution), Some(pages)) => {
+                write!(f, ": resolution {resolution}, or {pages} pages, would do")
+            }
+            (Some(resolution), None) => write!(f, ": resolution {resolution} would do"),
+            (None, Some(pages)) => write!(f, ": {pages} pages would do"),
+            (None, None) => write!(f, ", and so is the largest"),
+        }
     }
 }
 
-/// That at which the fullest layout has so many texels per unit.
-fn resolution(
-    first: &Plan,
-    draft: Option<&Draft>,
-    slack: &[f64],
-    texels: f64,
-    options: &AtlasOptions,
-) -> Option<Resolution> {
-    let texture = options.texture;
+/// What would do for charts at the scale that is given, as far as one layout of each kind tells.
+pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, AtlasError> {
+    let Scale::TexelsPerUnit(texels) = options.scale else {
+        return Ok(Enough::default());
+    };
     let largest = AtlasOptions {
         scale: Scale::Largest,
         ..options.clone()
     };
-    let (_, layout) = best(first, draft, slack, &largest)?;
-    let reached = layout.scale / texture.grid_side() * f64::from(texture.resolution.longer());
-    let shorter = MARGIN * texels / reached * f64::from(texture.resolution.shorter());
+    let slack = vec![SLACK; charts.len()];
+    let first = Plan::largest_first(&outlines(charts)?, options);
+    let draft = Draft::new(charts, &largest)?;
+    let fullest = best(&first, draft.as_ref(), &slack, &largest);
+    let longer = f64::from(options.texture.resolution.longer());
+    let reached = |scale: f64| scale / options.texture.grid_side() * longer;
+    Ok(Enough {
+        resolution: fullest
+            .and_then(|(_, layout)| resolution(MARGIN * texels / reached(layout.scale), options)),
+        pages: pages(&first, &slack, options),
+    })
+}
+
+/// A resolution so many times as large.
+fn resolution(times: f64, options: &AtlasOptions) -> Option<Resolution> {
+    let Resolution { width, height } = options.texture.resolution;
+    let shorter = times * f64::from(width.min(height));
     let mut shorter = (shorter.min(f64::from(LONGEST)).ceil() as u32).next_multiple_of(WHOLE);
     if options.borders == Borders::OnTexels {
         shorter = shorter.next_power_of_two();
     }
-    let ratio = texture.resolution.longer() / texture.resolution.shorter().max(1);
-    let longer = shorter * ratio;
-    let is_upright = texture.resolution.width < texture.resolution.height;
-    let [width, height] = if is_upright {
-        [shorter, longer]
-    } else {
-        [longer, shorter]
-    };
+    let [u, v] = options.texture.resolution.halvings();
+    let longer = shorter << u.max(v);
+    let [width, height] = [longer >> u, longer >> v];
     (longer <= LONGEST).then_some(Resolution { width, height })
 }
 
 /// As many as a layout uses that may use all there can be.
 fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
-    let texture = Texture {
-        pages: Texture::MOST_PAGES,
-        ..options.texture
-    };
     let many = AtlasOptions {
-        texture,
+        texture: Texture {
+            pages: Texture::MOST_PAGES,
+            ..options.texture
+        },
         ..options.clone()
     };
     let layout = layout(first, slack, &many)?;

@@ -7,7 +7,7 @@
 //! every machine.
 use super::attempt::{Attempt, Extent, Packing};
 use super::plan::Plan;
-use super::sheet::Spot;
+use super::spot::Spot;
 use super::{AtlasOptions, Scale};
 
 /// Where all charts lie.

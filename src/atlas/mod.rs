@@ -34,16 +34,16 @@ mod poses;
 mod relax;
 mod sheet;
 mod snap;
+mod spot;
 mod texture;
 mod turned;
 
 pub use clear::cleared;
 pub use draft::Draft;
+pub use enough::{Enough, enough};
 pub use pack::{fits, pack, pack_draft};
 pub use texture::Texture;
 
-use crate::certificate::Resolution;
-use std::fmt;
 use thiserror::Error;
 
 /// Atlas coordinates are integers, the side of a page is 2^GRID_BITS: in the unit square those are the steps `f32` represents.
@@ -187,31 +187,8 @@ pub enum AtlasError {
         charts: usize,
     },
     /// At the scale asked for the charts do not fit.
-    #[error("{0}")]
-    TextureTooSmall(Enough),
-}
-
-/// What would do where the charts do not fit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Enough {
-    /// A resolution with as many pages.
-    pub resolution: Option<Resolution>,
-    /// So many pages of the same resolution.
-    pub pages: Option<u32>,
-}
-
-impl fmt::Display for Enough {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the texture is too small for that many texels per unit")?;
-        match (self.resolution, self.pages) {
-            (Some(resolution), Some(pages)) => {
-                write!(f, ": resolution {resolution}, or {pages} pages, would do")
-            }
-            (Some(resolution), None) => write!(f, ": resolution {resolution} would do"),
-            (None, Some(pages)) => write!(f, ": {pages} pages would do"),
-            (None, None) => write!(f, ", and so is the largest"),
-        }
-    }
+    #[error("the charts do not fit at this scale")]
+    TextureTooSmall,
 }
 
 /// Twice the signed area of a grid triangle, exact.

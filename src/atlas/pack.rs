@@ -3,12 +3,11 @@ use rayon::prelude::*;
 
 use super::align::aligned;
 use super::draft::Draft;
-use super::enough::enough;
 use super::layout::{self, Layout, SLACK};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
-use super::sheet::{Corner, Spot};
 use super::snap::{self, Snapped};
+use super::spot::{Corner, Spot};
 use super::{
     Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Placed, Scale, doubled_area,
 };
@@ -35,15 +34,13 @@ pub fn pack_draft(
 ) -> Result<Atlas, AtlasError> {
     let mut slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
-    let none = |slack: &[f64]| match options.scale {
+    let none = match options.scale {
         Scale::Largest => AtlasError::TooManyCharts {
             charts: charts.len(),
         },
-        Scale::TexelsPerUnit(texels) => {
-            AtlasError::TextureTooSmall(enough(&first, draft, slack, texels, options))
-        }
+        Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
     };
-    let (plan, mut layout) = best(&first, draft, &slack, options).ok_or_else(|| none(&slack))?;
+    let (plan, mut layout) = best(&first, draft, &slack, options).ok_or_else(|| none.clone())?;
     let mut cramped = 0;
     for _ in 0..ROUNDS {
         let snapped = snapped(charts, &plan.outlines, &layout)?;
@@ -59,7 +56,7 @@ pub fn pack_draft(
         if settled {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
-        layout = layout::layout(&plan, &slack, options).ok_or_else(|| none(&slack))?;
+        layout = layout::layout(&plan, &slack, options).ok_or_else(|| none.clone())?;
     }
     Err(AtlasError::NotRepresentable { chart: cramped })
 }

@@ -18,6 +18,7 @@ use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
     self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode, Preset,
+    TexelWeight,
 };
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
@@ -96,6 +97,9 @@ pub(super) struct Args {
     /// Texels along one unit of length of the mesh [default: as many as fit]
     #[arg(long, value_name = "T")]
     texels_per_unit: Option<f64>,
+    /// Material, by name or index, that gets W times as many texels along a line as the others; may be given again
+    #[arg(long, value_name = "MATERIAL=W")]
+    texel_weight: Vec<TexelWeight>,
     /// Least distance of two charts in texels
     #[arg(long, default_value_t = 2, value_name = "TEXELS")]
     padding: u32,
@@ -151,6 +155,7 @@ impl Args {
             resolution: self.resolution,
             pages: self.pages,
             texels_per_unit: self.texels_per_unit,
+            texel_weights: self.texel_weight.clone(),
             padding: self.padding,
             mips: self.mips,
             quantization_safe: self.quantization_safe,

@@ -7,6 +7,8 @@
 //! - With a texture that is not square u is multiplied by its width over its height at first: lengths are those of texels.
 //! - UVs are scaled by s = √(A₃d / A_uv) before distortion is taken, so that total areas agree; σ₁ ≥ σ₂ are the singular values of
 //!   a face's scaled map from the surface to UV. Means are weighted by surface area, percentiles too.
+//! - Where faces have weights, the densities intended, the surface is so much larger for distortion and density; areas, means and
+//!   seams stay those of the surface.
 //! - A face is degenerate in 3D when its area is 0, below 10⁻⁹ of its longest edge squared, or below 10⁻¹⁴ of the bounding box
 //!   diagonal squared. Such faces and those of zero UV area take no part in distortion, but are counted beside it, so
 //!   that a collapse cannot hide.
@@ -42,26 +44,29 @@ use serde::Serialize;
 
 /// What to measure.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct MeasureOptions {
+pub struct MeasureOptions<'a> {
     /// Side of the raster that packing and `overlap_frac` are counted on, in texels; at most [`MeasureOptions::MAX_RASTER`].
     pub raster_texels: u32,
     /// Whether overlapping pairs of faces are counted.
     pub overlap: Overlap,
     /// Width of the texture over its height: u is multiplied by it, so that all lengths are of its texels.
     pub aspect: f64,
+    /// For each face the density intended: the surface is enlarged by it before it is compared with UVs. The same for all if absent.
+    pub weights: Option<&'a [f64]>,
 }
 
-impl MeasureOptions {
+impl MeasureOptions<'_> {
     /// The greatest raster; beyond it a scan line's products would not fit an i64.
     pub const MAX_RASTER: u32 = 1 << 14;
 }
 
-impl Default for MeasureOptions {
+impl Default for MeasureOptions<'_> {
     fn default() -> Self {
         MeasureOptions {
             raster_texels: 4096,
             overlap: Overlap::Test,
             aspect: 1.0,
+            weights: None,
         }
     }
 }
@@ -118,7 +123,7 @@ pub fn measure(
         .map(|face| face.map(|[u, v]| [u * aspect, v]))
         .collect();
     let topology = UvTopology::new(positions, triangles, &uvs);
-    let faces = FaceMeasures::new(&topology);
+    let faces = FaceMeasures::new(&topology, options.weights);
     let size = Size::new(triangles, &topology, &faces, aspect);
     let validity = Validity::new(&topology, &faces, v_axis);
     let overlaps = Overlaps::new(&topology, options.overlap);

@@ -1,6 +1,6 @@
 //! Charts cut where that makes their atlas fuller.
 
-use super::arrays::chart_maps;
+use super::packed::chart_maps;
 use super::settings::Settings;
 use crate::atlas::{AtlasError, AtlasOptions, Draft};
 use crate::charts::{MappedChart, Split};

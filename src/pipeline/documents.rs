@@ -81,7 +81,10 @@ fn unwrap_in_pool(
     seconds.write = watch.lap();
 
     tracker.stage(Stage::Judge);
-    let uvs = WrittenUvs::read(&written, (group_by, nodes))?;
+    let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
+    for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
+        group.weights = mesh.seams.weights;
+    }
     let mut groups = uvs.judge(&options.claims(), options.resolution);
     add_history(&mut groups, &atlases);
     seconds.judge = watch.lap();

@@ -6,6 +6,7 @@ use super::nodes::Nodes;
 use super::preset::Preset;
 use super::rebake::MOST_SIDE;
 use super::settings::{KeptMaps, PackingMode, Settings, within};
+use super::texel_weight::TexelWeight;
 use super::{Limits, PipelineError};
 use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
@@ -103,6 +104,11 @@ pub struct Options {
     /// Texels along one unit of length of the mesh. If absent as many as fit; a texture that is too small is an error.
     #[cfg_attr(feature = "service", schema(minimum = 1e-9, maximum = 1e9))]
     pub texels_per_unit: Option<f64>,
+    /// Materials of a glTF that get so many times as many texels along a line as the others, as `MATERIAL=W` with a name or an index.
+    /// Borders between different weights are cut, `texels_per_unit` is that of weight 1, and distortion is measured against
+    /// the density intended.
+    #[cfg_attr(feature = "service", schema(value_type = Vec<String>))]
+    pub texel_weights: Vec<TexelWeight>,
     /// Least distance of two charts, in texels of the coarsest of the mip levels that count; at most an eighth of its side.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: u32,
@@ -161,6 +167,7 @@ impl Default for Options {
             resolution: settings.resolution,
             pages: settings.pages,
             texels_per_unit: settings.texels_per_unit,
+            texel_weights: Vec::new(),
             padding: settings.padding,
             mips: 0,
             quantization_safe: settings.quantization_safe,
@@ -254,6 +261,7 @@ impl Options {
     fn validate(&self) -> Result<(), String> {
         check_mips(self.padding, self.mips)?;
         self.settings().validate()?;
+        self.texel_weights.iter().try_for_each(TexelWeight::check)?;
         if self.cut == Cut::Seams && self.seams.is_none() {
             return Err("cut seams needs seams".to_owned());
         }

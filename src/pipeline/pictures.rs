@@ -74,7 +74,12 @@ impl Faces {
         Self {
             name: group.name.clone(),
             charts: chart_ids(&group.positions, &group.triangles, &uvs),
-            distortion: face_distortion(&group.positions, &group.triangles, &uvs),
+            distortion: face_distortion(
+                &group.positions,
+                &group.triangles,
+                &uvs,
+                group.weights.as_deref(),
+            ),
             uvs,
         }
     }

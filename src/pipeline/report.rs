@@ -49,8 +49,8 @@ pub struct Report {
 pub struct GroupReport {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
-    /// Texels along one unit of length of the mesh: the root of the area of all faces in texels over that on the surface; null
-    /// where the surface has none.
+    /// Texels along one unit of length of the mesh, of materials of weight 1: the root of the area of all faces in texels over that on
+    /// the surface, enlarged by its weights; null where the surface has none.
     pub texels_per_unit: Option<f64>,
     /// Distortion, seams, packing and overlaps, measured on the written bytes.
     pub measures: Measures,
