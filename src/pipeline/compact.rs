@@ -2,7 +2,8 @@
 
 use super::packed::chart_maps;
 use super::settings::Settings;
-use crate::atlas::{AtlasError, AtlasOptions, Draft};
+use crate::atlas::{AtlasError, AtlasOptions, Draft, Texture};
+use crate::certificate::Resolution;
 use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -58,7 +59,7 @@ pub(super) fn compacted(
         .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
     let seam_weight = settings.seam_weight * settings.quality.seam_price();
-    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize, pages as f64)?;
+    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize, options.texture)?;
     let Candidate { charts, draft, .. } = fullest(candidates, words);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
@@ -88,10 +89,14 @@ fn candidates(
     draft: Draft,
     seam_weight: f64,
     most_cuts: usize,
-    pages: f64,
+    texture: Texture,
 ) -> Result<Vec<Candidate>, AtlasError> {
     let area = charts.iter().map(MappedChart::area).sum::<f64>();
-    let (unit, of_page) = (area.sqrt(), (area / pages).sqrt());
+    let Resolution { width, height } = texture.resolution;
+    // A chart has to fit across a page that is not square, but may be longer than it is wide.
+    let slender = (f64::from(width.min(height)) / f64::from(width.max(height))).sqrt();
+    let of_page = (area / f64::from(texture.pages) * slender).sqrt();
+    let unit = area.sqrt();
     let mut candidate = Candidate {
         charts: charts.into_iter().map(Arc::new).collect(),
         draft,
