@@ -62,7 +62,7 @@ pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f6
 /// The best layout found of a plan; none when there are more charts than cells.
 pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<Layout> {
     let texture = options.texture;
-    let cells = texture.raster(raster(plan.order.len() / texture.pages as usize));
+    let cells = texture.raster(raster(plan.order.len() / texture.pages.max(1) as usize));
     let padding = padding(options, plan.order.len(), f64::from(cells));
     let border = (padding / 2.0).max(SLACK);
     let packing = Packing {

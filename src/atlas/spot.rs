@@ -25,7 +25,7 @@ pub(super) struct Spot {
 impl Spot {
     pub(super) fn new(mask: &Turned, corner: Corner) -> Self {
         let [width, height] = mask.size;
-        let is_upright = mask.turns % 2 == 0;
+        let is_upright = mask.turns.is_multiple_of(2);
         let (width, height) = if is_upright {
             (width, height)
         } else {

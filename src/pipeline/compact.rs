@@ -59,7 +59,13 @@ pub(super) fn compacted(
         .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
     let seam_weight = settings.seam_weight * settings.quality.seam_price();
-    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize, options.texture)?;
+    let candidates = candidates(
+        charts,
+        draft,
+        seam_weight,
+        most_cuts as usize,
+        options.texture,
+    )?;
     let Candidate { charts, draft, .. } = fullest(candidates, words);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),

@@ -65,10 +65,8 @@ fn page_numbers(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> 
     let area: f64 = charts.iter().map(MappedChart::area).sum();
     let resolution = options.texture.resolution;
     let page = HOPE * f64::from(resolution.width) * f64::from(resolution.height);
-    let (least, most) = (
-        (texels * texels * area / page) as u32,
-        options.texture.pages,
-    );
+    let most = options.texture.pages;
+    let least = (texels * texels * area / page).min(f64::from(most)) as u32;
     let mut numbers = [least + 1, least + 2, most]
         .map(|pages| pages.min(most))
         .to_vec();

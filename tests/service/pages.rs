@@ -66,6 +66,9 @@ fn a_density_is_kept_or_refused_with_what_would_do() {
     let resolution = resolution.split([' ', ',']).next().expect("a number");
     let enough = ["--texels-per-unit", "700", "--resolution", resolution];
     assert_status(&with(&enough), 0);
+
+    let beyond = with(&["--texels-per-unit", "1e9", "--pages", "3"]);
+    assert_status(&beyond, 3);
 }
 
 #[test]

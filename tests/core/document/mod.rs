@@ -8,6 +8,7 @@ mod roundtrip;
 mod survive;
 mod texcoord;
 mod validator;
+mod weights;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
