@@ -100,7 +100,9 @@ fn what_is_laid_out_on_pages_is_exact_in_f32_and_certified() {
         let padding = certificate.padding.expect("asked for");
         assert!(padding.kept, "{width}x{height}, {pages} pages: {padding:?}");
         let used = certificate.pages.expect("asked for");
-        assert!(used.kept && 2 * used.used >= pages as usize, "{used:?}");
+        // Across a slender page the largest chart decides, and few pages hold the others.
+        let are_many = width != height || 2 * used.used >= pages as usize;
+        assert!(used.kept && are_many, "{used:?}");
     }
 }
 
