@@ -65,8 +65,8 @@ pub fn unwrap(
     unwrap_along(positions, triangles, &Seams::default(), settings, observer)
 }
 
-/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`] and
-/// [`Cut::Keep`] along no others than it takes to open what they enclose.
+/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](crate::charts::Cut::Seams) and
+/// [`Cut::Keep`](crate::charts::Cut::Keep) along no others than it takes to open what they enclose.
 pub fn unwrap_along(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
