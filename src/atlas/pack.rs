@@ -1,22 +1,23 @@
 //! From chart maps to their places on the grid.
 use rayon::prelude::*;
 
-use super::align::align;
+use super::align::aligned;
 use super::draft::Draft;
 use super::layout::{self, Layout, SLACK};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
-use super::sheet::Spot;
 use super::snap::{self, Snapped};
-use super::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Placed, doubled_area};
+use super::spot::{Corner, Spot};
+use super::{
+    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Placed, Scale, doubled_area,
+};
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
 /// Results of searches that are laid out in full.
 const FINALISTS: usize = 4;
 
-/// Places every chart in the unit square, each triangle strictly positive on the grid, any two charts
-/// at least the padding apart.
+/// Places every chart on a page, each triangle strictly positive on the grid, any two charts at least the padding apart.
 ///
 /// The charts must be strictly positive as given; one that has a flipped triangle is rounded without repair. The same
 /// input gives the same atlas for any number of threads.
@@ -24,24 +25,28 @@ pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasE
     pack_draft(charts, Draft::new(charts, options)?.as_ref(), options)
 }
 
-/// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on.
+/// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on. A scale that is given is
+/// tried in that way at first.
 pub fn pack_draft(
     charts: &[ChartMap],
     draft: Option<&Draft>,
     options: &AtlasOptions,
 ) -> Result<Atlas, AtlasError> {
-    let too_many = AtlasError::TooManyCharts {
-        charts: charts.len(),
-    };
     let mut slack = vec![SLACK; charts.len()];
-    let plan = Plan::largest_first(&outlines(charts)?, options.turns);
-    let (plan, mut layout) = best(plan, draft, &slack, options).ok_or(too_many.clone())?;
+    let first = Plan::largest_first(&outlines(charts)?, options);
+    let none = match options.scale {
+        Scale::Largest => AtlasError::TooManyCharts {
+            charts: charts.len(),
+        },
+        Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
+    };
+    let (plan, mut layout) = best(&first, draft, &slack, options).ok_or_else(|| none.clone())?;
     let mut cramped = 0;
     for _ in 0..ROUNDS {
         let snapped = snapped(charts, &plan.outlines, &layout)?;
         let mut settled = true;
         for (chart, snapped) in snapped.iter().enumerate() {
-            // Shifting and turning round to whole grid units once more.
+            // Shifting and turning round to whole grid steps once more.
             let needed = (snapped.largest_move + 2.0) / layout.cell;
             if needed > slack[chart] {
                 slack[chart] = 1.5 * needed;
@@ -49,30 +54,39 @@ pub fn pack_draft(
             }
         }
         if settled {
-            let mut atlas = atlas(charts, &layout, &slack, snapped);
-            if options.borders == Borders::OnTexels {
-                align(&mut atlas, charts, options.resolution);
-            }
-            return Ok(atlas);
+            return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
-        layout = layout::layout(&plan, &slack, options).ok_or(too_many.clone())?;
+        layout = layout::layout(&plan, &slack, options).ok_or_else(|| none.clone())?;
     }
     Err(AtlasError::NotRepresentable { chart: cramped })
 }
 
-/// The plan whose layout has the largest scale: the one given, or what a search makes of it.
-fn best(
-    first: Plan,
+/// Whether charts fit at the scale that is given, each placed once, the largest first.
+pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasError> {
+    let plan = Plan::largest_first(&outlines(charts)?, options);
+    let slack = vec![SLACK; charts.len()];
+    Ok(options.scale != Scale::Largest && layout::layout(&plan, &slack, options).is_some())
+}
+
+/// The plan whose layout has the largest scale: the one given, or what a search makes of it. Where the scale is given, the first that
+/// has a layout.
+pub(super) fn best(
+    first: &Plan,
     draft: Option<&Draft>,
     slack: &[f64],
     options: &AtlasOptions,
 ) -> Option<(Plan, Layout)> {
+    if options.scale != Scale::Largest
+        && let Some(layout) = layout::layout(first, slack, options)
+    {
+        return Some((first.clone(), layout));
+    }
     let mut plans = Vec::new();
     if let Some(draft) = draft {
         let drafts = draft.searched(options.search_words / 4);
         plans.extend(drafts.iter().take(FINALISTS).map(Draft::plan));
     }
-    plans.push(first);
+    plans.push(first.clone());
     let shared = AtlasOptions {
         search_words: options.search_words / 2 / plans.len() as u64,
         ..options.clone()
@@ -110,20 +124,38 @@ fn snapped(
         .collect()
 }
 
-/// Turns and shifts every chart to its place.
-fn atlas(charts: &[ChartMap], layout: &Layout, slack: &[f64], snapped: Vec<Snapped>) -> Atlas {
+/// Turns and shifts every chart to its place on its page.
+fn atlas(
+    charts: &[ChartMap],
+    layout: &Layout,
+    slack: &[f64],
+    snapped: Vec<Snapped>,
+    options: &AtlasOptions,
+) -> Atlas {
+    let texture = options.texture;
     let moved_vertices = snapped.iter().map(|s| s.moved).sum();
     let largest_move = snapped.iter().map(|s| s.largest_move).fold(0.0, f64::max);
+    let texel = texture.grid_side() as i32 / texture.resolution.longer().max(1) as i32;
     let spots = layout.charts.iter().zip(slack);
     let placed: Vec<Placed> = charts
         .iter()
         .zip(snapped.into_iter().zip(spots))
-        .map(|(map, (snapped, (&(spot, _), &slack)))| Placed {
-            grid: if map.triangles.is_empty() {
-                vec![[0; 2]; map.uv.len()]
-            } else {
-                moved(snapped.grid, spot, layout, slack - SLACK)
-            },
+        .map(|(map, (snapped, (&(spot, _), &slack)))| {
+            if map.triangles.is_empty() {
+                return Placed {
+                    grid: vec![[0; 2]; map.uv.len()],
+                };
+            }
+            let grid = moved(snapped.grid, spot, layout, slack - SLACK);
+            let grid = match options.borders {
+                Borders::Free => grid,
+                Borders::OnTexels => aligned(map, grid, texel),
+            };
+            let page = spot.corner.page;
+            let on_page = grid.into_iter().map(|p| texture.on_page(page, p));
+            Placed {
+                grid: on_page.collect(),
+            }
         })
         .collect();
     let doubled = |(map, placed): (&ChartMap, &Placed)| {
@@ -133,8 +165,8 @@ fn atlas(charts: &[ChartMap], layout: &Layout, slack: &[f64], snapped: Vec<Snapp
     let covered: f64 = charts.iter().zip(&placed).map(doubled).sum();
     Atlas {
         placed,
-        scale: layout.scale / GRID_SIDE,
-        utilization: covered / (2.0 * GRID_SIDE * GRID_SIDE),
+        scale: layout.scale / texture.grid_side(),
+        utilization: covered / (2.0 * GRID_SIDE * GRID_SIDE * f64::from(texture.pages)),
         padding_texels: layout.padding_texels,
         enlarged_charts: layout
             .charts
@@ -154,8 +186,7 @@ fn moved(mut grid: Vec<[i32; 2]>, spot: Spot, layout: &Layout, around: f64) -> V
         ((layout.border + f64::from(corner + size) - around) * layout.cell).round() as i32
     };
     let Spot {
-        x,
-        y,
+        corner: Corner { x, y, .. },
         turns,
         width,
         height,

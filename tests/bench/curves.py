@@ -90,7 +90,7 @@ def drawn(sweeps, path):
            {math.log(b - 4): f"{b:g}" for b in BOUNDS}, middle)
     by_mesh = {mesh: {m: [prices[p][m] for p in PRICES] for m in MEASURES} for mesh, (_, prices) in sweeps.items()}
     panels(below, "price of a seam", dict(enumerate(PRICES)), by_mesh)
-    canvas.savefig(path, dpi=160)
+    canvas.savefig(path, dpi=120)
 
 
 def main():

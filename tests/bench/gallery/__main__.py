@@ -27,7 +27,7 @@ MESHES = {
     "Spot": ("closed/spot.ply", (150, 12, "y"), "Keenan Crane, CC0"),
     "Human": ("closed/human_neutral.obj", (20, 5, "y"), "Max Planck Society via SMPL-X, CC BY 4.0"),
     "Koala": ("closed/koala.obj", (40, 12, "y"), "YahooJAPAN, CC BY 3.0"),
-    "Beetle": ("closed/beetle.obj", (40, 20, "y"), "boundary-first-flattening, MIT"),
+    "Beetle": ("closed/beetle.obj", (40, 20, "y"), "Geometry Collective, MIT"),
     "Boot": ("closed/boot.obj", (60, 15, "y"), "inciprocal, CC BY 4.0"),
     "Plane": ("closed/plane_holes.obj", (40, 30, "z"), "YahooJAPAN, CC BY 3.0"),
     "Fox": ("gltf/Fox.glb", (60, 10, "y"), "PixelMannen, CC0"),
