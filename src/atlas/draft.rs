@@ -3,18 +3,21 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 use super::arrangement::Arrangement;
-use super::layout::padding;
+use super::layout::{Layout, padding};
 use super::mask::Distances;
 use super::outline::{Outline, outlines};
 use super::plan::{Near, Plan, QuarterTurns, by_size, level};
 use super::poses::Poses;
 use super::sheet::Sheet;
-use super::{AtlasError, AtlasOptions, ChartMap, Turns};
+use super::squeeze::{Body, Pose, Squeezed};
+use super::{AtlasError, AtlasOptions, ChartMap, Turns, tight};
 use crate::numerics::random::Random;
 
 /// Cells along the side of the square that the charts are expected to need. With 128 a cell is too much for the gaps that
 /// matter; with 512 a trial costs four times as much, and less is found in the same time.
 const RASTER: u32 = 256;
+/// Cells of the finer raster for each of those.
+const FINE: f64 = 4.0;
 /// The share of that square that they are expected to fill.
 const HOPE: f64 = 0.75;
 /// Sides of squares in which all charts are first placed.
@@ -40,6 +43,8 @@ pub struct Draft {
     poses: Vec<Arc<Poses>>,
     raster: Raster,
     state: Arrangement,
+    /// The same, or what a better state became, when charts made room for each other.
+    squeezed: Option<Squeezed>,
 }
 
 /// How charts become cells.
@@ -109,26 +114,62 @@ impl Draft {
             poses,
             raster,
             state,
+            squeezed: None,
         })
     }
 
     /// The share of the square that is filled, less what whole cells of the coarse raster lose.
     pub fn fill(&self) -> f64 {
-        let ratio = f64::from(RASTER) / (self.state.cost + self.raster.padding);
+        let ratio = f64::from(RASTER) / (self.side() + self.raster.padding);
         HOPE * ratio * ratio
+    }
+
+    /// Side of the square, in cells.
+    fn side(&self) -> f64 {
+        let squeezed = self.squeezed.as_ref().map(|squeezed| squeezed.side);
+        squeezed.unwrap_or(f64::INFINITY).min(self.state.cost)
+    }
+
+    /// The layout as places and angles.
+    fn loose(&self) -> Squeezed {
+        let poses = self
+            .poses
+            .iter()
+            .zip(&self.state.pose)
+            .zip(&self.state.corners);
+        Squeezed {
+            poses: poses
+                .map(|((poses, &pose), &corner)| {
+                    let middle = poses.outline(pose).place(poses.outline(0).middle());
+                    let [i, j] = middle.map(|x| x * self.raster.scale);
+                    let [width, height] = poses.mask(pose).size.map(f64::from);
+                    let within = match Poses::turns(pose) {
+                        0 => [i, j],
+                        1 => [width - j, i],
+                        2 => [width - i, height - j],
+                        _ => [j, height - i],
+                    };
+                    let middle = [0, 1].map(|k| f64::from(corner[k]) + within[k]);
+                    Pose::new(middle, Poses::angle(pose))
+                })
+                .collect(),
+            side: f64::from(self.state.side),
+        }
     }
 
     /// The drafts that several searches make of this one, together reading about so many words; the best first.
     pub(super) fn searched(&self, words: u64) -> Vec<Self> {
+        let words = words / SEEDS as u64;
         let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
         let mut drafts: Vec<Self> = seeds
             .map(|seed| {
                 let mut draft = self.clone();
-                draft.improve(words / SEEDS as u64, seed as u64);
+                draft.improve(words / 4, seed as u64);
+                draft.relocate(words / 4 * 3, seed as u64);
                 draft
             })
             .collect();
-        drafts.sort_by(|a, b| a.state.cost.total_cmp(&b.state.cost));
+        drafts.sort_by(|a, b| a.side().total_cmp(&b.side()));
         drafts
     }
 
@@ -137,32 +178,67 @@ impl Draft {
         if self.state.order.is_empty() {
             return;
         }
+        self.anneal(words, &mut Random::new(seed));
+        let mut squeezed = self.loose();
+        squeezed.settle(&self.bodies());
+        if self
+            .squeezed
+            .as_ref()
+            .is_none_or(|best| squeezed.side < best.side)
+        {
+            self.squeezed = Some(squeezed);
+        }
+    }
+
+    /// The best arrangement that is found while about so many words are read, or the one of before.
+    fn anneal(&mut self, words: u64, random: &mut Random) {
         // A few charts have few layouts.
         let n = (self.poses.len() as u64).min(MANY);
         let words = words * n * n / (MANY * MANY);
-        let mut random = Random::new(seed);
         let largest = self.state.side + self.state.side / 16;
         let mut sheet = self.raster.sheet(largest);
         let mut state = self.state.clone();
+        let mut best: Option<Arrangement> = None;
         let [first, last] = TEMPERATURES;
         while sheet.work < words {
             let progress = sheet.work as f64 / words as f64;
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
             let mut trial = state.clone();
-            let first = trial.change(&mut random);
+            let first = trial.change(random);
             sheet.work += WORDS_PER_CHART * trial.order.len() as u64;
             let fits = trial.lay_out(&self.poses, &mut sheet, first, largest.min(bound as u32));
             if fits.is_some() && trial.cost <= bound {
                 state = trial;
-                if state.cost < self.state.cost {
-                    self.state.clone_from(&state);
+                if best.as_ref().is_none_or(|best| state.cost < best.cost) {
+                    best = Some(state.clone());
                 }
             }
         }
+        self.state = best.unwrap_or(state);
     }
 
-    /// As a plan for a fine raster.
+    /// Lets charts look for other places while about so many words are read.
+    fn relocate(&mut self, words: u64, seed: u64) {
+        let bodies = self.bodies();
+        if let Some(squeezed) = &mut self.squeezed {
+            squeezed.search(&bodies, words, seed);
+        }
+    }
+
+    fn bodies(&self) -> Vec<Arc<Body>> {
+        self.poses.iter().map(|poses| poses.body()).collect()
+    }
+
+    /// The charts turned, and a layout in which they lie as near to each other as they may; none where that is not found.
+    pub(super) fn tight(&self, options: &AtlasOptions) -> Option<(Vec<Outline>, Layout)> {
+        let mut squeezed = self.squeezed.clone()?;
+        squeezed.scale(FINE);
+        let level: Vec<&Outline> = self.poses.iter().map(|poses| poses.outline(0)).collect();
+        tight::layout(&level, squeezed, FINE * self.raster.scale, options)
+    }
+
+    /// The arrangement as a plan for a fine raster.
     pub(super) fn plan(&self) -> Plan {
         let Arrangement {
             order,

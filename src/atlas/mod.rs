@@ -29,6 +29,8 @@ mod poses;
 mod relax;
 mod sheet;
 mod snap;
+mod squeeze;
+mod tight;
 mod turned;
 
 pub use clear::cleared;

@@ -12,8 +12,6 @@ use super::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Place
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
-/// Results of searches that are laid out in full.
-const FINALISTS: usize = 4;
 
 /// Places every chart in the unit square, each triangle strictly positive on the grid, any two charts
 /// at least the padding apart.
@@ -30,48 +28,54 @@ pub fn pack_draft(
     draft: Option<&Draft>,
     options: &AtlasOptions,
 ) -> Result<Atlas, AtlasError> {
+    let mut slack = vec![SLACK; charts.len()];
+    let drafts = draft.map(|draft| draft.searched(options.search_words / 4));
+    let drafts = drafts.unwrap_or_default();
+    if let Some((outlines, layout)) = drafts.first().and_then(|draft| draft.tight(options)) {
+        let snapped = snapped(charts, &outlines, &layout)?;
+        if cramped(&snapped, &layout, &mut slack.clone()).is_none() {
+            return Ok(atlas(charts, &layout, &slack, snapped, options));
+        }
+    }
+    let plan = Plan::largest_first(&outlines(charts)?, options.turns);
     let too_many = AtlasError::TooManyCharts {
         charts: charts.len(),
     };
-    let mut slack = vec![SLACK; charts.len()];
-    let plan = Plan::largest_first(&outlines(charts)?, options.turns);
-    let (plan, mut layout) = best(plan, draft, &slack, options).ok_or(too_many.clone())?;
-    let mut cramped = 0;
+    let (plan, mut layout) = best(plan, &drafts, &slack, options).ok_or(too_many.clone())?;
+    let mut chart = 0;
     for _ in 0..ROUNDS {
         let snapped = snapped(charts, &plan.outlines, &layout)?;
-        let mut settled = true;
-        for (chart, snapped) in snapped.iter().enumerate() {
-            // Shifting and turning round to whole grid units once more.
-            let needed = (snapped.largest_move + 2.0) / layout.cell;
-            if needed > slack[chart] {
-                slack[chart] = 1.5 * needed;
-                (cramped, settled) = (chart, false);
-            }
-        }
-        if settled {
-            let mut atlas = atlas(charts, &layout, &slack, snapped);
-            if options.borders == Borders::OnTexels {
-                align(&mut atlas, charts, options.resolution);
-            }
-            return Ok(atlas);
+        match cramped(&snapped, &layout, &mut slack) {
+            Some(cramped) => chart = cramped,
+            None => return Ok(atlas(charts, &layout, &slack, snapped, options)),
         }
         layout = layout::layout(&plan, &slack, options).ok_or(too_many.clone())?;
     }
-    Err(AtlasError::NotRepresentable { chart: cramped })
+    Err(AtlasError::NotRepresentable { chart })
+}
+
+/// A chart of which a vertex moves farther than its slack, if there is one; all such get more.
+fn cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> Option<usize> {
+    let mut cramped = None;
+    for (chart, (snapped, slack)) in snapped.iter().zip(slack).enumerate() {
+        // Shifting and turning round to whole grid units once more.
+        let needed = (snapped.largest_move + 2.0) / layout.cell;
+        if needed > *slack + layout.spare {
+            *slack = 1.5 * needed;
+            cramped = Some(chart);
+        }
+    }
+    cramped
 }
 
 /// The plan whose layout has the largest scale: the one given, or what a search makes of it.
 fn best(
     first: Plan,
-    draft: Option<&Draft>,
+    drafts: &[Draft],
     slack: &[f64],
     options: &AtlasOptions,
 ) -> Option<(Plan, Layout)> {
-    let mut plans = Vec::new();
-    if let Some(draft) = draft {
-        let drafts = draft.searched(options.search_words / 4);
-        plans.extend(drafts.iter().take(FINALISTS).map(Draft::plan));
-    }
+    let mut plans: Vec<Plan> = drafts.iter().map(Draft::plan).collect();
     plans.push(first);
     let shared = AtlasOptions {
         search_words: options.search_words / 2 / plans.len() as u64,
@@ -110,8 +114,14 @@ fn snapped(
         .collect()
 }
 
-/// Turns and shifts every chart to its place.
-fn atlas(charts: &[ChartMap], layout: &Layout, slack: &[f64], snapped: Vec<Snapped>) -> Atlas {
+/// Turns and shifts every chart to its place, and to the borders of texels if those are asked for.
+fn atlas(
+    charts: &[ChartMap],
+    layout: &Layout,
+    slack: &[f64],
+    snapped: Vec<Snapped>,
+    options: &AtlasOptions,
+) -> Atlas {
     let moved_vertices = snapped.iter().map(|s| s.moved).sum();
     let largest_move = snapped.iter().map(|s| s.largest_move).fold(0.0, f64::max);
     let spots = layout.charts.iter().zip(slack);
@@ -131,7 +141,7 @@ fn atlas(charts: &[ChartMap], layout: &Layout, slack: &[f64], snapped: Vec<Snapp
         map.triangles.iter().map(of).sum::<f64>()
     };
     let covered: f64 = charts.iter().zip(&placed).map(doubled).sum();
-    Atlas {
+    let mut atlas = Atlas {
         placed,
         scale: layout.scale / GRID_SIDE,
         utilization: covered / (2.0 * GRID_SIDE * GRID_SIDE),
@@ -143,7 +153,11 @@ fn atlas(charts: &[ChartMap], layout: &Layout, slack: &[f64], snapped: Vec<Snapp
             .count(),
         moved_vertices,
         largest_move,
+    };
+    if options.borders == Borders::OnTexels {
+        align(&mut atlas, charts, options.resolution);
     }
+    atlas
 }
 
 /// A chart turned by quarters and shifted to its spot; `around` cells of its mask surround it.
