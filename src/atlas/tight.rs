@@ -17,6 +17,8 @@ const ROUNDS: usize = 4;
 /// What they are given beyond what is missing, and how far vertices may be moved when they are rounded, in cells.
 const SPARE: f64 = 0.03;
 const ROUNDED: f64 = 0.01;
+/// The share of the words that may be read which each of those rounds reads at most.
+const SHARE: u64 = 16;
 /// Places to a cell.
 const PLACES: f64 = 64.0;
 
@@ -38,14 +40,14 @@ pub(super) fn layout(
         .collect();
     let mut room = 0.0;
     for _ in 0..ROUNDS {
-        if !squeezed.loosen(&bodies, room) {
+        if !squeezed.loosen(&bodies, room, options.search_words / SHARE) {
             return None;
         }
         let places = Places::new(level, &squeezed, scale);
-        let padding = padding(squeezed.side);
+        let padding = padding(places.side);
         let missing = padding + 2.0 * ROUNDED - places.gap(scale);
         if missing <= 0.0 {
-            return places.layout(scale, squeezed.side, padding, options);
+            return places.layout(scale, padding, options);
         }
         room += missing + SPARE;
     }
@@ -57,6 +59,8 @@ struct Places {
     outlines: Vec<Outline>,
     /// Lower left corners, in parts of a cell.
     corners: Vec<[u32; 2]>,
+    /// Side of the square around them, in cells.
+    side: f64,
 }
 
 impl Places {
@@ -73,7 +77,17 @@ impl Places {
                 )
             })
             .unzip();
-        Self { outlines, corners }
+        let mut places = Self {
+            outlines,
+            corners,
+            side: 0.0,
+        };
+        let placed = places.outlines.iter().zip(&places.corners);
+        let reach = placed.flat_map(|(outline, corner)| {
+            [0, 1].map(|k| f64::from(corner[k]) / PLACES + outline.extent[k] * scale)
+        });
+        places.side = reach.fold(0.0, f64::max);
+        places
     }
 
     /// The smallest distance of two charts, in cells.
@@ -97,14 +111,13 @@ impl Places {
     fn layout(
         self,
         scale: f64,
-        side: f64,
         padding: f64,
         options: &AtlasOptions,
     ) -> Option<(Vec<Outline>, Layout)> {
         let border = PLACES * (padding / 2.0 + ROUNDED);
-        let cell = GRID_SIDE / (PLACES * side + 2.0 * border);
+        let cell = GRID_SIDE / (PLACES * self.side + 2.0 * border);
         let scale = PLACES * scale * cell;
-        let fits = |outline: &Outline| outline.n_triangles == 0 || stretch(outline, scale) <= 1.0;
+        let fits = |outline: &Outline| stretch(outline, scale) <= 1.0;
         if !self.outlines.iter().all(fits) {
             return None;
         }

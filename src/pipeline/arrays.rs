@@ -147,9 +147,7 @@ pub(super) fn unwrap_all(
         .map(|((mesh, surface), charts)| {
             let options = atlas_options(settings, meshes.len(), surface.triangles.len());
             let drafted = match settings.cut {
-                Cut::Auto | Cut::Fast if folds == Folds::Cut => {
-                    compacted(charts, &options, settings)?
-                }
+                Cut::Auto if folds == Folds::Cut => compacted(charts, &options, settings)?,
                 _ => Drafted::new(charts, &options)?,
             };
             let (charts, atlas) = packed(drafted, &options, folds, settings.quantization_safe)?;

@@ -27,8 +27,9 @@ pub(super) struct Scene<'a> {
     pub room: f64,
     /// Weights of the overlaps.
     pub weights: Pairs,
-    /// What looking cost so far, in words.
+    /// What looking cost so far, in words, and may cost.
     pub work: u64,
+    pub words: u64,
 }
 
 /// A number for each two bodies, and for each body and the border: those at equal indices.

@@ -219,12 +219,9 @@ impl Raster {
             }
         };
         let n = self.distance.len();
-        for _ in 0..2 {
-            (0..n).for_each(|node| nearer(node, [[-1, 0], [-1, -1], [0, -1], [1, -1]]));
-            (0..n)
-                .rev()
-                .for_each(|node| nearer(node, [[1, 0], [1, 1], [0, 1], [-1, 1]]));
-        }
+        (0..n).for_each(|node| nearer(node, [[-1, 0], [-1, -1], [0, -1], [1, -1]]));
+        let back = (0..n).rev();
+        back.for_each(|node| nearer(node, [[1, 0], [1, 1], [0, 1], [-1, 1]]));
     }
 }
 

@@ -49,15 +49,16 @@ pub(super) struct Squeezed {
 }
 
 impl Squeezed {
-    /// Shrinks the square as far as charts make room for each other where they are.
-    pub(super) fn settle(&mut self, bodies: &[Arc<Body>]) {
-        let mut scene = Scene::new(bodies, self.side, 0.0);
+    /// Shrinks the square as far as charts make room for each other where they are; reads about so many words at most.
+    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64) {
+        let mut scene = Scene::new(bodies, self.side, 0.0, words);
         self.shrink(&mut scene, SHRINKS[0]);
     }
 
-    /// Makes charts keep `room` more than before, the square as small as that allows; whether they do.
-    pub(super) fn loosen(&mut self, bodies: &[Arc<Body>], room: f64) -> bool {
-        let mut scene = Scene::new(bodies, self.side, room);
+    /// Makes charts keep `room` more than before, the square as small as is found while about so many words are read; whether
+    /// they do.
+    pub(super) fn loosen(&mut self, bodies: &[Arc<Body>], room: f64, words: u64) -> bool {
+        let mut scene = Scene::new(bodies, self.side, room, words);
         for _ in 0..MOST_GROWTHS {
             if scene.separate(&mut self.poses, STEPS).1 {
                 self.shrink(&mut scene, LEAP);
@@ -72,15 +73,15 @@ impl Squeezed {
     /// Shrinks the square as far as is found while about so many words are read.
     pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64) {
         let mut random = Random::new(seed);
-        let mut scene = Scene::new(bodies, self.side, 0.0);
+        let mut scene = Scene::new(bodies, self.side, 0.0, words);
         let mut from = self.poses.clone();
-        while scene.work < words {
+        while scene.may_read() {
             let mut trial = Self {
                 poses: from,
                 side: self.side,
             };
             trial.scale(1.0 - LEAP);
-            if trial.relocate(&mut scene, words, &mut random) {
+            if trial.relocate(&mut scene, &mut random) {
                 trial.shrink(&mut scene, LEAP);
                 *self = trial;
                 from = self.poses.clone();
@@ -104,7 +105,7 @@ impl Squeezed {
     fn shrink(&mut self, scene: &mut Scene, first: f64) {
         scene.weights = Pairs::new(self.poses.len(), 1.0);
         let mut by = first;
-        while by > SHRINKS[1] {
+        while by > SHRINKS[1] && scene.may_read() {
             let mut trial = self.clone();
             trial.scale(1.0 - by);
             scene.side = trial.side;
@@ -117,12 +118,12 @@ impl Squeezed {
     }
 
     /// Separates charts by moving those that overlap to wherever they overlap least; whether that succeeded.
-    fn relocate(&mut self, scene: &mut Scene, words: u64, random: &mut Random) -> bool {
+    fn relocate(&mut self, scene: &mut Scene, random: &mut Random) -> bool {
         scene.side = self.side;
         scene.weights = Pairs::new(self.poses.len(), 1.0);
         let (mut overlap, mut is_apart) = scene.separate(&mut self.poses, STEPS);
         let (mut least, mut idle) = (f64::INFINITY, 0);
-        while !is_apart && idle < MOST_IDLE && scene.work < words {
+        while !is_apart && idle < MOST_IDLE && scene.may_read() {
             scene.reweigh(&overlap);
             scene.move_overlapping(&mut self.poses, &overlap, random);
             (overlap, is_apart) = scene.separate(&mut self.poses, STEPS / 2);
@@ -135,14 +136,20 @@ impl Squeezed {
 }
 
 impl<'a> Scene<'a> {
-    fn new(bodies: &'a [Arc<Body>], side: f64, room: f64) -> Self {
+    fn new(bodies: &'a [Arc<Body>], side: f64, room: f64, words: u64) -> Self {
         Self {
             bodies,
             side,
             room,
             weights: Pairs::new(bodies.len(), 1.0),
             work: 0,
+            words,
         }
+    }
+
+    /// Whether fewer words were read than may be.
+    fn may_read(&self) -> bool {
+        self.work < self.words
     }
 
     /// Makes overlaps count more that are there still.

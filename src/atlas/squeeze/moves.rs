@@ -48,7 +48,7 @@ impl Scene<'_> {
 
     fn best_place(&mut self, poses: &[Pose], body: usize, random: &mut Random) -> Pose {
         let here = poses[body];
-        let energy = Equations::of_one(self, poses, body, &here, f64::INFINITY).energy;
+        let energy = Equations::of_one(self, poses, body, &here).energy;
         if energy < NEGLIGIBLE {
             return here;
         }

@@ -55,7 +55,7 @@ impl Scene<'_> {
         most_steps: usize,
     ) -> (f64, Pose) {
         let mut pose = from;
-        let mut now = Equations::of_one(self, poses, body, &pose, f64::INFINITY);
+        let mut now = Equations::of_one(self, poses, body, &pose);
         let mut damping = DAMPING;
         for _ in 0..most_steps {
             if now.deepest < TOLERANCE || damping > MOST_DAMPING {
@@ -63,7 +63,7 @@ impl Scene<'_> {
             }
             let step = now.step(damping).unwrap_or_default();
             let trial = self.stepped_one(body, &pose, step.first().copied().unwrap_or_default());
-            let next = Equations::of_one(self, poses, body, &trial, f64::INFINITY);
+            let next = Equations::of_one(self, poses, body, &trial);
             if next.energy < now.energy {
                 (now, pose) = (next, trial);
                 damping = (damping * AFTER_STEP[0]).max(LEAST_DAMPING);
