@@ -12,7 +12,7 @@ use crate::certificate::{Bounds, BoxTree, Visit, bounds_of, search_budget, segme
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Times that charts are given more room.
+/// Times that charts are given more room, or less.
 const ROUNDS: usize = 4;
 /// What they are given beyond what is missing, and how far vertices may be moved when they are rounded, in cells.
 const SPARE: f64 = 0.03;
@@ -38,20 +38,24 @@ pub(super) fn layout(
     let bodies: Vec<Arc<Body>> = (level.par_iter())
         .map(|outline| Arc::new(Body::new(outline, scale, kept)))
         .collect();
-    let mut room = 0.0;
+    let (mut room, mut best) = (0.0, None);
     for _ in 0..ROUNDS {
         if !squeezed.loosen(&bodies, room, options.search_words / SHARE) {
-            return None;
+            break;
         }
         let places = Places::new(level, &squeezed, scale);
         let padding = padding(places.side);
         let missing = padding + 2.0 * ROUNDED - places.gap(scale);
         if missing <= 0.0 {
-            return places.layout(scale, padding, options);
+            best = Some((places, padding));
+        }
+        if (-2.0 * SPARE..=0.0).contains(&missing) {
+            break;
         }
         room += missing + SPARE;
     }
-    None
+    let (places, padding) = best?;
+    places.layout(scale, padding, options)
 }
 
 /// Charts at rounded places.
