@@ -60,7 +60,7 @@
 //! | [`embed`] | a valid start for every disk and the way from it to the optimum |
 //! | [`certificate`] | exact judgement of UVs as a file has them |
 //! | [`charts`] | where to cut: surfaces divided, mapped, and parted where the maps fold over themselves |
-//! | [`atlas`] | orientation, packing, the integer grid |
+//! | [`atlas`] | orientation, packing, pages, the integer grid |
 //! | [`measure`] | distortion, seams, packing, overlaps of any UV map |
 #![cfg_attr(
     feature = "files",
@@ -88,6 +88,9 @@
 //! f32: orientation is an exact determinant. [`atlas`] moves the vertices whose rounding would flip a triangle; nothing
 //! else trusts it: the written bytes are read again and judged by [`certificate`], which shares no code with the writer.
 //!
+//! Pages of an atlas lie side by side along u. `f32` is coarser there, so the grid of three and more pages is too; along the shorter side of
+//! a texture it has as much larger steps as texels are larger, so that charts are rounded alike in both directions.
+//!
 //! v points down in glTF. Internally v is up; the glTF writer stores 1 − v, so an unmirrored chart has *negative* signed
 //! area in the numbers of a glTF, and positive in those of an OBJ. Orientation is judged relative to the chart.
 //!
@@ -109,6 +112,7 @@
 //! - Charts too small for the grid (fewer than 16 cells per triangle) are enlarged and counted: the one exception to uniform
 //!   texel density.
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
+//! - The pages of an atlas are the first row of UDIM tiles, at most ten: v stays in the unit interval, where floating point is finest.
 //! - Charts come from the top down: disks are slit until they keep a bound on the distortion, rather than regions grown or
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as a draft of the

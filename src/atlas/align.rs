@@ -1,26 +1,22 @@
 //! Charts whose bounding rectangles end where texels end.
 
-use super::{Atlas, ChartMap, GRID_SIDE, doubled_area};
+use super::{ChartMap, doubled_area};
 
 /// Texels by which two charts may come nearer: each point moves by at most one to each side and up or down.
 pub(super) const ROOM_TEXELS: u32 = 3;
 
-/// Widens each chart to the next borders of texels on all sides, of a texture of `resolution`, a power of two up to 2²³. A chart
-/// of which a triangle would lose its area to rounding is only shifted, so that it ends at texels on two sides.
-pub(super) fn align(atlas: &mut Atlas, charts: &[ChartMap], resolution: u32) {
-    let texel = GRID_SIDE as i32 / resolution as i32;
-    for (map, placed) in charts.iter().zip(&mut atlas.placed) {
-        if map.triangles.is_empty() {
-            continue;
-        }
-        let axes = [0, 1].map(|axis| Axis::new(&placed.grid, axis, texel));
-        let was_positive = is_positive(map, &placed.grid);
-        let widened: Vec<[i32; 2]> = moved(&placed.grid, |axis, x| axes[axis].widened(x));
-        placed.grid = if is_positive(map, &widened) || !was_positive {
-            widened
-        } else {
-            moved(&placed.grid, |axis, x| axes[axis].shifted(x))
-        };
+/// A chart widened to the next borders of texels of so many steps on all sides. One of which a triangle would lose its area to
+/// rounding is only shifted, so that it ends at texels on two sides.
+pub(super) fn aligned(map: &ChartMap, grid: Vec<[i32; 2]>, texel: i32) -> Vec<[i32; 2]> {
+    if map.triangles.is_empty() {
+        return grid;
+    }
+    let axes = [0, 1].map(|axis| Axis::new(&grid, axis, texel));
+    let widened: Vec<[i32; 2]> = moved(&grid, |axis, x| axes[axis].widened(x));
+    if is_positive(map, &widened) || !is_positive(map, &grid) {
+        widened
+    } else {
+        moved(&grid, |axis, x| axes[axis].shifted(x))
     }
 }
 

@@ -2,7 +2,8 @@
 use std::sync::Arc;
 
 use super::poses::Poses;
-use super::sheet::{Sheet, Window};
+use super::sheet::Sheet;
+use super::spot::{Corner, Window};
 use crate::numerics::random::Random;
 
 /// An order and a pose for every chart, and what comes of it.
@@ -11,7 +12,7 @@ pub(super) struct Arrangement {
     pub order: Vec<usize>,
     pub pose: Vec<usize>,
     /// For each chart its lower left corner.
-    pub corners: Vec<[u32; 2]>,
+    pub corners: Vec<Corner>,
     pub side: u32,
     /// The side, and below one cell how far the charts reach on average.
     pub cost: f64,
@@ -28,20 +29,21 @@ impl Arrangement {
         largest: u32,
     ) -> Option<()> {
         sheet.clear(largest);
+        let form = sheet.form;
         let (mut reach, mut side) = (0, 0);
         let last = self.order.len().saturating_sub(1);
         for (place, &chart) in self.order.iter().enumerate() {
             let mask = poses[chart].mask(self.pose[chart]);
             if place >= first {
                 let (_, spot) = sheet.find(std::slice::from_ref(mask), Window::ALL)?;
-                self.corners[chart] = [spot.x, spot.y];
+                self.corners[chart] = spot.corner;
             }
-            let [x, y] = self.corners[chart];
+            let corner = self.corners[chart];
             if place < last {
-                sheet.take(mask, [x, y]);
+                sheet.take(mask, corner);
             }
             let [width, height] = mask.size;
-            let far = (x + width).max(y + height);
+            let far = form.side([corner.x + width, corner.y + height]);
             reach += far;
             side = side.max(far);
         }

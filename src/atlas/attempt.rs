@@ -2,12 +2,13 @@
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-use super::GRID_SIDE;
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
 use super::outline::Outline;
 use super::plan::{Near, Plan, QuarterTurns};
-use super::sheet::{Sheet, Spot, Window};
+use super::sheet::Sheet;
+use super::spot::{Corner, Spot, Window};
+use super::texture::{Form, Texture};
 use super::turned::Turned;
 
 /// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
@@ -16,8 +17,7 @@ const CELLS_PER_TRIANGLE: f64 = 16.0;
 /// What rastering a piece of boundary, and turning and placing a chart, cost in words.
 const WORK_PER_EDGE: u64 = 100;
 const WORK_PER_CHART: u64 = 10_000;
-/// With more charts than this the square has its full width from the start, and a row where one
-/// chart found no place is not searched again for another of the same size.
+/// With more charts than this pages are used to their borders from the start.
 const MANY: usize = 400;
 /// Charts whose masks are made at a time.
 const BATCH: usize = 4096;
@@ -27,45 +27,63 @@ pub(super) struct Packing<'a> {
     pub plan: &'a Plan,
     /// For each chart, how far its vertices may be moved afterwards, in cells.
     pub slack: &'a [f64],
-    /// Cells along a side of the square.
+    pub texture: Texture,
+    /// Cells along the longer side of a page.
     pub cells: u32,
     /// Cells kept free between charts, and at each border.
     pub padding: f64,
     pub border: f64,
+    /// How far pages are used from the start.
+    pub extent: Extent,
+}
+
+/// How far pages are used from the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// As little as charts need; they may come to need more than there is.
+    Growing,
+    /// To their borders; a row where one chart found no place is not searched again for another of the same size.
+    Full,
 }
 
 /// A place for every chart.
 pub(super) struct Attempt {
     /// For each chart its place, and the factor by which it exceeds the common scale.
     pub spots: Vec<(Spot, f64)>,
-    /// Side of the used square and its highest row.
+    /// The longer side of what is used of a page, and the rows used of all.
     pub side: u32,
-    pub top: u32,
+    pub rows: u32,
 }
 
 impl Packing<'_> {
-    /// Cells of the square that charts may use.
+    /// Cells of a page that charts may use, along its longer side.
     pub(super) fn target(&self) -> f64 {
         (f64::from(self.cells) - 2.0 * self.border).floor()
     }
 
-    /// Whether the square has its full width from the start.
+    /// Whether there are so many charts that the fill hardly depends on luck.
     pub(super) fn is_crowded(&self) -> bool {
         self.plan.order.len() > MANY
+    }
+
+    /// The shape of pages without their borders.
+    pub(super) fn form(&self) -> Form {
+        Form::new(self.texture, self.border)
     }
 
     /// All charts placed at one scale, or the share of their area that was placed.
     pub(super) fn attempt(&self, scale: f64, work: &mut u64) -> Result<Attempt, f64> {
         let target = self.target().max(1.0) as u32;
-        let (capacity, side) = if self.is_crowded() {
+        let is_full = self.is_crowded() || self.extent == Extent::Full;
+        let (capacity, side) = if is_full {
             (target, target)
         } else {
             (target + target / 4, 0)
         };
         let padding = self.padding + 2.0 * SLACK;
-        let mut sheet = Sheet::new(capacity, padding.ceil() as u32 + 1, side);
+        let mut sheet = Sheet::new(self.form(), capacity, padding.ceil() as u32 + 1, side);
         let mut spots = vec![(Spot::default(), 1.0); self.plan.outlines.len()];
-        let mut lowest: HashMap<[u32; 2], u32> = HashMap::new();
+        let mut lowest: HashMap<[u32; 2], Corner> = HashMap::new();
         let mut placed = 0.0;
         let area = self.plan.area();
         for batch in self.plan.order.chunks(BATCH) {
@@ -78,18 +96,18 @@ impl Packing<'_> {
                 *work +=
                     WORK_PER_CHART + WORK_PER_EDGE * self.plan.outlines[i].edges().len() as u64;
                 let [w, h] = turned[0].size;
-                let row = lowest.entry([w.min(h), w.max(h)]).or_insert(0);
+                let row = lowest.entry([w.min(h), w.max(h)]).or_default();
                 let before = sheet.work;
                 let spot = match &self.plan.near {
                     Some(near) => find_near(near, i, &mut sheet, &turned, target),
-                    None => sheet.find(&turned, Window::from([0, *row])),
+                    None => sheet.find(&turned, Window::from(Corner { x: 0, ..*row })),
                 };
                 *work += sheet.work - before;
                 let (mask, spot) = spot.ok_or(placed / area)?;
-                if self.is_crowded() {
-                    *row = spot.y;
+                if is_full {
+                    *row = spot.corner;
                 }
-                sheet.take(&turned[mask], [spot.x, spot.y]);
+                sheet.take(&turned[mask], spot.corner);
                 spots[i] = (spot, stretch);
                 placed += self.plan.outlines[i].size * self.plan.outlines[i].size;
             }
@@ -97,7 +115,7 @@ impl Packing<'_> {
         Ok(Attempt {
             spots,
             side: sheet.side,
-            top: sheet.top,
+            rows: sheet.tops.iter().sum(),
         })
     }
 
@@ -111,7 +129,7 @@ impl Packing<'_> {
     ) -> Option<(Vec<Turned>, f64)> {
         let outline = &self.plan.outlines[i];
         let around = self.slack[i] - SLACK;
-        let unit = scale * GRID_SIDE / f64::from(self.cells);
+        let unit = scale * self.texture.grid_side() / f64::from(self.cells);
         let stretch = stretch(outline, unit);
         let longest = outline.extent[0].max(outline.extent[1]);
         let fits = longest * scale * stretch + 2.0 * around < f64::from(capacity);
@@ -119,8 +137,10 @@ impl Packing<'_> {
             let mask = Mask::new(outline, scale * stretch, Distances { around, padding });
             let turned = match self.plan.turns[i] {
                 QuarterTurns::Only(turns) => vec![Turned::new(mask, turns)],
-                // The first chart goes to the corner, whichever way it is turned.
-                QuarterTurns::Any if self.plan.order.first() == Some(&i) => {
+                // The first chart goes to the corner of a square, whichever way it is turned.
+                QuarterTurns::Any
+                    if self.plan.order.first() == Some(&i) && self.form().is_square() =>
+                {
                     vec![Turned::new(mask, 0)]
                 }
                 QuarterTurns::Any => Turned::all(mask),
@@ -148,10 +168,11 @@ fn find_near(
     side: u32,
 ) -> Option<(usize, Spot)> {
     let cells = |share: f64| (share * f64::from(side)) as u32;
-    let lowest = near.corners[chart];
+    let (page, lowest) = near.corners[chart];
+    let corner = |[x, y]: [u32; 2]| Corner { page, x, y };
     let window = Window {
-        lowest: lowest.map(cells),
-        highest: lowest.map(|share| cells(share + near.window)),
+        lowest: corner(lowest.map(cells)),
+        highest: corner(lowest.map(|share| cells(share + near.window))),
     };
     let found = sheet.find(turned, window);
     found.or_else(|| sheet.find(turned, Window::from(window.lowest)))

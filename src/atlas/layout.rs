@@ -1,20 +1,21 @@
 //! The scale of the atlas and a place for every chart.
 //!
-//! For a given scale the charts are placed greedily, the largest first, each where the used square
-//! grows least. The scale is then corrected by what came out, a few times; the best attempt counts.
+//! For a given scale the charts are placed greedily, the largest first, each where the used part of the pages
+//! grows least. The scale is then corrected by what came out, a few times; the best attempt counts. A scale that is
+//! prescribed has one attempt, which fills page after page.
 //! What an attempt costs is counted in words read, not in seconds, so the result is the same on
 //! every machine.
-use super::attempt::{Attempt, Packing};
+use super::attempt::{Attempt, Extent, Packing};
 use super::plan::Plan;
-use super::sheet::Spot;
-use super::{AtlasOptions, GRID_SIDE};
+use super::spot::Spot;
+use super::{AtlasOptions, Scale};
 
 /// Where all charts lie.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
-    /// Grid units per mesh unit.
+    /// Grid steps per mesh unit.
     pub scale: f64,
-    /// Grid units per cell.
+    /// Grid steps per cell.
     pub cell: f64,
     /// Free cells at each border.
     pub border: f64,
@@ -40,7 +41,7 @@ const LOWERED: f64 = 0.993;
 /// The share of the square that the first attempt hopes to fill.
 const HOPE: f64 = 0.75;
 
-/// Cells along a side.
+/// Cells along a side of a square.
 fn raster(n_charts: usize) -> u32 {
     match n_charts {
         0..=1_000 => 1024,
@@ -52,32 +53,51 @@ fn raster(n_charts: usize) -> u32 {
 
 /// Cells kept free between charts.
 pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f64 {
-    // The smallest charts, with their padding, take at most half of the square.
-    let most = (cells / (2.0 * n_charts as f64).sqrt() - 2.0).max(0.0);
-    let wanted = f64::from(options.packed_texels()) * cells / f64::from(options.resolution.max(1));
-    wanted.min(most)
+    let texture = options.texture;
+    // The smallest charts, with their padding, take at most half of the pages.
+    let pages = f64::from(texture.pages) * texture.share();
+    let most = (cells / (2.0 * n_charts as f64 / pages).sqrt() - 2.0).max(0.0);
+    let longer = f64::from(texture.resolution.longer().max(1));
+    (f64::from(options.packed_texels()) * cells / longer).min(most)
 }
 
 /// The best layout found of a plan; none when there are more charts than cells.
 pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<Layout> {
-    let cells = raster(plan.order.len());
+    let texture = options.texture;
+    let cells = texture.raster(raster(plan.order.len() / texture.pages.max(1) as usize));
     let padding = padding(options, plan.order.len(), f64::from(cells));
     let border = (padding / 2.0).max(SLACK);
     let packing = Packing {
         plan,
         slack,
+        texture,
         cells,
         padding,
         border,
+        extent: match options.scale {
+            Scale::Largest => Extent::Growing,
+            Scale::TexelsPerUnit(_) => Extent::Full,
+        },
     };
-    let (scale, attempt) = best(&packing, options.search_words)?;
-    let cell = GRID_SIDE / (f64::from(attempt.side.max(1)) + 2.0 * border);
+    let longer = f64::from(texture.resolution.longer());
+    let (scale, attempt) = match options.scale {
+        Scale::Largest => best(&packing, options.search_words)?,
+        Scale::TexelsPerUnit(texels) => {
+            let scale = texels * f64::from(cells) / longer;
+            (scale, packing.attempt(scale, &mut 0).ok()?)
+        }
+    };
+    let used = match options.scale {
+        Scale::Largest => f64::from(attempt.side.max(1)) + 2.0 * border,
+        Scale::TexelsPerUnit(_) => f64::from(cells),
+    };
+    let cell = texture.grid_side() / used;
     Some(Layout {
         scale: scale * cell,
         cell,
         border,
         spare: 0.0,
-        padding_texels: (padding * f64::from(options.resolution) / f64::from(cells))
+        padding_texels: (padding * longer / f64::from(cells))
             .min(f64::from(options.padding_texels)),
         charts: attempt.spots,
     })
@@ -135,11 +155,13 @@ fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
     best
 }
 
-/// The factor by which a layout could grow if it grew evenly. The square of many charts has its
-/// full width from the start, so their area grows with the height alone.
+/// The factor by which a layout could grow if it grew evenly. The pages of many charts have their
+/// full width from the start, so that their area grows with the rows alone.
 fn room(packing: &Packing, attempt: &Attempt) -> f64 {
     if packing.is_crowded() {
-        (packing.target() / f64::from(attempt.top.max(1))).sqrt()
+        let [_, rows] = packing.form().reach(packing.target() as u32);
+        let rows = f64::from(rows * packing.texture.pages);
+        (rows / f64::from(attempt.rows.max(1))).sqrt()
     } else {
         packing.target() / f64::from(attempt.side.max(1))
     }
@@ -157,13 +179,17 @@ fn first_scale(packing: &Packing) -> f64 {
     let n = packing.plan.order.len() as f64;
     let around = packing.padding + 1.0;
     let (a, b) = (packing.plan.area(), perimeter * around / 2.0);
-    let c = n * around * around / 2.0 - HOPE * f64::from(packing.cells) * f64::from(packing.cells);
+    let cells = f64::from(packing.cells);
+    let pages = f64::from(packing.texture.pages) * packing.texture.share();
+    let c = n * around * around / 2.0 - HOPE * cells * cells * pages;
     let root = (-b + (b * b - 4.0 * a * c.min(-1.0)).sqrt()) / (2.0 * a);
-    let longest = packing
+    let form = packing.form();
+    let extents = packing
         .plan
         .order
         .iter()
-        .map(|&i| packing.plan.outlines[i].extent[0].max(packing.plan.outlines[i].extent[1]));
+        .map(|&i| packing.plan.outlines[i].extent);
+    let longest = extents.map(|extent| form.around(extent));
     let longest = longest.fold(f64::MIN_POSITIVE, f64::max);
-    root.min((packing.target() - SLACK).max(1.0) / longest)
+    root.min((packing.target() - form.most_inset() - SLACK).max(1.0) / longest)
 }

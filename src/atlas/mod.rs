@@ -1,4 +1,4 @@
-//! Charts placed in the unit square, on an integer grid.
+//! Charts placed on the pages of a texture, on an integer grid.
 //!
 //! Chart maps arrive in mesh units, all at one density. The order in which they are placed and the
 //! angle of each are searched on a coarse raster, a [`Draft`]; then all are packed at one scale by a
@@ -11,6 +11,10 @@
 //! so its signs hold wherever the chart lies. A vertex that had to move farther than the gap allows
 //! for makes the charts be laid out again with that much more room.
 //!
+//! Everything is laid out in square cells of one size, whatever the shape of the pages: the grid on which charts are rounded has steps
+//! that are equally long along u and v on the surface, each a multiple of 2⁻²³ in its coordinate. Pages farther to the right have
+//! coarser floating point, so the steps of several pages are those that `f32` has on the last.
+//!
 //! Charts are never mirrored. None is scaled against the others, except those so small (below a
 //! texel) that the grid has fewer than a handful of cells for each of their triangles.
 mod align;
@@ -19,6 +23,7 @@ mod attempt;
 mod bitmap;
 mod clear;
 mod draft;
+mod enough;
 mod layout;
 mod mask;
 mod orientation;
@@ -29,19 +34,23 @@ mod poses;
 mod relax;
 mod sheet;
 mod snap;
+mod spot;
 mod squeeze;
+mod texture;
 mod tight;
 mod turned;
 
 pub use clear::cleared;
 pub use draft::Draft;
-pub use pack::{pack, pack_draft};
+pub use enough::{Enough, enough};
+pub use pack::{fits, pack, pack_draft};
+pub use texture::Texture;
 
 use thiserror::Error;
 
-/// Atlas coordinates are integers in `0..=2^GRID_BITS`: the unit square in steps `f32` represents.
+/// Atlas coordinates are integers, the side of a page is 2^GRID_BITS: in the unit square those are the steps `f32` represents.
 pub const GRID_BITS: u32 = 23;
-/// The side of the unit square in grid units.
+/// The side of a page in grid units.
 const GRID_SIDE: f64 = (1 << GRID_BITS) as f64;
 
 /// One chart's map: counter-clockwise triangles over vertices in mesh units.
@@ -70,16 +79,28 @@ pub enum Borders {
     #[default]
     Free,
     /// The bounding rectangle of each chart on borders of texels; charts are widened for it by less than a texel to each side. The
-    /// resolution is a power of two.
+    /// sides of the texture are powers of two.
     OnTexels,
 }
 
+/// How large charts become.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Scale {
+    /// As large as the texture allows.
+    #[default]
+    Largest,
+    /// So many texels to the mesh unit.
+    TexelsPerUnit(f64),
+}
+
 /// How the atlas is laid out.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AtlasOptions {
-    /// Side of the texture, in texels, in which the padding is counted.
-    pub resolution: u32,
-    /// Smallest distance between two charts, in texels; half of it is kept to the border.
+    /// The texture, in whose texels the padding is counted.
+    pub texture: Texture,
+    /// How large charts become.
+    pub scale: Scale,
+    /// Smallest distance between two charts, in texels; half of it is kept to the borders of pages.
     pub padding_texels: u32,
     /// How charts may be turned.
     pub turns: Turns,
@@ -92,7 +113,8 @@ pub struct AtlasOptions {
 impl Default for AtlasOptions {
     fn default() -> Self {
         Self {
-            resolution: 1024,
+            texture: Texture::square(1024),
+            scale: Scale::Largest,
             padding_texels: 2,
             turns: Turns::Any,
             borders: Borders::Free,
@@ -114,18 +136,18 @@ impl AtlasOptions {
 /// One chart in the atlas.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed {
-    /// The position of each vertex in units of 2^-[`GRID_BITS`], v up.
+    /// The position of each vertex in units of 2^-[`GRID_BITS`], v up; exact in `f32`.
     pub grid: Vec<[i32; 2]>,
 }
 
-/// All charts in the unit square.
+/// All charts on their pages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
     /// The charts, in the order they were given.
     pub placed: Vec<Placed>,
-    /// UV units per mesh unit.
+    /// UV units per mesh unit along the longer side of the texture.
     pub scale: f64,
-    /// Share of the unit square that triangles cover.
+    /// Share of all pages that triangles cover.
     pub utilization: f64,
     /// The distance that is kept between charts, in texels: what was asked for, or less where so
     /// many charts leave no room for it.
@@ -135,7 +157,7 @@ pub struct Atlas {
     /// Vertices that do not lie on the grid point next to their exact position, because a triangle
     /// would have lost its area there.
     pub moved_vertices: usize,
-    /// The largest distance between a vertex and its exact position, in grid units.
+    /// The largest distance between a vertex and its exact position, in steps of the grid.
     pub largest_move: f64,
 }
 
@@ -166,6 +188,9 @@ pub enum AtlasError {
         /// Their number.
         charts: usize,
     },
+    /// At the scale asked for the charts do not fit.
+    #[error("the charts do not fit at this scale")]
+    TextureTooSmall,
 }
 
 /// Twice the signed area of a grid triangle, exact.

@@ -5,22 +5,22 @@
 pub(super) enum Bounds {
     /// The area of the bounding rectangle: many charts share the square.
     Rectangle,
-    /// The side of the bounding square: one chart has it to itself.
-    Square,
+    /// The longer side of the bounding page, whose sides along u and v are that halved so often: one chart has it to itself.
+    Page([u32; 2]),
     /// Nothing: the chart stays as it is.
     Given,
 }
 
 /// Hull edges tried at most; the hull of a round chart is thinned to this many.
 const HULL_EDGES: usize = 512;
-/// Angles tried for the bounding square, over a quarter turn.
-const SQUARE_ANGLES: u32 = 360;
+/// Angles tried for the bounding page, over a quarter turn, each upright and on its side.
+const PAGE_ANGLES: u32 = 360;
 
 /// Unit vector that becomes the horizontal axis.
 pub(super) fn direction(hull: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
     match bounds {
         Bounds::Rectangle => smallest_rectangle(hull),
-        Bounds::Square => smallest_square(hull),
+        Bounds::Page(halvings) => smallest_page(hull, halvings),
         Bounds::Given => [1.0, 0.0],
     }
 }
@@ -44,14 +44,20 @@ fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
     best.0
 }
 
-fn smallest_square(hull: &[[f64; 2]]) -> [f64; 2] {
+fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> [f64; 2] {
+    let [u, v] = halvings.map(|times| f64::from(1_u32 << times));
     let mut best = ([1.0, 0.0], f64::INFINITY);
-    for step in 0..SQUARE_ANGLES {
-        let angle = std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(SQUARE_ANGLES);
+    for step in 0..PAGE_ANGLES {
+        let angle = std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(PAGE_ANGLES);
         let d = [angle.cos(), angle.sin()];
-        let side = extent(hull, d).into_iter().fold(0.0, f64::max);
-        if side < best.1 {
-            best = (d, side);
+        let [width, height] = extent(hull, d);
+        for (d, side) in [
+            (d, (u * width).max(v * height)),
+            ([-d[1], d[0]], (u * height).max(v * width)),
+        ] {
+            if side < best.1 {
+                best = (d, side);
+            }
         }
     }
     best.0

@@ -1,20 +1,21 @@
 //! From chart maps to their places on the grid.
 use rayon::prelude::*;
 
-use super::align::align;
+use super::align::aligned;
 use super::draft::Draft;
 use super::layout::{self, Layout, SLACK};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
-use super::sheet::Spot;
 use super::snap::{self, Snapped};
-use super::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Placed, doubled_area};
+use super::spot::{Corner, Spot};
+use super::{
+    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Placed, Scale, doubled_area,
+};
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
 
-/// Places every chart in the unit square, each triangle strictly positive on the grid, any two charts
-/// at least the padding apart.
+/// Places every chart on a page, each triangle strictly positive on the grid, any two charts at least the padding apart.
 ///
 /// The charts must be strictly positive as given; one that has a flipped triangle is rounded without repair. The same
 /// input gives the same atlas for any number of threads.
@@ -22,26 +23,36 @@ pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasE
     pack_draft(charts, Draft::new(charts, options)?.as_ref(), options)
 }
 
-/// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on.
+/// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on. A scale that is given is
+/// tried in that way at first.
 pub fn pack_draft(
     charts: &[ChartMap],
     draft: Option<&Draft>,
     options: &AtlasOptions,
 ) -> Result<Atlas, AtlasError> {
     let mut slack = vec![SLACK; charts.len()];
-    let drafts = draft.map(|draft| draft.searched(options.search_words / 4));
-    let drafts = drafts.unwrap_or_default();
+    let first = Plan::largest_first(&outlines(charts)?, options);
+    let (drafts, found) = match options.scale {
+        Scale::Largest => (searched(draft, options), None),
+        Scale::TexelsPerUnit(_) => match layout::layout(&first, &slack, options) {
+            Some(layout) => (Vec::new(), Some((first.clone(), layout))),
+            None => (searched(draft, options), None),
+        },
+    };
     if let Some((outlines, layout)) = drafts.first().and_then(|draft| draft.tight(options)) {
         let snapped = snapped(charts, &outlines, &layout)?;
         if cramped(&snapped, &layout, &mut slack.clone()).is_none() {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
     }
-    let plan = Plan::largest_first(&outlines(charts)?, options.turns);
-    let too_many = AtlasError::TooManyCharts {
-        charts: charts.len(),
+    let none = match options.scale {
+        Scale::Largest => AtlasError::TooManyCharts {
+            charts: charts.len(),
+        },
+        Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
     };
-    let (plan, mut layout) = best(plan, &drafts, &slack, options).ok_or(too_many.clone())?;
+    let found = found.or_else(|| best(&first, &drafts, &slack, options));
+    let (plan, mut layout) = found.ok_or_else(|| none.clone())?;
     let mut chart = 0;
     for _ in 0..ROUNDS {
         let snapped = snapped(charts, &plan.outlines, &layout)?;
@@ -49,7 +60,7 @@ pub fn pack_draft(
             Some(cramped) => chart = cramped,
             None => return Ok(atlas(charts, &layout, &slack, snapped, options)),
         }
-        layout = layout::layout(&plan, &slack, options).ok_or(too_many.clone())?;
+        layout = layout::layout(&plan, &slack, options).ok_or_else(|| none.clone())?;
     }
     Err(AtlasError::NotRepresentable { chart })
 }
@@ -68,15 +79,27 @@ fn cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> Option<us
     cramped
 }
 
-/// The plan whose layout has the largest scale: the one given, or what a search makes of it.
-fn best(
-    first: Plan,
+/// Whether charts fit at the scale that is given, each placed once, the largest first.
+pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasError> {
+    let plan = Plan::largest_first(&outlines(charts)?, options);
+    let slack = vec![SLACK; charts.len()];
+    Ok(options.scale != Scale::Largest && layout::layout(&plan, &slack, options).is_some())
+}
+
+/// What a search makes of a draft, the best first.
+pub(super) fn searched(draft: Option<&Draft>, options: &AtlasOptions) -> Vec<Draft> {
+    draft.map_or_else(Vec::new, |draft| draft.searched(options.search_words / 4))
+}
+
+/// The plan whose layout has the largest scale: the one given, or what a search made of it.
+pub(super) fn best(
+    first: &Plan,
     drafts: &[Draft],
     slack: &[f64],
     options: &AtlasOptions,
 ) -> Option<(Plan, Layout)> {
     let mut plans: Vec<Plan> = drafts.iter().map(Draft::plan).collect();
-    plans.push(first);
+    plans.push(first.clone());
     let shared = AtlasOptions {
         search_words: options.search_words / 2 / plans.len() as u64,
         ..options.clone()
@@ -114,7 +137,7 @@ fn snapped(
         .collect()
 }
 
-/// Turns and shifts every chart to its place, and to the borders of texels if those are asked for.
+/// Turns and shifts every chart to its place on its page.
 fn atlas(
     charts: &[ChartMap],
     layout: &Layout,
@@ -122,18 +145,30 @@ fn atlas(
     snapped: Vec<Snapped>,
     options: &AtlasOptions,
 ) -> Atlas {
+    let texture = options.texture;
     let moved_vertices = snapped.iter().map(|s| s.moved).sum();
     let largest_move = snapped.iter().map(|s| s.largest_move).fold(0.0, f64::max);
+    let texel = texture.grid_side() as i32 / texture.resolution.longer().max(1) as i32;
     let spots = layout.charts.iter().zip(slack);
     let placed: Vec<Placed> = charts
         .iter()
         .zip(snapped.into_iter().zip(spots))
-        .map(|(map, (snapped, (&(spot, _), &slack)))| Placed {
-            grid: if map.triangles.is_empty() {
-                vec![[0; 2]; map.uv.len()]
-            } else {
-                moved(snapped.grid, spot, layout, slack - SLACK)
-            },
+        .map(|(map, (snapped, (&(spot, _), &slack)))| {
+            if map.triangles.is_empty() {
+                return Placed {
+                    grid: vec![[0; 2]; map.uv.len()],
+                };
+            }
+            let grid = moved(snapped.grid, spot, layout, slack - SLACK);
+            let grid = match options.borders {
+                Borders::Free => grid,
+                Borders::OnTexels => aligned(map, grid, texel),
+            };
+            let page = spot.corner.page;
+            let on_page = grid.into_iter().map(|p| texture.on_page(page, p));
+            Placed {
+                grid: on_page.collect(),
+            }
         })
         .collect();
     let doubled = |(map, placed): (&ChartMap, &Placed)| {
@@ -141,10 +176,10 @@ fn atlas(
         map.triangles.iter().map(of).sum::<f64>()
     };
     let covered: f64 = charts.iter().zip(&placed).map(doubled).sum();
-    let mut atlas = Atlas {
+    Atlas {
         placed,
-        scale: layout.scale / GRID_SIDE,
-        utilization: covered / (2.0 * GRID_SIDE * GRID_SIDE),
+        scale: layout.scale / texture.grid_side(),
+        utilization: covered / (2.0 * GRID_SIDE * GRID_SIDE * f64::from(texture.pages)),
         padding_texels: layout.padding_texels,
         enlarged_charts: layout
             .charts
@@ -153,11 +188,7 @@ fn atlas(
             .count(),
         moved_vertices,
         largest_move,
-    };
-    if options.borders == Borders::OnTexels {
-        align(&mut atlas, charts, options.resolution);
     }
-    atlas
 }
 
 /// A chart turned by quarters and shifted to its spot; `around` cells of its mask surround it.
@@ -168,8 +199,7 @@ fn moved(mut grid: Vec<[i32; 2]>, spot: Spot, layout: &Layout, around: f64) -> V
         ((layout.border + f64::from(corner + size) - around) * layout.cell).round() as i32
     };
     let Spot {
-        x,
-        y,
+        corner: Corner { x, y, .. },
         turns,
         width,
         height,

@@ -1,7 +1,8 @@
 //! In which order charts are placed, and how each is turned.
-use super::Turns;
 use super::orientation::{self, Bounds};
 use super::outline::Outline;
+use super::texture::Texture;
+use super::{AtlasOptions, Turns};
 use crate::numerics::hull::convex_hull;
 
 /// What a layout is made from.
@@ -20,11 +21,11 @@ pub(super) struct Plan {
 /// A layout on a coarser raster, near which a finer one is looked for.
 #[derive(Clone, Debug)]
 pub(super) struct Near {
-    /// For each chart how far to the right and up it lies at least, as shares of the side.
-    pub corners: Vec<[f64; 2]>,
+    /// For each chart its page, and how far to the right and up it lies there at least, as shares of the longer side.
+    pub corners: Vec<(u32, [f64; 2])>,
     /// How much farther it may lie before it is looked for elsewhere.
     pub window: f64,
-    /// Mesh units along the side.
+    /// Mesh units along the longer side.
     pub extent: f64,
 }
 
@@ -37,10 +38,11 @@ pub(super) enum QuarterTurns {
 
 impl Plan {
     /// The largest first, each in the smallest rectangle.
-    pub(super) fn largest_first(outlines: &[Outline], turns: Turns) -> Self {
+    pub(super) fn largest_first(outlines: &[Outline], options: &AtlasOptions) -> Self {
+        let texture = options.texture;
         let total: f64 = outlines.iter().map(|o| o.size * o.size).sum();
-        let level = |outline: &Outline| match turns {
-            Turns::Any => level(outline, total),
+        let level = |outline: &Outline| match options.turns {
+            Turns::Any => level(outline, total / f64::from(texture.pages), texture),
             Turns::Quarters => turned(outline, Bounds::Given),
         };
         let outlines: Vec<Outline> = outlines.iter().map(level).collect();
@@ -58,14 +60,14 @@ impl Plan {
     }
 }
 
-/// A chart turned to its smallest rectangle; one that is most of an atlas with an area of `total` decides its side, and is
-/// turned to the smallest square.
-pub(super) fn level(outline: &Outline, total: f64) -> Outline {
+/// A chart turned to its smallest rectangle; one that is most of a page with charts of an area of `total` decides its side, and is
+/// turned to the smallest page.
+pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     let is_most = 2.0 * outline.size * outline.size > total;
     turned(
         outline,
         if is_most {
-            Bounds::Square
+            Bounds::Page(texture.resolution.halvings())
         } else {
             Bounds::Rectangle
         },

@@ -4,134 +4,129 @@
 //! between 2ᵏ and 2ᵏ⁺¹, is blocked at x when one of two windows of 2ᵏ cells is, and for each k the
 //! sheet keeps one bit per window. Runs longer than two of the widest windows take more of them.
 use super::bitmap::set_bits;
+use super::spot::{Corner, Spot, Window};
+use super::texture::Form;
 use super::turned::Turned;
-
-/// A place for one mask.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Spot {
-    /// Column and row of the body's lower left cell.
-    pub x: u32,
-    pub y: u32,
-    /// Quarter turns, counter-clockwise.
-    pub turns: u32,
-    /// Size of the body *before* it is turned, in cells.
-    pub width: u32,
-    pub height: u32,
-}
-
-/// Where a place is looked for: columns and rows from `lowest` to `highest`, both included.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Window {
-    pub lowest: [u32; 2],
-    pub highest: [u32; 2],
-}
-
-impl Window {
-    /// Everywhere.
-    pub(super) const ALL: Self = Self::from([0; 2]);
-
-    /// To the right and up.
-    pub(super) const fn from(lowest: [u32; 2]) -> Self {
-        Self {
-            lowest,
-            highest: [u32::MAX - 1; 2],
-        }
-    }
-}
 
 /// Widths of windows at most: up to 64 cells.
 const WIDTHS: usize = 7;
 
-/// The occupied cells of a square.
+/// The occupied cells of all pages.
 pub(super) struct Sheet {
-    /// Side of the square that may be used, in cells.
+    pub form: Form,
+    /// The longer side of what may be used of each page, in cells.
     capacity: u32,
     /// Free cells on each side of it, so that a reach may stick out.
     frame: u32,
     words: usize,
     widths: usize,
-    /// Row after row, in each for every width 2ᵏ `words` of bits: bit x says that a cell of x..x + 2ᵏ is taken.
+    /// Rows of a page with its frame.
+    height: usize,
+    /// Page after page and row after row, in each for every width 2ᵏ `words` of bits: bit x says that a cell of x..x + 2ᵏ is taken.
     rows: Vec<u64>,
     blocked: Vec<u64>,
-    /// Side of the square used so far.
+    /// The longer side of what is used of a page so far.
     pub side: u32,
-    /// Rows used so far.
-    pub top: u32,
+    /// Rows of each page used so far.
+    pub tops: Vec<u32>,
     /// Words read so far: what the search cost, on any machine.
     pub work: u64,
 }
 
 impl Sheet {
-    /// An empty square. No mask's margin may exceed `frame`.
-    pub(super) fn new(capacity: u32, frame: u32, side: u32) -> Self {
-        let cells = capacity + 2 * frame;
-        let words = cells.div_ceil(64) as usize + 2;
-        let widths = WIDTHS.min((u32::BITS - cells.leading_zeros()) as usize);
+    /// Empty pages. No mask's margin may exceed `frame`.
+    pub(super) fn new(form: Form, capacity: u32, frame: u32, side: u32) -> Self {
+        let [width, height] = form.reach(capacity).map(|cells| cells + 2 * frame);
+        let words = width.div_ceil(64) as usize + 2;
+        let widths = WIDTHS.min((u32::BITS - width.leading_zeros()) as usize);
         Self {
+            form,
             capacity,
             frame,
             words,
             widths,
-            rows: vec![0; words * widths * cells as usize],
+            height: height as usize,
+            rows: vec![0; words * widths * height as usize * form.pages as usize],
             blocked: Vec::new(),
             side,
-            top: 0,
+            tops: vec![0; form.pages as usize],
             work: 0,
         }
     }
 
     /// Empty again, with another side that may be used, at most that of before.
     pub(super) fn clear(&mut self, capacity: u32) {
-        let used = (self.top + self.frame + 1) as usize * self.words * self.widths;
-        let end = used.min(self.rows.len());
-        self.rows[..end].fill(0);
+        let stride = self.words * self.widths;
+        for (page, top) in self.rows.chunks_mut(self.height * stride).zip(&self.tops) {
+            let used = (top + self.frame + 1) as usize * stride;
+            let end = used.min(page.len());
+            page[..end].fill(0);
+        }
         self.capacity = capacity;
-        (self.side, self.top) = (0, 0);
+        self.side = 0;
+        self.tops.fill(0);
     }
 
-    /// The place within the window that makes the used square grow least, and for which of the masks; of those the lowest.
+    /// The place within the window that makes the used part of pages grow least, and for which of the masks; of those the lowest on
+    /// the first page.
     pub(super) fn find(&mut self, turned: &[Turned], window: Window) -> Option<(usize, Spot)> {
-        let Window { lowest, highest } = window;
-        let mut best: Option<(u32, (usize, Spot))> = None;
-        for y in lowest[1]..self.capacity.min(highest[1] + 1) {
-            for (index, mask) in turned.iter().enumerate() {
-                let limit = best.map_or(self.capacity, |(side, _)| side - 1);
-                let [width, height] = mask.size;
-                if width > limit || y + height > limit {
-                    continue;
-                }
-                let columns = [lowest[0], highest[0].min(limit - width)];
-                if let Some(x) = self.first_free(mask, y, columns) {
-                    let (width, height) = if mask.turns % 2 == 0 {
-                        (width, height)
-                    } else {
-                        (height, width)
-                    };
-                    let spot = Spot {
-                        x,
-                        y,
-                        turns: mask.turns,
-                        width,
-                        height,
-                    };
-                    let right = x + mask.size[0];
-                    let side = self.side.max(right).max(y + mask.size[1]);
-                    best = Some((side, (index, spot)));
-                    if side == self.side {
-                        return best.map(|(_, spot)| spot);
-                    }
-                }
+        let mut best = None;
+        for page in window.lowest.page..self.form.pages.min(window.highest.page.saturating_add(1)) {
+            let mut on_page = window;
+            if page > window.lowest.page {
+                on_page.lowest = Corner::default();
             }
-            let lowest_top = turned.iter().map(|t| y + t.size[1]).min();
-            if best.is_some_and(|(side, _)| lowest_top.is_none_or(|top| top >= side)) {
+            self.find_on(page, turned, on_page, &mut best);
+            if best.is_some_and(|(side, _)| side == self.side) {
                 break;
             }
         }
         best.map(|(_, spot)| spot)
     }
 
-    /// Smallest free x between two, in row `y`.
-    fn first_free(&mut self, mask: &Turned, y: u32, [first, last]: [u32; 2]) -> Option<u32> {
+    /// The same on one page, if it is better than what is known.
+    fn find_on(
+        &mut self,
+        page: u32,
+        turned: &[Turned],
+        Window { lowest, highest }: Window,
+        best: &mut Option<(u32, (usize, Spot))>,
+    ) {
+        let rows = self.form.reach(self.capacity)[1];
+        for y in lowest.y..rows.min(highest.y + 1) {
+            for (index, mask) in turned.iter().enumerate() {
+                let limit = best.map_or(self.capacity, |(side, _)| side - 1);
+                let [right, top] = self.form.reach(limit);
+                let [width, height] = mask.size;
+                if width > right || y + height > top {
+                    continue;
+                }
+                let columns = [lowest.x, highest.x.min(right - width)];
+                let corner = Corner { page, x: 0, y };
+                if let Some(x) = self.first_free(mask, corner, columns) {
+                    let side = self.form.side([x + width, y + height]).max(self.side);
+                    let corner = Corner { x, ..corner };
+                    *best = Some((side, (index, Spot::new(mask, corner))));
+                    if side == self.side {
+                        return;
+                    }
+                }
+            }
+            let lowest_top = turned.iter().map(|t| self.form.side([0, y + t.size[1]]));
+            let lowest_top = lowest_top.min();
+            if best.is_some_and(|(side, _)| lowest_top.is_none_or(|top| top >= side)) {
+                break;
+            }
+        }
+    }
+
+    /// Smallest free x between two, in the row of a corner.
+    fn first_free(
+        &mut self,
+        mask: &Turned,
+        corner: Corner,
+        [first, last]: [u32; 2],
+    ) -> Option<u32> {
         if first > last {
             return None;
         }
@@ -143,9 +138,10 @@ impl Sheet {
         }
         set_bits(&mut self.blocked, 0, first);
         let inset = self.frame - mask.margin;
+        let base = self.row(corner) - mask.margin as usize;
         for run in &mask.reach {
             let k = (run.end - run.start).ilog2().min(self.widths as u32 - 1);
-            let row = (y + inset + run.row) as usize * self.widths + k as usize;
+            let row = (base + run.row as usize) * self.widths + k as usize;
             let row = &self.rows[row * self.words..][..self.words];
             let width = 1 << k;
             let (mut first, last) = (inset + run.start, inset + run.end - width);
@@ -166,11 +162,12 @@ impl Sheet {
     }
 
     /// Takes the cells of a mask's body, whose lower left cell comes to lie at `corner`.
-    pub(super) fn take(&mut self, mask: &Turned, corner: [u32; 2]) {
-        let x = corner[0] + self.frame;
+    pub(super) fn take(&mut self, mask: &Turned, corner: Corner) {
+        let x = corner.x + self.frame;
         let stride = self.words * self.widths;
+        let base = self.row(corner);
         for runs in mask.body.chunk_by(|a, b| a.row == b.row) {
-            let row = (corner[1] + self.frame + runs[0].row) as usize;
+            let row = base + runs[0].row as usize;
             let row = &mut self.rows[row * stride..][..stride];
             for run in runs {
                 set_bits(&mut row[..self.words], x + run.start, x + run.end);
@@ -178,8 +175,16 @@ impl Sheet {
             let taken = [x + runs[0].start, x + runs[runs.len() - 1].end];
             widen(row, self.words, taken);
         }
-        self.top = self.top.max(corner[1] + mask.size[1]);
-        self.side = self.side.max(corner[0] + mask.size[0]).max(self.top);
+        let top = corner.y + mask.size[1];
+        let side = self.form.side([corner.x + mask.size[0], top]);
+        self.side = self.side.max(side);
+        let highest = &mut self.tops[corner.page as usize];
+        *highest = top.max(*highest);
+    }
+
+    /// Where the row of a corner lies among those of all pages.
+    fn row(&self, corner: Corner) -> usize {
+        corner.page as usize * self.height + (corner.y + self.frame) as usize
     }
 }
 

@@ -5,7 +5,7 @@
 use super::attempt::stretch;
 use super::layout::Layout;
 use super::outline::Outline;
-use super::sheet::Spot;
+use super::spot::{Corner, Spot};
 use super::squeeze::{Body, Squeezed};
 use super::{AtlasOptions, GRID_SIDE};
 use crate::certificate::{Bounds, BoxTree, Visit, bounds_of, search_budget, segment_distance};
@@ -33,7 +33,8 @@ pub(super) fn layout(
     options: &AtlasOptions,
 ) -> Option<(Vec<Outline>, Layout)> {
     let texels = f64::from(options.packed_texels());
-    let padding = |side: f64| texels * side / (f64::from(options.resolution) - texels);
+    let padding =
+        |side: f64| texels * side / (f64::from(options.texture.resolution.longer()) - texels);
     let kept = padding(squeezed.side);
     let bodies: Vec<Arc<Body>> = (level.par_iter())
         .map(|outline| Arc::new(Body::new(outline, scale, kept)))
@@ -127,8 +128,7 @@ impl Places {
         }
         let spots = self.corners.iter().map(|&[x, y]| {
             let spot = Spot {
-                x,
-                y,
+                corner: Corner { page: 0, x, y },
                 ..Spot::default()
             };
             (spot, 1.0)

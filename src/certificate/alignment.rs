@@ -1,10 +1,20 @@
 //! Whether charts end where texels end.
 
+use super::resolution::Resolution;
 use super::topology::UvTopology;
 
 /// The charts whose bounding rectangle does not lie on borders of texels of a texture of `resolution`, exactly: f32 times a
 /// whole number below 2²⁸ is exact in f64.
-pub(super) fn unaligned_charts(topology: &UvTopology, resolution: u32) -> usize {
+pub(super) fn unaligned_charts(topology: &UvTopology, resolution: Resolution) -> usize {
+    let texels = [resolution.width, resolution.height].map(f64::from);
+    let is_border = |uv: &[f64; 2]| (0..2).all(|axis| (uv[axis] * texels[axis]).fract() == 0.0);
+    chart_bounds(topology)
+        .filter(|bounds| !bounds.iter().all(is_border))
+        .count()
+}
+
+/// The smallest and greatest coordinates of every chart that has faces to judge.
+pub(super) fn chart_bounds(topology: &UvTopology) -> impl Iterator<Item = [[f64; 2]; 2]> {
     let n_charts = topology.charts.nonorientable.len();
     let mut bounds: Vec<Option<[[f64; 2]; 2]>> = vec![None; n_charts];
     for (face, corners) in topology.uvs.iter().enumerate() {
@@ -20,8 +30,5 @@ pub(super) fn unaligned_charts(topology: &UvTopology, resolution: u32) -> usize 
             }
         }
     }
-    let is_border = |x: &f64| (x * f64::from(resolution)).fract() == 0.0;
-    let ends = bounds.iter().flatten();
-    ends.filter(|bounds| !bounds.as_flattened().iter().all(is_border))
-        .count()
+    bounds.into_iter().flatten()
 }

@@ -55,6 +55,17 @@ impl ChartBoundary {
         ChartBoundary { edges }
     }
 
+    /// The same with other units along the axes.
+    pub fn scaled(&self, by: [f64; 2]) -> ChartBoundary {
+        let scaled = |edge: &BoundaryEdge| BoundaryEdge {
+            uvs: edge.uvs.map(|[u, v]| [u * by[0], v * by[1]]),
+            ..*edge
+        };
+        ChartBoundary {
+            edges: self.edges.iter().map(scaled).collect(),
+        }
+    }
+
     /// Visits every pair of edges whose boxes, enlarged by `margin`, meet.
     pub fn near_pairs(
         &self,

@@ -1,5 +1,6 @@
 //! What a certificate is asked to speak of.
 
+use super::resolution::Resolution;
 use serde::{Deserialize, Serialize};
 
 /// Which way v points in the numbers given.
@@ -30,8 +31,8 @@ pub enum Overlap {
 pub struct Padding {
     /// The distance, in texels.
     pub texels: u32,
-    /// Texels along the side of the unit square.
-    pub resolution: u32,
+    /// The texture, which covers the unit square; one with [`Resolution::is_regular`].
+    pub resolution: Resolution,
 }
 
 /// What is judged beside the orientation of every face.
@@ -41,8 +42,10 @@ pub struct Claims {
     pub overlap: Overlap,
     /// The distance of charts to judge.
     pub padding: Option<Padding>,
-    /// Texels along the side of the unit square at whose borders charts shall end.
-    pub aligned: Option<u32>,
+    /// The texture of a unit square at the borders of whose texels charts shall end.
+    pub aligned: Option<Resolution>,
+    /// The pages side by side of which each chart shall lie on one.
+    pub pages: Option<u32>,
     /// The bits that the map shall hold at.
     pub bits: Option<u32>,
     /// Where v points, which tells mirrored charts.

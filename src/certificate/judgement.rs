@@ -8,6 +8,7 @@ use super::box_tree::Visit;
 use super::claims::{Claims, Overlap};
 use super::overlap::OrientedFaces;
 use super::padding::{PaddingVerdict, judge_padding};
+use super::pages::{PagesVerdict, judge_pages};
 use super::rounding::coarsest_bits;
 use super::topology::UvTopology;
 use serde::Serialize;
@@ -54,6 +55,8 @@ pub struct Certificate {
     pub padding: Option<PaddingVerdict>,
     /// Charts whose bounding rectangle does not end where texels end; null when not asked.
     pub unaligned_charts: Option<usize>,
+    /// Whether every chart lies on one of the pages asked for; null when not asked.
+    pub pages: Option<PagesVerdict>,
     /// Whether the map holds at the bits asked for; null when not asked or overlaps were not tested.
     pub bits: Option<BitsVerdict>,
     /// The first few faces that are flipped, degenerate or cannot be judged.
@@ -93,6 +96,7 @@ pub fn certify(
     certificate.mirrored_charts = topology.mirrored_charts(claims.v_axis);
     certificate.unaligned_charts =
         (claims.aligned).map(|texels| unaligned_charts(&topology, texels));
+    certificate.pages = claims.pages.map(|pages| judge_pages(&topology, pages));
     if claims.overlap == Overlap::Test {
         judge_pairs(&topology, &mut certificate);
         judge_distances(&topology, claims, &mut certificate);

@@ -19,6 +19,9 @@
 //! its boundary alone, [`crossings()`] whether a
 //! surface in space passes through itself.
 //!
+//! **Pages.** UVs may lie on several pages side by side, as tiles of UDIM do, and texels need not be squares of UV space: distances are
+//! counted in texels along both axes, and that each chart lies on one page ([`Certificate::pages`]) is a comparison of numbers.
+//!
 //! **Distances.** Whether charts keep a distance ([`Certificate::padding`]), and whether the map stays bijective however a tool rounds
 //! it to fewer bits ([`Certificate::bits`]), is decided on the edges of charts, in integers. Numbers that are no multiples of 2⁻⁴⁰ are
 //! cut to one, and the doubt counts against the map.
@@ -35,7 +38,9 @@ mod fixed;
 mod judgement;
 mod overlap;
 mod padding;
+mod pages;
 mod planar;
+mod resolution;
 mod rounding;
 mod separation;
 mod simple;
@@ -52,7 +57,9 @@ pub(crate) use edges::Start;
 pub use judgement::{Certificate, certify};
 pub(crate) use overlap::OrientedFaces;
 pub use padding::PaddingVerdict;
+pub use pages::PagesVerdict;
 pub use planar::{PlanarCertificate, certify_planar};
+pub use resolution::Resolution;
 pub(crate) use rounding::largest_move;
 pub use simple::boundary_crossings;
 pub(crate) use simple::meeting_point;

@@ -7,6 +7,7 @@ use super::box_tree::Visit;
 use super::claims::Padding;
 use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, is_exact, product};
 use super::judgement::NAMED;
+use super::resolution::Resolution;
 use serde::Serialize;
 
 /// Coordinates from here on are not judged: their products would not fit.
@@ -18,8 +19,8 @@ const LIMIT: f64 = 1024.0;
 pub struct PaddingVerdict {
     /// The distance asked for, in texels.
     pub asked_texels: u32,
-    /// Texels along the side of the unit square.
-    pub resolution: u32,
+    /// The texture of the unit square.
+    pub resolution: Resolution,
     /// Whether it is proven that no two charts are nearer. Coordinates of 1024 or more are not judged.
     pub kept: bool,
     /// The smallest distance of two charts in texels, rounded; null when there is one chart, or the search stopped at its limit.
@@ -30,7 +31,7 @@ pub struct PaddingVerdict {
     pub offending_faces: Vec<[u32; 2]>,
 }
 
-/// Judges the distances between the charts that `boundary` encloses.
+/// Judges the distances between the charts that `boundary` encloses, along each axis in its texels.
 pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> PaddingVerdict {
     let mut verdict = PaddingVerdict {
         asked_texels: padding.texels,
@@ -40,12 +41,17 @@ pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> Paddi
         pairs_too_close: 0,
         offending_faces: Vec::new(),
     };
+    // The longer side is a whole number of times the shorter: no coordinate is rounded.
+    let side = padding.resolution.shorter();
+    let halvings = padding.resolution.halvings();
+    let longest = halvings[0].max(halvings[1]);
+    let boundary = &boundary.scaled(halvings.map(|times| f64::from(1_u32 << (longest - times))));
     let points = || boundary.edges.iter().flat_map(|edge| edge.uvs);
     if points().flatten().any(|x| x.abs() >= LIMIT) {
         return verdict;
     }
-    let bound = Bound::new(padding, points().all(is_exact));
-    let distance = f64::from(padding.texels) / f64::from(padding.resolution);
+    let bound = Bound::new(padding.texels, side, points().all(is_exact));
+    let distance = f64::from(padding.texels) / f64::from(side);
     let mut too_close = BTreeSet::new();
     // A little more than half of the distance on each side, so that rounding misses no pair.
     let visit = boundary.near_pairs(0.5 * distance * (1.0 + 1e-9) + 1e-12, |a, b| {
@@ -63,8 +69,8 @@ pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> Paddi
     verdict.pairs_too_close = too_close.len();
     verdict.kept = too_close.is_empty() && visit == Visit::Complete;
     let (gap, complete) = boundary.closest();
-    verdict.reached_texels = (complete == Visit::Complete && gap.is_finite())
-        .then(|| gap * f64::from(padding.resolution));
+    verdict.reached_texels =
+        (complete == Visit::Complete && gap.is_finite()).then(|| gap * f64::from(side));
     verdict
 }
 
@@ -81,11 +87,11 @@ struct Bound {
 impl Bound {
     /// Coordinates that had to be cut move by less than a unit each, two points by less than three against each other: the
     /// bound is enlarged by that, so that a doubt is never resolved in favour of the map.
-    fn new(padding: Padding, is_exact: bool) -> Self {
-        let resolution = u128::from(padding.resolution);
+    fn new(texels: u32, resolution: u32, is_exact: bool) -> Self {
+        let resolution = u128::from(resolution);
         let doubt = if is_exact { 0 } else { 3 * resolution };
         Self {
-            length: (u128::from(padding.texels) << UNIT_BITS) + doubt,
+            length: (u128::from(texels) << UNIT_BITS) + doubt,
             resolution,
         }
     }

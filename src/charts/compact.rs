@@ -43,7 +43,7 @@ impl MappedChart {
     /// The seam that makes the chart's parts most compact and small for its length; none if no cut leaves two parts of some size.
     ///
     /// Candidates are straight chords of the map; the best are moved within a narrow band to where a seam costs least, a minimum
-    /// cut, which prefers creases. `unit` is the square root of the atlas' area.
+    /// cut, which prefers creases. `unit` is the square root of the area on a page.
     pub fn best_split(&self, unit: f64) -> Option<Split> {
         let disk = &self.chart.disk;
         let mesh = (&*disk.triangles, &*self.chart.positions);

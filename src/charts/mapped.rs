@@ -6,6 +6,7 @@ use super::{Chart, halves};
 use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};
 use crate::numerics::vec2::doubled_area;
+use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::{Control, Iterate, Summary, Watch};
 use std::time::Duration;
 
@@ -184,6 +185,14 @@ impl MappedChart {
     pub fn area(&self) -> f64 {
         let corners = |t: &[u32; 3]| t.map(|v| self.embedding.uv[v as usize]);
         let doubled = |[a, b, c]: [[f64; 2]; 3]| doubled_area(a, b, c);
+        let triangles = self.chart.disk.triangles.iter();
+        triangles.map(corners).map(doubled).sum::<f64>() / 2.0
+    }
+
+    /// The area of the surface that is mapped.
+    pub fn surface_area(&self) -> f64 {
+        let corners = |t: &[u32; 3]| t.map(|v| self.chart.positions[v as usize]);
+        let doubled = |[a, b, c]: [[f64; 3]; 3]| norm(area_vector(a, b, c));
         let triangles = self.chart.disk.triangles.iter();
         triangles.map(corners).map(doubled).sum::<f64>() / 2.0
     }

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use super::failure::Failure;
 use super::files::{json, read_upload, say};
 use super::words::{GROUPS, word};
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Resolution};
 use crate::document::GroupBy;
+use crate::measure::Page;
 use crate::pipeline::{self, GroupReport, MeasureOptions};
 
 /// Which UVs of a file, and what is judged of them.
@@ -26,9 +27,12 @@ pub(super) struct Which {
     /// Least distance of two charts to prove, in texels
     #[arg(long, value_name = "TEXELS")]
     padding: Option<u32>,
-    /// Side of the texture that the padding is counted in
-    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
-    resolution: u32,
+    /// Texels along the side of the texture that the padding is counted in, or along both
+    #[arg(long, default_value = "1024", value_name = "N|WxH")]
+    resolution: Resolution,
+    /// Prove that each chart lies on one of so many pages side by side
+    #[arg(long, value_name = "N")]
+    pages: Option<u32>,
     /// Mip levels beyond the first in which to prove the padding, in texels of each
     #[arg(long, default_value_t = 0, value_name = "N")]
     mips: u32,
@@ -50,6 +54,7 @@ impl Which {
             aligned: self.aligned,
             padding: self.padding,
             resolution: self.resolution,
+            pages: self.pages,
             bits: self.bits,
             ..MeasureOptions::default()
         }
@@ -82,14 +87,22 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 pub(super) fn print_group(group: &GroupReport) {
     let m = &group.measures;
     let number = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.4}"));
+    let packed = match m.packing.pack_unit {
+        None if !m.pages.is_empty() => {
+            let page = |page: &Page| format!("{} {:.4}", page.udim, page.fill);
+            m.pages.iter().map(page).collect::<Vec<_>>().join(", ")
+        }
+        packed => number(packed),
+    };
     say(format_args!(
-        "{}: {} faces, {} charts, seam/√area {}, symmetric Dirichlet {}, packed {}; {}",
+        "{}: {} faces, {} charts, seam/√area {}, symmetric Dirichlet {}, packed {}, texels per unit {}; {}",
         group.name,
         m.size.faces,
         m.seams.charts,
         number(m.seams.seam_over_sqrt_area),
         number(m.distortion.sym_dirichlet_mean),
-        number(m.packing.pack_unit),
+        packed,
+        number(group.texels_per_unit),
         certificate_text(&group.certificate)
     ));
 }

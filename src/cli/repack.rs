@@ -8,6 +8,7 @@ use super::progress::Display;
 use super::records::stem;
 use super::unwrap::summarize;
 use super::words::{GROUPS, word};
+use crate::certificate::Resolution;
 use crate::document::GroupBy;
 use crate::pipeline::{Limits, RepackOptions, repack_document};
 
@@ -31,9 +32,15 @@ pub(super) struct Args {
     /// What shares one atlas
     #[arg(long, default_value = "scene", value_parser = word::<GroupBy>(GROUPS))]
     group_by: GroupBy,
-    /// Side of the texture in texels
-    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
-    resolution: u32,
+    /// Texels along the side of the texture, or along both: one is the other times a power of two
+    #[arg(long, default_value = "1024", value_name = "N|WxH")]
+    resolution: Resolution,
+    /// Pages that islands may lie on, the tiles of UDIM from 1001 on
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pages: u32,
+    /// Texels along one unit of length of the meshes, at the mean [default: as many as fit]
+    #[arg(long, value_name = "T")]
+    texels_per_unit: Option<f64>,
     /// Least distance of two islands in texels
     #[arg(long, default_value_t = 2, value_name = "TEXELS")]
     padding: u32,
@@ -53,6 +60,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         overwrite: args.overwrite,
         group_by: args.group_by,
         resolution: args.resolution,
+        pages: args.pages,
+        texels_per_unit: args.texels_per_unit,
         padding: args.padding,
         threads: args.threads,
         format: output_format(&args.output)?,

@@ -11,12 +11,14 @@ use super::words::{
     BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, PRESETS, QUALITIES, word,
 };
 use crate::barrier::BarrierKind;
+use crate::certificate::Resolution;
 use crate::charts::{Cut, Quality};
 use crate::document::{GroupBy, WriteNotes};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
     self, GivenSeams, KeptMaps, Limits, NamedSeams, Options, Outcome, PackingMode, Preset,
+    TexelWeight,
 };
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
@@ -86,9 +88,18 @@ pub(super) struct Args {
     /// Side of the resampled textures in texels [default: `--resolution`, or more where the surface would have fewer texels]
     #[arg(long, value_name = "TEXELS")]
     bake_size: Option<u32>,
-    /// Side of the texture in texels
-    #[arg(long, default_value_t = 1024, value_name = "TEXELS")]
-    resolution: u32,
+    /// Texels along the side of the texture, or along both: one is the other times a power of two
+    #[arg(long, default_value = "1024", value_name = "N|WxH")]
+    resolution: Resolution,
+    /// Pages that charts may lie on, the tiles of UDIM from 1001 on; all get one density
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pages: u32,
+    /// Texels along one unit of length of the mesh [default: as many as fit]
+    #[arg(long, value_name = "T")]
+    texels_per_unit: Option<f64>,
+    /// Material, by name or index, that gets W times as many texels along a line as the others; may be given again
+    #[arg(long, value_name = "MATERIAL=W")]
+    texel_weight: Vec<TexelWeight>,
     /// Least distance of two charts in texels
     #[arg(long, default_value_t = 2, value_name = "TEXELS")]
     padding: u32,
@@ -142,6 +153,9 @@ impl Args {
             rebake: self.rebake,
             bake_size: self.bake_size,
             resolution: self.resolution,
+            pages: self.pages,
+            texels_per_unit: self.texels_per_unit,
+            texel_weights: self.texel_weight.clone(),
             padding: self.padding,
             mips: self.mips,
             quantization_safe: self.quantization_safe,

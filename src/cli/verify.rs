@@ -58,5 +58,6 @@ fn holds(args: &Args, proven: &Proven) -> bool {
         && (proven.unmirrored || !args.unmirrored)
         && proven.padding.as_ref().is_none_or(|padding| padding.kept)
         && proven.aligned.unwrap_or(true)
+        && proven.pages.as_ref().is_none_or(|pages| pages.kept)
         && proven.bits.as_ref().is_none_or(|bits| bits.hold)
 }

@@ -82,6 +82,14 @@ impl Document {
         group::groups(self.primitives(), by)
     }
 
+    /// The index of a material with this name, or else with this number; other files than glTF are read without materials.
+    pub fn material(&self, name: &str) -> Option<usize> {
+        match self {
+            Self::Gltf(document) => document.material(name),
+            Self::Obj(_) | Self::Soup(_) => None,
+        }
+    }
+
     /// Where v points in the numbers of the file.
     pub fn v_axis(&self) -> VAxis {
         match self {

@@ -10,6 +10,8 @@ pub type Corners = [[f32; 2]; 3];
 pub struct NewUvs {
     /// What it has to do with the set that it replaces.
     pub layout: Layout,
+    /// Unit squares side by side along u that a new layout may cover.
+    pub pages: u32,
     /// Where v points in these numbers; 1 − v is written where the file's points the other way.
     pub v_axis: VAxis,
     /// Per primitive of the document the UVs of each corner of each face; `None` where the primitive takes no part.
@@ -26,7 +28,7 @@ pub enum Layout {
 }
 
 impl NewUvs {
-    /// Whether there is one entry per primitive and one corner triple per face, all finite and in a new layout in the unit square.
+    /// Whether there is one entry per primitive and one corner triple per face, all finite and in a new layout on its pages.
     pub(super) fn check(&self, primitives: &[Primitive]) -> Result<(), DocumentError> {
         let fits = self.corners.len() == primitives.len()
             && self
@@ -38,12 +40,12 @@ impl NewUvs {
                         .as_ref()
                         .is_none_or(|corners| corners.len() == primitive.triangles.len())
                 });
-        let is_possible = |x: &f32| match self.layout {
-            Layout::New => (0.0..=1.0).contains(x),
-            Layout::Edited => x.is_finite(),
+        let is_possible = |[u, v]: &[f32; 2]| match self.layout {
+            Layout::New => (0.0..=self.pages as f32).contains(u) && (0.0..=1.0).contains(v),
+            Layout::Edited => u.is_finite() && v.is_finite(),
         };
         let mut corners = self.corners.iter().flatten();
-        if fits && corners.all(|c| c.as_flattened().as_flattened().iter().all(is_possible)) {
+        if fits && corners.all(|c| c.as_flattened().iter().all(is_possible)) {
             Ok(())
         } else {
             Err(DocumentError::InvalidUvs)

@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 51] = [
+pub(super) const CAUSES: [(&str, &str); 53] = [
     // Handles.
     ("malformed_handles", "The list of handles is not one"),
     ("no_handle", "There is no handle"),
@@ -99,6 +99,14 @@ pub(super) const CAUSES: [(&str, &str); 51] = [
     (
         "texcoord_in_use",
         "Textures sample the UV set that would be replaced",
+    ),
+    (
+        "texture_too_small",
+        "At the texels per unit asked for the charts do not fit; the detail names a resolution or number of pages that would do",
+    ),
+    (
+        "unknown_material",
+        "A weight names a material that the file does not have; only those of glTF are known",
     ),
     ("invalid_seams", "The seams given do not fit the mesh"),
     ("invalid_uvs", "The new UVs do not fit the document"),

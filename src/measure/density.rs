@@ -5,7 +5,7 @@ use super::quantile::Weighted;
 use crate::certificate::UvTopology;
 use serde::Serialize;
 
-/// Texel density of the charts: √(UV area / surface area) of a chart over that of the whole; ideal 1 throughout. Weighted by
+/// Texel density of the charts, against what is intended where charts have weights: √(UV area / surface area) of a chart over that of the whole; ideal 1 throughout. Weighted by
 /// surface area.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
@@ -32,7 +32,7 @@ impl Density {
             .iter()
             .filter(|chart| chart.is_real() && chart.area_3d > 0.0)
             .map(|chart| {
-                let density = (chart.area_uv / chart.area_3d.max(1e-300)).sqrt() * scale;
+                let density = (chart.area_uv / chart.area_intended.max(1e-300)).sqrt() * scale;
                 (density, chart.area_3d)
             })
             .collect();

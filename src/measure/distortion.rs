@@ -56,14 +56,15 @@ pub struct FaceDistortion {
     pub degenerate: bool,
 }
 
-/// Distortion of every face, for pictures.
+/// Distortion of every face, for pictures; `weights` as in [`MeasureOptions`](super::MeasureOptions).
 pub fn face_distortion(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
     uvs: &[CornerUvs],
+    weights: Option<&[f64]>,
 ) -> Vec<FaceDistortion> {
     let topology = UvTopology::new(positions, triangles, uvs);
-    let faces = FaceMeasures::new(&topology);
+    let faces = FaceMeasures::new(&topology, weights);
     let of_face = |(face, flipped): (usize, bool)| {
         let values = Stretch::of_face(&topology, &faces, face);
         FaceDistortion {
@@ -142,7 +143,7 @@ impl Stretch {
         if faces.degenerate_3d[face] || topology.orientation[face] == 0 {
             return None;
         }
-        let scale = faces.area_scale().sqrt();
+        let scale = faces.area_scale().sqrt() / faces.weight(face);
         let [a, b, c] = face_points(topology, face);
         let (e1, e2) = (sub(b, a), sub(c, a));
         // The face in its plane: (0, 0), (x1, 0), (x2, y2).

@@ -3,7 +3,7 @@
 use crate::certificate::UvTopology;
 
 /// Areas of faces and charts.
-pub(super) struct FaceMeasures {
+pub(super) struct FaceMeasures<'a> {
     pub area_3d: Vec<f64>,
     pub area_uv: Vec<f64>,
     /// Whether the face has no area in 3D, by the tests of the [module](super).
@@ -13,6 +13,9 @@ pub(super) struct FaceMeasures {
     /// Diagonal of the bounding box of all positions.
     pub diagonal: f64,
     pub charts: Vec<ChartMeasures>,
+    /// The area that all faces should have.
+    total_intended: f64,
+    weights: Option<&'a [f64]>,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -20,6 +23,8 @@ pub(super) struct ChartMeasures {
     pub faces: usize,
     pub area_3d: f64,
     pub area_uv: f64,
+    /// The area that it should have.
+    pub area_intended: f64,
 }
 
 impl ChartMeasures {
@@ -29,8 +34,8 @@ impl ChartMeasures {
     }
 }
 
-impl FaceMeasures {
-    pub fn new(topology: &UvTopology) -> FaceMeasures {
+impl<'a> FaceMeasures<'a> {
+    pub fn new(topology: &UvTopology, weights: Option<&'a [f64]>) -> Self {
         let diagonal = diagonal(&topology.points);
         let n_faces = topology.faces.len();
         let mut area_3d = Vec::with_capacity(n_faces);
@@ -52,9 +57,13 @@ impl FaceMeasures {
             chart.faces += 1;
             chart.area_3d += area_3d[face];
             chart.area_uv += area_uv[face];
+            chart.area_intended += area_3d[face] * weight(weights, face).powi(2);
         }
-        FaceMeasures {
+        let intended = |(face, area): (usize, &f64)| area * weight(weights, face).powi(2);
+        Self {
             total_3d: area_3d.iter().sum(),
+            total_intended: area_3d.iter().enumerate().map(intended).sum(),
+            weights,
             total_uv: area_uv.iter().sum(),
             area_3d,
             area_uv,
@@ -64,10 +73,19 @@ impl FaceMeasures {
         }
     }
 
-    /// A₃d / A_uv: squared lengths in UV times this compare with those on the surface.
+    /// A₃d / A_uv: squared lengths in UV times this compare with those on the surface, enlarged by the weights.
     pub fn area_scale(&self) -> f64 {
-        self.total_3d / self.total_uv.max(1e-300)
+        self.total_intended / self.total_uv.max(1e-300)
     }
+
+    /// The density intended for a face.
+    pub fn weight(&self, face: usize) -> f64 {
+        weight(self.weights, face)
+    }
+}
+
+fn weight(weights: Option<&[f64]>, face: usize) -> f64 {
+    weights.map_or(1.0, |weights| weights[face])
 }
 
 pub(super) fn face_points(topology: &UvTopology, face: usize) -> [[f64; 3]; 3] {

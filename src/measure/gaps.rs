@@ -25,14 +25,14 @@ pub struct Gaps {
 }
 
 impl Gaps {
-    pub(super) fn new(topology: &UvTopology, faces: &FaceMeasures) -> Gaps {
+    pub(super) fn new(topology: &UvTopology, faces: &FaceMeasures, aspect: f64) -> Gaps {
         let real = faces.charts.iter().filter(|chart| chart.is_real()).count();
         let chart = |face: u32| topology.charts.of_face[face as usize] as usize;
         let boundary = ChartBoundary::new(topology, |face| faces.charts[chart(face)].is_real());
         if real < 2 || boundary.edges.is_empty() {
             return Gaps::default();
         }
-        let side = if in_unit_square(topology) {
+        let side = if in_unit_square(topology, aspect) {
             1.0
         } else {
             topology.extent()

@@ -4,8 +4,11 @@
 //! definitions are those of an independent script in NumPy (`uvmetrics`), so that the figures can be checked against it:
 //!
 //! - Positions are welded by equality; charts, seams and winding are those of [`certificate`](crate::certificate).
+//! - With a texture that is not square u is multiplied by its width over its height at first: lengths are those of texels.
 //! - UVs are scaled by s = √(A₃d / A_uv) before distortion is taken, so that total areas agree; σ₁ ≥ σ₂ are the singular values of
 //!   a face's scaled map from the surface to UV. Means are weighted by surface area, percentiles too.
+//! - Where faces have weights, the densities intended, the surface is so much larger for distortion and density; areas, means and
+//!   seams stay those of the surface.
 //! - A face is degenerate in 3D when its area is 0, below 10⁻⁹ of its longest edge squared, or below 10⁻¹⁴ of the bounding box
 //!   diagonal squared. Such faces and those of zero UV area take no part in distortion, but are counted beside it, so
 //!   that a collapse cannot hide.
@@ -18,6 +21,7 @@ mod faces;
 mod gaps;
 mod overlaps;
 mod packing;
+mod pages;
 mod quantile;
 mod seams;
 mod size;
@@ -28,6 +32,7 @@ pub use distortion::{Distortion, FaceDistortion, face_distortion};
 pub use gaps::Gaps;
 pub use overlaps::Overlaps;
 pub use packing::Packing;
+pub use pages::Page;
 pub use seams::Seams;
 pub use size::Size;
 pub use validity::Validity;
@@ -39,23 +44,29 @@ use serde::Serialize;
 
 /// What to measure.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct MeasureOptions {
+pub struct MeasureOptions<'a> {
     /// Side of the raster that packing and `overlap_frac` are counted on, in texels; at most [`MeasureOptions::MAX_RASTER`].
     pub raster_texels: u32,
     /// Whether overlapping pairs of faces are counted.
     pub overlap: Overlap,
+    /// Width of the texture over its height: u is multiplied by it, so that all lengths are of its texels.
+    pub aspect: f64,
+    /// For each face the density intended: the surface is enlarged by it before it is compared with UVs. The same for all if absent.
+    pub weights: Option<&'a [f64]>,
 }
 
-impl MeasureOptions {
+impl MeasureOptions<'_> {
     /// The greatest raster; beyond it a scan line's products would not fit an i64.
     pub const MAX_RASTER: u32 = 1 << 14;
 }
 
-impl Default for MeasureOptions {
+impl Default for MeasureOptions<'_> {
     fn default() -> Self {
         MeasureOptions {
             raster_texels: 4096,
             overlap: Overlap::Test,
+            aspect: 1.0,
+            weights: None,
         }
     }
 }
@@ -88,6 +99,8 @@ pub struct Measures {
     /// Distances between charts.
     #[serde(flatten)]
     pub gaps: Gaps,
+    /// The pages that hold charts: one where UVs lie in the unit square.
+    pub pages: Vec<Page>,
     /// No face is flipped, degenerate, collapsed or without finite UVs.
     pub locally_injective: bool,
     /// Locally injective, and no faces overlap by more than rounding; null when overlaps were not searched.
@@ -105,9 +118,13 @@ pub fn measure(
     v_axis: VAxis,
     options: &MeasureOptions,
 ) -> Measures {
-    let topology = UvTopology::new(positions, triangles, uvs);
-    let faces = FaceMeasures::new(&topology);
-    let size = Size::new(triangles, &topology, &faces);
+    let aspect = options.aspect;
+    let uvs: Vec<CornerUvs> = (uvs.iter())
+        .map(|face| face.map(|[u, v]| [u * aspect, v]))
+        .collect();
+    let topology = UvTopology::new(positions, triangles, &uvs);
+    let faces = FaceMeasures::new(&topology, options.weights);
+    let size = Size::new(triangles, &topology, &faces, aspect);
     let validity = Validity::new(&topology, &faces, v_axis);
     let overlaps = Overlaps::new(&topology, options.overlap);
     let locally_injective = validity.flipped == 0
@@ -121,8 +138,13 @@ pub fn measure(
         packing: Packing::new(
             &topology,
             options.raster_texels.clamp(1, MeasureOptions::MAX_RASTER),
+            aspect,
         ),
-        gaps: Gaps::new(&topology, &faces),
+        gaps: Gaps::new(&topology, &faces, aspect),
+        pages: pages::pages(&topology, &faces, aspect, |v| match v_axis {
+            VAxis::Up => v,
+            VAxis::Down => 1.0 - v,
+        }),
         bijective: overlaps
             .overlap_pairs
             .map(|pairs| locally_injective && pairs == 0),

@@ -29,11 +29,15 @@ pub struct Packing {
 }
 
 impl Packing {
-    pub(super) fn new(topology: &UvTopology, texels: u32) -> Packing {
+    pub(super) fn new(topology: &UvTopology, texels: u32, aspect: f64) -> Packing {
         let [low, high] = topology.bounds;
         let extent = topology.extent();
-        let unit = in_unit_square(topology);
-        let (origin, side) = if unit { ([0.0; 2], 1.0) } else { (low, extent) };
+        let unit = in_unit_square(topology, aspect);
+        let (origin, side) = if unit {
+            ([0.0; 2], aspect.max(1.0))
+        } else {
+            (low, extent)
+        };
         let counts = coverage(&topology.uvs, texels, origin, side);
         let covered = counts.covered as f64 * (side / f64::from(texels)).powi(2);
         let [width, height] = [0, 1].map(|axis| (high[axis] - low[axis]).max(1e-100));
@@ -44,7 +48,7 @@ impl Packing {
                 .then(|| counts.covered_twice as f64 / counts.covered as f64),
             overlap_texels: counts.covered_twice,
             overlap_max_layers: counts.most_layers,
-            pack_unit: unit.then_some(covered),
+            pack_unit: unit.then_some(covered / aspect),
             pack_square: covered / (extent * extent),
             pack_rect: covered / (width * height),
         }

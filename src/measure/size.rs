@@ -35,7 +35,12 @@ pub struct Size {
 }
 
 impl Size {
-    pub(super) fn new(triangles: &[[u32; 3]], topology: &UvTopology, faces: &FaceMeasures) -> Size {
+    pub(super) fn new(
+        triangles: &[[u32; 3]],
+        topology: &UvTopology,
+        faces: &FaceMeasures,
+        aspect: f64,
+    ) -> Size {
         let [low, high] = topology.bounds;
         Size {
             faces: triangles.len(),
@@ -49,15 +54,15 @@ impl Size {
             uv_min: low,
             uv_max: high,
             uv_bbox: [0, 1].map(|axis| (high[axis] - low[axis]).max(1e-100)),
-            uv_in_unit_square: in_unit_square(topology),
+            uv_in_unit_square: in_unit_square(topology, aspect),
         }
     }
 }
 
-/// Whether all UVs lie in the unit square, to 1e-6.
-pub(super) fn in_unit_square(topology: &UvTopology) -> bool {
+/// Whether all UVs lie in the unit square, whose width is `aspect` here, to 1e-6.
+pub(super) fn in_unit_square(topology: &UvTopology, aspect: f64) -> bool {
     let [low, high] = topology.bounds;
-    low.iter().all(|&x| x >= -1e-6) && high.iter().all(|&x| x <= 1.0 + 1e-6)
+    low.iter().all(|&x| x >= -1e-6) && high[0] <= aspect + 1e-6 && high[1] <= 1.0 + 1e-6
 }
 
 fn count(flags: &[bool]) -> usize {

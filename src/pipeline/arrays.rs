@@ -2,28 +2,20 @@
 
 use rayon::prelude::*;
 
-use super::clearance::open_charts;
-use super::compact::{Drafted, compacted};
-use super::map::{folds, mapped_charts};
+use super::map::mapped_charts;
 use super::observer::{Observer, Stage, Tracker};
+use super::packed::packed;
 use super::packing::atlas_options;
 use super::seams::Seams;
 use super::settings::Settings;
 use super::{PipelineError, repeated};
-use crate::atlas::{self, Atlas, AtlasOptions, ChartMap, Draft, Placed};
-use crate::charts::{Cut, Folds, MappedChart};
+use crate::atlas::{self, Atlas};
+use crate::charts::MappedChart;
 use crate::mesh::{Defects, Surface};
 use crate::solver::Summary;
 
-/// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`].
+/// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`]; on page n of several u is from n to n + 1.
 pub type GridCorners = [[i32; 2]; 3];
-
-/// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
-/// another scale rounds it differently.
-const PACKINGS: usize = 4;
-
-/// Times that charts are opened for rounding at most: what is opened takes room, at a smaller scale more is too thin.
-const OPENINGS: usize = 4;
 
 /// An unwrapped mesh.
 #[derive(Clone, Debug)]
@@ -34,7 +26,7 @@ pub struct Unwrapped {
     pub charts: Vec<ChartRecord>,
     /// What was found to be wrong with the mesh.
     pub defects: Defects,
-    /// UV length of one unit of length of the mesh.
+    /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
     /// Padding that was kept, in texels; less than asked for only where the charts alone would fill the square.
     pub padding_texels: f64,
@@ -73,8 +65,8 @@ pub fn unwrap(
     unwrap_along(positions, triangles, &Seams::default(), settings, observer)
 }
 
-/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`] and
-/// [`Cut::Keep`] along no others than it takes to open what they enclose.
+/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](crate::charts::Cut::Seams) and
+/// [`Cut::Keep`](crate::charts::Cut::Keep) along no others than it takes to open what they enclose.
 pub fn unwrap_along(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
@@ -141,71 +133,35 @@ pub(super) fn unwrap_all(
     let seams: Vec<&Seams> = meshes.iter().map(|mesh| mesh.seams).collect();
     let mapped = mapped_charts(&surfaces, &seams, settings, tracker);
     tracker.stage(Stage::Pack);
-    let folds = folds(settings);
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
         .map(|((mesh, surface), charts)| {
-            let options = atlas_options(settings, meshes.len(), surface.triangles.len());
-            let drafted = match settings.cut {
-                Cut::Auto if folds == Folds::Cut => compacted(charts, &options, settings)?,
-                _ => Drafted::new(charts, &options)?,
-            };
-            let (charts, atlas) = packed(drafted, &options, folds, settings.quantization_safe)?;
+            let options = atlas_options(settings, meshes.len(), surface.triangles.len(), &charts);
+            let charts = weighted(charts, mesh.seams, surface);
+            let (charts, atlas) = packed(charts, &options, settings)?;
             Ok(assemble(*mesh, surface, &charts, &atlas))
         })
         .collect()
 }
 
-/// The charts of one mesh in an atlas. Where rounding to the grid made a chart overlap itself it is cut once more, where one is too
-/// thin for the bits it shall be safe at it is opened, and all are packed again.
-fn packed(
-    drafted: Drafted,
-    options: &AtlasOptions,
-    folds: Folds,
-    quantization_safe: Option<u32>,
-) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
-    let Drafted {
-        mut charts,
-        mut draft,
-    } = drafted;
-    let (mut rounds, mut openings) = (0, 0);
-    loop {
-        let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options)?;
-        if openings < OPENINGS
-            && quantization_safe.is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))
-        {
-            openings += 1;
-            draft = Draft::new(&chart_maps(&charts), options)?;
-            continue;
+/// The charts enlarged by the weights of their faces.
+fn weighted(mut charts: Vec<MappedChart>, seams: &Seams, surface: &Surface) -> Vec<MappedChart> {
+    let Some(weights) = &seams.weights else {
+        return charts;
+    };
+    for MappedChart {
+        chart, embedding, ..
+    } in &mut charts
+    {
+        // All faces of a chart have one weight: where two meet there is a seam.
+        if let Some([corner, ..]) = chart.corners.first() {
+            let weight = weights[surface.faces[*corner as usize / 3] as usize];
+            for p in &mut embedding.uv {
+                *p = p.map(|x| weight * x);
+            }
         }
-        rounds += 1;
-        if folds == Folds::Keep || rounds == PACKINGS {
-            return Ok((charts, atlas));
-        }
-        let n_before = charts.len();
-        let unfolded = |(chart, placed): (MappedChart, &Placed)| {
-            let rounded: Vec<[f64; 2]> = placed.grid.iter().map(|p| p.map(f64::from)).collect();
-            chart.unfolded(&rounded)
-        };
-        charts = (charts.into_par_iter().zip(&atlas.placed))
-            .flat_map_iter(unfolded)
-            .collect();
-        if charts.len() == n_before {
-            return Ok((charts, atlas));
-        }
-        draft = Draft::new(&chart_maps(&charts), options)?;
     }
-}
-
-/// Charts as the packer sees them.
-pub(super) fn chart_maps<'a>(
-    charts: impl IntoIterator<Item = &'a MappedChart>,
-) -> Vec<ChartMap<'a>> {
-    let maps = charts.into_iter().map(|mapped| ChartMap {
-        uv: &mapped.embedding.uv,
-        triangles: &mapped.chart.disk.triangles,
-    });
-    maps.collect()
+    charts
 }
 
 /// Hands every face of the input its corners in the atlas.

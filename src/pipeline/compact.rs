@@ -1,8 +1,9 @@
 //! Charts cut where that makes their atlas fuller.
 
-use super::arrays::chart_maps;
+use super::packed::chart_maps;
 use super::settings::Settings;
-use crate::atlas::{AtlasError, AtlasOptions, Draft};
+use crate::atlas::{AtlasError, AtlasOptions, Draft, Texture};
+use crate::certificate::Resolution;
 use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -11,7 +12,7 @@ use std::sync::Arc;
 const PRICE: f64 = 0.015;
 /// A further chart costs as much as a seam of this length in the same unit.
 const PER_CHART: f64 = 0.4;
-/// Cuts at most, in all and for each chart that there was.
+/// Cuts at most for each page, in all and for each chart that there was.
 const MOST_CUTS: u64 = 12;
 const MOST_CUTS_PER_CHART: u64 = 8;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
@@ -51,14 +52,20 @@ pub(super) fn compacted(
         draft => return Ok(Drafted { charts, draft }),
     };
     let words = options.search_words / 4 * 3;
-    let n_charts = charts.len() as u64;
+    let (n_charts, pages) = (charts.len() as u64, u64::from(options.texture.pages));
     let wanted = settings.max_charts.map_or(u64::MAX, u64::from);
     let most_cuts = (wanted.saturating_sub(n_charts))
-        .min(MOST_CUTS)
-        .min(MOST_CUTS_PER_CHART * n_charts)
+        .min(MOST_CUTS * pages)
+        .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
     let seam_weight = settings.seam_weight * settings.quality.seam_price();
-    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize)?;
+    let candidates = candidates(
+        charts,
+        draft,
+        seam_weight,
+        most_cuts as usize,
+        options.texture,
+    )?;
     let Candidate { charts, draft, .. } = fullest(candidates, words);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
@@ -88,14 +95,20 @@ fn candidates(
     draft: Draft,
     seam_weight: f64,
     most_cuts: usize,
+    texture: Texture,
 ) -> Result<Vec<Candidate>, AtlasError> {
-    let unit = charts.iter().map(MappedChart::area).sum::<f64>().sqrt();
+    let area = charts.iter().map(MappedChart::area).sum::<f64>();
+    let Resolution { width, height } = texture.resolution;
+    // A chart has to fit across a page that is not square, but may be longer than it is wide.
+    let slender = (f64::from(width.min(height)) / f64::from(width.max(height))).sqrt();
+    let of_page = (area / f64::from(texture.pages) * slender).sqrt();
+    let unit = area.sqrt();
     let mut candidate = Candidate {
         charts: charts.into_iter().map(Arc::new).collect(),
         draft,
         cost: 0.0,
     };
-    let mut splits = best_splits(&candidate.charts, unit);
+    let mut splits = best_splits(&candidate.charts, of_page);
     let mut candidates = vec![candidate.clone()];
     while candidates.len() <= most_cuts && candidate.cost < 1.0 {
         let Some((chart, split)) = most_worth(&splits) else {
@@ -110,7 +123,7 @@ fn candidates(
         candidate.charts.remove(chart);
         splits.remove(chart);
         let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
-        splits.extend(best_splits(&parts, unit));
+        splits.extend(best_splits(&parts, of_page));
         candidate.charts.extend(parts);
         candidates.push(candidate.clone());
     }

@@ -68,7 +68,7 @@ fn unwrap_in_pool(
     let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
     seconds.unwrap = watch.lap();
 
-    let uvs = new_uvs(&document, &groups, &atlases);
+    let uvs = new_uvs(&document, &groups, &atlases, options.pages);
     let mut baked = None;
     if options.rebake {
         tracker.stage(Stage::Bake);
@@ -81,8 +81,11 @@ fn unwrap_in_pool(
     seconds.write = watch.lap();
 
     tracker.stage(Stage::Judge);
-    let uvs = WrittenUvs::read(&written, (group_by, nodes))?;
-    let mut groups = uvs.judge(&options.claims());
+    let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
+    for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
+        group.weights = mesh.seams.weights;
+    }
+    let mut groups = uvs.judge(&options.claims(), options.resolution);
     add_history(&mut groups, &atlases);
     seconds.judge = watch.lap();
 
@@ -100,6 +103,7 @@ fn unwrap_in_pool(
         report,
         pictures: Pictures {
             uvs,
+            texture: options.resolution,
             shown: options.heatmap_measure,
             threads: options.settings().threads,
         },
@@ -136,7 +140,7 @@ fn group_by(options: &Options) -> GroupBy {
 }
 
 /// The atlases as UVs of the document.
-fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped]) -> NewUvs {
+fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped], pages: u32) -> NewUvs {
     let primitives = document.primitives();
     let mut corners = vec![None; primitives.len()];
     for (group, atlas) in groups.iter().zip(atlases) {
@@ -149,6 +153,7 @@ fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped]) -> NewU
     }
     NewUvs {
         layout: Layout::New,
+        pages,
         v_axis: VAxis::Up,
         corners,
     }

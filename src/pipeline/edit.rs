@@ -145,6 +145,7 @@ fn write(
     };
     let uvs = NewUvs {
         layout: Layout::Edited,
+        pages: 1,
         v_axis: document.v_axis(),
         corners: whole.n_faces.iter().map(|n| n.map(&mut next)).collect(),
     };

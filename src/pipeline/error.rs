@@ -1,6 +1,6 @@
 //! Why a file could not be worked on.
 
-use crate::atlas::AtlasError;
+use crate::atlas::{AtlasError, Enough};
 use crate::deform::ProblemError;
 use crate::deform::cage::CageError;
 #[cfg(feature = "files")]
@@ -58,6 +58,9 @@ pub enum PipelineError {
     /// The charts do not fit on the grid.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
+    /// At the texels per unit asked for the charts do not fit.
+    #[error("the texture is too small for that many texels per unit{0}")]
+    TextureTooSmall(Enough),
     /// The UVs that were written are not those that were promised: a mistake of this program, found by the certificate.
     #[cfg(feature = "files")]
     #[error("a face is flipped, degenerate or overlapped in the bytes that were to be written")]
@@ -80,6 +83,9 @@ pub enum PipelineError {
     /// A boundary that may not cross itself does, by rounding.
     #[error("no map was found whose boundary stays clear of itself")]
     Crossed,
+    /// No material has the name or index that a weight was given for.
+    #[error("there is no material {0:?}")]
+    UnknownMaterial(String),
     /// The seams given do not fit the mesh.
     #[error("seams: {0}")]
     Seams(String),
@@ -105,10 +111,12 @@ impl PipelineError {
             #[cfg(feature = "files")]
             Self::Warp(error) => error.code(),
             Self::Seams(_) => "invalid_seams",
+            Self::UnknownMaterial(_) => "unknown_material",
             Self::NoTriangles => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
+            Self::TextureTooSmall(_) => "texture_too_small",
             Self::Atlas(_) | Self::Inverted | Self::Crossed => "no_valid_result",
             #[cfg(feature = "files")]
             Self::NotCertified => "no_valid_result",
@@ -123,9 +131,11 @@ impl PipelineError {
             Self::Mesh(_)
             | Self::TooManyTriangles { .. }
             | Self::NoTriangles
+            | Self::TextureTooSmall(_)
             | Self::Cage(_)
             | Self::Problem(_)
             | Self::Seams(_)
+            | Self::UnknownMaterial(_)
             | Self::NoUvs { .. } => 3,
             #[cfg(feature = "files")]
             Self::Document(_) | Self::Edit(_) | Self::Outline(_) | Self::Warp(_) => 3,

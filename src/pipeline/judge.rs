@@ -9,9 +9,10 @@ use super::measure_options::MeasureOptions;
 use super::nodes::Nodes;
 use super::proven::Proven;
 use super::report::{GroupReport, Report};
-use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, certify};
+use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, Resolution, certify};
 use crate::document::{Document, Group, GroupBy, Primitive, Upload, Written};
 use crate::measure::{self, Measures, VAxis};
+use crate::numerics::vec3::{area_vector, norm};
 
 /// The UVs of every group of a file with the meshes they belong to, in the numbers of the file.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub(super) struct GroupUvs {
     pub(super) positions: Vec<[f64; 3]>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) uvs: Vec<CornerUvs>,
+    /// The texel density intended for each face; one for all if absent.
+    pub(super) weights: Option<Vec<f64>>,
 }
 
 impl WrittenUvs {
@@ -73,11 +76,11 @@ impl WrittenUvs {
         })
     }
 
-    /// Measures and certifies every group.
-    pub(super) fn judge(&self, claims: &Claims) -> Vec<GroupReport> {
+    /// Measures and certifies every group, in texels of a texture.
+    pub(super) fn judge(&self, claims: &Claims, texture: Resolution) -> Vec<GroupReport> {
         self.groups
             .par_iter()
-            .map(|group| group.judge(&self.told(claims)))
+            .map(|group| group.judge(&self.told(claims), texture))
             .collect()
     }
 
@@ -111,6 +114,7 @@ impl GroupUvs {
             positions: vec![],
             triangles: vec![],
             uvs: vec![],
+            weights: None,
         };
         for &index in &group.primitives {
             let primitive = &primitives[index];
@@ -134,12 +138,26 @@ impl GroupUvs {
         Ok(gathered)
     }
 
+    /// The area of the surface enlarged by its weights, if it has any.
+    fn intended_area(&self) -> Option<f64> {
+        let area = |(t, weight): (&[u32; 3], &f64)| {
+            let [a, b, c] = t.map(|v| self.positions[v as usize]);
+            norm(area_vector(a, b, c)) / 2.0 * weight * weight
+        };
+        let weights = self.weights.as_ref()?;
+        Some(self.triangles.iter().zip(weights).map(area).sum())
+    }
+
     fn certify(&self, claims: &Claims) -> Certificate {
         certify(&self.positions, &self.triangles, &self.uvs, claims)
     }
 
-    fn measure(&self, v_axis: VAxis) -> Measures {
-        let options = measure::MeasureOptions::default();
+    fn measure(&self, v_axis: VAxis, texture: Resolution) -> Measures {
+        let options = measure::MeasureOptions {
+            aspect: texture.aspect(),
+            weights: self.weights.as_deref(),
+            ..measure::MeasureOptions::default()
+        };
         measure::measure(
             &self.positions,
             &self.triangles,
@@ -149,11 +167,16 @@ impl GroupUvs {
         )
     }
 
-    fn judge(&self, claims: &Claims) -> GroupReport {
-        let (measures, certificate) =
-            rayon::join(|| self.measure(claims.v_axis), || self.certify(claims));
+    fn judge(&self, claims: &Claims, texture: Resolution) -> GroupReport {
+        let (measures, certificate) = rayon::join(
+            || self.measure(claims.v_axis, texture),
+            || self.certify(claims),
+        );
+        let area = self.intended_area().unwrap_or(measures.size.area_3d);
+        let squared = measures.size.area_uv / area;
         GroupReport {
             name: self.name.clone(),
+            texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
             measures,
             certificate,
             defects: None,
@@ -186,7 +209,7 @@ pub fn measure_document(
     options: &MeasureOptions,
 ) -> Result<Report, PipelineError> {
     with_uvs(upload, options, |uvs| {
-        Report::new(uvs.judge(&options.claims(Overlap::Test)))
+        Report::new(uvs.judge(&options.claims(Overlap::Test), options.resolution))
     })
 }
 

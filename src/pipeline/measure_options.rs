@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::nodes::Nodes;
 use super::options::check_mips;
-use super::settings::{Settings, check_texels, within};
+use super::settings::{Settings, check_pages, check_texels, within};
 use super::{Limits, PipelineError};
-use crate::certificate::{Claims, Overlap, Padding};
+use crate::certificate::{Claims, Overlap, Padding, Resolution};
 use crate::document::GroupBy;
 
 /// Which UVs of a document are measured or verified.
@@ -23,9 +23,11 @@ pub struct MeasureOptions {
     /// Least distance of two charts to prove, in texels of the coarsest of the mip levels that count; not judged if absent.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: Option<u32>,
-    /// Texels along the side of the texture that `padding` is counted in.
-    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
-    pub resolution: u32,
+    /// The texture that `padding` is counted in, and texels per unit.
+    pub resolution: Resolution,
+    /// Prove that each chart lies on one of so many pages side by side, the tiles of UDIM from 1001 on; not judged if absent.
+    #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 10))]
+    pub pages: Option<u32>,
     /// Mip levels beyond the first in which charts are to keep the padding.
     #[cfg_attr(feature = "service", schema(maximum = 12))]
     pub mips: u32,
@@ -47,6 +49,7 @@ impl Default for MeasureOptions {
             separate_nodes: false,
             padding: None,
             resolution: Settings::default().resolution,
+            pages: None,
             mips: 0,
             aligned: false,
             bits: None,
@@ -61,6 +64,7 @@ impl MeasureOptions {
         let padding = self.padding.unwrap_or(0);
         let checked = check_mips(padding, self.mips).and_then(|()| {
             check_texels(self.resolution, padding << self.mips)?;
+            check_pages(self.pages.unwrap_or(1))?;
             let bits = self.bits.unwrap_or(12);
             within("bits", f64::from(bits), 8.0, 16.0)
         });
@@ -85,6 +89,7 @@ impl MeasureOptions {
                 resolution: self.resolution,
             }),
             aligned: self.aligned.then_some(self.resolution),
+            pages: self.pages,
             bits: self.bits,
             ..Claims::default()
         }

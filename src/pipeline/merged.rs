@@ -4,6 +4,7 @@ use super::PipelineError;
 use super::arrays::Soup;
 use super::options::{GivenSeams, NamedSeams, Options};
 use super::seams::Seams;
+use super::texel_weight::face_weights;
 use crate::certificate::CornerUvs;
 use crate::charts::Cut;
 use crate::document::{Document, Group, Primitive};
@@ -13,7 +14,7 @@ use crate::measure::VAxis;
 pub(super) struct Merged {
     pub positions: Vec<[f32; 3]>,
     pub triangles: Vec<[u32; 3]>,
-    seams: Seams,
+    pub seams: Seams,
 }
 
 impl Merged {
@@ -55,6 +56,10 @@ impl Merged {
                 std::iter::repeat_n(label, primitive.triangles.len())
             });
             merged.seams.labels = Some(labels.collect());
+        }
+        if !options.texel_weights.is_empty() {
+            let weights = face_weights(document, primitives, group, &options.texel_weights);
+            merged.seams.weights = Some(weights?);
         }
         match &options.seams {
             Some(GivenSeams::Named(NamedSeams::Normals)) => {

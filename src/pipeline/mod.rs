@@ -50,6 +50,7 @@ mod moved;
 mod nodes;
 #[cfg(feature = "files")]
 mod options;
+mod packed;
 mod packing;
 #[cfg(feature = "files")]
 mod pictures;
@@ -71,6 +72,8 @@ mod solution;
 mod solve;
 #[cfg(feature = "files")]
 mod source;
+#[cfg(feature = "files")]
+mod texel_weight;
 #[cfg(feature = "files")]
 mod warp;
 
@@ -105,7 +108,7 @@ pub use pictures::{Drawn, Pictures};
 #[cfg(feature = "files")]
 pub use preset::Preset;
 #[cfg(feature = "files")]
-pub use proven::{Proven, ProvenBits, ProvenPadding};
+pub use proven::{Proven, ProvenBits, ProvenPadding, ProvenPages};
 #[cfg(feature = "files")]
 pub use repack::{RepackOptions, repack_document};
 #[cfg(feature = "files")]
@@ -114,5 +117,7 @@ pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, 
 pub use solution::{DeformReport, Deformed};
 #[cfg(feature = "files")]
 pub use solve::{SolveOptions, solve_file};
+#[cfg(feature = "files")]
+pub use texel_weight::TexelWeight;
 #[cfg(feature = "files")]
 pub use warp::{WarpOptions, WarpReport, WarpedPicture, warp_file};

@@ -6,10 +6,11 @@ use super::nodes::Nodes;
 use super::preset::Preset;
 use super::rebake::MOST_SIDE;
 use super::settings::{KeptMaps, PackingMode, Settings, within};
+use super::texel_weight::TexelWeight;
 use super::{Limits, PipelineError};
 use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
-use crate::certificate::{Claims, Overlap, Padding};
+use crate::certificate::{Claims, Overlap, Padding, Resolution};
 use crate::charts::{Cut, Quality};
 use crate::document::{GroupBy, OutputFormat};
 use crate::energy::EnergyKind;
@@ -94,9 +95,20 @@ pub struct Options {
     /// as many texels as it had, whichever is more.
     #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 8192))]
     pub bake_size: Option<u32>,
-    /// Texels along the side of the texture that `padding` is counted in.
-    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
-    pub resolution: u32,
+    /// The texture that `padding` is counted in. One side is the other times a power of two; texels are square on the surface.
+    pub resolution: Resolution,
+    /// Pages that charts may lie on: page k covers u from k to k + 1, the tile 1001 + k of UDIM. All have the resolution and one
+    /// density. Not with `rebake` or `quantization_safe`.
+    #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 10))]
+    pub pages: u32,
+    /// Texels along one unit of length of the mesh. If absent as many as fit; a texture that is too small is an error.
+    #[cfg_attr(feature = "service", schema(minimum = 1e-9, maximum = 1e9))]
+    pub texels_per_unit: Option<f64>,
+    /// Materials of a glTF that get so many times as many texels along a line as the others, as `MATERIAL=W` with a name or an index.
+    /// Borders between different weights are cut, `texels_per_unit` is that of weight 1, and distortion is measured against
+    /// the density intended.
+    #[cfg_attr(feature = "service", schema(value_type = Vec<String>))]
+    pub texel_weights: Vec<TexelWeight>,
     /// Least distance of two charts, in texels of the coarsest of the mip levels that count; at most an eighth of its side.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: u32,
@@ -153,6 +165,9 @@ impl Default for Options {
             rebake: false,
             bake_size: None,
             resolution: settings.resolution,
+            pages: settings.pages,
+            texels_per_unit: settings.texels_per_unit,
+            texel_weights: Vec::new(),
             padding: settings.padding,
             mips: 0,
             quantization_safe: settings.quantization_safe,
@@ -210,6 +225,8 @@ impl Options {
             seam_weight: self.seam_weight,
             max_charts: self.max_charts,
             resolution: self.resolution,
+            pages: self.pages,
+            texels_per_unit: self.texels_per_unit,
             padding: self.padding << self.mips,
             borders: match self.preset {
                 Preset::Material => Borders::Free,
@@ -230,6 +247,7 @@ impl Options {
                 resolution: self.resolution,
             }),
             aligned: (self.preset == Preset::Lightmap).then_some(self.resolution),
+            pages: Some(self.pages),
             bits: self.quantization_safe,
             ..Claims::default()
         }
@@ -243,11 +261,17 @@ impl Options {
     fn validate(&self) -> Result<(), String> {
         check_mips(self.padding, self.mips)?;
         self.settings().validate()?;
+        self.texel_weights.iter().try_for_each(TexelWeight::check)?;
         if self.cut == Cut::Seams && self.seams.is_none() {
             return Err("cut seams needs seams".to_owned());
         }
         if self.rebake && self.format == OutputFormat::Obj {
             return Err("rebake writes glTF, not OBJ".to_owned());
+        }
+        if self.rebake && (self.pages > 1 || self.resolution.aspect() != 1.0) {
+            return Err(
+                "rebake makes one square texture: pages 1 and a square resolution".to_owned(),
+            );
         }
         within(
             "bake_size",

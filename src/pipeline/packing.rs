@@ -3,8 +3,8 @@
 use super::clearance::texels_apart;
 use super::map::are_given;
 use super::settings::Settings;
-use crate::atlas::{AtlasOptions, Turns};
-use crate::charts::Cut;
+use crate::atlas::{AtlasOptions, Scale, Texture, Turns};
+use crate::charts::{Cut, MappedChart};
 
 /// Words that packing all meshes of a document may read, those of one mesh for each of its faces, and the least and most of one: a
 /// hundred meshes shall not take a hundred times as long, nor small ones as long as large ones.
@@ -14,8 +14,13 @@ const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 600_000_000];
 /// The same of a mesh that is cut fast.
 const SEARCH_WORDS_IF_FAST: u64 = 10_000_000;
 
-/// How to pack one of so many meshes, which has so many faces.
-pub(super) fn atlas_options(settings: &Settings, n_meshes: usize, n_faces: usize) -> AtlasOptions {
+/// How to pack the charts of one of so many meshes, which has so many faces.
+pub(super) fn atlas_options(
+    settings: &Settings,
+    n_meshes: usize,
+    n_faces: usize,
+    charts: &[MappedChart],
+) -> AtlasOptions {
     let [least, most] = SEARCH_WORDS_OF_MESH;
     let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
     let words = match settings.cut {
@@ -23,7 +28,13 @@ pub(super) fn atlas_options(settings: &Settings, n_meshes: usize, n_faces: usize
         _ => words.clamp(least, most),
     };
     AtlasOptions {
-        resolution: settings.resolution,
+        texture: Texture {
+            resolution: settings.resolution,
+            pages: settings.pages,
+        },
+        scale: settings.texels_per_unit.map_or(Scale::Largest, |texels| {
+            Scale::TexelsPerUnit(texels / density(charts))
+        }),
         padding_texels: padding_texels(settings),
         turns: if are_given(settings) {
             Turns::Quarters
@@ -38,6 +49,13 @@ pub(super) fn atlas_options(settings: &Settings, n_meshes: usize, n_faces: usize
 /// The padding asked for, or what keeps charts apart when UVs are rounded.
 fn padding_texels(settings: &Settings) -> u32 {
     let safe = settings.quantization_safe;
-    let least = safe.map_or(0, |bits| texels_apart(bits, settings.resolution));
+    let least = safe.map_or(0, |bits| texels_apart(bits, settings.resolution.longer()));
     settings.padding.max(least)
+}
+
+/// Length in the maps over length on the surface: the root of the ratio of the areas.
+fn density(charts: &[MappedChart]) -> f64 {
+    let total = |area: fn(&MappedChart) -> f64| charts.iter().map(area).sum::<f64>();
+    let density = (total(MappedChart::area) / total(MappedChart::surface_area)).sqrt();
+    if density.is_normal() { density } else { 1.0 }
 }

@@ -1,9 +1,11 @@
 //! The pictures of a result, drawn from the written bytes when they are asked for.
 
+use std::collections::BTreeMap;
+
 use super::PipelineError;
 use super::arrays::in_pool;
 use super::judge::{GroupUvs, WrittenUvs};
-use crate::certificate::chart_ids;
+use crate::certificate::{CornerUvs, Resolution, chart_ids};
 use crate::measure::{FaceDistortion, face_distortion};
 use crate::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
 
@@ -14,6 +16,7 @@ const SIDE: u32 = 1024;
 #[derive(Clone, Debug)]
 pub struct Pictures {
     pub(super) uvs: WrittenUvs,
+    pub(super) texture: Resolution,
     pub(super) shown: HeatmapMeasure,
     pub(super) threads: Option<usize>,
 }
@@ -34,8 +37,13 @@ impl Pictures {
     /// If no thread can be started.
     pub fn draw(&self) -> Result<Drawn, PipelineError> {
         in_pool(self.threads, || {
-            let groups: Vec<Faces> = self.uvs.groups.iter().map(Faces::new).collect();
-            let panels: Vec<Panel> = groups.iter().map(Faces::panel).collect();
+            let texture = self.texture;
+            let width = f64::from(texture.width) / f64::from(texture.longer());
+            let groups = self.uvs.groups.iter();
+            let pages: Vec<Faces> = groups
+                .flat_map(|group| Faces::new(group, texture).pages(width))
+                .collect();
+            let panels: Vec<Panel> = pages.iter().map(Faces::panel).collect();
             let (layout_png, heatmap_png) = rayon::join(
                 || layout_png(&panels, SIDE, self.uvs.v_axis),
                 || heatmap_png(&panels, self.shown, SIDE, self.uvs.v_axis),
@@ -48,26 +56,65 @@ impl Pictures {
     }
 }
 
-/// What a panel borrows.
-struct Faces<'a> {
-    group: &'a GroupUvs,
+/// What a panel borrows: faces that share a page.
+struct Faces {
+    name: String,
+    uvs: Vec<CornerUvs>,
     charts: Vec<u32>,
     distortion: Vec<FaceDistortion>,
 }
 
-impl<'a> Faces<'a> {
-    fn new(group: &'a GroupUvs) -> Self {
+impl Faces {
+    /// A group as its texels lie: the unit of u and v is the longer side of the texture.
+    fn new(group: &GroupUvs, texture: Resolution) -> Self {
+        let unit = f64::from(texture.longer());
+        let [u, v] = [texture.width, texture.height].map(|side| f64::from(side) / unit);
+        let scaled = |face: &CornerUvs| face.map(|uv| [uv[0] * u, uv[1] * v]);
+        let uvs: Vec<CornerUvs> = group.uvs.iter().map(scaled).collect();
         Self {
-            group,
-            charts: chart_ids(&group.positions, &group.triangles, &group.uvs),
-            distortion: face_distortion(&group.positions, &group.triangles, &group.uvs),
+            name: group.name.clone(),
+            charts: chart_ids(&group.positions, &group.triangles, &uvs),
+            distortion: face_distortion(
+                &group.positions,
+                &group.triangles,
+                &uvs,
+                group.weights.as_deref(),
+            ),
+            uvs,
         }
+    }
+
+    /// The same page by page, each as if it were the first; a first one alone keeps its name.
+    fn pages(self, width: f64) -> Vec<Self> {
+        let mut lowest = vec![f64::INFINITY; self.uvs.len()];
+        for (face, &chart) in self.uvs.iter().zip(&self.charts) {
+            let low = &mut lowest[chart as usize];
+            *low = face.iter().fold(*low, |low, uv| low.min(uv[0]));
+        }
+        let page = |chart: u32| (lowest[chart as usize] / width).floor();
+        let mut pages: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (face, &chart) in self.charts.iter().enumerate() {
+            pages.entry(page(chart) as u32).or_default().push(face);
+        }
+        if pages.keys().all(|&page| page == 0) {
+            return vec![self];
+        }
+        let on_page = |(page, faces): (u32, Vec<usize>)| {
+            let shifted = |[u, v]: [f64; 2]| [u - f64::from(page) * width, v];
+            Self {
+                name: format!("{} {}", self.name, 1001 + page),
+                uvs: faces.iter().map(|&f| self.uvs[f].map(shifted)).collect(),
+                charts: faces.iter().map(|&f| self.charts[f]).collect(),
+                distortion: faces.iter().map(|&f| self.distortion[f]).collect(),
+            }
+        };
+        pages.into_iter().map(on_page).collect()
     }
 
     fn panel(&self) -> Panel<'_> {
         Panel {
-            name: &self.group.name,
-            uvs: &self.group.uvs,
+            name: &self.name,
+            uvs: &self.uvs,
             charts: &self.charts,
             distortion: &self.distortion,
         }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Resolution};
 
 /// What is proven about the UVs of all groups, beside what was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,6 +20,8 @@ pub struct Proven {
     pub padding: Option<ProvenPadding>,
     /// Whether charts end where texels end; null where that was not asked.
     pub aligned: Option<bool>,
+    /// Whether every chart lies on one page; null where that was not asked.
+    pub pages: Option<ProvenPages>,
     /// The coarsest of 16, 14 and 12 bits b at which every group stays bijective however each coordinate moves by up to
     /// 1/(2(2ᵇ−1)) + 2⁻¹⁶; null when there is none.
     pub safe_bits: Option<u32>,
@@ -33,12 +35,24 @@ pub struct Proven {
 pub struct ProvenPadding {
     /// The distance asked for, in texels.
     pub asked_texels: u32,
-    /// Texels along the side of the unit square.
-    pub resolution: u32,
+    /// The texture of the unit square.
+    pub resolution: Resolution,
     /// Whether no two charts of a group are nearer.
     pub kept: bool,
     /// The smallest distance of two charts, rounded; null when each group has one chart.
     pub reached_texels: Option<f64>,
+}
+
+/// Whether every chart lies on one of so many pages.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct ProvenPages {
+    /// The pages asked for.
+    pub asked: u32,
+    /// Pages that charts of a group lie on, at most.
+    pub used: usize,
+    /// Whether every chart lies on one of those asked for.
+    pub kept: bool,
 }
 
 /// Whether the map holds at so many bits.
@@ -66,6 +80,7 @@ impl Proven {
                 .map(|certificate| certificate.unaligned_charts.map(|n| n == 0))
                 .reduce(|a, b| Some(a? && b?))
                 .flatten(),
+            pages: pages(certificates.clone()),
             safe_bits: all(|certificate| certificate.safe_bits.is_some())
                 .then(|| certificates.clone().filter_map(|c| c.safe_bits).max())
                 .flatten(),
@@ -89,6 +104,21 @@ fn padding<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<Pr
                 .into_iter()
                 .flatten()
                 .reduce(f64::min),
+            ..a
+        })
+}
+
+fn pages<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenPages> {
+    let verdicts = certificates.filter_map(|certificate| certificate.pages.as_ref());
+    verdicts
+        .map(|verdict| ProvenPages {
+            asked: verdict.asked,
+            used: verdict.used,
+            kept: verdict.kept,
+        })
+        .reduce(|a, b| ProvenPages {
+            used: a.used.max(b.used),
+            kept: a.kept && b.kept,
             ..a
         })
 }
@@ -129,6 +159,14 @@ impl fmt::Display for Proven {
         }
         if let Some(aligned) = self.aligned {
             write!(f, ", charts {}aligned to texels", not(aligned))?;
+        }
+        match &self.pages {
+            Some(pages) if pages.asked > 1 || !pages.kept => {
+                let (asked, used) = (pages.asked, pages.used);
+                let not = not(pages.kept);
+                write!(f, ", each chart {not}on one of {asked} pages ({used} used)")?;
+            }
+            _ => {}
         }
         match (&self.bits, self.safe_bits) {
             (Some(bits), _) if !bits.hold => {

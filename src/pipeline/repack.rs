@@ -8,6 +8,7 @@ use super::limits::Limits;
 use super::observer::Observer;
 use super::options::Options;
 use super::settings::KeptMaps;
+use crate::certificate::Resolution;
 use crate::charts::Cut;
 use crate::document::{GroupBy, OutputFormat, Upload};
 
@@ -26,9 +27,14 @@ pub struct RepackOptions {
     pub overwrite: bool,
     /// What shares one atlas.
     pub group_by: GroupBy,
-    /// Texels along the side of the texture that `padding` is counted in.
-    #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 65536))]
-    pub resolution: u32,
+    /// The texture that `padding` is counted in. One side is the other times a power of two.
+    pub resolution: Resolution,
+    /// Pages that islands may lie on: page k covers u from k to k + 1, the tile 1001 + k of UDIM.
+    #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 10))]
+    pub pages: u32,
+    /// Texels along one unit of length of the meshes, at the mean. If absent as many as fit; a texture that is too small is an error.
+    #[cfg_attr(feature = "service", schema(minimum = 1e-9, maximum = 1e9))]
+    pub texels_per_unit: Option<f64>,
     /// Least distance of two islands, in texels; at most an eighth of the resolution.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: u32,
@@ -54,6 +60,8 @@ impl Default for RepackOptions {
             overwrite: false,
             group_by: GroupBy::Scene,
             resolution: options.resolution,
+            pages: options.pages,
+            texels_per_unit: options.texels_per_unit,
             padding: options.padding,
             threads: None,
             format: options.format,
@@ -79,6 +87,8 @@ impl RepackOptions {
             overwrite: self.overwrite,
             group_by: self.group_by,
             resolution: self.resolution,
+            pages: self.pages,
+            texels_per_unit: self.texels_per_unit,
             padding: self.padding,
             threads: self.threads,
             format: self.format,

@@ -49,6 +49,9 @@ pub struct Report {
 pub struct GroupReport {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
+    /// Texels along one unit of length of the mesh, of materials of weight 1: the root of the area of all faces in texels over that on
+    /// the surface, enlarged by its weights; null where the surface has none.
+    pub texels_per_unit: Option<f64>,
     /// Distortion, seams, packing and overlaps, measured on the written bytes.
     pub measures: Measures,
     /// Exact judgement of the written bytes.
@@ -65,7 +68,7 @@ pub struct GroupReport {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct AtlasReport {
-    /// UV length of one unit of length of the mesh.
+    /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
     /// Padding kept between charts, in texels at the resolution asked for.
     pub padding_texels: f64,

@@ -20,6 +20,9 @@ pub struct Seams {
     pub normals: Option<Vec<[[f64; 3]; 3]>>,
     /// Labels, as of materials: an edge between faces of different labels is a seam.
     pub labels: Option<Vec<u32>>,
+    /// Texel densities against each other: an edge between faces of different ones is a seam, and charts get so many times as many
+    /// texels along a line.
+    pub weights: Option<Vec<f64>>,
     /// Pairs of positions, by the indices of the mesh: an edge between two such positions is a seam.
     pub edges: Option<Vec<[u32; 2]>>,
 }
@@ -31,6 +34,7 @@ impl Seams {
             self.uvs.as_ref().map(Vec::len),
             self.normals.as_ref().map(Vec::len),
             self.labels.as_ref().map(Vec::len),
+            self.weights.as_ref().map(Vec::len),
         ];
         if lengths.into_iter().flatten().any(|n| n != n_faces) {
             return Err(PipelineError::Seams("not one entry per face".to_owned()));
@@ -75,6 +79,7 @@ impl Seams {
             self.uvs.as_ref().is_some_and(by_uv)
                 || self.normals.as_ref().is_some_and(by_normal)
                 || (self.labels.as_ref()).is_some_and(|label| label[face(h)] != label[face(t)])
+                || (self.weights.as_ref()).is_some_and(|weight| weight[face(h)] != weight[face(t)])
                 || is_named()
         };
         let seams: HashSet<(u32, u32)> = (0..)

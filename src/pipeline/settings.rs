@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::atlas::Borders;
+use crate::atlas::{Borders, Texture};
 use crate::barrier::BarrierKind;
+use crate::certificate::Resolution;
 use crate::charts::{Cut, Quality};
 use crate::energy::EnergyKind;
 
@@ -67,11 +68,15 @@ pub struct Settings {
     pub seam_weight: f64,
     /// Charts that [`Cut::Auto`] may make of a mesh; for that it allows more distortion.
     pub max_charts: Option<u32>,
-    /// Texels along the side of the texture that `padding` is counted in.
-    pub resolution: u32,
-    /// Least distance of two charts, in texels.
+    /// The texture that `padding` is counted in.
+    pub resolution: Resolution,
+    /// Pages of that texture that charts may lie on: page k covers u from k to k + 1.
+    pub pages: u32,
+    /// Texels along one unit of length of the mesh; as many as fit if absent.
+    pub texels_per_unit: Option<f64>,
+    /// Least distance of two charts, in texels; half of it is kept to the borders of pages.
     pub padding: u32,
-    /// Where charts may end; on borders of texels only where `resolution` is a power of two.
+    /// Where charts may end; on borders of texels only where the sides of the texture are powers of two.
     pub borders: Borders,
     /// Bits that texture coordinates will be rounded to, 12, 14 or 16: thin triangles and narrow gaps are opened so that the map stays
     /// bijective, as far as that is possible.
@@ -96,7 +101,9 @@ impl Default for Settings {
             packing: PackingMode::default(),
             seam_weight: 1.0,
             max_charts: None,
-            resolution: 1024,
+            resolution: Resolution::square(1024),
+            pages: 1,
+            texels_per_unit: None,
             padding: 2,
             borders: Borders::Free,
             quantization_safe: None,
@@ -113,13 +120,20 @@ impl Settings {
         within("barrier_support", self.barrier_support, 1e-6, 1e6)?;
         within("seam_weight", self.seam_weight, 0.0, 1e6)?;
         check_texels(self.resolution, self.padding)?;
+        check_pages(self.pages)?;
+        if let Some(texels) = self.texels_per_unit {
+            within("texels_per_unit", texels, 1e-9, 1e9)?;
+        }
+        if self.pages > 1 && self.quantization_safe.is_some() {
+            return Err("quantization_safe goes with one page: of several, tools round to fewer bits of each".to_owned());
+        }
         within(
             "max_charts",
             f64::from(self.max_charts.unwrap_or(1)),
             1.0,
             1e9,
         )?;
-        if self.borders == Borders::OnTexels && !self.resolution.is_power_of_two() {
+        if self.borders == Borders::OnTexels && !self.resolution.shorter().is_power_of_two() {
             let given = self.resolution;
             return Err(format!(
                 "charts end at texels where resolution is a power of two, not {given}"
@@ -160,8 +174,26 @@ pub(super) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), 
 }
 
 /// A resolution and a padding in its texels.
-pub(super) fn check_texels(resolution: u32, padding: u32) -> Result<(), String> {
-    within("resolution", f64::from(resolution), 16.0, 65_536.0)?;
-    let most = f64::from(resolution / 8);
+pub(super) fn check_texels(resolution: Resolution, padding: u32) -> Result<(), String> {
+    for side in [resolution.width, resolution.height] {
+        within("resolution", f64::from(side), 16.0, 65_536.0)?;
+    }
+    if !resolution.is_regular() {
+        let most = Resolution::MOST_ELONGATED;
+        return Err(format!(
+            "resolution must have one side that is the other times a power of two up to {most}, not {resolution}"
+        ));
+    }
+    let most = f64::from(resolution.shorter() / 8);
     within("padding", f64::from(padding), 0.0, most)
+}
+
+/// A number of pages.
+pub(super) fn check_pages(pages: u32) -> Result<(), String> {
+    within(
+        "pages",
+        f64::from(pages),
+        1.0,
+        f64::from(Texture::MOST_PAGES),
+    )
 }

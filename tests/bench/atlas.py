@@ -4,13 +4,14 @@
     python3 tests/bench/atlas.py --judge path/to/uvmetrics.py --unwrapd target/release/unwrapd MESH... [-- --packing tight]
 
 JUDGE is a program `JUDGE FILE --json` that prints its measures of a file's UVs. The interpreter needs numpy, uvunwrap and xatlas
-from PyPI. Every tool gets the same mesh: positions in f32, welded where equal, faces without three corners dropped. What stands
-after `--` goes to unwrapd. uvunwrap runs twice: as it is, and with the padding that leaves the gap of 2 texels that unwrapd
-keeps, so that the shares of the square compare.
+from PyPI, and open3d for `--peers UVAtlas`. Every tool gets the same mesh: positions in f32, welded where equal, faces without
+three corners dropped. What stands after `--` goes to unwrapd. uvunwrap runs twice: as it is, and with the padding that leaves
+the gap of 2 texels that unwrapd keeps, so that the shares of the square compare. xatlas gets the mesh with a diagonal of 1000,
+because what it takes for an area of zero does not scale.
 
 Per mesh and tool: charts, seam length over the square root of the area, mean symmetric Dirichlet energy, share of the square,
-smallest gap of two charts in texels at 1024, seconds of the processors, and of the wall for packing; then means, medians and
-ratios to uvunwrap.
+faults (faces flipped or without area, pairs that overlap), smallest gap of two charts in texels at 1024, seconds of the
+processors, and of the wall for packing; then means, medians and ratios to uvunwrap.
 """
 import argparse
 import json
@@ -24,20 +25,23 @@ from pathlib import Path
 import numpy as np
 
 
-def welded(out):
-    """Positions in f32 and triangles of an OBJ file."""
-    positions, faces = [], []
-    for line in out.read_text().splitlines():
+def read_obj(path):
+    """Positions, welded where equal in f32, triangles with three corners, and their UVs (faces, 3, 2)."""
+    positions, places, faces = [], [], []
+    for line in path.read_text().splitlines():
         kind, *words = line.split() or [""]
         if kind == "v":
             positions.append([float(w) for w in words[:3]])
+        elif kind == "vt":
+            places.append([float(w) for w in words[:2]])
         elif kind == "f":
-            corners = [int(w.split("/")[0]) - 1 for w in words]
+            corners = [[int(i) - 1 for i in w.split("/")[:2]] for w in words]
             faces += [[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)]
     positions, index = np.unique(np.array(positions, np.float32), axis=0, return_inverse=True)
-    faces = index.reshape(-1)[np.array(faces)]
+    faces = np.array(faces)
+    uv, faces = np.array(places)[faces[..., 1]], index.reshape(-1)[faces[..., 0]]
     proper = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    return positions, faces[proper]
+    return positions, faces[proper], uv[proper]
 
 
 def write_obj(path, positions, faces, uv):
@@ -64,24 +68,34 @@ def run_uvunwrap(positions, faces, padding):
 def run_xatlas(positions, faces):
     import xatlas
     atlas = xatlas.Atlas()
-    atlas.add_mesh(positions, faces.astype(np.uint32))
+    scale = 1000 / np.linalg.norm(np.ptp(positions, axis=0))
+    atlas.add_mesh(positions * scale.astype(np.float32), faces.astype(np.uint32))
     atlas.generate()
     _, indices, uv = atlas[0]
     return squared(np.asarray(uv, float)[indices], atlas)
+
+
+def run_uvatlas(positions, faces):
+    import open3d
+    mesh = open3d.t.geometry.TriangleMesh(open3d.core.Tensor(positions), open3d.core.Tensor(faces))
+    mesh.compute_uvatlas(size=1024, gutter=2.0)
+    return mesh.triangle.texture_uvs.numpy()
 
 
 PEERS = {
     "uvunwrap": lambda v, f: run_uvunwrap(v, f, {}),
     "uvunwrap, gap 2": lambda v, f: run_uvunwrap(v, f, {"padding": 1}),
     "xatlas": run_xatlas,
+    "UVAtlas": run_uvatlas,
 }
 
 
 def judged(judge, path):
-    done = subprocess.run([sys.executable, judge, path, "--json", "--no-pairs"], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, judge, path, "--json"], capture_output=True, text=True)
     m = json.loads(done.stdout)
-    return {"charts": m["charts"], "seam": m["seam_length"] / m["area_3d"] ** 0.5, "E": m["sym_dirichlet_mean"],
-            "fill": m["pack_square"], "gap": m.get("gap_texels_1024")}
+    faults = sum(m[key] for key in ("flipped", "uv_degenerate", "uv_collapsed", "overlap_pairs"))
+    return {"faults": faults, "charts": m["charts"], "seam": m["seam_length"] / m["area_3d"] ** 0.5, "E": m["sym_dirichlet_mean"],
+            "fill": m["pack_square"], "gap": m.get("gap_texels_1024"), "spread": m["density_p95_over_p5"]}
 
 
 def cpu(who):
@@ -112,7 +126,7 @@ def theirs(arguments, name, positions, faces, folder):
 def show(mesh, tool, row):
     number = lambda key, digits: "" if row[key] is None else f"{row[key]:.{digits}f}"
     print(f"{mesh:20} | {tool:16} | {row['charts']:5} | {row['seam']:6.2f} | {row['E']:.3f} | {row['fill']:.3f} | "
-          f"{number('gap', 1):>5} | {row['cpu']:6.2f} | {number('pack', 2)}", flush=True)
+          f"{row['faults']:4} | {number('gap', 1):>5} | {row['cpu']:6.2f} | {number('pack', 2)}", flush=True)
 
 
 def summarize(rows):
@@ -137,17 +151,18 @@ def main():
     parser.add_argument("meshes", nargs="+", type=Path)
     parser.add_argument("--judge", required=True, type=Path)
     parser.add_argument("--unwrapd", default="target/release/unwrapd")
+    parser.add_argument("--peers", nargs="+", choices=PEERS, default=list(PEERS)[:3])
     split = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     arguments = parser.parse_args(sys.argv[1:split])
     arguments.options = sys.argv[split + 1:]
     rows = []
-    print("mesh | tool | charts | seam | E | fill | gap | cpu s | packing s")
+    print("mesh | tool | charts | seam | E | fill | faults | gap | cpu s | packing s")
     with tempfile.TemporaryDirectory() as folder:
         for mesh in arguments.meshes:
             folder = Path(folder)
             row = {"unwrapd": ours(arguments, mesh, folder)}
-            positions, faces = welded(folder / "ours.obj")
-            for name in PEERS:
+            positions, faces, _ = read_obj(folder / "ours.obj")
+            for name in arguments.peers:
                 row[name] = theirs(arguments, name, positions, faces, folder)
             for tool, figures in row.items():
                 show(mesh.stem, tool, figures)

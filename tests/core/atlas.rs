@@ -1,6 +1,6 @@
 //! Packing: positive on the grid, inside the square, apart, the same every time.
 use proptest::prelude::*;
-use unwrapd::atlas::{Atlas, AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, pack};
+use unwrapd::atlas::{Atlas, AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, Texture, pack};
 
 type Chart = (Vec<[f64; 2]>, Vec<[u32; 3]>);
 
@@ -116,7 +116,7 @@ fn one_triangle_fills_half_of_its_square() {
     let atlas = pack(
         &maps(&[chart]),
         &AtlasOptions {
-            resolution: 1024,
+            texture: Texture::square(1024),
             padding_texels: 0,
             ..AtlasOptions::default()
         },
@@ -193,7 +193,7 @@ fn padding_shrinks_when_it_leaves_no_room() {
         .map(|i| blob(1.0 + f64::from(i) / 300.0, 3, 0.1))
         .collect();
     let options = AtlasOptions {
-        resolution: 64,
+        texture: Texture::square(64),
         padding_texels: 32,
         ..AtlasOptions::default()
     };
@@ -447,7 +447,7 @@ proptest! {
         padding_texels in 0u32..6,
     ) {
         let charts: Vec<Chart> = shapes.iter().map(|&(size, waves, depth)| blob(size.exp(), waves, depth)).collect();
-        let atlas = pack(&maps(&charts), &AtlasOptions { resolution, padding_texels, ..AtlasOptions::default() }).unwrap();
+        let atlas = pack(&maps(&charts), &AtlasOptions { texture: Texture::square(resolution), padding_texels, ..AtlasOptions::default() }).unwrap();
         assert_positive_and_inside(&charts, &atlas);
         let gap = smallest_gap(&charts, &atlas, resolution);
         prop_assert!(gap >= atlas.padding_texels, "{gap} < {}", atlas.padding_texels);

@@ -34,6 +34,7 @@ mod numerics;
 mod obj_document;
 #[cfg(feature = "files")]
 mod outline;
+mod pages;
 #[cfg(feature = "files")]
 mod picture;
 #[cfg(feature = "files")]

@@ -83,6 +83,8 @@ fn a_coarse_raster_agrees_with_a_fine_one() {
     let options = |raster_texels| MeasureOptions {
         raster_texels,
         overlap: Overlap::Skip,
+        aspect: 1.0,
+        weights: None,
     };
     let mesh = UvMesh::grid(5).map_uvs(|[u, v]| [0.1 + 0.7 * u - 0.1 * v, 0.2 + 0.2 * u + 0.5 * v]);
     let area = mesh.measure_with(VAxis::Up, options(8)).size.area_uv;
@@ -296,7 +298,7 @@ fn overlaps_are_searched_on_request() {
 fn distortion_of_faces_makes_up_that_of_the_mesh() {
     let mesh = UvMesh::grid(6).map_uvs(|[u, v]| [(u - 0.3).abs() + 0.2 * v * v, v * (1.0 + u)]);
     let m = mesh.measure();
-    let faces = face_distortion(&mesh.positions, &mesh.triangles, &mesh.uvs);
+    let faces = face_distortion(&mesh.positions, &mesh.triangles, &mesh.uvs, None);
     let greatest =
         |of: fn(&unwrapd::measure::FaceDistortion) -> f64| faces.iter().map(of).fold(0.0, f64::max);
     near(m.distortion.conformal_max, greatest(|f| f.conformal));

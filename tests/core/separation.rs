@@ -2,14 +2,19 @@
 
 use crate::random::Random;
 use crate::uv_meshes::UvMesh;
-use unwrapd::certificate::{Certificate, Claims, CornerUvs, Overlap, Padding, VAxis, certify};
+use unwrapd::certificate::{
+    Certificate, Claims, CornerUvs, Overlap, Padding, Resolution, VAxis, certify,
+};
 
 fn judged(mesh: &UvMesh, claims: &Claims) -> Certificate {
     certify(&mesh.positions, &mesh.triangles, &mesh.uvs, claims)
 }
 
 fn padded(mesh: &UvMesh, texels: u32, resolution: u32) -> bool {
-    let padding = Some(Padding { texels, resolution });
+    let padding = Some(Padding {
+        texels,
+        resolution: Resolution::square(resolution),
+    });
     let claims = Claims {
         padding,
         ..Claims::default()
@@ -98,7 +103,7 @@ fn what_was_reached_is_reported() {
     let claims = Claims {
         padding: Some(Padding {
             texels: 100,
-            resolution: 1024,
+            resolution: Resolution::square(1024),
         }),
         ..Claims::default()
     };

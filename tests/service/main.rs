@@ -10,6 +10,7 @@ mod jobs;
 mod meshes;
 mod openapi;
 mod page;
+mod pages;
 mod progress;
 mod rendering;
 mod requests;

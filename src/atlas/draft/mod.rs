@@ -11,13 +11,15 @@ use super::outline::{Outline, outlines};
 use super::plan::{Plan, by_size, level};
 use super::poses::Poses;
 use super::sheet::Sheet;
+use super::spot::Corner;
 use super::squeeze::Squeezed;
+use super::texture::{Form, Texture};
 use super::{AtlasError, AtlasOptions, ChartMap, Turns};
 
-/// Cells along the side of the square that the charts are expected to need. With 128 a cell is too much for the gaps that
+/// Cells along the side of the square page that the charts are expected to need. With 128 a cell is too much for the gaps that
 /// matter; with 512 a trial costs four times as much, and less is found in the same time.
 const RASTER: u32 = 256;
-/// The share of that square that they are expected to fill.
+/// The share of that page that they are expected to fill.
 const HOPE: f64 = 0.75;
 /// Sides of squares in which all charts are first placed.
 const SIDES: [u32; 3] = [RASTER, 2 * RASTER, 4 * RASTER];
@@ -50,6 +52,7 @@ struct Raster {
     scale: f64,
     /// Cells kept free between charts.
     padding: f64,
+    texture: Texture,
 }
 
 impl Draft {
@@ -61,21 +64,21 @@ impl Draft {
         if !is_worth_it || options.turns == Turns::Quarters {
             return Ok(None);
         }
-        Ok(Self::of(
-            &Plan::largest_first(&outlines, options.turns),
-            options,
-        ))
+        Ok(Self::of(&Plan::largest_first(&outlines, options), options))
     }
 
     fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
         let area = plan.area().max(f64::MIN_POSITIVE);
+        let texture = options.texture;
+        let cells = f64::from(texture.raster(RASTER));
         let raster = Raster {
-            scale: f64::from(RASTER) * (HOPE / area).sqrt(),
-            padding: padding(options, plan.order.len(), f64::from(RASTER)),
+            scale: cells * (HOPE * texture.share() * f64::from(texture.pages) / area).sqrt(),
+            padding: padding(options, plan.order.len(), cells),
+            texture,
         };
         let extents = plan.order.iter().flat_map(|&i| plan.outlines[i].extent);
         let longest = extents.fold(0.0, f64::max) * raster.scale;
-        if longest > f64::from(SIDES[2]) {
+        if longest > f64::from(texture.raster(SIDES[2])) {
             return None;
         }
         let poses = plan.outlines.iter().map(|o| raster.poses(o)).collect();
@@ -86,9 +89,12 @@ impl Draft {
     pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Option<Self>, AtlasError> {
         let mut poses = self.poses.clone();
         poses.remove(chart);
-        let total = HOPE * (f64::from(RASTER) / self.raster.scale).powi(2);
+        let page = HOPE * (self.raster.cells() / self.raster.scale).powi(2);
         let outlines = outlines(parts)?;
-        let leveled = outlines.iter().map(|outline| level(outline, total));
+        let texture = self.raster.texture;
+        let leveled = outlines
+            .iter()
+            .map(|outline| level(outline, page * texture.share(), texture));
         poses.extend(leveled.map(|outline| self.raster.poses(&outline)));
         Ok(Self::laid_out(poses, self.raster))
     }
@@ -100,11 +106,12 @@ impl Draft {
         let mut state = Arrangement {
             order: by_size.clone(),
             pose: vec![0; poses.len()],
-            corners: vec![[0; 2]; poses.len()],
+            corners: vec![Corner::default(); poses.len()],
             side: 0,
             cost: f64::INFINITY,
         };
-        SIDES.into_iter().find_map(|largest| {
+        SIDES.into_iter().find_map(|side| {
+            let largest = raster.texture.raster(side);
             let mut sheet = raster.sheet(largest);
             state.lay_out(&poses, &mut sheet, 0, largest)
         })?;
@@ -119,7 +126,7 @@ impl Draft {
 
     /// The share of the square that is filled, less what whole cells of the coarse raster lose.
     pub fn fill(&self) -> f64 {
-        let ratio = f64::from(RASTER) / (self.side() + self.raster.padding);
+        let ratio = self.raster.cells() / (self.side() + self.raster.padding);
         HOPE * ratio * ratio
     }
 
@@ -139,7 +146,18 @@ impl Raster {
         Arc::new(Poses::new(outline, self.scale, distances))
     }
 
+    /// Whether there is one page, a square: only there charts are squeezed.
+    fn is_one_square(self) -> bool {
+        self.texture.pages == 1 && self.texture.resolution.halvings() == [0; 2]
+    }
+
+    /// Cells along the longer side of the page that the charts are expected to need.
+    fn cells(self) -> f64 {
+        f64::from(self.texture.raster(RASTER))
+    }
+
     fn sheet(self, side: u32) -> Sheet {
-        Sheet::new(side, self.padding.ceil() as u32 + 2, 0)
+        let form = Form::new(self.texture, self.padding / 2.0);
+        Sheet::new(form, side, self.padding.ceil() as u32 + 2, 0)
     }
 }

@@ -6,7 +6,7 @@ use crate::atlas::layout::Layout;
 use crate::atlas::outline::Outline;
 use crate::atlas::plan::{Near, Plan, QuarterTurns};
 use crate::atlas::poses::Poses;
-use crate::atlas::sheet::Spot;
+use crate::atlas::spot::Spot;
 use crate::atlas::squeeze::{Pose, Squeezed};
 use crate::atlas::tight;
 
@@ -29,7 +29,10 @@ impl Draft {
                 _ => [j, height - i],
             };
             let corner = self.state.corners[chart];
-            let middle = [0, 1].map(|k| f64::from(corner[k]) + within[k]);
+            let middle = [
+                f64::from(corner.x) + within[0],
+                f64::from(corner.y) + within[1],
+            ];
             Pose::new(middle, Poses::angle(pose))
         };
         Squeezed {
@@ -80,7 +83,9 @@ impl Draft {
                 .collect(),
             order: order.clone(),
             near: Some(Near {
-                corners: corners.iter().map(|corner| corner.map(share)).collect(),
+                corners: (corners.iter())
+                    .map(|corner| (corner.page, [corner.x, corner.y].map(share)))
+                    .collect(),
                 window: 3.0 / f64::from(*side.max(&1)),
                 extent: (cost + self.raster.padding) / self.raster.scale,
             }),

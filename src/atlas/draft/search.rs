@@ -38,7 +38,14 @@ impl Draft {
         if self.state.order.is_empty() {
             return;
         }
-        self.anneal(words, &mut Random::new(seed));
+        let found = self.annealed(words, &mut Random::new(seed));
+        if !self.raster.is_one_square() {
+            if found.cost < self.state.cost {
+                self.state = found;
+            }
+            return;
+        }
+        self.state = found;
         let mut squeezed = self.loose();
         squeezed.settle(&self.bodies(), words / 2);
         if self
@@ -50,8 +57,8 @@ impl Draft {
         }
     }
 
-    /// The best arrangement that is found while about so many words are read, or the one of before.
-    fn anneal(&mut self, words: u64, random: &mut Random) {
+    /// The best arrangement that is found while about so many words are read.
+    fn annealed(&self, words: u64, random: &mut Random) -> Arrangement {
         // A few charts have few layouts.
         let n = (self.poses.len() as u64).min(MANY);
         let words = words * n * n / (MANY * MANY);
@@ -75,7 +82,7 @@ impl Draft {
                 }
             }
         }
-        self.state = best.unwrap_or(state);
+        best.unwrap_or(state)
     }
 
     /// Lets charts look for other places while about so many words are read.

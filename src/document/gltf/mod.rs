@@ -123,6 +123,13 @@ impl GltfDocument {
         &self.primitives
     }
 
+    /// The index of a material with this name, or else with this number.
+    pub fn material(&self, name: &str) -> Option<usize> {
+        let materials = self.body.json["materials"].as_array()?;
+        let named = materials.iter().position(|m| m["name"] == name);
+        named.or_else(|| name.parse().ok().filter(|&index| index < materials.len()))
+    }
+
     /// The UVs of `TEXCOORD_set` per face corner as stored, v down; `None` where the primitive has no such attribute.
     pub fn corner_uvs(
         &self,

@@ -5,7 +5,7 @@ import { short, summary } from "./report.js";
 
 const byId = (id) => document.getElementById(id);
 const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
-const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "heatmap_measure", "format", "time_budget"];
+const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "pages", "texels_per_unit", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "heatmap_measure", "format", "time_budget"];
 
 let job = null;
 
@@ -34,6 +34,12 @@ async function call(path, request = {}) {
 
 // ---- options
 
+function variants(schema, schemas) {
+  const resolved = (part) => (part.$ref ? schemas[part.$ref.split("/").pop()] : part);
+  const parts = [schema, ...(schema.oneOf ?? []), ...(schema.allOf ?? [])].map(resolved);
+  return parts.flatMap((part) => [part, ...(part.oneOf ?? [])]);
+}
+
 function choices(schema, schemas) {
   const parts = [schema, ...(schema.oneOf ?? []), ...(schema.allOf ?? [])];
   for (const part of parts) {
@@ -48,6 +54,7 @@ function input(schema, schemas) {
   const words = choices(schema, schemas);
   if (words) return element("select", {}, element("option", { value: "", textContent: "default" }), ...words.map((word) => element("option", { textContent: word })));
   if (schema.type === "boolean") return element("input", { type: "checkbox", value: "true" });
+  if (variants(schema, schemas).some((one) => one.type === "string")) return element("input", { type: "text", placeholder: schema.default ?? "default" });
   return element("input", { type: "number", min: 0, step: "any", placeholder: schema.default ?? "default" });
 }
 

@@ -9,13 +9,14 @@ function words(value) {
 }
 
 // What is proven of the UVs written.
-function proofs({ locally_injective, bijective, unmirrored, padding, aligned, safe_bits, bits }) {
+function proofs({ locally_injective, bijective, unmirrored, padding, aligned, pages, safe_bits, bits }) {
   return [
     ["no face flipped or degenerate", words(locally_injective)],
     ["no faces overlap", words(bijective)],
     ["no chart mirrored", words(unmirrored)],
     ...(padding ? [[`charts ${padding.asked_texels} texels apart at ${padding.resolution}`, `${words(padding.kept)} (nearest ${short(padding.reached_texels)})`]] : []),
     ...(aligned == null ? [] : [["chart edges on texels", words(aligned)]]),
+    ...(pages?.asked > 1 ? [[`each chart on one of ${pages.asked} pages`, words(pages.kept)]] : []),
     ...(bits ? [[`holds at ${bits.asked} bits`, words(bits.hold)]] : safe_bits ? [["holds at", `${safe_bits} bits`]] : []),
   ];
 }

@@ -62,7 +62,7 @@ fn files(
 ) -> Result<Vec<(u32, Vec<u8>)>, DocumentError> {
     let least = options
         .bake_size
-        .unwrap_or(options.resolution.min(MOST_SIDE));
+        .unwrap_or(options.resolution.longer().min(MOST_SIDE));
     check_texels(u64::from(least).pow(2) * plan.planes.len() as u64)?;
     let mut files = Vec::new();
     let mut texels = 0;
@@ -90,7 +90,7 @@ pub(super) fn remarks(baked: &BakedTextures, options: &Options) -> Vec<String> {
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();
     sides.dedup();
-    let texels = f64::from(options.settings().padding) / f64::from(options.resolution);
+    let texels = f64::from(options.settings().padding) / f64::from(options.resolution.longer());
     let gap = |side: u32| texels * f64::from(side);
     let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
     near.map(|side| {

@@ -1,7 +1,7 @@
 //! UVs for the light of a scene: a part of one atlas for whatever a node shows.
 
 use serde_json::json;
-use unwrapd::certificate::Overlap;
+use unwrapd::certificate::{Overlap, Resolution};
 use unwrapd::document::{Document, Upload};
 use unwrapd::pipeline::{
     MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified, unwrap_document,
@@ -102,7 +102,7 @@ fn what_cannot_be_a_lightmap_is_refused() {
         lightmap(builder, options).unwrap_err().code().to_owned()
     };
     let uneven = Options {
-        resolution: 1000,
+        resolution: Resolution::square(1000),
         ..Options::default()
     };
     assert_eq!(code(&scene(), uneven), "invalid_options");

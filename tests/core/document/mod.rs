@@ -8,6 +8,7 @@ mod roundtrip;
 mod survive;
 mod texcoord;
 mod validator;
+mod weights;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -99,6 +100,7 @@ pub fn new_uvs(grid: &[Vec<[[i32; 2]; 3]>], bits: u32) -> NewUvs {
     };
     NewUvs {
         layout: Layout::New,
+        pages: 1,
         v_axis: VAxis::Up,
         corners: grid.iter().map(corners).collect(),
     }
