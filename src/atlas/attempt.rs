@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
+use super::outline::Outline;
 use super::plan::{Near, Plan, QuarterTurns};
 use super::sheet::Sheet;
 use super::spot::{Corner, Spot, Window};
@@ -129,11 +130,8 @@ impl Packing<'_> {
         let outline = &self.plan.outlines[i];
         let around = self.slack[i] - SLACK;
         let unit = scale * self.texture.grid_side() / f64::from(self.cells);
-        let root = (outline.n_triangles as f64 * CELLS_PER_TRIANGLE).sqrt();
+        let stretch = stretch(outline, unit);
         let longest = outline.extent[0].max(outline.extent[1]);
-        let stretch = (root / (outline.size * unit))
-            .min(8.0 * root / (longest * unit))
-            .max(1.0);
         let fits = longest * scale * stretch + 2.0 * around < f64::from(capacity);
         fits.then(|| {
             let mask = Mask::new(outline, scale * stretch, Distances { around, padding });
@@ -150,6 +148,15 @@ impl Packing<'_> {
             (turned, stretch)
         })
     }
+}
+
+/// The factor by which a chart at so many grid units per mesh unit has to exceed the common scale.
+pub(super) fn stretch(outline: &Outline, unit: f64) -> f64 {
+    let root = (outline.n_triangles as f64 * CELLS_PER_TRIANGLE).sqrt();
+    let longest = outline.extent[0].max(outline.extent[1]);
+    (root / (outline.size * unit))
+        .min(8.0 * root / (longest * unit))
+        .max(1.0)
 }
 
 /// A place for a chart near where it should lie, or else to the right and up of that.

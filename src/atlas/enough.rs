@@ -5,7 +5,7 @@ use std::fmt;
 use super::draft::Draft;
 use super::layout::{SLACK, layout};
 use super::outline::outlines;
-use super::pack::best;
+use super::pack::{best, searched};
 use super::plan::Plan;
 use super::texture::Texture;
 use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale};
@@ -53,7 +53,8 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let draft = Draft::new(charts, &largest)?;
-    let fullest = best(&first, draft.as_ref(), &slack, &largest);
+    let drafts = searched(draft.as_ref(), &largest);
+    let fullest = best(&first, &drafts, &slack, &largest);
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {

@@ -19,6 +19,8 @@ pub(super) struct Layout {
     pub cell: f64,
     /// Free cells at each border.
     pub border: f64,
+    /// How far vertices may be moved beyond their charts' slack, in cells.
+    pub spare: f64,
     /// Distance kept between charts, in texels.
     pub padding_texels: f64,
     /// For each chart its place, and the factor by which it exceeds the common scale.
@@ -94,6 +96,7 @@ pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Opti
         scale: scale * cell,
         cell,
         border,
+        spare: 0.0,
         padding_texels: (padding * longer / f64::from(cells))
             .min(f64::from(options.padding_texels)),
         charts: attempt.spots,

@@ -35,7 +35,9 @@ mod relax;
 mod sheet;
 mod snap;
 mod spot;
+mod squeeze;
 mod texture;
+mod tight;
 mod turned;
 
 pub use clear::cleared;

@@ -69,6 +69,13 @@ impl Outline {
         [c * x + s * y - self.low[0], c * y - s * x - self.low[1]]
     }
 
+    /// The point of the map that is the middle of the bounding rectangle.
+    pub(super) fn middle(&self) -> [f64; 2] {
+        let [c, s] = self.axis;
+        let [x, y] = [0, 1].map(|k| self.low[k] + self.extent[k] / 2.0);
+        [c * x - s * y, s * x + c * y]
+    }
+
     /// The corners of the outline in the plane of the map.
     pub(super) fn corners(&self) -> impl Iterator<Item = [f64; 2]> {
         self.boundary.iter().map(|edge| edge[0])

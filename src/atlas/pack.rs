@@ -14,8 +14,6 @@ use super::{
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
-/// Results of searches that are laid out in full.
-const FINALISTS: usize = 4;
 
 /// Places every chart on a page, each triangle strictly positive on the grid, any two charts at least the padding apart.
 ///
@@ -34,31 +32,51 @@ pub fn pack_draft(
 ) -> Result<Atlas, AtlasError> {
     let mut slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
+    let (drafts, found) = match options.scale {
+        Scale::Largest => (searched(draft, options), None),
+        Scale::TexelsPerUnit(_) => match layout::layout(&first, &slack, options) {
+            Some(layout) => (Vec::new(), Some((first.clone(), layout))),
+            None => (searched(draft, options), None),
+        },
+    };
+    if let Some((outlines, layout)) = drafts.first().and_then(|draft| draft.tight(options)) {
+        let snapped = snapped(charts, &outlines, &layout)?;
+        if cramped(&snapped, &layout, &mut slack.clone()).is_none() {
+            return Ok(atlas(charts, &layout, &slack, snapped, options));
+        }
+    }
     let none = match options.scale {
         Scale::Largest => AtlasError::TooManyCharts {
             charts: charts.len(),
         },
         Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
     };
-    let (plan, mut layout) = best(&first, draft, &slack, options).ok_or_else(|| none.clone())?;
-    let mut cramped = 0;
+    let found = found.or_else(|| best(&first, &drafts, &slack, options));
+    let (plan, mut layout) = found.ok_or_else(|| none.clone())?;
+    let mut chart = 0;
     for _ in 0..ROUNDS {
         let snapped = snapped(charts, &plan.outlines, &layout)?;
-        let mut settled = true;
-        for (chart, snapped) in snapped.iter().enumerate() {
-            // Shifting and turning round to whole grid steps once more.
-            let needed = (snapped.largest_move + 2.0) / layout.cell;
-            if needed > slack[chart] {
-                slack[chart] = 1.5 * needed;
-                (cramped, settled) = (chart, false);
-            }
-        }
-        if settled {
-            return Ok(atlas(charts, &layout, &slack, snapped, options));
+        match cramped(&snapped, &layout, &mut slack) {
+            Some(cramped) => chart = cramped,
+            None => return Ok(atlas(charts, &layout, &slack, snapped, options)),
         }
         layout = layout::layout(&plan, &slack, options).ok_or_else(|| none.clone())?;
     }
-    Err(AtlasError::NotRepresentable { chart: cramped })
+    Err(AtlasError::NotRepresentable { chart })
+}
+
+/// A chart of which a vertex moves farther than its slack, if there is one; all such get more.
+fn cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> Option<usize> {
+    let mut cramped = None;
+    for (chart, (snapped, slack)) in snapped.iter().zip(slack).enumerate() {
+        // Shifting and turning round to whole grid units once more.
+        let needed = (snapped.largest_move + 2.0) / layout.cell;
+        if needed > *slack + layout.spare {
+            *slack = 1.5 * needed;
+            cramped = Some(chart);
+        }
+    }
+    cramped
 }
 
 /// Whether charts fit at the scale that is given, each placed once, the largest first.
@@ -68,24 +86,19 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     Ok(options.scale != Scale::Largest && layout::layout(&plan, &slack, options).is_some())
 }
 
-/// The plan whose layout has the largest scale: the one given, or what a search makes of it. Where the scale is given, the first that
-/// has a layout.
+/// What a search makes of a draft, the best first.
+pub(super) fn searched(draft: Option<&Draft>, options: &AtlasOptions) -> Vec<Draft> {
+    draft.map_or_else(Vec::new, |draft| draft.searched(options.search_words / 4))
+}
+
+/// The plan whose layout has the largest scale: the one given, or what a search made of it.
 pub(super) fn best(
     first: &Plan,
-    draft: Option<&Draft>,
+    drafts: &[Draft],
     slack: &[f64],
     options: &AtlasOptions,
 ) -> Option<(Plan, Layout)> {
-    if options.scale != Scale::Largest
-        && let Some(layout) = layout::layout(first, slack, options)
-    {
-        return Some((first.clone(), layout));
-    }
-    let mut plans = Vec::new();
-    if let Some(draft) = draft {
-        let drafts = draft.searched(options.search_words / 4);
-        plans.extend(drafts.iter().take(FINALISTS).map(Draft::plan));
-    }
+    let mut plans: Vec<Plan> = drafts.iter().map(Draft::plan).collect();
     plans.push(first.clone());
     let shared = AtlasOptions {
         search_words: options.search_words / 2 / plans.len() as u64,

@@ -1,18 +1,22 @@
 //! The ways in which one chart may lie.
 use std::f64::consts::FRAC_PI_2;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::mask::{Distances, Mask};
 use super::outline::Outline;
+use super::squeeze::Body;
 use super::turned::Turned;
 
 /// Angles within a quarter turn.
 const ANGLES: usize = 16;
+/// What is kept free beside the padding, as distances are looked up roughly and rounded up to cells of the fine raster later.
+const ROOM: f64 = 0.2;
 
 /// An outline at 64 angles, each rastered when it is first asked for.
 pub(super) struct Poses {
     outlines: Vec<Outline>,
     masks: Vec<OnceLock<Turned>>,
+    body: OnceLock<Arc<Body>>,
     scale: f64,
     distances: Distances,
 }
@@ -26,6 +30,7 @@ impl Poses {
         Self {
             outlines: (0..ANGLES).map(|k| outline.rotated(angle(k))).collect(),
             masks: (0..Self::COUNT).map(|_| OnceLock::new()).collect(),
+            body: OnceLock::new(),
             scale,
             distances,
         }
@@ -45,6 +50,17 @@ impl Poses {
     /// The quarter turns of a pose.
     pub(super) fn turns(pose: usize) -> u32 {
         pose as u32 % 4
+    }
+
+    /// The angle of a pose.
+    pub(super) fn angle(pose: usize) -> f64 {
+        FRAC_PI_2 * ((pose / 4) as f64 / ANGLES as f64 + (pose % 4) as f64)
+    }
+
+    /// The chart at the first angle, to be pushed about.
+    pub(super) fn body(&self) -> Arc<Body> {
+        let new = || Body::new(self.outline(0), self.scale, self.distances.padding + ROOM);
+        self.body.get_or_init(|| Arc::new(new())).clone()
     }
 
     pub(super) fn mask(&self, pose: usize) -> &Turned {

@@ -14,7 +14,7 @@ const PRICE: f64 = 0.015;
 const PER_CHART: f64 = 0.4;
 /// Cuts at most for each page, in all and for each chart that there was.
 const MOST_CUTS: u64 = 12;
-const MOST_CUTS_PER_CHART: u64 = 5;
+const MOST_CUTS_PER_CHART: u64 = 8;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
 const MOST_CHARTS: usize = 64;
 /// Words for packing without which one more cut is not looked at.

@@ -81,9 +81,7 @@ fn drafted(
     settings: &Settings,
 ) -> Result<Drafted, AtlasError> {
     match settings.cut {
-        Cut::Auto | Cut::Fast if folds(settings) == Folds::Cut => {
-            compacted(charts, options, settings)
-        }
+        Cut::Auto if folds(settings) == Folds::Cut => compacted(charts, options, settings),
         _ => Drafted::new(charts, options),
     }
 }

@@ -4,13 +4,15 @@ use super::clearance::texels_apart;
 use super::map::are_given;
 use super::settings::Settings;
 use crate::atlas::{AtlasOptions, Scale, Texture, Turns};
-use crate::charts::MappedChart;
+use crate::charts::{Cut, MappedChart};
 
 /// Words that packing all meshes of a document may read, those of one mesh for each of its faces, and the least and most of one: a
 /// hundred meshes shall not take a hundred times as long, nor small ones as long as large ones.
-const SEARCH_WORDS: u64 = 2_400_000_000;
-const SEARCH_WORDS_PER_FACE: u64 = 250_000;
-const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 1_200_000_000];
+const SEARCH_WORDS: u64 = 1_500_000_000;
+const SEARCH_WORDS_PER_FACE: u64 = 125_000;
+const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 600_000_000];
+/// The same of a mesh that is cut fast.
+const SEARCH_WORDS_IF_FAST: u64 = 10_000_000;
 
 /// How to pack the charts of one of so many meshes, which has so many faces.
 pub(super) fn atlas_options(
@@ -21,6 +23,10 @@ pub(super) fn atlas_options(
 ) -> AtlasOptions {
     let [least, most] = SEARCH_WORDS_OF_MESH;
     let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
+    let words = match settings.cut {
+        Cut::Fast => SEARCH_WORDS_IF_FAST,
+        _ => words.clamp(least, most),
+    };
     AtlasOptions {
         texture: Texture {
             resolution: settings.resolution,
@@ -36,7 +42,7 @@ pub(super) fn atlas_options(
             Turns::Any
         },
         borders: settings.borders,
-        search_words: settings.packing.passes() * words.clamp(least, most),
+        search_words: settings.packing.passes() * words,
     }
 }
 

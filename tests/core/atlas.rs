@@ -277,6 +277,25 @@ fn a_search_finds_what_the_first_layout_does_not() {
 }
 
 #[test]
+fn charts_come_as_near_as_they_may() {
+    // A raster of cells keeps them up to a cell farther apart.
+    let charts: Vec<Chart> = (0..9)
+        .map(|i| blob(1.0 + f64::from(i % 3), 2 + i % 4, 0.2))
+        .collect();
+    for padding_texels in [2, 8] {
+        let options = AtlasOptions {
+            padding_texels,
+            ..AtlasOptions::default()
+        };
+        let atlas = pack(&maps(&charts), &options).unwrap();
+        assert_positive_and_inside(&charts, &atlas);
+        let gap = smallest_gap(&charts, &atlas, 1024);
+        let wanted = f64::from(padding_texels);
+        assert!((wanted..wanted + 0.2).contains(&gap), "{gap}");
+    }
+}
+
+#[test]
 fn a_draft_becomes_fuller_when_a_chart_is_cut() {
     let options = AtlasOptions::default();
     let whole = bar(4);

@@ -1,18 +1,20 @@
 //! A layout on a coarse raster, which becomes fuller as long as one likes.
-use rayon::prelude::*;
+mod places;
+mod search;
+
 use std::sync::Arc;
 
 use super::arrangement::Arrangement;
 use super::layout::padding;
 use super::mask::Distances;
 use super::outline::{Outline, outlines};
-use super::plan::{Near, Plan, QuarterTurns, by_size, level};
+use super::plan::{Plan, by_size, level};
 use super::poses::Poses;
 use super::sheet::Sheet;
 use super::spot::Corner;
+use super::squeeze::Squeezed;
 use super::texture::{Form, Texture};
 use super::{AtlasError, AtlasOptions, ChartMap, Turns};
-use crate::numerics::random::Random;
 
 /// Cells along the side of the square page that the charts are expected to need. With 128 a cell is too much for the gaps that
 /// matter; with 512 a trial costs four times as much, and less is found in the same time.
@@ -23,25 +25,24 @@ const HOPE: f64 = 0.75;
 const SIDES: [u32; 3] = [RASTER, 2 * RASTER, 4 * RASTER];
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 128;
-/// Charts from which on a search reads all the words it may.
-const MANY: u64 = 8;
-/// Searches from different seeds.
-const SEEDS: usize = 4;
-/// Larger squares that a search accepts at its begin and at its end: about half a cell and a tenth of one.
-const TEMPERATURES: [f64; 2] = [0.65, 0.13];
-/// What a trial costs for each chart beside the words it reads.
-const WORDS_PER_CHART: u64 = 1000;
+/// Words that may be read at least: fewer are not worth the preparations.
+const LEAST_WORDS: u64 = 20_000_000;
 
 /// A layout on a coarse raster.
 ///
 /// It follows from an order of the charts and a pose of each: every chart is placed where the used square grows least. Simulated
 /// annealing changes the one or the other and keeps what makes the square smaller, at first also what makes it a little larger.
+/// What comes of that is squeezed, charts moving and turning all at once.
 /// What that costs is counted in words read, so the result is the same on every machine and for any number of threads.
 #[derive(Clone)]
 pub struct Draft {
     poses: Vec<Arc<Poses>>,
     raster: Raster,
     state: Arrangement,
+    /// The same, or what a better state became, when charts made room for each other, in the order of their sizes.
+    squeezed: Option<Squeezed>,
+    /// That order.
+    by_size: Vec<usize>,
 }
 
 /// How charts become cells.
@@ -55,11 +56,12 @@ struct Raster {
 }
 
 impl Draft {
-    /// The charts in the order of their sizes; nothing for so many that a search would see only a few layouts, where a needle is
+    /// The charts in the order of their sizes; nothing for so many, or so few words, that a search would see only a few layouts, where a needle is
     /// longer than the raster, or where charts may not be turned by any angle.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
-        if outlines.len() > MOST_CHARTS || options.turns == Turns::Quarters {
+        let is_worth_it = outlines.len() <= MOST_CHARTS && options.search_words >= LEAST_WORDS;
+        if !is_worth_it || options.turns == Turns::Quarters {
             return Ok(None);
         }
         Ok(Self::of(&Plan::largest_first(&outlines, options), options))
@@ -100,8 +102,9 @@ impl Draft {
     /// All charts placed, the largest first, in a square as large as that takes within reason.
     fn laid_out(poses: Vec<Arc<Poses>>, raster: Raster) -> Option<Self> {
         let level: Vec<&Outline> = poses.iter().map(|poses| poses.outline(0)).collect();
+        let by_size = by_size(&level);
         let mut state = Arrangement {
-            order: by_size(&level),
+            order: by_size.clone(),
             pose: vec![0; poses.len()],
             corners: vec![Corner::default(); poses.len()],
             side: 0,
@@ -116,87 +119,21 @@ impl Draft {
             poses,
             raster,
             state,
+            squeezed: None,
+            by_size,
         })
     }
 
     /// The share of the square that is filled, less what whole cells of the coarse raster lose.
     pub fn fill(&self) -> f64 {
-        let ratio = self.raster.cells() / (self.state.cost + self.raster.padding);
+        let ratio = self.raster.cells() / (self.side() + self.raster.padding);
         HOPE * ratio * ratio
     }
 
-    /// The drafts that several searches make of this one, together reading about so many words; the best first.
-    pub(super) fn searched(&self, words: u64) -> Vec<Self> {
-        let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
-        let mut drafts: Vec<Self> = seeds
-            .map(|seed| {
-                let mut draft = self.clone();
-                draft.improve(words / SEEDS as u64, seed as u64);
-                draft
-            })
-            .collect();
-        drafts.sort_by(|a, b| a.state.cost.total_cmp(&b.state.cost));
-        drafts
-    }
-
-    /// Searches a smaller square; reads about so many words, less of few charts. Never worse than before.
-    pub fn improve(&mut self, words: u64, seed: u64) {
-        if self.state.order.is_empty() {
-            return;
-        }
-        // A few charts have few layouts.
-        let n = (self.poses.len() as u64).min(MANY);
-        let words = words * n * n / (MANY * MANY);
-        let mut random = Random::new(seed);
-        let largest = self.state.side + self.state.side / 16;
-        let mut sheet = self.raster.sheet(largest);
-        let mut state = self.state.clone();
-        let [first, last] = TEMPERATURES;
-        while sheet.work < words {
-            let progress = sheet.work as f64 / words as f64;
-            let temperature = first * (last / first).powf(progress);
-            let bound = state.cost - temperature * (1.0 - random.unit()).ln();
-            let mut trial = state.clone();
-            let first = trial.change(&mut random);
-            sheet.work += WORDS_PER_CHART * trial.order.len() as u64;
-            let fits = trial.lay_out(&self.poses, &mut sheet, first, largest.min(bound as u32));
-            if fits.is_some() && trial.cost <= bound {
-                state = trial;
-                if state.cost < self.state.cost {
-                    self.state.clone_from(&state);
-                }
-            }
-        }
-    }
-
-    /// As a plan for a fine raster.
-    pub(super) fn plan(&self) -> Plan {
-        let Arrangement {
-            order,
-            pose,
-            corners,
-            side,
-            cost,
-        } = &self.state;
-        let share = |cells: u32| f64::from(cells.saturating_sub(1)) / f64::from(*side.max(&1));
-        let posed = || self.poses.iter().zip(pose);
-        Plan {
-            outlines: posed()
-                .map(|(poses, &pose)| poses.outline(pose).clone())
-                .collect(),
-            turns: pose
-                .iter()
-                .map(|&pose| QuarterTurns::Only(Poses::turns(pose)))
-                .collect(),
-            order: order.clone(),
-            near: Some(Near {
-                corners: (corners.iter())
-                    .map(|corner| (corner.page, [corner.x, corner.y].map(share)))
-                    .collect(),
-                window: 3.0 / f64::from(*side.max(&1)),
-                extent: (cost + self.raster.padding) / self.raster.scale,
-            }),
-        }
+    /// Side of the square, in cells.
+    fn side(&self) -> f64 {
+        let squeezed = self.squeezed.as_ref().map(|squeezed| squeezed.side);
+        squeezed.unwrap_or(f64::INFINITY).min(self.state.cost)
     }
 }
 
@@ -207,6 +144,11 @@ impl Raster {
             padding: self.padding,
         };
         Arc::new(Poses::new(outline, self.scale, distances))
+    }
+
+    /// Whether there is one page, a square: only there charts are squeezed.
+    fn is_one_square(self) -> bool {
+        self.texture.pages == 1 && self.texture.resolution.halvings() == [0; 2]
     }
 
     /// Cells along the longer side of the page that the charts are expected to need.

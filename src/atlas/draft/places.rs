@@ -1,0 +1,94 @@
+//! Layouts in other terms: places and angles, a plan, grid units.
+use super::Draft;
+use crate::atlas::AtlasOptions;
+use crate::atlas::arrangement::Arrangement;
+use crate::atlas::layout::Layout;
+use crate::atlas::outline::Outline;
+use crate::atlas::plan::{Near, Plan, QuarterTurns};
+use crate::atlas::poses::Poses;
+use crate::atlas::spot::Spot;
+use crate::atlas::squeeze::{Pose, Squeezed};
+use crate::atlas::tight;
+
+/// Cells of a finer raster for each of those, where few words may be read and where many.
+const FINE: [f64; 2] = [1.0, 4.0];
+const MANY_WORDS: u64 = 100_000_000;
+
+impl Draft {
+    /// The arrangement as places and angles.
+    pub(super) fn loose(&self) -> Squeezed {
+        let pose = |&chart: &usize| {
+            let (poses, pose) = (&self.poses[chart], self.state.pose[chart]);
+            let middle = poses.outline(pose).place(poses.outline(0).middle());
+            let [i, j] = middle.map(|x| x * self.raster.scale);
+            let [width, height] = poses.mask(pose).size.map(f64::from);
+            let within = match Poses::turns(pose) {
+                0 => [i, j],
+                1 => [width - j, i],
+                2 => [width - i, height - j],
+                _ => [j, height - i],
+            };
+            let corner = self.state.corners[chart];
+            let middle = [
+                f64::from(corner.x) + within[0],
+                f64::from(corner.y) + within[1],
+            ];
+            Pose::new(middle, Poses::angle(pose))
+        };
+        Squeezed {
+            poses: self.by_size.iter().map(pose).collect(),
+            side: f64::from(self.state.side),
+        }
+    }
+
+    /// The charts turned, and a layout in which they lie as near to each other as they may; none where that is not found.
+    pub(in crate::atlas) fn tight(&self, options: &AtlasOptions) -> Option<(Vec<Outline>, Layout)> {
+        let mut squeezed = self.squeezed.clone()?;
+        let fine = FINE[usize::from(options.search_words >= MANY_WORDS)];
+        squeezed.scale(fine);
+        let level: Vec<&Outline> = self.poses.iter().map(|poses| poses.outline(0)).collect();
+        let moved: Vec<&Outline> = self.by_size.iter().map(|&chart| level[chart]).collect();
+        let (turned, layout) = tight::layout(&moved, squeezed, fine * self.raster.scale, options)?;
+        let mut outlines: Vec<Outline> = level.into_iter().cloned().collect();
+        let mut charts = vec![(Spot::default(), 1.0); outlines.len()];
+        for (&chart, (turned, spot)) in self
+            .by_size
+            .iter()
+            .zip(turned.into_iter().zip(layout.charts))
+        {
+            outlines[chart] = turned;
+            charts[chart] = spot;
+        }
+        Some((outlines, Layout { charts, ..layout }))
+    }
+
+    /// The arrangement as a plan for a fine raster.
+    pub(in crate::atlas) fn plan(&self) -> Plan {
+        let Arrangement {
+            order,
+            pose,
+            corners,
+            side,
+            cost,
+        } = &self.state;
+        let share = |cells: u32| f64::from(cells.saturating_sub(1)) / f64::from(*side.max(&1));
+        let posed = || self.poses.iter().zip(pose);
+        Plan {
+            outlines: posed()
+                .map(|(poses, &pose)| poses.outline(pose).clone())
+                .collect(),
+            turns: pose
+                .iter()
+                .map(|&pose| QuarterTurns::Only(Poses::turns(pose)))
+                .collect(),
+            order: order.clone(),
+            near: Some(Near {
+                corners: (corners.iter())
+                    .map(|corner| (corner.page, [corner.x, corner.y].map(share)))
+                    .collect(),
+                window: 3.0 / f64::from(*side.max(&1)),
+                extent: (cost + self.raster.padding) / self.raster.scale,
+            }),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! The search for a fuller layout.
+use rayon::prelude::*;
+use std::sync::Arc;
+
+use super::Draft;
+use crate::atlas::arrangement::Arrangement;
+use crate::atlas::squeeze::Body;
+use crate::numerics::random::Random;
+
+/// Charts from which on a search reads all the words it may.
+const MANY: u64 = 8;
+/// Searches from different seeds.
+const SEEDS: usize = 4;
+/// Larger squares that a search accepts at its begin and at its end: about half a cell and a tenth of one.
+const TEMPERATURES: [f64; 2] = [0.65, 0.13];
+/// What a trial costs for each chart beside the words it reads.
+const WORDS_PER_CHART: u64 = 1000;
+
+impl Draft {
+    /// The drafts that several searches make of this one, together reading about so many words; the best first.
+    pub(in crate::atlas) fn searched(&self, words: u64) -> Vec<Self> {
+        let words = words / SEEDS as u64;
+        let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
+        let mut drafts: Vec<Self> = seeds
+            .map(|seed| {
+                let mut draft = self.clone();
+                draft.improve(words / 4, seed as u64);
+                draft.relocate(words / 4 * 3, seed as u64);
+                draft
+            })
+            .collect();
+        drafts.sort_by(|a, b| a.side().total_cmp(&b.side()));
+        drafts
+    }
+
+    /// Searches a smaller square; reads about so many words, less of few charts. Never worse than before.
+    pub fn improve(&mut self, words: u64, seed: u64) {
+        if self.state.order.is_empty() {
+            return;
+        }
+        let found = self.annealed(words, &mut Random::new(seed));
+        if !self.raster.is_one_square() {
+            if found.cost < self.state.cost {
+                self.state = found;
+            }
+            return;
+        }
+        self.state = found;
+        let mut squeezed = self.loose();
+        squeezed.settle(&self.bodies(), words / 2);
+        if self
+            .squeezed
+            .as_ref()
+            .is_none_or(|best| squeezed.side < best.side)
+        {
+            self.squeezed = Some(squeezed);
+        }
+    }
+
+    /// The best arrangement that is found while about so many words are read.
+    fn annealed(&self, words: u64, random: &mut Random) -> Arrangement {
+        // A few charts have few layouts.
+        let n = (self.poses.len() as u64).min(MANY);
+        let words = words * n * n / (MANY * MANY);
+        let largest = self.state.side + self.state.side / 16;
+        let mut sheet = self.raster.sheet(largest);
+        let mut state = self.state.clone();
+        let mut best: Option<Arrangement> = None;
+        let [first, last] = TEMPERATURES;
+        while sheet.work < words {
+            let progress = sheet.work as f64 / words as f64;
+            let temperature = first * (last / first).powf(progress);
+            let bound = state.cost - temperature * (1.0 - random.unit()).ln();
+            let mut trial = state.clone();
+            let first = trial.change(random);
+            sheet.work += WORDS_PER_CHART * trial.order.len() as u64;
+            let fits = trial.lay_out(&self.poses, &mut sheet, first, largest.min(bound as u32));
+            if fits.is_some() && trial.cost <= bound {
+                state = trial;
+                if best.as_ref().is_none_or(|best| state.cost < best.cost) {
+                    best = Some(state.clone());
+                }
+            }
+        }
+        best.unwrap_or(state)
+    }
+
+    /// Lets charts look for other places while about so many words are read.
+    fn relocate(&mut self, words: u64, seed: u64) {
+        let bodies = self.bodies();
+        if let Some(squeezed) = &mut self.squeezed {
+            squeezed.search(&bodies, words, seed);
+        }
+    }
+
+    fn bodies(&self) -> Vec<Arc<Body>> {
+        let bodies = self.by_size.iter().map(|&chart| self.poses[chart].body());
+        bodies.collect()
+    }
+}

@@ -1,0 +1,171 @@
+//! Layouts squeezed into a smaller square.
+//!
+//! Placing charts one after the other leaves room between them that no order and no angle out of a few takes away. Here all
+//! charts move and turn at once: the square shrinks by a little, and where charts overlap then they are pushed apart, the sum of
+//! squares of how deep points of one lie within the reach of another being minimized (Levenberg's method). Where that does not
+//! help, the charts that overlap try other places, overlaps that persist weighing more and more.
+//!
+//! Distances are looked up in rasters, so a layout is right up to a fraction of a cell; whoever uses it has to look again.
+//! From: Egeblad, Nielsen, Odgaard 2007, Fast neighborhood search for two- and three-dimensional nesting problems (guided local
+//! search); Imamichi, Yagiura, Nagamochi 2009, An iterated local search algorithm based on nonlinear programming for the
+//! irregular strip packing problem.
+mod body;
+mod contacts;
+mod contour;
+mod equations;
+mod field;
+mod moves;
+mod separate;
+
+use std::sync::Arc;
+
+pub(super) use body::{Body, Pose};
+use contacts::{Pairs, Scene};
+
+use crate::numerics::random::Random;
+
+/// By how much the square's side shrinks at a time, at first and at last, as a share.
+const SHRINKS: [f64; 2] = [0.01, 4e-4];
+/// The same where charts may go elsewhere.
+const LEAP: f64 = 0.004;
+/// By how much the square grows where charts need more room, and how often at most.
+const GROWTH: f64 = 1.001;
+const MOST_GROWTHS: usize = 12;
+/// Steps that separate charts.
+const STEPS: usize = 50;
+/// Rounds of moves elsewhere that do not lessen the overlap, after which the square is as small as it gets from there.
+const MOST_IDLE: usize = 6;
+/// A round is idle that leaves more than this share of the least overlap so far.
+const IDLE: f64 = 0.98;
+/// What an overlap's weight is multiplied by in each round while it lasts, at least and at most, and once it is gone.
+const HEAVIER: [f64; 2] = [1.2, 2.0];
+const LIGHTER: f64 = 0.95;
+
+/// Charts in a square of some side.
+#[derive(Clone)]
+pub(super) struct Squeezed {
+    pub poses: Vec<Pose>,
+    pub side: f64,
+}
+
+impl Squeezed {
+    /// Shrinks the square as far as charts make room for each other where they are; reads about so many words at most.
+    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64) {
+        let mut scene = Scene::new(bodies, self.side, 0.0, words);
+        self.shrink(&mut scene, SHRINKS[0]);
+    }
+
+    /// Makes charts keep `room` more than before, the square as small as is found while about so many words are read; whether
+    /// they do.
+    pub(super) fn loosen(&mut self, bodies: &[Arc<Body>], room: f64, words: u64) -> bool {
+        let mut scene = Scene::new(bodies, self.side, room, words);
+        for _ in 0..MOST_GROWTHS {
+            if scene.separate(&mut self.poses, STEPS).1 {
+                self.shrink(&mut scene, LEAP);
+                return true;
+            }
+            self.scale(GROWTH);
+            scene.side = self.side;
+        }
+        false
+    }
+
+    /// Shrinks the square as far as is found while about so many words are read.
+    pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64) {
+        let mut random = Random::new(seed);
+        let mut scene = Scene::new(bodies, self.side, 0.0, words);
+        let mut from = self.poses.clone();
+        while scene.may_read() {
+            let mut trial = Self {
+                poses: from,
+                side: self.side,
+            };
+            trial.scale(1.0 - LEAP);
+            if trial.relocate(&mut scene, &mut random) {
+                trial.shrink(&mut scene, LEAP);
+                *self = trial;
+                from = self.poses.clone();
+            } else {
+                from = self.poses.clone();
+                let [a, b] = [0, 1].map(|_| random.below(from.len()));
+                let middle = from[a].middle;
+                from[a].middle = std::mem::replace(&mut from[b].middle, middle);
+            }
+        }
+    }
+
+    /// Scales the square and the places in it, not the charts.
+    pub(super) fn scale(&mut self, by: f64) {
+        self.side *= by;
+        for pose in &mut self.poses {
+            pose.middle = pose.middle.map(|x| x * by);
+        }
+    }
+
+    fn shrink(&mut self, scene: &mut Scene, first: f64) {
+        scene.weights = Pairs::new(self.poses.len(), 1.0);
+        let mut by = first;
+        while by > SHRINKS[1] && scene.may_read() {
+            let mut trial = self.clone();
+            trial.scale(1.0 - by);
+            scene.side = trial.side;
+            if scene.separate(&mut trial.poses, STEPS).1 {
+                *self = trial;
+            } else {
+                by /= 2.0;
+            }
+        }
+    }
+
+    /// Separates charts by moving those that overlap to wherever they overlap least; whether that succeeded.
+    fn relocate(&mut self, scene: &mut Scene, random: &mut Random) -> bool {
+        scene.side = self.side;
+        scene.weights = Pairs::new(self.poses.len(), 1.0);
+        let (mut overlap, mut is_apart) = scene.separate(&mut self.poses, STEPS);
+        let (mut least, mut idle) = (f64::INFINITY, 0);
+        while !is_apart && idle < MOST_IDLE && scene.may_read() {
+            scene.reweigh(&overlap);
+            scene.move_overlapping(&mut self.poses, &overlap, random);
+            (overlap, is_apart) = scene.separate(&mut self.poses, STEPS / 2);
+            let sum: f64 = overlap.iter().map(|(.., overlap)| overlap).sum();
+            idle = if sum < IDLE * least { 0 } else { idle + 1 };
+            least = least.min(sum);
+        }
+        is_apart
+    }
+}
+
+impl<'a> Scene<'a> {
+    fn new(bodies: &'a [Arc<Body>], side: f64, room: f64, words: u64) -> Self {
+        Self {
+            bodies,
+            side,
+            room,
+            weights: Pairs::new(bodies.len(), 1.0),
+            work: 0,
+            words,
+        }
+    }
+
+    /// Whether fewer words were read than may be.
+    fn may_read(&self) -> bool {
+        self.work < self.words
+    }
+
+    /// Makes overlaps count more that are there still.
+    fn reweigh(&mut self, overlap: &Pairs) {
+        let most = overlap
+            .iter()
+            .map(|(.., overlap)| overlap)
+            .fold(0.0, f64::max);
+        for (a, b, overlap) in overlap.iter() {
+            let weight = self.weights.get_mut(a, b);
+            *weight *= if overlap > 0.0 {
+                HEAVIER[0] + (HEAVIER[1] - HEAVIER[0]) * overlap / most
+            } else {
+                LIGHTER
+            };
+            *weight = weight.max(1.0);
+        }
+    }
+}
