@@ -39,7 +39,9 @@ pub fn pack_draft(
             None => (searched(draft, options), None),
         },
     };
-    if let Some((outlines, layout)) = drafts.first().and_then(|draft| draft.tight(options)) {
+    if options.scale == Scale::Largest
+        && let Some((outlines, layout)) = drafts.first().and_then(|draft| draft.tight(options))
+    {
         let snapped = snapped(charts, &outlines, &layout)?;
         if cramped(&snapped, &layout, &mut slack.clone()).is_none() {
             return Ok(atlas(charts, &layout, &slack, snapped, options));

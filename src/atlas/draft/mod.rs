@@ -56,8 +56,8 @@ struct Raster {
 }
 
 impl Draft {
-    /// The charts in the order of their sizes; nothing for so many, or so few words, that a search would see only a few layouts, where a needle is
-    /// longer than the raster, or where charts may not be turned by any angle.
+    /// The charts in the order of their sizes; nothing for so many, or so few words, that a search would see only a few layouts,
+    /// where a needle is longer than the raster, or where charts may not be turned by any angle.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
         let is_worth_it = outlines.len() <= MOST_CHARTS && options.search_words >= LEAST_WORDS;

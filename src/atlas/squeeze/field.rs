@@ -1,7 +1,7 @@
 //! How far points are from where a chart keeps others away.
 use crate::numerics::vec2::{dot, sub};
 
-/// Cells around the chart.
+/// Cells around the region.
 const MARGIN: f64 = 6.0;
 /// Distances up to which edges are looked at, beyond the distance kept.
 const BAND: f64 = 2.5;
@@ -25,7 +25,7 @@ pub(super) struct Field {
 impl Field {
     /// Of the chart to the left of directed edges.
     pub(super) fn new(edges: &[[[f64; 2]; 2]], kept: f64) -> Self {
-        let mut raster = Raster::around(edges);
+        let mut raster = Raster::around(edges, kept + MARGIN);
         raster.measure(edges, kept + BAND);
         raster.wind(edges);
         Self {
@@ -77,11 +77,11 @@ struct Raster {
 }
 
 impl Raster {
-    fn around(edges: &[[[f64; 2]; 2]]) -> Self {
+    fn around(edges: &[[[f64; 2]; 2]], margin: f64) -> Self {
         let corners = || edges.iter().map(|edge| edge[0]);
-        let low = [0, 1].map(|k| corners().map(|p| p[k]).fold(0.0, f64::min) - MARGIN);
+        let low = [0, 1].map(|k| corners().map(|p| p[k]).fold(0.0, f64::min) - margin);
         let size = [0, 1].map(|k| {
-            let high = corners().map(|p| p[k]).fold(0.0, f64::max) + MARGIN;
+            let high = corners().map(|p| p[k]).fold(0.0, f64::max) + margin;
             (high - low[k]).ceil() as usize + 2
         });
         let n = size[0] * size[1];
