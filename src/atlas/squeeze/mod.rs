@@ -74,24 +74,26 @@ impl Squeezed {
     pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64) {
         let mut random = Random::new(seed);
         let mut scene = Scene::new(bodies, self.side, 0.0, words);
-        let mut from = self.poses.clone();
+        let mut is_stuck = false;
         while scene.may_read() {
-            let mut trial = Self {
-                poses: from,
-                side: self.side,
-            };
+            let mut trial = self.clone();
+            if is_stuck {
+                trial.swap(&mut random);
+            }
             trial.scale(1.0 - LEAP);
-            if trial.relocate(&mut scene, &mut random) {
+            is_stuck = !trial.relocate(&mut scene, &mut random);
+            if !is_stuck {
                 trial.shrink(&mut scene, LEAP);
                 *self = trial;
-                from = self.poses.clone();
-            } else {
-                from = self.poses.clone();
-                let [a, b] = [0, 1].map(|_| random.below(from.len()));
-                let middle = from[a].middle;
-                from[a].middle = std::mem::replace(&mut from[b].middle, middle);
             }
         }
+    }
+
+    /// Lets two charts change places.
+    fn swap(&mut self, random: &mut Random) {
+        let [a, b] = [0, 1].map(|_| random.below(self.poses.len()));
+        let middle = self.poses[a].middle;
+        self.poses[a].middle = std::mem::replace(&mut self.poses[b].middle, middle);
     }
 
     /// Scales the square and the places in it, not the charts.
