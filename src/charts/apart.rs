@@ -50,6 +50,9 @@ pub fn pushed_apart(
     let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
     let twin = twins(&chart.disk);
     let folds = folds(&twin, &pairs);
+    if folds.len() > MOST_FOLDS {
+        return (uv.to_vec(), n_before);
+    }
     let mut pushing = Pushing {
         of_vertex: VertexFaces::new(chart.disk.n_vertices, &chart.disk.triangles),
         settled: Contacts::new(chart, &twin),
@@ -61,7 +64,7 @@ pub fn pushed_apart(
         options,
         watch,
     };
-    for fold in folds.into_iter().take(MOST_FOLDS) {
+    for fold in folds {
         pushing.push_apart(fold);
     }
     if pushing.settled.is_empty() {
