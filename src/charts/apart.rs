@@ -46,7 +46,9 @@ pub fn pushed_apart(
         return (uv.to_vec(), 0);
     }
     let n_before = pairs.len();
-    pairs.iter_mut().for_each(|pair| pair.sort_unstable());
+    for pair in &mut pairs {
+        pair.sort_unstable();
+    }
     let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
     let twin = twins(&chart.disk);
     let folds = folds(&twin, &pairs);
@@ -137,7 +139,9 @@ impl Pushing<'_> {
                 break;
             }
             pairs = overlaps(&self.chart.disk, &self.uv);
-            pairs.iter_mut().for_each(|pair| pair.sort_unstable());
+            for pair in &mut pairs {
+                pair.sort_unstable();
+            }
             fold = (pairs.iter().copied())
                 .filter(|pair| !others.contains(pair))
                 .collect();

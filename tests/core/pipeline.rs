@@ -245,10 +245,10 @@ fn repeated_faces_lie_on_an_edge_of_a_neighbour() {
 }
 
 /// Without cuts for a fuller atlas, which are another matter; with what the UVs measure.
-fn measured(settings: Settings, mesh: &Mesh) -> Measures {
+fn measured(settings: &Settings, mesh: &Mesh) -> Measures {
     let settings = Settings {
         seam_weight: 1e6,
-        ..settings
+        ..settings.clone()
     };
     let unwrapped =
         unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved).expect("a mesh");
@@ -264,7 +264,7 @@ fn unwrapped_under(quality: Quality, mesh: &Mesh) -> Measures {
         quality,
         ..Settings::default()
     };
-    let measures = measured(settings, mesh);
+    let measures = measured(&settings, mesh);
     let mean = measures.distortion.sym_dirichlet_mean.expect("faces");
     assert!(mean <= quality.bound(), "{quality:?}: {mean}");
     measures
@@ -281,7 +281,7 @@ fn bounds_of_ones_own_are_kept() {
         };
         let Measures {
             distortion, seams, ..
-        } = measured(settings, &mesh);
+        } = measured(&settings, &mesh);
         let mean = distortion.sym_dirichlet_mean.expect("faces");
         let stretch = distortion.stretch_p99.expect("faces");
         (mean, stretch, seams.seam_length)
