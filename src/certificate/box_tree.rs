@@ -179,7 +179,8 @@ fn children(a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> {
         .chain((a != b).then_some((2 * a + 1, 2 * b)))
 }
 
-fn union<const D: usize>(a: Bounds<D>, b: &Bounds<D>) -> Bounds<D> {
+/// The smallest box around two.
+pub(crate) fn union<const D: usize>(a: Bounds<D>, b: &Bounds<D>) -> Bounds<D> {
     let axis = std::array::from_fn::<usize, D, _>(|axis| axis);
     [
         axis.map(|k| a[0][k].min(b[0][k])),
@@ -188,7 +189,7 @@ fn union<const D: usize>(a: Bounds<D>, b: &Bounds<D>) -> Bounds<D> {
 }
 
 /// Whether the interiors of two boxes meet.
-fn meet<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
+pub(crate) fn meet<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
     (0..D).all(|axis| a[0][axis] < b[1][axis] && b[0][axis] < a[1][axis])
 }
 

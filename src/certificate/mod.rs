@@ -49,8 +49,9 @@ mod weld;
 
 pub use bits::BitsVerdict;
 pub(crate) use boundary::{ChartBoundary, segment_distance};
-pub(crate) use box_tree::enlarged;
-pub(crate) use box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
+pub(crate) use box_tree::{
+    Bounds, BoxTree, Visit, bounds_of, enlarged, meet, search_budget, union,
+};
 pub use claims::{Claims, Overlap, Padding, VAxis};
 pub use crossings::{Crossings, crossings};
 pub(crate) use edges::Start;

@@ -2,7 +2,7 @@
 
 use super::Chart;
 use super::contact::Contacts;
-use super::fold::overlaps;
+use super::fold::{overlaps, overlaps_after};
 use super::part::twins;
 use super::surroundings::{NONE, Surroundings};
 use crate::barrier::{Barrier, MapEnergy, epsilon, map_energy};
@@ -29,7 +29,7 @@ const STRENGTH: f64 = 10.0;
 /// Steps of the solver for one push.
 const STEPS: usize = 12;
 
-/// A map without flips that overlaps itself where these pairs of faces do, with the folds pushed apart that are slight; and how many
+/// A map without flips that overlaps itself where these pairs of faces do, with the folds pushed apart that are slight; and which
 /// pairs of faces still overlap.
 ///
 /// Most folds are slivers along slits, where a surface bends like a saddle and the sides of a slit would pass each other. They need
@@ -38,30 +38,26 @@ const STEPS: usize = 12;
 pub fn pushed_apart(
     chart: &Chart,
     uv: &[[f64; 2]],
-    mut pairs: Vec<[u32; 2]>,
+    pairs: Vec<[u32; 2]>,
     options: &embed::Options,
     watch: &dyn Watch,
-) -> (Vec<[f64; 2]>, usize) {
+) -> (Vec<[f64; 2]>, Vec<[u32; 2]>) {
     if pairs.is_empty() {
-        return (uv.to_vec(), 0);
+        return (uv.to_vec(), pairs);
     }
-    let n_before = pairs.len();
-    for pair in &mut pairs {
-        pair.sort_unstable();
-    }
-    let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
     let twin = twins(&chart.disk);
     let folds = folds(&twin, &pairs);
     if folds.len() > MOST_FOLDS {
-        return (uv.to_vec(), n_before);
+        return (uv.to_vec(), pairs);
     }
+    let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
     let mut pushing = Pushing {
         of_vertex: VertexFaces::new(chart.disk.n_vertices, &chart.disk.triangles),
         settled: Contacts::new(chart, &twin),
         deepest: DEEPEST * (chart.disk.triangles.len() as f64).sqrt(),
         uv: uv.iter().map(|p| p.map(|x| x / rest.scale)).collect(),
         rest: &rest,
-        pairs,
+        pairs: pairs.clone(),
         chart,
         options,
         watch,
@@ -70,16 +66,16 @@ pub fn pushed_apart(
         pushing.push_apart(fold);
     }
     if pushing.settled.is_empty() {
-        return (uv.to_vec(), pushing.pairs.len());
+        return (uv.to_vec(), pairs);
     }
     // In the mesh's unit again, decided again: coordinates are rounded.
     let in_unit = |p: &[f64; 2]| p.map(|x| x * rest.scale);
     let pushed: Vec<[f64; 2]> = pushing.uv.iter().map(in_unit).collect();
     if embed::is_positive(&chart.disk.triangles, &pushed) {
-        let left = overlaps(&chart.disk, &pushed).len();
+        let left = overlaps(&chart.disk, &pushed);
         (pushed, left)
     } else {
-        (uv.to_vec(), n_before)
+        (uv.to_vec(), pairs)
     }
 }
 
@@ -131,17 +127,18 @@ impl Pushing<'_> {
         };
         let before = self.uv.clone();
         let mut contacts = self.settled.none();
-        let mut pairs = Vec::new();
+        let mut pairs = self.pairs.clone();
         let (mut least, mut in_vain) = (fold.len(), 0);
         while !fold.is_empty() && in_vain < IN_VAIN {
             let is_slight = contacts.renew(&self.uv, &fold, self.deepest);
-            if !is_slight || contacts.is_empty() || !self.push(&contacts) {
+            if !is_slight || contacts.is_empty() {
                 break;
             }
-            pairs = overlaps(&self.chart.disk, &self.uv);
-            for pair in &mut pairs {
-                pair.sort_unstable();
+            let moved = self.push(&contacts);
+            if moved.is_empty() {
+                break;
             }
+            pairs = overlaps_after(&self.chart.disk, &self.uv, &pairs, &moved);
             fold = (pairs.iter().copied())
                 .filter(|pair| !others.contains(pair))
                 .collect();
@@ -156,8 +153,8 @@ impl Pushing<'_> {
         }
     }
 
-    /// Minimizes energy and constraints; false if that moved nothing.
-    fn push(&mut self, contacts: &Contacts) -> bool {
+    /// Minimizes energy and constraints; returns the faces that have moved.
+    fn push(&mut self, contacts: &Contacts) -> Vec<u32> {
         let around = Surroundings::new(self.chart, &self.of_vertex, contacts);
         let term = self.term(&around);
         let mut constraints = Positional {
@@ -186,12 +183,12 @@ impl Pushing<'_> {
         let summary = minimize(&mut objective, &mut x, &settings, self.watch);
         let places: &[[f64; 2]] = x.as_chunks().0;
         if summary.iterations == 0 || !embed::is_positive(&around.triangles, places) {
-            return false;
+            return Vec::new();
         }
         for (&v, &p) in around.vertices.iter().zip(places) {
             self.uv[v as usize] = p;
         }
-        true
+        around.faces
     }
 
     /// The energy of the surroundings of a fold.

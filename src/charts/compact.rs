@@ -7,7 +7,7 @@ use super::clusters::Clusters;
 use super::crease::edge_costs;
 use super::fold::capacities;
 use super::min_cut::min_cut;
-use super::part::{parted, parts, twins};
+use super::part::{parted, parts, twins, twins_among};
 use crate::cut::Sheet;
 use crate::mesh::CUT;
 use crate::numerics::support::{Directions, Support};
@@ -179,19 +179,9 @@ impl<'a> Splitter<'a> {
         let faces: Vec<u32> = (0..is_piece.len() as u32)
             .filter(|&f| is_near(f) || touches(f, &is_near))
             .collect();
-        let mut local = vec![CUT; is_piece.len()];
-        for (i, &f) in (0..).zip(&faces) {
-            local[f as usize] = i;
-        }
-        let halfedges = || faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
-        let twin: Vec<u32> = halfedges()
-            .map(|h| match sheet.twin[h as usize] {
-                CUT => CUT,
-                t if local[t as usize / 3] == CUT => CUT,
-                t => 3 * local[t as usize / 3] + t % 3,
-            })
-            .collect();
-        let cost: Vec<f64> = halfedges().map(|h| self.cost[h as usize]).collect();
+        let twin = twins_among(&sheet.twin, &faces);
+        let halfedges = faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
+        let cost: Vec<f64> = halfedges.map(|h| self.cost[h as usize]).collect();
         let beside = |side: bool| -> Vec<u32> {
             let far = (0..)
                 .zip(&faces)

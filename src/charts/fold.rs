@@ -1,12 +1,12 @@
 //! Where a map of a chart overlaps itself, and which seam ends that.
 
 use super::min_cut::min_cut;
-use crate::certificate::{OrientedFaces, meeting_point};
+use crate::certificate::{OrientedFaces, bounds_of, meet, meeting_point, union};
 use crate::mesh::{CUT, Disk, next};
 use crate::numerics::vec2::doubled_area;
 use crate::numerics::vec3::distance;
 
-/// Pairs of triangles whose images overlap, decided exactly; `uv` has no flip.
+/// Pairs of triangles whose images overlap, each in ascending order, decided exactly; `uv` has no flip.
 ///
 /// Most charts cost a test of their boundary only: a map without flips is injective if the images of the boundary loops are
 /// simple and apart and all but one of them turn clockwise. (Then they turn as often as the disk's Euler number says, so no
@@ -18,15 +18,48 @@ pub fn overlaps(disk: &Disk, uv: &[[f64; 2]]) -> Vec<[u32; 2]> {
         .iter()
         .filter(|l| doubled_polygon_area(l) > 0.0)
         .count();
-    let mut pairs = Vec::new();
-    if outer != 1 || meeting_point(&loops).is_some() {
-        let corners: Vec<_> = (disk.triangles.iter())
-            .map(|t| t.map(|v| uv[v as usize]))
-            .collect();
-        OrientedFaces::of(&corners, &vec![1; corners.len()]).overlaps(|pair| {
-            pairs.push(pair.faces);
-        });
+    if outer == 1 && meeting_point(&loops).is_none() {
+        return Vec::new();
     }
+    let faces: Vec<u32> = (0..disk.triangles.len() as u32).collect();
+    overlaps_among(disk, uv, &faces)
+}
+
+/// The same once some faces have moved, given the pairs before; the others are where they were.
+pub fn overlaps_after(
+    disk: &Disk,
+    uv: &[[f64; 2]],
+    before: &[[u32; 2]],
+    moved: &[u32],
+) -> Vec<[u32; 2]> {
+    let bounds = |f: u32| bounds_of(&disk.triangles[f as usize].map(|v| uv[v as usize]));
+    let mut has_moved = vec![false; disk.triangles.len()];
+    let mut region = bounds_of(&[]);
+    for &f in moved {
+        has_moved[f as usize] = true;
+        region = union(region, &bounds(f));
+    }
+    let near: Vec<u32> = (0..disk.triangles.len() as u32)
+        .filter(|&f| meet(&bounds(f), &region))
+        .collect();
+    let is_new = |pair: &[u32; 2]| pair.iter().any(|&f| has_moved[f as usize]);
+    let mut pairs = overlaps_among(disk, uv, &near);
+    pairs.retain(is_new);
+    pairs.extend(before.iter().filter(|pair| !is_new(pair)));
+    pairs
+}
+
+/// The pairs among some faces, each in ascending order as the faces are.
+fn overlaps_among(disk: &Disk, uv: &[[f64; 2]], faces: &[u32]) -> Vec<[u32; 2]> {
+    let corners: Vec<_> = (faces.iter())
+        .map(|&f| disk.triangles[f as usize].map(|v| uv[v as usize]))
+        .collect();
+    let mut pairs = Vec::new();
+    OrientedFaces::of(&corners, &vec![1; corners.len()]).overlaps(|pair| {
+        let mut pair = pair.faces.map(|i| faces[i as usize]);
+        pair.sort_unstable();
+        pairs.push(pair);
+    });
     pairs
 }
 

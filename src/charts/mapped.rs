@@ -142,12 +142,13 @@ impl MappedChart {
         if pairs.is_empty() {
             return vec![self];
         }
-        self.embedding.uv = pushed_apart(&self.chart, &self.embedding.uv, pairs, options, watch).0;
-        let parts = self.clone().unfolded(&self.embedding.uv);
-        if parts.len() == 1 {
-            return parts;
+        let (uv, pairs) = pushed_apart(&self.chart, &self.embedding.uv, pairs, options, watch);
+        self.embedding.uv = uv;
+        if pairs.is_empty() {
+            return vec![self];
         }
-        (rejoined(&self, parts, options, watch).into_iter())
+        let parts = self.clone().parted_until_free(pairs.clone());
+        (rejoined(&self, parts, &pairs, options, watch).into_iter())
             .map(|part| part.relaxed(options, watch))
             .collect()
     }
@@ -161,6 +162,10 @@ impl MappedChart {
         if pairs.is_empty() {
             return vec![self];
         }
+        self.parted_until_free(pairs)
+    }
+
+    fn parted_until_free(self, pairs: Vec<[u32; 2]>) -> Vec<Self> {
         let mut unfolded = Vec::new();
         let mut folded = vec![(self, pairs)];
         while let Some((whole, pairs)) = folded.pop() {
@@ -230,7 +235,8 @@ impl MappedChart {
         if let Ok(embedding) = embed::optimize(disk, positions, &self.embedding.uv, options, watch)
             && embed::is_positive(&disk.triangles, &embedding.uv)
             && let pairs = overlaps(disk, &embedding.uv)
-            && let (uv, 0) = pushed_apart(&self.chart, &embedding.uv, pairs, options, watch)
+            && let (uv, left) = pushed_apart(&self.chart, &embedding.uv, pairs, options, watch)
+            && left.is_empty()
         {
             self.embedding = Embedding {
                 uv,
@@ -275,7 +281,7 @@ fn signed_area(chart: &Chart, uv: &[[f64; 2]]) -> f64 {
 }
 
 /// The pairs of triangles that are both among these, in their numbering.
-fn within(faces: &[u32], n_faces: usize, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
+pub(super) fn within(faces: &[u32], n_faces: usize, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut local = vec![None; n_faces];
     for (i, &face) in (0..).zip(faces) {
         local[face as usize] = Some(i);

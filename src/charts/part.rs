@@ -20,11 +20,41 @@ pub(super) fn twins(disk: &Disk) -> Vec<u32> {
 /// The connected parts that are left of a chart when only the edges in `twin` are glued, each with the chart's triangles it is
 /// made of. Any part of a disk is a disk, holes allowed. O(n log n).
 pub(super) fn parts(chart: &Chart, twin: &[u32]) -> Vec<(Chart, Vec<u32>)> {
-    let (label, n_parts) = connected_faces(twin);
-    let mesh = (&*chart.disk.triangles, &*chart.positions);
-    Sheet::divide(mesh, twin, &label, n_parts)
-        .into_iter()
-        .flat_map(|sheet| part(chart, sheet))
+    let faces: Vec<u32> = (0..chart.disk.triangles.len() as u32).collect();
+    parts_among(chart, twin, &faces)
+}
+
+/// The same of some of the chart's faces.
+pub(super) fn parts_among(chart: &Chart, twin: &[u32], faces: &[u32]) -> Vec<(Chart, Vec<u32>)> {
+    let twin = twins_among(twin, faces);
+    let triangle = |&f: &u32| chart.disk.triangles[f as usize];
+    let triangles: Vec<[u32; 3]> = faces.iter().map(triangle).collect();
+    let (label, n_parts) = connected_faces(&twin);
+    let mesh = (&*triangles, &*chart.positions);
+    let sheets = Sheet::divide(mesh, &twin, &label, n_parts).into_iter();
+    sheets
+        .flat_map(|mut sheet| {
+            for t in &mut sheet.triangles {
+                *t = faces[*t as usize];
+            }
+            part(chart, sheet)
+        })
+        .collect()
+}
+
+/// The gluing of some faces, numbered in their order, without the others.
+pub(super) fn twins_among(twin: &[u32], faces: &[u32]) -> Vec<u32> {
+    let mut local = vec![CUT; twin.len() / 3];
+    for (i, &f) in (0..).zip(faces) {
+        local[f as usize] = i;
+    }
+    let halfedges = faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
+    halfedges
+        .map(|h| match twin[h as usize] {
+            CUT => CUT,
+            t if local[t as usize / 3] == CUT => CUT,
+            t => 3 * local[t as usize / 3] + t % 3,
+        })
         .collect()
 }
 

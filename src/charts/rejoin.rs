@@ -1,13 +1,14 @@
 //! Parts of a chart joined again.
 
 use super::apart::pushed_apart;
-use super::fold::{lengths, overlaps};
-use super::part::{parts, twins};
+use super::fold::lengths;
+use super::mapped::within;
+use super::part::{parts_among, twins};
 use super::{Chart, MappedChart};
 use crate::embed;
 use crate::mesh::CUT;
 use crate::solver::Watch;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Parts of a chart at most that are joined again: each costs as much as looking at all of the chart.
 const MOST_JOINS: usize = 12;
@@ -15,15 +16,16 @@ const MOST_JOINS: usize = 12;
 /// The parts into which a chart was cut where its map overlaps itself, joined where the fold between them is slight: once the deep
 /// folds are gone, what else was cut off with them may hold together.
 ///
-/// From the smallest to the largest each part is joined to the one with which it has most border, if all folds of the two, as the
+/// `pairs` are the faces of the whole that overlap. From the smallest to the largest each part is joined to the one with which it has most border, if all folds of the two, as the
 /// whole is mapped, can be pushed apart.
 pub fn rejoined(
     whole: &MappedChart,
     cut: Vec<MappedChart>,
+    pairs: &[[u32; 2]],
     options: &embed::Options,
     watch: &dyn Watch,
 ) -> Vec<MappedChart> {
-    let mut joints = Joints::new(whole, cut);
+    let mut joints = Joints::new(whole, cut, pairs);
     let mut order: Vec<u32> = joints.parts.keys().copied().collect();
     order.sort_by_key(|label| joints.parts[label].chart.disk.triangles.len());
     order.pop();
@@ -41,13 +43,15 @@ struct Joints<'a> {
     whole: &'a MappedChart,
     twin: Vec<u32>,
     length: Vec<f64>,
+    /// The faces that overlap.
+    pairs: &'a [[u32; 2]],
     /// For each face its part.
     label: Vec<u32>,
     parts: BTreeMap<u32, MappedChart>,
 }
 
 impl<'a> Joints<'a> {
-    fn new(whole: &'a MappedChart, cut: Vec<MappedChart>) -> Self {
+    fn new(whole: &'a MappedChart, cut: Vec<MappedChart>, pairs: &'a [[u32; 2]]) -> Self {
         let of_surface = |corners: &[u32; 3]| corners[0] / 3;
         let faces: BTreeMap<u32, usize> = (whole.chart.corners.iter().map(of_surface))
             .zip(0..)
@@ -62,6 +66,7 @@ impl<'a> Joints<'a> {
             whole,
             twin: twins(&whole.chart.disk),
             length: lengths(&whole.chart.disk, &whole.chart.positions),
+            pairs,
             label,
             parts: (0..).zip(cut).collect(),
         }
@@ -86,9 +91,9 @@ impl<'a> Joints<'a> {
             return;
         };
         let mut joined = self.whole.restricted(chart, &faces);
-        let pairs = overlaps(&joined.chart.disk, &joined.embedding.uv);
+        let pairs = within(&faces, self.label.len(), self.pairs);
         let (uv, left) = pushed_apart(&joined.chart, &joined.embedding.uv, pairs, options, watch);
-        if left > 0 {
+        if !left.is_empty() {
             return;
         }
         joined.embedding.uv = uv;
@@ -101,19 +106,9 @@ impl<'a> Joints<'a> {
 
     /// The chart of two parts and its faces in the whole.
     fn union(&self, a: u32, b: u32) -> Option<(Chart, Vec<u32>)> {
-        let united: BTreeSet<u32> = [a, b].into();
-        let is_in = |h: u32| united.contains(&self.label[h as usize / 3]);
-        let glued: Vec<u32> = (0..)
-            .zip(&self.twin)
-            .map(|(h, &t)| {
-                if t != CUT && is_in(h) && is_in(t) {
-                    t
-                } else {
-                    CUT
-                }
-            })
-            .collect();
-        let mut parts = parts(&self.whole.chart, &glued).into_iter();
-        parts.find(|(_, faces)| is_in(3 * faces[0]))
+        let is_in = |f: &u32| [a, b].contains(&self.label[*f as usize]);
+        let faces: Vec<u32> = (0..self.label.len() as u32).filter(is_in).collect();
+        let mut parts = parts_among(&self.whole.chart, &self.twin, &faces);
+        (parts.len() == 1).then(|| parts.swap_remove(0))
     }
 }
