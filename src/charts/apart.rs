@@ -101,6 +101,13 @@ fn folds(twin: &[u32], pairs: &[[u32; 2]]) -> Vec<Vec<[u32; 2]>> {
     folds
 }
 
+/// The pairs that are not among these.
+fn difference(pairs: &[[u32; 2]], these: &[[u32; 2]]) -> BTreeSet<[u32; 2]> {
+    let these: BTreeSet<&[u32; 2]> = these.iter().collect();
+    let others = pairs.iter().filter(|pair| !these.contains(pair));
+    others.copied().collect()
+}
+
 /// A map whose folds are pushed apart one after the other.
 struct Pushing<'a> {
     chart: &'a Chart,
@@ -120,11 +127,7 @@ struct Pushing<'a> {
 impl Pushing<'_> {
     /// Pushes until none of the pairs of a fold is left, and no new one is there; or changes nothing.
     fn push_apart(&mut self, mut fold: Vec<[u32; 2]>) {
-        let others: BTreeSet<[u32; 2]> = {
-            let own: BTreeSet<&[u32; 2]> = fold.iter().collect();
-            let others = self.pairs.iter().filter(|pair| !own.contains(pair));
-            others.copied().collect()
-        };
+        let mut others: Option<BTreeSet<[u32; 2]>> = None;
         let before = self.uv.clone();
         let mut contacts = self.settled.none();
         let mut pairs = self.pairs.clone();
@@ -134,6 +137,7 @@ impl Pushing<'_> {
             if !is_slight || contacts.is_empty() {
                 break;
             }
+            let others = others.get_or_insert_with(|| difference(&self.pairs, &fold));
             let moved = self.push(&contacts);
             if moved.is_empty() {
                 break;
