@@ -12,6 +12,7 @@ use crate::cut::Sheet;
 use crate::mesh::CUT;
 use crate::numerics::support::{Directions, Support};
 use crate::numerics::vec2::{dot, doubled_area};
+use crate::numerics::vec3::distance;
 
 /// How far a seam may leave its chord, in square roots of the chart's area; clusters are narrower.
 const BAND: f64 = 0.04;
@@ -58,6 +59,14 @@ impl MappedChart {
         splits
             .take(REFINED)
             .max_by(|a, b| a.worth.total_cmp(&b.worth))
+    }
+
+    /// Length of the chart's boundary on the surface.
+    pub fn perimeter(&self) -> f64 {
+        let at = |v: u32| self.chart.positions[v as usize];
+        let loops = self.chart.disk.loops.iter();
+        let edges = loops.flat_map(|of| of.iter().zip(of.iter().cycle().skip(1)));
+        edges.map(|(&a, &b)| distance(at(a), at(b))).sum()
     }
 
     /// The two parts, mapped as the whole is, each seen from its front.

@@ -8,9 +8,9 @@ use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// The share of the square that a seam as long as the side of the surface's square must gain.
-const PRICE: f64 = 0.015;
-/// A further chart costs as much as a seam of this length in the same unit.
+/// The share of the square that seams must gain which are as long as what there is: half the length of all outlines.
+const PRICE: f64 = 0.027;
+/// A further chart costs as much as a seam of this length, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
 /// Cuts at most for each page, in all and for each chart that there was.
 const MOST_CUTS: u64 = 12;
@@ -102,7 +102,9 @@ fn candidates(
     // A chart has to fit across a page that is not square, but may be longer than it is wide.
     let slender = (f64::from(width.min(height)) / f64::from(width.max(height))).sqrt();
     let of_page = (area / f64::from(texture.pages) * slender).sqrt();
-    let unit = area.sqrt();
+    let per_chart = PER_CHART * area.sqrt();
+    let outlines = charts.iter().map(MappedChart::perimeter).sum::<f64>() / 2.0;
+    let price = PRICE * seam_weight / outlines.max(f64::MIN_POSITIVE);
     let mut candidate = Candidate {
         charts: charts.into_iter().map(Arc::new).collect(),
         draft,
@@ -119,7 +121,7 @@ fn candidates(
             break;
         };
         candidate.draft = draft;
-        candidate.cost += PRICE * seam_weight * (split.length / unit + PER_CHART);
+        candidate.cost += price * (split.length + per_chart);
         candidate.charts.remove(chart);
         splits.remove(chart);
         let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
