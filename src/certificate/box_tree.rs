@@ -85,6 +85,24 @@ impl<const D: usize> BoxTree<D> {
         Visit::Complete
     }
 
+    /// Visits every box whose interior meets this one's, in a fixed order.
+    pub fn meeting(&self, bounds: &Bounds<D>, mut visit: impl FnMut(u32)) {
+        let leaves = self.nodes.len() / 2;
+        let mut stack = vec![1];
+        while let Some(node) = stack.pop() {
+            if !meet(&self.nodes[node], bounds) {
+                continue;
+            }
+            if node < leaves {
+                stack.extend([2 * node, 2 * node + 1]);
+            } else {
+                let inside = self.leaf(node - leaves);
+                let met = inside.filter(|&i| meet(&self.boxes[i], bounds));
+                met.for_each(|i| visit(self.items[i]));
+            }
+        }
+    }
+
     fn leaf_pairs(&self, a: usize, b: usize, visit: &mut impl FnMut(u32, u32)) {
         for i in self.leaf(a) {
             for j in self.leaf(b) {

@@ -56,7 +56,7 @@ pub use claims::{Claims, Overlap, Padding, VAxis};
 pub use crossings::{Crossings, crossings};
 pub(crate) use edges::Start;
 pub use judgement::{Certificate, certify};
-pub(crate) use overlap::OrientedFaces;
+pub(crate) use overlap::{OrientedFaces, interiors_intersect};
 pub use padding::PaddingVerdict;
 pub use pages::PagesVerdict;
 pub use planar::{PlanarCertificate, certify_planar};

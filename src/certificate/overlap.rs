@@ -54,7 +54,7 @@ impl OrientedFaces {
 }
 
 /// Whether two counter-clockwise triangles share interior points: no edge line of either has the other on its outer side.
-pub(super) fn interiors_intersect(a: &CornerUvs, b: &CornerUvs) -> bool {
+pub(crate) fn interiors_intersect(a: &CornerUvs, b: &CornerUvs) -> bool {
     !separates(a, b) && !separates(b, a)
 }
 

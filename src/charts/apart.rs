@@ -3,14 +3,11 @@
 use super::Chart;
 use super::contact::Contacts;
 use super::fold::{overlaps, overlaps_after};
+use super::local::Local;
 use super::part::twins;
-use super::surroundings::{NONE, Surroundings};
-use crate::barrier::{Barrier, MapEnergy, epsilon, map_energy};
-use crate::embed::{self, RestShapes, rest_shapes};
-use crate::energy::{Positional, RestShape, Term};
-use crate::mesh::{CUT, UnionFind, VertexFaces};
-use crate::numerics::vec2::doubled_area;
-use crate::solver::{Objective, Settings, Watch, minimize};
+use crate::embed;
+use crate::mesh::{CUT, UnionFind};
+use crate::solver::Watch;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A push helps that leaves no more than this share of the pairs; so many may not.
@@ -22,12 +19,6 @@ const MOST_FOLDS: usize = 24;
 
 /// How deep a vertex may lie in other faces to be pushed out, as a share of the square root of the chart's area.
 const DEEPEST: f64 = 0.03;
-
-/// What a vertex is pushed with, in the unit of the energy per area of a mean triangle.
-const STRENGTH: f64 = 10.0;
-
-/// Steps of the solver for one push.
-const STEPS: usize = 12;
 
 /// A map without flips that overlaps itself where these pairs of faces do, with the folds pushed apart that are slight; and which
 /// pairs of faces still overlap.
@@ -50,17 +41,13 @@ pub fn pushed_apart(
     if folds.len() > MOST_FOLDS {
         return (uv.to_vec(), pairs);
     }
-    let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
+    let local = Local::new(chart, options, watch);
     let mut pushing = Pushing {
-        of_vertex: VertexFaces::new(chart.disk.n_vertices, &chart.disk.triangles),
         settled: Contacts::new(chart, &twin),
         deepest: DEEPEST * (chart.disk.triangles.len() as f64).sqrt(),
-        uv: uv.iter().map(|p| p.map(|x| x / rest.scale)).collect(),
-        rest: &rest,
+        uv: local.in_unit(uv),
         pairs: pairs.clone(),
-        chart,
-        options,
-        watch,
+        local,
     };
     for fold in folds {
         pushing.push_apart(fold);
@@ -69,8 +56,7 @@ pub fn pushed_apart(
         return (uv.to_vec(), pairs);
     }
     // In the mesh's unit again, decided again: coordinates are rounded.
-    let in_unit = |p: &[f64; 2]| p.map(|x| x * rest.scale);
-    let pushed: Vec<[f64; 2]> = pushing.uv.iter().map(in_unit).collect();
+    let pushed = pushing.local.in_mesh_unit(&pushing.uv);
     if embed::is_positive(&chart.disk.triangles, &pushed) {
         let left = overlaps(&chart.disk, &pushed);
         (pushed, left)
@@ -110,9 +96,7 @@ fn difference(pairs: &[[u32; 2]], these: &[[u32; 2]]) -> BTreeSet<[u32; 2]> {
 
 /// A map whose folds are pushed apart one after the other.
 struct Pushing<'a> {
-    chart: &'a Chart,
-    of_vertex: VertexFaces,
-    rest: &'a RestShapes,
+    local: Local<'a>,
     /// In the unit of the rest shapes.
     uv: Vec<[f64; 2]>,
     /// The faces that overlap.
@@ -120,8 +104,6 @@ struct Pushing<'a> {
     /// Of the folds that are gone.
     settled: Contacts<'a>,
     deepest: f64,
-    options: &'a embed::Options,
-    watch: &'a dyn Watch,
 }
 
 impl Pushing<'_> {
@@ -142,7 +124,7 @@ impl Pushing<'_> {
             if moved.is_empty() {
                 break;
             }
-            pairs = overlaps_after(&self.chart.disk, &self.uv, &pairs, &moved);
+            pairs = overlaps_after(&self.local.chart.disk, &self.uv, &pairs, &moved);
             fold = (pairs.iter().copied())
                 .filter(|pair| !others.contains(pair))
                 .collect();
@@ -159,65 +141,9 @@ impl Pushing<'_> {
 
     /// Minimizes energy and constraints; returns the faces that have moved.
     fn push(&mut self, contacts: &Contacts) -> Vec<u32> {
-        let around = Surroundings::new(self.chart, &self.of_vertex, contacts);
-        let term = self.term(&around);
-        let mut constraints = Positional {
-            dim: 2,
-            rows: Vec::new(),
-            targets: Vec::new(),
-            alpha: STRENGTH,
-        };
-        for contacts in [contacts, &self.settled] {
-            for (row, target) in contacts.constraints(&self.uv) {
-                let local = row.map(|(v, weight)| (around.local[v as usize], weight));
-                if local.iter().all(|&(v, _)| v != NONE) {
-                    constraints.rows.push(local.to_vec());
-                    constraints.targets.extend(target);
-                }
-            }
-        }
-        let n = around.vertices.len();
-        let mut objective = Objective::constrained(n, vec![term], constraints);
-        objective.fix(&around.held);
-        let settings = Settings {
-            max_iterations: STEPS,
-            ..self.options.solver
-        };
-        let mut x = around.gathered(&self.uv).into_flattened();
-        let summary = minimize(&mut objective, &mut x, &settings, self.watch);
-        let places: &[[f64; 2]] = x.as_chunks().0;
-        if summary.iterations == 0 || !embed::is_positive(&around.triangles, places) {
-            return Vec::new();
-        }
-        for (&v, &p) in around.vertices.iter().zip(places) {
-            self.uv[v as usize] = p;
-        }
-        around.faces
-    }
-
-    /// The energy of the surroundings of a fold.
-    fn term(&self, around: &Surroundings) -> Box<dyn Term> {
-        let rest = around.faces.iter().map(|&f| self.rest.shapes[f as usize]);
-        let rest: Vec<RestShape> = rest.collect();
-        let uv = around.gathered(&self.uv);
-        let area = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| uv[v as usize]);
-            0.5 * doubled_area(a, b, c)
-        };
-        let smallest = around.triangles.iter().map(area);
-        let smallest_rest = rest.iter().map(|shape| shape.size);
-        let energy = MapEnergy {
-            energy: self.options.energy,
-            barrier: Barrier {
-                kind: self.options.barrier,
-                beta: self.options.beta,
-                s: self.options.s,
-                epsilon: epsilon(
-                    smallest_rest.fold(f64::INFINITY, f64::min),
-                    smallest.fold(f64::INFINITY, f64::min),
-                ),
-            },
-        };
-        map_energy(&around.triangles, &rest, &energy)
+        let rows = [contacts, &self.settled].map(|contacts| contacts.constraints(&self.uv));
+        let rows: Vec<_> = rows.into_iter().flatten().collect();
+        self.local
+            .minimize(&mut self.uv, contacts.vertices(), &rows)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::chart::{Chart, Cut, charts};
 use super::distortion::stretched_area;
+use super::give_back::given_back;
 use super::mapped::{Folds, MappedChart, Observer, map_chart};
 use super::piece::Piece;
 use super::quality::Bound;
@@ -39,7 +40,7 @@ const HOPELESS: [f64; 2] = [0.7, 4.0];
 /// promises to keep the bound; then they are mapped, parted where a map overlaps itself, and slit further where the maps were
 /// worse than promised. The bound is one for all charts: a slit is spent where the excess is largest. Where the stretch is too
 /// large the same goes on as for a smaller mean. A surface on which this does not lead below the bound is divided as by
-/// [`Cut::Fast`] if that does better.
+/// [`Cut::Fast`] if that does better. At last small charts are [given back](given_back).
 pub fn charts_under_bound(
     surface: &Surface,
     bound: &Bound,
@@ -47,8 +48,12 @@ pub fn charts_under_bound(
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     let slit = slit_and_mapped(surface, bound, options, observer);
+    let maps = |pieces: Vec<Piece>| {
+        let maps = pieces.into_iter().filter_map(|piece| piece.map).collect();
+        given_back(surface, maps, bound, options, observer)
+    };
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
-        return slit.into_iter().filter_map(|piece| piece.map).collect();
+        return maps(slit);
     }
     let divided: Vec<Piece> = charts(surface, Cut::Fast)
         .into_par_iter()
@@ -61,7 +66,7 @@ pub fn charts_under_bound(
     } else {
         slit
     };
-    better.into_iter().filter_map(|piece| piece.map).collect()
+    maps(better)
 }
 
 fn mean_excess(pieces: &[Piece]) -> f64 {
@@ -81,7 +86,7 @@ fn is_stretched(pieces: &[Piece], bound: &Bound) -> bool {
     };
     let maps = pieces.iter().filter_map(|piece| piece.map.as_ref());
     let stretched: f64 = maps.map(|map| stretched_area(map, most)).sum();
-    !Bound::allows_stretched(stretched / total_area(pieces))
+    stretched > Bound::stretched_budget() * total_area(pieces)
 }
 
 fn slit_and_mapped(

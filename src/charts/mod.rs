@@ -18,8 +18,12 @@
 //! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes, and
 //! what was cut off but holds together without them is joined again. Where floating point finds no valid map, a chart is cut into
 //! [`halves()`].
+//!
+//! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
+//! their neighbors wherever they find room along a common border ([`given_back()`]).
 
 mod apart;
+mod border;
 mod bound;
 mod chart;
 mod chord;
@@ -31,7 +35,11 @@ mod crease;
 mod distortion;
 mod facets;
 mod fold;
+mod give_back;
+mod ground;
 mod halves;
+mod lay;
+mod local;
 mod mapped;
 mod merge;
 mod min_cut;
@@ -50,10 +58,12 @@ mod surroundings;
 pub use bound::charts_under_bound;
 pub use chart::{Chart, Cut, charts};
 pub use compact::Split;
+pub use give_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, Observer, map_chart, map_chart_from};
 pub use min_cut::min_cut;
 pub use quality::{Bound, Quality};
+pub use rejoin::rejoined;
 
 #[cfg(doc)]
 use crate::mesh::Disk;

@@ -64,8 +64,8 @@ impl Bound {
         MARGIN * (self.mean - 4.0)
     }
 
-    /// Whether so large a share of the area may be stretched more.
-    pub(super) fn allows_stretched(share: f64) -> bool {
-        share <= MARGIN * STRETCHED_SHARE
+    /// The share of the area that may be stretched more.
+    pub(super) fn stretched_budget() -> f64 {
+        MARGIN * STRETCHED_SHARE
     }
 }

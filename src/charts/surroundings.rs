@@ -1,7 +1,6 @@
 //! What gives way where a fold is pushed apart.
 
 use super::Chart;
-use super::contact::Contacts;
 use crate::mesh::VertexFaces;
 
 /// Faces that give way: so many times those that overlap, and at least so many.
@@ -24,10 +23,14 @@ pub struct Surroundings {
 pub const NONE: u32 = u32::MAX;
 
 impl Surroundings {
-    /// The faces around some contacts.
-    pub fn new(chart: &Chart, of_vertex: &VertexFaces, contacts: &Contacts) -> Self {
+    /// The faces around some vertices.
+    pub fn new(
+        chart: &Chart,
+        of_vertex: &VertexFaces,
+        vertices: impl Iterator<Item = u32>,
+    ) -> Self {
         let disk = &chart.disk;
-        let near = contacts.vertices().flat_map(|v| of_vertex.of(v));
+        let near = vertices.flat_map(|v| of_vertex.of(v));
         let mut faces: Vec<u32> = near.copied().collect();
         faces.sort_unstable();
         faces.dedup();

@@ -53,6 +53,21 @@ fn every_pair_is_found_once<const D: usize>(boxes: &[Bounds<D>]) {
 }
 
 #[test]
+fn boxes_that_meet_one_are_found_once_each() {
+    for n in [0, 1, 4, 5, 100, 1000] {
+        let boxes = scattered_boxes(n);
+        let tree = BoxTree::new(&boxes);
+        for one in scattered_boxes(20) {
+            let mut found = Vec::new();
+            tree.meeting(&one, |i| found.push(i));
+            found.sort_unstable();
+            let all = (0..n).filter(|&i| meet(&boxes[i as usize], &one));
+            assert!(found == all.collect::<Vec<_>>(), "{n} boxes");
+        }
+    }
+}
+
+#[test]
 fn enlarged_boxes_meet_where_they_touched() {
     let (a, b) = ([[0.0, 0.0], [1.0, 1.0]], [[1.0, 0.5], [1.0, 2.0]]);
     let touching = |boxes: &[Bounds]| {

@@ -23,6 +23,7 @@ mod document;
 mod elements;
 mod embed;
 mod energy;
+mod given_back;
 mod given_seams;
 #[cfg(feature = "files")]
 mod io;
