@@ -44,8 +44,8 @@ const HOPE: f64 = 0.75;
 /// Cells along a side of a square.
 fn raster(n_charts: usize) -> u32 {
     match n_charts {
-        0..=1_000 => 1024,
-        1_001..=60_000 => 2048,
+        0..=400 => 1024,
+        401..=60_000 => 2048,
         60_001..=1_000_000 => 4096,
         _ => 16384,
     }

@@ -8,12 +8,12 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// The share of the square that seams must gain which are as long as what there is: half the length of all outlines.
-const PRICE: f64 = 0.027;
+const PRICE: f64 = 0.03;
 /// A further chart costs as much as a seam of this length, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
 /// Cuts at most for each page, in all and for each chart that there was.
-const MOST_CUTS: u64 = 12;
-const MOST_CUTS_PER_CHART: u64 = 8;
+const MOST_CUTS: u64 = 18;
+const MOST_CUTS_PER_CHART: u64 = 14;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
 const MOST_CHARTS: usize = 64;
 /// What cuts may cost at most, as a share of the square.
