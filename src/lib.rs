@@ -117,9 +117,9 @@
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as a draft of the
 //!   atlas gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
-//! - Placing charts one after the other leaves room between them. In one square page all of them move and turn at once afterwards,
+//! - Placing charts one after the other leaves room between them. On square pages all of a page move and turn at once afterwards,
 //!   pushed apart by Levenberg's method on rasters of their distances while the square shrinks, and end exactly as far from each
-//!   other as they must be; a raster decides only where that fails, on several pages, and for crowds.
+//!   other as they must be; a raster decides only where that fails, on pages that are not square, and for crowds.
 //! - The default energy is the symmetric Dirichlet energy, in which the bound is stated: at the bound of 4.1 it needs half the
 //!   charts that ARAP needs (2 against 13 on a closed surface with four handles), and folds over itself less often.
 //! - A lightmap needs a region for each instance, and glTF has no offset and scale of UVs per node: each node gets its own copy of

@@ -1,9 +1,9 @@
 //! Charts placed on the pages of a texture, on an integer grid.
 //!
 //! Chart maps arrive in mesh units, all at one density. The order in which they are placed and the
-//! angle of each are searched on a coarse raster, a [`Draft`]. On one square page all charts are then moved and turned at once
-//! until their square gets no smaller, and their distances are measured. On several pages, where there are many charts, and where
-//! that fails, they are packed at one scale by a conservative raster, with a gap that is counted in texels. Every
+//! angle of each are searched on a coarse raster, a [`Draft`]. On square pages all charts of a page are then moved and turned at
+//! once until their square gets no smaller, and their distances are measured. On other pages, where there are many charts, and
+//! where that fails, they are packed at one scale by a conservative raster, with a gap that is counted in texels. Every
 //! vertex is rounded to a multiple of 2⁻²³, which `f32` holds exactly. Rounding may take the area of
 //! a triangle that was positive in `f64`: such places are repaired, vertices moving no farther than
 //! they must, and what leaves this module is positive in exact integer arithmetic.

@@ -39,7 +39,7 @@ pub fn pack_draft(
             None => (searched(draft, options), None),
         },
     };
-    if options.scale == Scale::Largest
+    if found.is_none()
         && let Some((outlines, layout)) = drafts.first().and_then(|draft| draft.tight(options))
     {
         let snapped = snapped(charts, &outlines, &layout)?;

@@ -7,7 +7,7 @@ use super::layout::Layout;
 use super::outline::Outline;
 use super::spot::{Corner, Spot};
 use super::squeeze::{Body, Squeezed};
-use super::{AtlasOptions, GRID_SIDE};
+use super::{AtlasOptions, Scale};
 use crate::certificate::{Bounds, BoxTree, Visit, bounds_of, search_budget, segment_distance};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -22,41 +22,134 @@ const SHARE: u64 = 16;
 /// Places to a cell.
 const PLACES: f64 = 64.0;
 
-/// A layout near a squeezed one, in cells; none where charts could not be brought as far apart as they must be, or where one is so
-/// small that it has to be enlarged.
+/// Charts of one page that were squeezed.
+#[derive(Clone)]
+pub(super) struct Page {
+    pub number: u32,
+    /// Which, in the order of the poses.
+    pub charts: Vec<usize>,
+    pub squeezed: Squeezed,
+}
+
+/// A layout near squeezed pages, in cells; none where charts could not be brought as far apart as they must be, where they do not
+/// fit at the scale that is given, or where one is so small that it has to be enlarged.
 ///
-/// `outlines` are turned as the squeezed poses say relative to `level`, of which one mesh unit is `scale` cells.
+/// Outlines are turned as the squeezed poses say relative to `level`, of which one mesh unit is `scale` cells.
 pub(super) fn layout(
     level: &[&Outline],
-    mut squeezed: Squeezed,
+    pages: &[Page],
     scale: f64,
     options: &AtlasOptions,
 ) -> Option<(Vec<Outline>, Layout)> {
-    let texels = f64::from(options.packed_texels());
-    let padding =
-        |side: f64| texels * side / (f64::from(options.texture.resolution.longer()) - texels);
-    let kept = padding(squeezed.side);
-    let bodies: Vec<Arc<Body>> = (level.par_iter())
-        .map(|outline| Arc::new(Body::new(outline, scale, kept)))
-        .collect();
-    let (mut room, mut best) = (0.0, None);
-    for _ in 0..ROUNDS {
-        if !squeezed.loosen(&bodies, room, options.search_words / SHARE) {
-            break;
+    let tight = Tight {
+        level,
+        scale,
+        options,
+    };
+    let placed = (0..pages.len()).map(|i| {
+        let others = pages.iter().enumerate().filter(|&(j, _)| j != i);
+        let least = others.map(|(_, page)| page.squeezed.side);
+        tight.places(&pages[i], least.fold(0.0, f64::max))
+    });
+    tight.layout(pages, placed.collect::<Option<_>>()?)
+}
+
+/// Charts to be placed, in cells.
+struct Tight<'a> {
+    level: &'a [&'a Outline],
+    /// Cells to the mesh unit.
+    scale: f64,
+    options: &'a AtlasOptions,
+}
+
+impl Tight<'_> {
+    /// The charts of a page as near to each other as they may be where the largest page has at least the side `least`.
+    fn places(&self, page: &Page, least: f64) -> Option<Places> {
+        let mut squeezed = page.squeezed.clone();
+        let kept = self.padding(squeezed.side);
+        let level: Vec<&Outline> = page.charts.iter().map(|&chart| self.level[chart]).collect();
+        let bodies: Vec<Arc<Body>> = (level.par_iter())
+            .map(|outline| Arc::new(Body::new(outline, self.scale, kept)))
+            .collect();
+        let (mut room, mut best) = (0.0, None);
+        for _ in 0..ROUNDS {
+            if !squeezed.loosen(&bodies, room, self.options.search_words / SHARE) {
+                break;
+            }
+            let places = Places::new(&level, &squeezed, self.scale);
+            let missing = self.padding(places.side.max(least)) + 2.0 * ROUNDED - places.gap;
+            if missing <= 0.0 && self.around(places.side) <= self.page(places.side) {
+                best = Some(places);
+            }
+            if (-2.0 * SPARE..=0.0).contains(&missing) {
+                break;
+            }
+            room += missing + SPARE;
         }
-        let places = Places::new(level, &squeezed, scale);
-        let padding = padding(places.side);
-        let missing = padding + 2.0 * ROUNDED - places.gap(scale);
-        if missing <= 0.0 {
-            best = Some((places, padding));
-        }
-        if (-2.0 * SPARE..=0.0).contains(&missing) {
-            break;
-        }
-        room += missing + SPARE;
+        best
     }
-    let (places, padding) = best?;
-    places.layout(scale, padding, options)
+
+    /// Cells to a texel, where charts reach so far on the largest page.
+    fn texel(&self, side: f64) -> f64 {
+        let longer = f64::from(self.options.texture.resolution.longer());
+        match self.options.scale {
+            Scale::Largest => side / (longer - f64::from(self.options.packed_texels())),
+            Scale::TexelsPerUnit(texels) => self.scale / texels,
+        }
+    }
+
+    /// Cells between charts.
+    fn padding(&self, side: f64) -> f64 {
+        f64::from(self.options.packed_texels()) * self.texel(side)
+    }
+
+    /// Cells along the side of charts with their borders, and along the side of a page.
+    fn around(&self, side: f64) -> f64 {
+        side + self.padding(side) + 2.0 * ROUNDED
+    }
+
+    fn page(&self, side: f64) -> f64 {
+        match self.options.scale {
+            Scale::Largest => self.around(side),
+            Scale::TexelsPerUnit(_) => {
+                f64::from(self.options.texture.resolution.longer()) * self.texel(side)
+            }
+        }
+    }
+
+    fn layout(&self, pages: &[Page], placed: Vec<Places>) -> Option<(Vec<Outline>, Layout)> {
+        let sides = placed.iter().map(|places| places.side);
+        let side = sides.max_by(f64::total_cmp)?;
+        let padding = self.padding(side);
+        let cell = self.options.texture.grid_side() / (PLACES * self.page(side));
+        let scale = PLACES * self.scale * cell;
+        let mut outlines: Vec<Outline> = self.level.iter().copied().cloned().collect();
+        let mut charts = vec![(Spot::default(), 1.0); outlines.len()];
+        for (page, places) in pages.iter().zip(placed) {
+            let is_small = |outline: &Outline| stretch(outline, scale) > 1.0;
+            if places.gap < padding + 2.0 * ROUNDED || places.outlines.iter().any(is_small) {
+                return None;
+            }
+            let placed = places.outlines.into_iter().zip(places.corners);
+            for (&chart, (outline, [x, y])) in page.charts.iter().zip(placed) {
+                outlines[chart] = outline;
+                charts[chart].0.corner = Corner {
+                    page: page.number,
+                    x,
+                    y,
+                };
+            }
+        }
+        let layout = Layout {
+            scale,
+            cell,
+            border: PLACES * (padding / 2.0 + ROUNDED),
+            spare: PLACES * ROUNDED,
+            padding_texels: f64::from(self.options.padding_texels),
+            charts,
+        };
+        Some((outlines, layout))
+    }
 }
 
 /// Charts at rounded places.
@@ -64,8 +157,9 @@ struct Places {
     outlines: Vec<Outline>,
     /// Lower left corners, in parts of a cell.
     corners: Vec<[u32; 2]>,
-    /// Side of the square around them, in cells.
+    /// Side of the square around them, and the smallest distance of two charts, in cells.
     side: f64,
+    gap: f64,
 }
 
 impl Places {
@@ -86,17 +180,19 @@ impl Places {
             outlines,
             corners,
             side: 0.0,
+            gap: 0.0,
         };
         let placed = places.outlines.iter().zip(&places.corners);
         let reach = placed.flat_map(|(outline, corner)| {
             [0, 1].map(|k| f64::from(corner[k]) / PLACES + outline.extent[k] * scale)
         });
         places.side = reach.fold(0.0, f64::max);
+        places.gap = places.smallest_gap(scale);
         places
     }
 
     /// The smallest distance of two charts, in cells.
-    fn gap(&self, scale: f64) -> f64 {
+    fn smallest_gap(&self, scale: f64) -> f64 {
         let mut edges = Vec::new();
         let mut charts = Vec::new();
         for ((chart, outline), corner) in (0..).zip(&self.outlines).zip(&self.corners) {
@@ -111,36 +207,5 @@ impl Places {
             (gap, Visit::Complete) => gap,
             (_, Visit::Truncated) => 0.0,
         }
-    }
-
-    fn layout(
-        self,
-        scale: f64,
-        padding: f64,
-        options: &AtlasOptions,
-    ) -> Option<(Vec<Outline>, Layout)> {
-        let border = PLACES * (padding / 2.0 + ROUNDED);
-        let cell = GRID_SIDE / (PLACES * self.side + 2.0 * border);
-        let scale = PLACES * scale * cell;
-        let fits = |outline: &Outline| stretch(outline, scale) <= 1.0;
-        if !self.outlines.iter().all(fits) {
-            return None;
-        }
-        let spots = self.corners.iter().map(|&[x, y]| {
-            let spot = Spot {
-                corner: Corner { page: 0, x, y },
-                ..Spot::default()
-            };
-            (spot, 1.0)
-        });
-        let layout = Layout {
-            scale,
-            cell,
-            border,
-            spare: PLACES * ROUNDED,
-            padding_texels: f64::from(options.padding_texels),
-            charts: spots.collect(),
-        };
-        Some((self.outlines, layout))
     }
 }

@@ -1,19 +1,17 @@
 //! Few charts under a bound on their distortion.
 
-use super::chart::{Cut, charts};
-use super::distortion::{excess_and_area, stretched_area};
+use super::chart::{Chart, Cut, charts};
+use super::distortion::stretched_area;
 use super::give_back::given_back;
 use super::mapped::{Folds, MappedChart, Observer, map_chart};
+use super::piece::Piece;
 use super::quality::Bound;
+use super::simplified::Simplified;
 use super::slits::Slits;
 use crate::embed;
 use crate::mesh::Surface;
 use crate::solver::Control;
 use rayon::prelude::*;
-
-/// Mapped excess over predicted, before a chart has been mapped: a map trades angles for areas and does better than the
-/// conformal flattening it is predicted by. Measured on 14 meshes: 0.1 to 0.3.
-const MAPPED_OVER_PREDICTED: f64 = 0.17;
 
 /// What each round promises of what the one before promised.
 const PROMISE: f64 = 0.95;
@@ -22,12 +20,12 @@ const PROMISE: f64 = 0.95;
 /// too much nothing comes back. With more of them a round costs seconds.
 const PATIENT: usize = 30_000;
 
+/// Triangles of a chart from which on its first slits are planned on a simplification, and the vertices of that.
+const LARGE: usize = 60_000;
+const SIMPLE: usize = 10_000;
+
 /// The share of the mean excess that is aimed at where the stretch is too large.
 const TIGHTER: f64 = 0.7;
-
-/// The least and most that [`MAPPED_OVER_PREDICTED`] may become where a map says otherwise. One that got stuck far from its optimum
-/// would ask for dozens of slits; the next round shows what is really missing.
-const LEAST_AND_MOST_RATIO: [f64; 2] = [0.05, 0.5];
 
 /// Rounds of cutting and mapping at most. One to three are the rule.
 const MOST_ROUNDS: usize = 8;
@@ -61,7 +59,7 @@ pub fn charts_under_bound(
         .into_par_iter()
         .with_max_len(1)
         .flat_map_iter(|chart| map_chart(chart, options, Folds::Cut, observer))
-        .map(|map| Piece::of(map, MAPPED_OVER_PREDICTED))
+        .map(Piece::of)
         .collect();
     let better = if mean_excess(&divided) < mean_excess(&slit) {
         divided
@@ -69,17 +67,6 @@ pub fn charts_under_bound(
         slit
     };
     maps(better)
-}
-
-/// A chart on its way below the bound.
-struct Piece {
-    slits: Option<Slits>,
-    map: Option<MappedChart>,
-    /// What the map costs, or is expected to cost with the slits that are planned; and the area it is spent on.
-    excess: f64,
-    area: f64,
-    /// Mapped excess over predicted, as last seen here.
-    ratio: f64,
 }
 
 fn mean_excess(pieces: &[Piece]) -> f64 {
@@ -108,15 +95,52 @@ fn slit_and_mapped(
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<Piece> {
-    let mut pieces: Vec<Piece> = charts(surface, Cut::Auto)
-        .into_par_iter()
-        .map(|chart| Piece::unmapped(Slits::new(chart)))
-        .collect();
+    let first = |chart: Chart| {
+        if chart.disk.triangles.len() < LARGE {
+            return vec![Piece::unmapped(chart)];
+        }
+        let parts = slit_as_simplified(chart, bound, options, observer).into_iter();
+        let maps = parts.flat_map(|part| map_chart(part, options, Folds::Cut, observer));
+        maps.map(Piece::of).collect()
+    };
+    let pieces = charts(surface, Cut::Auto);
+    let pieces = pieces.into_par_iter().with_max_len(1).flat_map_iter(first);
+    rounds(pieces.collect(), bound, options, observer, |_| ())
+}
+
+/// A chart with the slits that its simplification needs to keep the bound: large charts are mapped once or twice, not in every round.
+fn slit_as_simplified(
+    chart: Chart,
+    bound: &Bound,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<Chart> {
+    let Some(simple) = Simplified::new(&chart, SIMPLE) else {
+        return vec![chart];
+    };
+    let mut tips = Vec::new();
+    let pieces = vec![Piece::unmapped(simple.chart.clone())];
+    rounds(pieces, bound, options, observer, |slits| {
+        tips.extend(slits.tips().map(|corner| simple.vertex(corner)));
+    });
+    Slits::from_tips(chart, &tips).opened()
+}
+
+/// Slits and maps pieces in rounds until their maps keep the bound, or that is hopeless; `see` is shown what is slit.
+fn rounds(
+    mut pieces: Vec<Piece>,
+    bound: &Bound,
+    options: &embed::Options,
+    observer: &dyn Observer,
+    mut see: impl FnMut(&Slits),
+) -> Vec<Piece> {
+    let n_faces: usize = pieces.iter().map(Piece::n_faces).sum();
     let budget = bound.budget();
     let mut wanted = budget;
     let mut before = f64::INFINITY;
     for round in 0..MOST_ROUNDS {
         slit(&mut pieces, wanted, observer);
+        pieces.iter().filter_map(Piece::slits).for_each(&mut see);
         pieces = pieces
             .into_par_iter()
             .with_max_len(1)
@@ -130,7 +154,7 @@ fn slit_and_mapped(
         wanted = if reached > budget {
             // Where maps keep falling short of what they promised, less is promised.
             let promised = budget * PROMISE.powi(round as i32);
-            if surface.triangles.len() <= PATIENT {
+            if n_faces <= PATIENT {
                 (reached * promised).sqrt().min(2.0 * promised)
             } else {
                 promised
@@ -166,64 +190,5 @@ fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
         let is_far = expected > 2.0 * wanted * area;
         is_done[worst] = !pieces[worst].cut(is_far);
         expected += pieces[worst].excess;
-    }
-}
-
-impl Piece {
-    fn unmapped(slits: Slits) -> Self {
-        Self {
-            excess: MAPPED_OVER_PREDICTED * slits.excess,
-            area: slits.area,
-            slits: Some(slits),
-            map: None,
-            ratio: MAPPED_OVER_PREDICTED,
-        }
-    }
-
-    fn of(map: MappedChart, ratio: f64) -> Self {
-        let [excess, area] = excess_and_area(&map);
-        Self {
-            slits: None,
-            map: Some(map),
-            excess,
-            area,
-            ratio,
-        }
-    }
-
-    /// Plans a slit, or several; false if there is nothing to slit.
-    fn cut(&mut self, is_far: bool) -> bool {
-        let slits = match (&mut self.slits, &self.map) {
-            (Some(slits), _) => slits,
-            (none, Some(map)) => {
-                let slits = Slits::new(map.chart.clone());
-                let [least, most] = LEAST_AND_MOST_RATIO;
-                let measured = self.excess / slits.excess.max(f64::MIN_POSITIVE);
-                self.ratio = measured.clamp(least, most);
-                none.insert(slits)
-            }
-            (None, None) => return false,
-        };
-        let is_cut = slits.cut(is_far);
-        if is_cut {
-            self.excess = self.ratio * slits.excess;
-        }
-        is_cut
-    }
-
-    /// Mapped, unless it is and no slit is new.
-    fn mapped(self, options: &embed::Options, observer: &dyn Observer) -> Vec<Self> {
-        match self.slits {
-            Some(slits) if self.map.is_none() || slits.is_cut() => slits
-                .opened()
-                .into_iter()
-                .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
-                .map(|map| Self::of(map, self.ratio))
-                .collect(),
-            _ => vec![Self {
-                slits: None,
-                ..self
-            }],
-        }
     }
 }

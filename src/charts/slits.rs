@@ -1,12 +1,10 @@
-//! Slits cut into a chart where it would be distorted most.
+//! Slits cut into a chart from its boundary.
 
 use super::Chart;
 use super::crease::edge_costs;
 use super::part::{parts, twins};
-use super::predictor::Predictor;
 use crate::cut::{Neighbors, Sheet, distances_until};
 use crate::mesh::CUT;
-use crate::numerics::vec3::distance;
 
 /// A chart and the slits that are planned in it.
 pub struct Slits {
@@ -15,21 +13,13 @@ pub struct Slits {
     neighbors: Neighbors,
     /// For each halfedge what a seam along it costs.
     cost: Vec<f64>,
-    predictor: Predictor,
-    /// For each vertex the loop of the boundary that it lies on, or whose slits it lies on; that with most edges is 0.
+    /// For each vertex of the sheet the loop of the boundary that it lies on, or whose slits it lies on; that with most edges is 0.
     seam: Vec<Option<u32>>,
-    log_scale: Vec<f64>,
+    /// Where slits were begun, in their order: a vertex inside, or one of a hole.
+    tips: Vec<u32>,
     /// Halfedges along the slits.
     edges: Vec<u32>,
-    /// What the predictor says of the chart with these slits, see [`Predictor::excess`].
-    pub excess: f64,
-    /// The chart's area.
-    pub area: f64,
 }
-
-/// Vertices for which one more slit may be planned at once, far from the goal: with a large chart a factorization costs more than
-/// a slit that is a little less well chosen.
-const VERTICES_PER_SLIT: usize = 5_000;
 
 impl Slits {
     /// No slit yet.
@@ -38,83 +28,91 @@ impl Slits {
         let label = vec![0; chart.disk.triangles.len()];
         let mesh = (&*chart.disk.triangles, &*chart.positions);
         let sheet = Sheet::divide(mesh, &twin, &label, 1).swap_remove(0);
-        let neighbors = Neighbors::new(&sheet);
-        let mut predictor = Predictor::new(&sheet.positions, sheet.vertex.as_chunks().0);
-        let seam = boundary_loops(&chart, &sheet);
-        let log_scale = predictor.log_scale(&are_some(&seam));
         Self {
-            excess: predictor.excess(&log_scale),
-            area: predictor.area(),
+            neighbors: Neighbors::new(&sheet),
             cost: edge_costs(&sheet),
+            seam: boundary_loops(&chart, &sheet),
+            tips: Vec::new(),
             edges: Vec::new(),
             chart,
             sheet,
-            neighbors,
-            predictor,
-            seam,
-            log_scale,
         }
     }
 
-    /// Slits the chart from the nearest seam to the vertex whose scale differs most from that of the boundary, or else from a
-    /// hole; false if there is neither. With `is_far` also to the next such vertices, as long as they lie farther from the
-    /// slits that are new than these are long. One factorization.
-    pub fn cut(&mut self, is_far: bool) -> bool {
-        let most = if is_far {
-            1 + self.seam.len() / VERTICES_PER_SLIT
-        } else {
-            1
-        };
-        // The tips of the slits and their lengths.
-        let mut new: Vec<([f64; 3], f64)> = Vec::new();
-        while new.len() < most {
-            let Some(tip) = self.worst_vertex(&new) else {
-                break;
-            };
-            let Some((length, hole)) = self.slit([tip], None) else {
-                break;
-            };
-            self.slit_from(hole);
-            new.push((self.sheet.positions[tip as usize], length));
+    /// Slits from some vertices of the chart, one after the other.
+    pub fn from_tips(chart: Chart, tips: &[u32]) -> Self {
+        let mut slits = Self::new(chart);
+        let mut in_sheet = vec![0; slits.chart.disk.n_vertices];
+        let corners = slits.chart.disk.triangles.as_flattened();
+        for (&v, &numbered_anew) in corners.iter().zip(&slits.sheet.vertex) {
+            in_sheet[v as usize] = numbered_anew;
         }
-        if new.is_empty() && (self.is_cut() || !self.slit_from_largest_hole()) {
-            return false;
+        for &tip in tips {
+            let tip = in_sheet[tip as usize];
+            if let Some(hole) = slits.seam[tip as usize] {
+                slits.slit_from(hole);
+            } else {
+                slits.slit_to(tip);
+            }
         }
-        self.log_scale = self.predictor.log_scale(&are_some(&self.seam));
-        self.excess = self.predictor.excess(&self.log_scale);
-        true
+        slits
     }
 
-    /// The vertex off the seams whose scale is farthest from 1, not near the new slits.
-    fn worst_vertex(&self, new: &[([f64; 3], f64)]) -> Option<u32> {
-        let position = |v: u32| self.sheet.positions[v as usize];
-        let is_near = |v: u32| {
-            new.iter()
-                .any(|&(tip, length)| distance(position(v), tip) < length)
-        };
-        (0u32..)
-            .zip(&self.log_scale)
-            .filter(|&(v, &u)| u != 0.0 && self.seam[v as usize].is_none() && !is_near(v))
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()).then(b.0.cmp(&a.0)))
-            .map(|(v, _)| v)
+    /// For each slit a corner of the surface where it was begun.
+    pub fn tips(&self) -> impl Iterator<Item = u32> {
+        let corners = self.chart.corners.as_flattened();
+        let first = |tip: &u32| self.sheet.vertex.iter().position(|v| v == tip);
+        let first = self.tips.iter().filter_map(first);
+        first.map(|corner| corners[corner])
+    }
+
+    /// The chart's triangles, in vertices numbered anew, and the positions of these.
+    pub fn mesh(&self) -> (&[[u32; 3]], &[[f64; 3]]) {
+        (self.sheet.vertex.as_chunks().0, &self.sheet.positions)
+    }
+
+    /// For each vertex of [`mesh`](Self::mesh) whether it lies on the boundary or a slit.
+    pub fn is_seam(&self) -> Vec<bool> {
+        self.seam.iter().map(Option::is_some).collect()
+    }
+
+    /// Plans the cheapest slit from the nearest seam to a vertex inside: its length; none if there is no seam.
+    ///
+    /// A hole that it starts at is slit on from.
+    pub fn slit_to(&mut self, tip: u32) -> Option<f64> {
+        let (length, hole) = self.slit([tip], None)?;
+        self.tips.push(tip);
+        self.open(hole);
+        Some(length)
     }
 
     /// Plans the cheapest slit from the hole with most edges to another seam; false if there is no hole.
     ///
     /// The predictor lets holes be as they are. A tube has no curvature, so it sees nothing to slit there, and yet the map that
     /// leaves the tube whole is a ring.
-    fn slit_from_largest_hole(&mut self) -> bool {
+    pub fn slit_from_largest_hole(&mut self) -> bool {
         let holes = 1..self.chart.disk.loops.len() as u32;
         let has_edges = |hole: &u32| self.chart.disk.loops[*hole as usize].len();
         let hole = holes.rev().max_by_key(has_edges);
         hole.is_some_and(|hole| self.slit_from(hole))
     }
 
+    /// The same from this hole; false if there is nothing to do.
+    fn slit_from(&mut self, hole: u32) -> bool {
+        let of_hole = |seam: &Option<u32>| *seam == Some(hole);
+        let tip = self.seam.iter().position(of_hole);
+        let is_new = self.open(hole);
+        if is_new {
+            self.tips.extend(tip.map(|v| v as u32));
+        }
+        is_new
+    }
+
     /// Plans slits on from a hole until it hangs together with the outer boundary; false if there is nothing to do.
     ///
     /// A hole alone leaves the surface around it as it is. One with slits to it opens, and the surface wrapped around it could be
     /// laid into the plane only as a ring.
-    fn slit_from(&mut self, hole: u32) -> bool {
+    fn open(&mut self, hole: u32) -> bool {
         let mut seam = hole;
         while seam != 0 {
             let of_seam = |(v, s): (u32, &Option<u32>)| (*s == Some(seam)).then_some(v);
@@ -186,8 +184,4 @@ fn boundary_loops(chart: &Chart, sheet: &Sheet) -> Vec<Option<u32>> {
         of_sheet[numbered_anew as usize] = of_chart[v as usize];
     }
     of_sheet
-}
-
-fn are_some<T>(values: &[Option<T>]) -> Vec<bool> {
-    values.iter().map(Option::is_some).collect()
 }

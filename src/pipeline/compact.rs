@@ -2,8 +2,7 @@
 
 use super::packed::chart_maps;
 use super::settings::Settings;
-use crate::atlas::{AtlasError, AtlasOptions, Draft, Texture};
-use crate::certificate::Resolution;
+use crate::atlas::{AtlasError, AtlasOptions, Draft, Scale, Texture};
 use crate::charts::{MappedChart, Split};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -17,6 +16,8 @@ const MOST_CUTS: u64 = 12;
 const MOST_CUTS_PER_CHART: u64 = 8;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
 const MOST_CHARTS: usize = 64;
+/// What cuts may cost at most, as a share of the square.
+const MOST_COST: f64 = 1.0;
 /// Words for packing without which one more cut is not looked at.
 const WORDS_PER_CUT: u64 = 4_000_000;
 
@@ -59,13 +60,7 @@ pub(super) fn compacted(
         .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
     let seam_weight = settings.seam_weight * settings.quality.seam_price();
-    let candidates = candidates(
-        charts,
-        draft,
-        seam_weight,
-        most_cuts as usize,
-        options.texture,
-    )?;
+    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize, options)?;
     let Candidate { charts, draft, .. } = fullest(candidates, words);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
@@ -80,12 +75,20 @@ struct Candidate {
     draft: Draft,
     /// What the cuts cost, as a share of the square.
     cost: f64,
+    /// The share of the square that they have to fill, where a scale is given.
+    wanted: Option<f64>,
 }
 
 impl Candidate {
-    /// The share of the square that is filled, less what the cuts cost.
+    /// The share of the square that is filled, less what the cuts cost. Where a scale is given what is filled beyond that is worth
+    /// nothing, and charts that fill it are worth more than any that do not.
     fn value(&self) -> f64 {
-        self.draft.fill() - self.cost
+        let fill = self.draft.fill();
+        match self.wanted {
+            None => fill - self.cost,
+            Some(wanted) if fill < wanted => fill - wanted - MOST_COST,
+            Some(_) => -self.cost,
+        }
     }
 }
 
@@ -95,13 +98,13 @@ fn candidates(
     draft: Draft,
     seam_weight: f64,
     most_cuts: usize,
-    texture: Texture,
+    options: &AtlasOptions,
 ) -> Result<Vec<Candidate>, AtlasError> {
     let area = charts.iter().map(MappedChart::area).sum::<f64>();
-    let Resolution { width, height } = texture.resolution;
+    let Texture { resolution, pages } = options.texture;
+    let [shorter, longer] = [resolution.shorter(), resolution.longer()].map(f64::from);
     // A chart has to fit across a page that is not square, but may be longer than it is wide.
-    let slender = (f64::from(width.min(height)) / f64::from(width.max(height))).sqrt();
-    let of_page = (area / f64::from(texture.pages) * slender).sqrt();
+    let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
     let per_chart = PER_CHART * area.sqrt();
     let outlines = charts.iter().map(MappedChart::perimeter).sum::<f64>() / 2.0;
     let price = PRICE * seam_weight / outlines.max(f64::MIN_POSITIVE);
@@ -109,10 +112,16 @@ fn candidates(
         charts: charts.into_iter().map(Arc::new).collect(),
         draft,
         cost: 0.0,
+        wanted: match options.scale {
+            Scale::Largest => None,
+            Scale::TexelsPerUnit(texels) => {
+                Some(area * texels * texels / (shorter * longer * f64::from(pages)))
+            }
+        },
     };
     let mut splits = best_splits(&candidate.charts, of_page);
     let mut candidates = vec![candidate.clone()];
-    while candidates.len() <= most_cuts && candidate.cost < 1.0 {
+    while candidates.len() <= most_cuts && candidate.cost < MOST_COST {
         let Some((chart, split)) = most_worth(&splits) else {
             break;
         };

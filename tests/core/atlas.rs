@@ -296,6 +296,20 @@ fn charts_come_as_near_as_they_may() {
 }
 
 #[test]
+fn charts_of_which_one_is_enlarged_lie_on_the_raster() {
+    // Squeezed charts all have one scale, at which this one has no cell of the grid.
+    let mut charts: Vec<Chart> = (0..5).map(|i| blob(1.0, 2 + i, 0.2)).collect();
+    let squeezed = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    charts.push(blob(1e-9, 3, 0.2));
+    let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+    assert_eq!([squeezed.enlarged_charts, atlas.enlarged_charts], [0, 1]);
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+    let kept = atlas.utilization / squeezed.utilization;
+    assert!((0.9..1.0).contains(&kept), "{kept}");
+}
+
+#[test]
 fn a_draft_becomes_fuller_when_a_chart_is_cut() {
     let options = AtlasOptions::default();
     let whole = bar(4);

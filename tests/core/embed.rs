@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use unwrapd::barrier::{BarrierKind, NoBarrier};
 use unwrapd::embed::{
     Corners, InvalidStart, Options, Star, hierarchical_start, optimize, parameterize, rest_shapes,
-    start,
+    simplified, start,
 };
 use unwrapd::energy::{EnergyKind, RestShape, SymmetricDirichlet, Term, Triangles};
 use unwrapd::mesh::Disk;
@@ -211,6 +211,22 @@ fn a_flat_disk_comes_back_as_it_is() {
             assert!((ratio - 1.0).abs() < 0.01, "{a} {b}: {ratio}");
         }
     }
+}
+
+#[test]
+fn a_simplified_disk_keeps_its_holes_and_area() {
+    let is_hole = |x, y| [20, 60].contains(&x) && (40..50).contains(&y);
+    let plane = |x, y| [x as f64, y as f64, 0.0];
+    let (disk, positions) = grid(80, is_hole, plane);
+    let (simple, vertices) = simplified(&disk, &positions, 200).expect("a disk");
+    assert!(simple.n_vertices < 400, "{}", simple.n_vertices);
+    assert_eq!(vertices.len(), simple.n_vertices);
+    assert_eq!(simple.loops.len(), 3);
+    let flat = |v: &u32| positions[*v as usize][..2].try_into().expect("a point");
+    let kept: Vec<[f64; 2]> = vertices.iter().map(flat).collect();
+    let whole: Vec<[f64; 2]> = (0..disk.n_vertices as u32).map(|v| flat(&v)).collect();
+    let ratio = area(&simple, &kept) / area(&disk, &whole);
+    assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
 }
 
 #[test]

@@ -174,6 +174,27 @@ fn a_scale_that_is_given_is_kept_on_the_first_pages() {
 }
 
 #[test]
+fn a_scale_that_one_placement_misses_is_searched_and_squeezed_for() {
+    let charts = fans(9);
+    for pages in [1, 2] {
+        let largest = AtlasOptions {
+            search_words: 50_000_000,
+            ..options(512, 512, pages)
+        };
+        let fullest = pack(&maps(&charts), &largest).expect("a layout");
+        let options = AtlasOptions {
+            scale: Scale::TexelsPerUnit(0.995 * fullest.scale * 512.0),
+            ..largest
+        };
+        assert!(!fits(&maps(&charts), &options).expect("charts"));
+        let atlas = pack(&maps(&charts), &options).expect("a layout");
+        assert!((atlas.scale / fullest.scale / 0.995 - 1.0).abs() < 1e-12);
+        let certificate = judged(&mesh(&charts, &atlas), options.texture, 2);
+        assert!(certificate.is_bijective() && certificate.padding.expect("asked for").kept);
+    }
+}
+
+#[test]
 fn what_is_named_for_a_texture_that_is_too_small_does() {
     let charts = fans(30);
     let options = AtlasOptions {

@@ -329,6 +329,17 @@ fn an_atlas_keeps_its_bound_with_few_charts() {
 }
 
 #[test]
+fn large_charts_keep_their_bound_with_slits_planned_on_simpler_ones() {
+    let seam = |[n, m]: [u32; 2]| {
+        let measures = unwrapped_under(Quality::Balanced, &zoo::sphere(n, m));
+        assert!(measures.seams.charts <= 12, "{n} x {m}");
+        measures.seams.seam_length
+    };
+    let [small, large] = [[64, 63], [192, 191]].map(seam);
+    assert!(large < 1.3 * small, "{large} beside {small}");
+}
+
+#[test]
 fn a_tube_is_cut_open() {
     // Without curvature, but whole it is a ring with an energy of more than 5.
     let mesh = zoo::tube(48, 2.0);

@@ -12,8 +12,8 @@ use super::plan::{Plan, by_size, level};
 use super::poses::Poses;
 use super::sheet::Sheet;
 use super::spot::Corner;
-use super::squeeze::Squeezed;
 use super::texture::{Form, Texture};
+use super::tight::Page;
 use super::{AtlasError, AtlasOptions, ChartMap, Turns};
 
 /// Cells along the side of the square page that the charts are expected to need. With 128 a cell is too much for the gaps that
@@ -39,9 +39,9 @@ pub struct Draft {
     poses: Vec<Arc<Poses>>,
     raster: Raster,
     state: Arrangement,
-    /// The same, or what a better state became, when charts made room for each other, in the order of their sizes.
-    squeezed: Option<Squeezed>,
-    /// That order.
+    /// What that or a better one became when charts made room for each other, on square pages; none before the first search.
+    pages: Vec<Page>,
+    /// The charts in the order of their sizes.
     by_size: Vec<usize>,
 }
 
@@ -119,7 +119,7 @@ impl Draft {
             poses,
             raster,
             state,
-            squeezed: None,
+            pages: Vec::new(),
             by_size,
         })
     }
@@ -132,9 +132,14 @@ impl Draft {
 
     /// Side of the square, in cells.
     fn side(&self) -> f64 {
-        let squeezed = self.squeezed.as_ref().map(|squeezed| squeezed.side);
-        squeezed.unwrap_or(f64::INFINITY).min(self.state.cost)
+        squeezed_side(&self.pages).min(self.state.cost)
     }
+}
+
+/// The side of the largest page, infinite without pages.
+fn squeezed_side(pages: &[Page]) -> f64 {
+    let sides = pages.iter().map(|page| page.squeezed.side);
+    sides.max_by(f64::total_cmp).unwrap_or(f64::INFINITY)
 }
 
 impl Raster {
@@ -146,9 +151,9 @@ impl Raster {
         Arc::new(Poses::new(outline, self.scale, distances))
     }
 
-    /// Whether there is one page, a square: only there charts are squeezed.
-    fn is_one_square(self) -> bool {
-        self.texture.pages == 1 && self.texture.resolution.halvings() == [0; 2]
+    /// Whether pages are squares: only there charts are squeezed.
+    fn is_square(self) -> bool {
+        self.texture.resolution.halvings() == [0; 2]
     }
 
     /// Cells along the longer side of the page that the charts are expected to need.

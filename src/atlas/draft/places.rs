@@ -6,17 +6,16 @@ use crate::atlas::layout::Layout;
 use crate::atlas::outline::Outline;
 use crate::atlas::plan::{Near, Plan, QuarterTurns};
 use crate::atlas::poses::Poses;
-use crate::atlas::spot::Spot;
 use crate::atlas::squeeze::{Pose, Squeezed};
-use crate::atlas::tight;
+use crate::atlas::tight::{self, Page};
 
 /// Cells of a finer raster for each of those, where few words may be read and where many.
 const FINE: [f64; 2] = [1.0, 4.0];
 const MANY_WORDS: u64 = 100_000_000;
 
 impl Draft {
-    /// The arrangement as places and angles.
-    pub(super) fn loose(&self) -> Squeezed {
+    /// The arrangement as places and angles, of the pages that have charts.
+    pub(super) fn loose(&self) -> Vec<Page> {
         let pose = |&chart: &usize| {
             let (poses, pose) = (&self.poses[chart], self.state.pose[chart]);
             let middle = poses.outline(pose).place(poses.outline(0).middle());
@@ -35,31 +34,32 @@ impl Draft {
             ];
             Pose::new(middle, Poses::angle(pose))
         };
-        Squeezed {
-            poses: self.by_size.iter().map(pose).collect(),
-            side: f64::from(self.state.side),
-        }
+        let page = |number: u32| {
+            let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;
+            let charts: Vec<usize> = self.by_size.iter().filter(is_here).copied().collect();
+            let squeezed = Squeezed {
+                poses: charts.iter().map(pose).collect(),
+                side: f64::from(self.state.side),
+            };
+            Page {
+                number,
+                charts,
+                squeezed,
+            }
+        };
+        let pages = (0..self.raster.texture.pages).map(page);
+        pages.filter(|page| !page.charts.is_empty()).collect()
     }
 
     /// The charts turned, and a layout in which they lie as near to each other as they may; none where that is not found.
     pub(in crate::atlas) fn tight(&self, options: &AtlasOptions) -> Option<(Vec<Outline>, Layout)> {
-        let mut squeezed = self.squeezed.clone()?;
         let fine = FINE[usize::from(options.search_words >= MANY_WORDS)];
-        squeezed.scale(fine);
-        let level: Vec<&Outline> = self.poses.iter().map(|poses| poses.outline(0)).collect();
-        let moved: Vec<&Outline> = self.by_size.iter().map(|&chart| level[chart]).collect();
-        let (turned, layout) = tight::layout(&moved, squeezed, fine * self.raster.scale, options)?;
-        let mut outlines: Vec<Outline> = level.into_iter().cloned().collect();
-        let mut charts = vec![(Spot::default(), 1.0); outlines.len()];
-        for (&chart, (turned, spot)) in self
-            .by_size
-            .iter()
-            .zip(turned.into_iter().zip(layout.charts))
-        {
-            outlines[chart] = turned;
-            charts[chart] = spot;
+        let mut pages = self.pages.clone();
+        for page in &mut pages {
+            page.squeezed.scale(fine);
         }
-        Some((outlines, Layout { charts, ..layout }))
+        let level: Vec<&Outline> = self.poses.iter().map(|poses| poses.outline(0)).collect();
+        tight::layout(&level, &pages, fine * self.raster.scale, options)
     }
 
     /// The arrangement as a plan for a fine raster.

@@ -2,7 +2,7 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::Draft;
+use super::{Draft, squeezed_side};
 use crate::atlas::arrangement::Arrangement;
 use crate::atlas::squeeze::Body;
 use crate::numerics::random::Random;
@@ -33,27 +33,29 @@ impl Draft {
         drafts
     }
 
-    /// Searches a smaller square; reads about so many words, less of few charts. Never worse than before.
+    /// Searches a smaller square; reads about so many words, less of few charts.
+    ///
+    /// The squeezed layout never gets worse, on pages that are not square the arrangement does not; the arrangement from which a
+    /// squeezed layout comes may, so that searches that follow each other begin at different ones.
     pub fn improve(&mut self, words: u64, seed: u64) {
         if self.state.order.is_empty() {
             return;
         }
         let found = self.annealed(words, &mut Random::new(seed));
-        if !self.raster.is_one_square() {
+        if !self.raster.is_square() {
             if found.cost < self.state.cost {
                 self.state = found;
             }
             return;
         }
         self.state = found;
-        let mut squeezed = self.loose();
-        squeezed.settle(&self.bodies(), words / 2);
-        if self
-            .squeezed
-            .as_ref()
-            .is_none_or(|best| squeezed.side < best.side)
-        {
-            self.squeezed = Some(squeezed);
+        let mut pages = self.loose();
+        let each = words / 2 / pages.len() as u64;
+        for page in &mut pages {
+            page.squeezed.settle(&self.bodies(&page.charts), each);
+        }
+        if squeezed_side(&pages) < squeezed_side(&self.pages) {
+            self.pages = pages;
         }
     }
 
@@ -87,14 +89,18 @@ impl Draft {
 
     /// Lets charts look for other places while about so many words are read.
     fn relocate(&mut self, words: u64, seed: u64) {
-        let bodies = self.bodies();
-        if let Some(squeezed) = &mut self.squeezed {
-            squeezed.search(&bodies, words, seed);
+        let mut pages = std::mem::take(&mut self.pages);
+        let each = words / pages.len().max(1) as u64;
+        for page in &mut pages {
+            page.squeezed.search(&self.bodies(&page.charts), each, seed);
         }
+        self.pages = pages;
     }
 
-    fn bodies(&self) -> Vec<Arc<Body>> {
-        let bodies = self.by_size.iter().map(|&chart| self.poses[chart].body());
-        bodies.collect()
+    fn bodies(&self, charts: &[usize]) -> Vec<Arc<Body>> {
+        charts
+            .iter()
+            .map(|&chart| self.poses[chart].body())
+            .collect()
     }
 }
