@@ -38,7 +38,8 @@ pub fn given_back(
         return charts;
     }
     let mut giving = Giving::new(surface, charts, bound, options, observer);
-    while giving.pass() {}
+    // What covers nothing costs nothing of the bound: it comes first.
+    while giving.pass(0) || giving.pass(MOST_PUSHED) {}
     giving.charts.into_values().collect()
 }
 
@@ -51,6 +52,8 @@ struct Giving<'a> {
     bound: &'a Bound,
     /// The faces of charts on which others were laid.
     grounds: BTreeMap<u32, Ground>,
+    /// Those that were pushed in vain, once for each.
+    in_vain: BTreeSet<u32>,
     /// Faces that may still be glued.
     left: usize,
     options: &'a embed::Options,
@@ -101,14 +104,15 @@ impl<'a> Giving<'a> {
             costs,
             bound,
             grounds: BTreeMap::new(),
+            in_vain: BTreeSet::new(),
             left: MOST_GLUED * surface.triangles.len(),
             options,
             observer,
         }
     }
 
-    /// Tries to give back each chart but the largest, the smallest first; false if none was.
-    fn pass(&mut self) -> bool {
+    /// Tries to give back each chart but the largest, the smallest first, from so many places at most with a push; false if none was.
+    fn pass(&mut self, most_pushed: usize) -> bool {
         let size = |(&number, cost): (&u32, &Cost)| (cost.area.to_bits(), number);
         let mut queue: BTreeSet<(u64, u32)> = self.costs.iter().map(size).collect();
         let n = queue.len();
@@ -116,7 +120,7 @@ impl<'a> Giving<'a> {
             && self.observer.control() == Control::Continue
             && let Some((_, number)) = queue.pop_first()
         {
-            if let Some(neighbor) = self.give_back(number) {
+            if let Some(neighbor) = self.give_back(number, most_pushed) {
                 queue.retain(|&(_, other)| other != neighbor);
                 queue.insert(size((&neighbor, &self.costs[&neighbor])));
             }
@@ -125,7 +129,7 @@ impl<'a> Giving<'a> {
     }
 
     /// Gives a chart back to a neighbor, which is returned.
-    fn give_back(&mut self, number: u32) -> Option<u32> {
+    fn give_back(&mut self, number: u32, most_pushed: usize) -> Option<u32> {
         let runs = self.borders.runs(number, &self.charts);
         let map = &self.charts[&number];
         let mut pushed: Vec<(usize, Run)> = Vec::new();
@@ -143,8 +147,11 @@ impl<'a> Giving<'a> {
                 _ => {}
             }
         }
+        if most_pushed == 0 || !self.in_vain.insert(number) {
+            return None;
+        }
         pushed.sort_by_key(|(n, _)| *n);
-        pushed.truncate(MOST_PUSHED);
+        pushed.truncate(most_pushed);
         for (_, run) in pushed {
             let neighbor = &self.charts[&run.neighbor];
             if let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run)

@@ -3,7 +3,6 @@
 use super::apart::pushed_apart;
 use super::fold::{lengths, one_side, overlaps};
 use super::part::{parted, parts, twins};
-use super::rejoin::rejoined;
 use super::{Chart, halves};
 use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};
@@ -135,8 +134,8 @@ impl MappedChart {
         }
     }
 
-    /// The chart pushed apart where it overlaps itself, or else the parts into which the cheapest seams divide it; each of several is
-    /// optimized again from where it lies, which counts if it does not fold over itself anew.
+    /// The chart pushed apart where it overlaps itself, or else the parts into which the cheapest seams divide it, each optimized
+    /// again from where it lies, which counts if it does not fold over itself anew.
     fn free_of_overlaps(mut self, options: &embed::Options, watch: &dyn Watch) -> Vec<Self> {
         let pairs = overlaps(&self.chart.disk, &self.embedding.uv);
         if pairs.is_empty() {
@@ -147,8 +146,7 @@ impl MappedChart {
         if pairs.is_empty() {
             return vec![self];
         }
-        let parts = self.clone().parted_until_free(pairs.clone());
-        (rejoined(&self, parts, &pairs, options, watch).into_iter())
+        (self.parted_until_free(pairs).into_iter())
             .map(|part| part.relaxed(options, watch))
             .collect()
     }
@@ -281,7 +279,7 @@ fn signed_area(chart: &Chart, uv: &[[f64; 2]]) -> f64 {
 }
 
 /// The pairs of triangles that are both among these, in their numbering.
-pub(super) fn within(faces: &[u32], n_faces: usize, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
+fn within(faces: &[u32], n_faces: usize, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut local = vec![None; n_faces];
     for (i, &face) in (0..).zip(faces) {
         local[face as usize] = Some(i);

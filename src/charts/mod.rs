@@ -15,9 +15,8 @@
 //! its parts fill their convex hulls; whether that pays only a packed atlas can tell.
 //!
 //! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, slight folds are pushed apart; for the others the
-//! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes, and
-//! what was cut off but holds together without them is joined again. Where floating point finds no valid map, a chart is cut into
-//! [`halves()`].
+//! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes. Where
+//! floating point finds no valid map, a chart is cut into [`halves()`].
 //!
 //! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
 //! their neighbors wherever they find room along a common border ([`given_back()`]).
@@ -49,7 +48,6 @@ mod predicted;
 mod predictor;
 mod quality;
 mod regions;
-mod rejoin;
 mod simplified;
 mod slits;
 mod smooth;
@@ -63,7 +61,6 @@ pub use halves::halves;
 pub use mapped::{Folds, MappedChart, Observer, map_chart, map_chart_from};
 pub use min_cut::min_cut;
 pub use quality::{Bound, Quality};
-pub use rejoin::rejoined;
 
 #[cfg(doc)]
 use crate::mesh::Disk;

@@ -20,25 +20,11 @@ pub(super) fn twins(disk: &Disk) -> Vec<u32> {
 /// The connected parts that are left of a chart when only the edges in `twin` are glued, each with the chart's triangles it is
 /// made of. Any part of a disk is a disk, holes allowed. O(n log n).
 pub(super) fn parts(chart: &Chart, twin: &[u32]) -> Vec<(Chart, Vec<u32>)> {
-    let faces: Vec<u32> = (0..chart.disk.triangles.len() as u32).collect();
-    parts_among(chart, twin, &faces)
-}
-
-/// The same of some of the chart's faces.
-pub(super) fn parts_among(chart: &Chart, twin: &[u32], faces: &[u32]) -> Vec<(Chart, Vec<u32>)> {
-    let twin = twins_among(twin, faces);
-    let triangle = |&f: &u32| chart.disk.triangles[f as usize];
-    let triangles: Vec<[u32; 3]> = faces.iter().map(triangle).collect();
-    let (label, n_parts) = connected_faces(&twin);
-    let mesh = (&*triangles, &*chart.positions);
-    let sheets = Sheet::divide(mesh, &twin, &label, n_parts).into_iter();
-    sheets
-        .flat_map(|mut sheet| {
-            for t in &mut sheet.triangles {
-                *t = faces[*t as usize];
-            }
-            part(chart, sheet)
-        })
+    let (label, n_parts) = connected_faces(twin);
+    let mesh = (&*chart.disk.triangles, &*chart.positions);
+    Sheet::divide(mesh, twin, &label, n_parts)
+        .into_iter()
+        .flat_map(|sheet| part(chart, sheet))
         .collect()
 }
 

@@ -9,14 +9,15 @@ use super::settings::{KeptMaps, Settings};
 use crate::barrier::BarrierKind;
 use crate::certificate::CornerUvs;
 use crate::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Quality, charts, charts_under_bound, map_chart,
-    map_chart_from,
+    Bound, Chart, Cut, Folds, MappedChart, Quality, charts, charts_under_bound, given_back,
+    map_chart, map_chart_from,
 };
 use crate::embed::{self, Pins};
 use crate::mesh::Surface;
 use crate::solver;
 
-/// The charts of every surface with their maps; with [`Cut::Keep`] they begin at the given UVs.
+/// The charts of every surface with their maps; with [`Cut::Keep`] they begin at the given UVs. What was cut off where a map
+/// overlapped itself is given back where it finds room; [`Cut::Fast`] leaves it.
 pub(super) fn mapped_charts(
     surfaces: &[Surface],
     seams: &[&Seams],
@@ -46,7 +47,14 @@ pub(super) fn mapped_charts(
         let uvs = (settings.cut == Cut::Keep).then_some(seams[mesh].uvs.as_ref());
         Some(uvs_of(chart, &surfaces[mesh], uvs.flatten()?))
     };
-    map_charts(charts, kept, settings, tracker)
+    let maps = map_charts(charts, kept, settings, tracker);
+    if settings.cut == Cut::Fast || folds(settings) == Folds::Keep {
+        return maps;
+    }
+    let (bound, options) = (settings.bound(), options(settings));
+    (surfaces.par_iter().zip(maps))
+        .map(|(surface, maps)| given_back(surface, maps, &bound, &options, tracker))
+        .collect()
 }
 
 /// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each

@@ -1,13 +1,13 @@
-//! Charts laid back on their neighbors, and parts of a chart joined again.
+//! Charts laid back on their neighbors.
 
 use crate::zoo::{self, Mesh};
 use unwrapd::certificate::{Claims, certify};
 use unwrapd::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Observer, charts, given_back, map_chart, rejoined,
+    Bound, Chart, Cut, Folds, MappedChart, Observer, charts, given_back, map_chart,
 };
-use unwrapd::embed::{Embedding, Options};
+use unwrapd::embed::Options;
 use unwrapd::mesh::Surface;
-use unwrapd::solver::{Control, Iterate, Summary};
+use unwrapd::solver::{Control, Iterate};
 
 struct Unobserved;
 
@@ -202,49 +202,4 @@ fn the_bound_decides_what_is_given_back() {
     assert_eq!(given(&bound(4.1, None)), 1, "the flap is squeezed");
     assert_eq!(given(&bound(4.000_01, None)), 2);
     assert_eq!(given(&bound(4.1, Some(1.001))), 2);
-}
-
-/// A flat strip of 2 cells by `n`, mapped by `place`, and its parts where `region` changes, mapped alike.
-fn strip(
-    n: u32,
-    place: impl Fn([f64; 3]) -> [f64; 2],
-    region: impl Fn([f64; 3]) -> usize,
-) -> (MappedChart, Vec<MappedChart>) {
-    let mut mesh = zoo::grid(n, 2);
-    for p in &mut mesh.positions {
-        p[2] = 0.0;
-    }
-    let surface = surface(&mesh);
-    let map = |chart: Chart| MappedChart {
-        embedding: Embedding {
-            uv: chart.positions.iter().map(|&p| place(p)).collect(),
-            summary: Summary::at_start(0.0),
-        },
-        chart,
-        seconds: 0.0,
-    };
-    let whole = charts(&surface, Cut::Disk).swap_remove(0);
-    let parts = regions(&surface, region);
-    (map(whole), parts.into_iter().map(map).collect())
-}
-
-#[test]
-fn parts_that_do_not_fold_are_joined_again() {
-    let (whole, parts) = strip(20, |p| [p[0], p[1]], |p| (p[0] / 5.0) as usize);
-    assert_eq!(parts.len(), 4);
-    let joined = rejoined(&whole, parts, &[], &options(), &|_: &Iterate| {
-        Control::Continue
-    });
-    assert_eq!(joined.len(), 1);
-    assert_eq!(joined[0].chart.corners.len(), whole.chart.corners.len());
-}
-
-#[test]
-fn no_more_than_a_dozen_parts_are_joined() {
-    let (whole, parts) = strip(20, |p| [p[0], p[1]], |p| p[0] as usize);
-    assert_eq!(parts.len(), 20);
-    let joined = rejoined(&whole, parts, &[], &options(), &|_: &Iterate| {
-        Control::Continue
-    });
-    assert_eq!(joined.len(), 8);
 }
