@@ -61,14 +61,6 @@ impl MappedChart {
             .max_by(|a, b| a.worth.total_cmp(&b.worth))
     }
 
-    /// Length of the chart's boundary on the surface.
-    pub fn perimeter(&self) -> f64 {
-        let at = |v: u32| self.chart.positions[v as usize];
-        let loops = self.chart.disk.loops.iter();
-        let edges = loops.flat_map(|of| of.iter().zip(of.iter().cycle().skip(1)));
-        edges.map(|(&a, &b)| distance(at(a), at(b))).sum()
-    }
-
     /// The two parts, mapped as the whole is, each seen from its front.
     pub fn parted(&self, split: &Split) -> Vec<Self> {
         let twin = parted(&twins(&self.chart.disk), &split.is_piece);
@@ -77,6 +69,24 @@ impl MappedChart {
             .map(|(chart, faces)| self.restricted(chart, &faces).facing_front())
             .collect()
     }
+}
+
+/// Length on the surface of the seams of some charts: the edges at which their boundaries have two sides.
+pub fn seam_length(charts: &[MappedChart]) -> f64 {
+    let mut lengths: Vec<([[u64; 3]; 2], f64)> = Vec::new();
+    for MappedChart { chart, .. } in charts {
+        let loops = chart.disk.loops.iter();
+        let edges = loops.flat_map(|of| of.iter().zip(of.iter().cycle().skip(1)));
+        lengths.extend(edges.map(|(&a, &b)| {
+            let [p, q] = [a, b].map(|v| chart.positions[v as usize]);
+            let mut ends = [p, q].map(|p| p.map(f64::to_bits));
+            ends.sort_unstable();
+            (ends, distance(p, q))
+        }));
+    }
+    lengths.sort_unstable_by_key(|&(ends, _)| ends);
+    let sides = lengths.chunk_by(|a, b| a.0 == b.0);
+    sides.filter(|of| of.len() > 1).map(|of| of[0].1).sum()
 }
 
 /// A chart whose chords become seams.

@@ -55,7 +55,7 @@ mod surroundings;
 
 pub use bound::charts_under_bound;
 pub use chart::{Chart, Cut, charts};
-pub use compact::Split;
+pub use compact::{Split, seam_length};
 pub use give_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, Observer, map_chart, map_chart_from};

@@ -3,11 +3,12 @@
 use super::packed::chart_maps;
 use super::settings::Settings;
 use crate::atlas::{AtlasError, AtlasOptions, Draft, Scale, Texture};
-use crate::charts::{MappedChart, Split};
+use crate::charts::{MappedChart, Split, seam_length};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// The share of the square that seams must gain which are as long as what there is: half the length of all outlines.
+/// The share of the square that seams must gain which are as long as those there are, or as a side of the surface's square if that is
+/// longer.
 const PRICE: f64 = 0.03;
 /// A further chart costs as much as a seam of this length, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
@@ -106,8 +107,8 @@ fn candidates(
     // A chart has to fit across a page that is not square, but may be longer than it is wide.
     let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
     let per_chart = PER_CHART * area.sqrt();
-    let outlines = charts.iter().map(MappedChart::perimeter).sum::<f64>() / 2.0;
-    let price = PRICE * seam_weight / outlines.max(f64::MIN_POSITIVE);
+    let seams = seam_length(&charts).max(area.sqrt()).max(f64::MIN_POSITIVE);
+    let price = PRICE * seam_weight / seams;
     let mut candidate = Candidate {
         charts: charts.into_iter().map(Arc::new).collect(),
         draft,

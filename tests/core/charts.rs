@@ -3,7 +3,7 @@
 use crate::cut::few_vertices;
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
-use unwrapd::charts::{Chart, Cut, MappedChart, charts, halves, min_cut};
+use unwrapd::charts::{Chart, Cut, MappedChart, charts, halves, min_cut, seam_length};
 use unwrapd::embed::Embedding;
 use unwrapd::mesh::{CUT, Disk, Surface};
 use unwrapd::numerics::vec3::{area_vector, dot, norm};
@@ -362,4 +362,35 @@ fn a_crumb_is_not_cut_off() {
     assert!(chart.best_split(unit).is_some());
     // In an atlas two hundred times as large even a half is a crumb.
     assert!(chart.best_split(20.0 * unit).is_none());
+}
+
+#[test]
+fn seams_have_two_sides_and_the_boundary_of_a_mesh_one() {
+    let length = |mesh: &Mesh| {
+        let surface = surface(mesh);
+        let unmapped = |chart: Chart| {
+            let uv = vec![[0.0; 2]; chart.disk.n_vertices];
+            MappedChart::given(chart, uv)
+        };
+        let charts: Vec<MappedChart> = charts(&surface, Cut::Disk)
+            .into_iter()
+            .map(unmapped)
+            .collect();
+        let around = |MappedChart { chart, .. }: &MappedChart| -> f64 {
+            let edges = chart
+                .disk
+                .loops
+                .iter()
+                .flat_map(|of| of.iter().zip(of.iter().cycle().skip(1)));
+            let at = |v: &u32| chart.positions[*v as usize];
+            edges
+                .map(|(a, b)| norm([0, 1, 2].map(|k| at(a)[k] - at(b)[k])))
+                .sum()
+        };
+        (seam_length(&charts), charts.iter().map(around).sum::<f64>())
+    };
+    let (seams, around) = length(&zoo::grid(4, 3));
+    assert!(seams == 0.0 && around > 14.0);
+    let (seams, around) = length(&zoo::sphere(12, 9));
+    assert!(seams > 0.0 && (2.0 * seams - around).abs() < 1e-9);
 }
