@@ -8,6 +8,7 @@
 //! within a cone, so that each chart is nearly flat and hardly ever overlaps itself. [`Cut::Auto`] opens every piece to a disk
 //! and goes on from there ([`charts_under_bound`]): one sparse solve predicts where a disk would be distorted most, a slit is
 //! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
+//! With a large disk a chart of fewer faces goes that way first, and the disk begins with its slits.
 //!
 //! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
 //!

@@ -32,7 +32,7 @@ impl Quality {
     pub fn seam_price(self) -> f64 {
         match self {
             Self::Smooth | Self::Balanced => 1.0,
-            Self::Few => 20.0,
+            Self::Few => 25.0,
         }
     }
 
