@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use crate::document::{OutputFormat, Upload, gltf};
+use crate::document::{OutputFormat, Upload, Warning, gltf};
 
 /// Reads a file.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
@@ -89,6 +89,13 @@ pub(super) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Failure>
 /// Prints a line on standard output. That a reader has gone away, as `head` does, is no failure.
 pub(super) fn say(line: impl Display) {
     let _ = writeln!(io::stdout(), "{line}");
+}
+
+/// Prints warnings on standard error, a line each.
+pub(super) fn warn(warnings: &[Warning]) {
+    for Warning { message, .. } in warnings {
+        let _ = writeln!(io::stderr(), "warning: {message}");
+    }
 }
 
 /// Indented JSON.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::files::{json, read_upload, say};
+use super::files::{json, read_upload, say, warn};
 use super::words::{GROUPS, word};
 use crate::certificate::{Certificate, Resolution};
 use crate::document::GroupBy;
@@ -79,6 +79,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         say(format_args!("{}", String::from_utf8_lossy(&json(&report)?)));
     } else {
         report.groups.iter().for_each(print_group);
+        warn(&report.warnings);
     }
     Ok(())
 }

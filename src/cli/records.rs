@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::files::{json, say, write_atomically, write_outputs};
+use super::files::{json, say, warn, write_atomically, write_outputs};
 use super::progress::Display;
 use crate::pipeline::{BodyFormat, Deformed};
 
@@ -56,9 +56,7 @@ impl Records {
 
 fn summarize(Deformed { report, .. }: &Deformed) {
     if let Some(cage) = &report.cage {
-        for remark in &cage.remarks {
-            say(format_args!("{remark}"));
-        }
+        warn(&cage.warnings);
         say(format_args!(
             "{} voxels, {} tetrahedra, {} triangles, {} surface vertices, crossings {} before, {} after",
             cage.voxels,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::files::{
-    json, output_format, read_file, read_upload, say, write_atomically, write_outputs,
+    json, output_format, read_file, read_upload, say, warn, write_atomically, write_outputs,
 };
 use super::progress::Display;
 use super::words::{
@@ -254,6 +254,7 @@ pub(super) fn summarize(outcome: &Outcome) {
         super::measure::print_group(group);
         warn_of_bound(group);
     }
+    warn(&outcome.report.warnings);
     if let Some(written) = &outcome.report.written {
         warn_of_textures(written);
     }

@@ -23,6 +23,7 @@ mod subdivision;
 mod texcoord_lines;
 mod upload;
 mod uvs;
+mod warning;
 
 use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
@@ -37,6 +38,7 @@ pub use space_map::SpaceMap;
 pub use subdivision::{AddedVertex, Subdivision};
 pub use upload::Upload;
 pub use uvs::{Corners, Layout, NewUvs, OutputFormat, WriteOptions, Written};
+pub use warning::Warning;
 
 /// A file as it was read.
 #[derive(Clone)]
@@ -60,6 +62,13 @@ impl Document {
             soup::SoupDocument::read(upload).map(Self::Soup)
         } else {
             Err(DocumentError::UnknownFormat)
+        }
+    }
+
+    /// What reading noticed and users should know.
+    pub fn warnings(&self) -> &[Warning] {
+        match self {
+            Self::Gltf(_) | Self::Obj(_) | Self::Soup(_) => &[],
         }
     }
 

@@ -1,8 +1,8 @@
 //! A new OBJ file for triangles that came from another format.
 use super::texcoord_lines::{TexcoordLines, decimal};
 use super::{
-    DocumentError, NewUvs, Primitive, PrimitiveNote, TangentsNote, WriteNotes, WriteOptions,
-    Written,
+    DocumentError, NewUvs, Primitive, PrimitiveNote, TangentsNote, Warning, WriteNotes,
+    WriteOptions, Written,
 };
 use crate::measure::VAxis;
 use std::io::Write as _;
@@ -59,8 +59,10 @@ pub(super) fn write(
         first_vertex += primitive.positions.len() as u32;
     }
     if primitives.len() > 1 {
-        let remark = "the OBJ file holds each mesh once, without the transforms of nodes";
-        notes.remarks.push(remark.to_owned());
+        notes.warnings.push(Warning::new(
+            "transforms_lost",
+            "the OBJ file holds each mesh once, without the transforms of nodes",
+        ));
     }
     text.extend(lines.text);
     text.extend(faces);

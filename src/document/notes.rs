@@ -1,4 +1,4 @@
-use super::{BakedTexture, KeptTexture};
+use super::{BakedTexture, KeptTexture, Warning};
 use serde::Serialize;
 
 /// What writing a new UV set did to a document.
@@ -17,8 +17,9 @@ pub struct WriteNotes {
     pub transforms_removed: Vec<String>,
     /// Extensions that are gone from the file: compression that was undone, data that the new indices made wrong.
     pub extensions_dropped: Vec<String>,
-    /// Anything else, one sentence each.
-    pub remarks: Vec<String>,
+    /// What else users should know; reports have it among their own warnings.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
 }
 
 /// What happened to one primitive.

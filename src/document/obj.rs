@@ -6,7 +6,8 @@
 //! diagonals, as a corner of a polygon has one UV.
 use super::obj_text::rewrite;
 use super::{
-    DocumentError, Layout, NewUvs, OutputFormat, Primitive, SpaceMap, Upload, WriteOptions, Written,
+    DocumentError, Layout, NewUvs, OutputFormat, Primitive, SpaceMap, Upload, Warning,
+    WriteOptions, Written,
 };
 use super::{new_gltf, new_obj, obj_moved};
 use crate::certificate::CornerUvs;
@@ -96,15 +97,17 @@ impl ObjDocument {
                     .push(new_obj::note(&self.primitives[0], had_uvs));
                 let rewritten = rewrite(&self.bytes, &self.obj, &corners);
                 if had_uvs && uvs.layout == Layout::New {
-                    let remark =
-                        "the UVs of the file were replaced: textures made for them need a re-bake";
-                    notes.remarks.push(remark.to_owned());
+                    notes.warnings.push(Warning::new(
+                        "uvs_replaced",
+                        "the UVs of the file were replaced: textures made for them need a re-bake",
+                    ));
                 }
                 if rewritten.split_polygons > 0 {
                     let n = rewritten.split_polygons;
-                    notes
-                        .remarks
-                        .push(format!("polygons split along a seam: {n}"));
+                    notes.warnings.push(Warning::new(
+                        "polygons_split",
+                        format!("polygons split along a seam: {n}"),
+                    ));
                 }
                 rewritten.text
             }

@@ -12,7 +12,7 @@ use super::solution::{Deformed, WriteMap, solve};
 use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, Caged, CagedSurface};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
-use crate::document::{Document, GroupBy, OutputFormat, Upload, Written};
+use crate::document::{Document, GroupBy, OutputFormat, Upload, Warning, Written};
 use crate::solver::Watch;
 use serde::Serialize;
 
@@ -74,8 +74,8 @@ pub struct CageReport {
     pub crossings_before: Crossings,
     /// Where they do in the file written.
     pub crossings_after: Crossings,
-    /// What the writer changed beside that, one sentence each.
-    pub remarks: Vec<String>,
+    /// What users should know of the files.
+    pub warnings: Vec<Warning>,
 }
 
 /// Deforms the surfaces of a file in a cage.
@@ -203,7 +203,7 @@ impl CagedDocument {
             surface_triangles: moved.primitives().iter().map(|p| p.triangles.len()).sum(),
             crossings_before,
             crossings_after: crossings_of(&moved),
-            remarks: written.notes.remarks.clone(),
+            warnings: [self.document.warnings(), &written.notes.warnings].concat(),
         };
         Ok((written, report))
     }

@@ -90,7 +90,8 @@ fn unwrap_in_pool(
     add_history(&mut groups, &atlases, options);
     seconds.judge = watch.lap();
 
-    let mut report = Report::new(groups);
+    let warnings = [document.warnings(), &written.notes.warnings].concat();
+    let mut report = Report::new(groups, warnings);
     report.options = Some(options.clone());
     report.limits = Some(options.limits);
     if options.is_promised() && !report.certified {
@@ -126,8 +127,8 @@ fn write(
     };
     let mut written = document.write_baked(uvs, &write_options, baked)?;
     if let Some(baked) = baked {
-        let remarks = rebake::remarks(baked, options);
-        written.notes.remarks.extend(remarks);
+        let warnings = rebake::warnings(baked, options);
+        written.notes.warnings.extend(warnings);
     }
     Ok(written)
 }

@@ -10,7 +10,7 @@ use super::nodes::Nodes;
 use super::proven::Proven;
 use super::report::{GroupReport, Report};
 use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, Resolution, certify};
-use crate::document::{Document, Group, GroupBy, Primitive, Upload, Written};
+use crate::document::{Document, Group, GroupBy, Primitive, Upload, Warning, Written};
 use crate::measure::{self, Measures, VAxis};
 use crate::numerics::vec3::{area_vector, norm};
 
@@ -208,8 +208,9 @@ pub fn measure_document(
     upload: &Upload,
     options: &MeasureOptions,
 ) -> Result<Report, PipelineError> {
-    with_uvs(upload, options, |uvs| {
-        Report::new(uvs.judge(&options.claims(Overlap::Test), options.resolution))
+    with_uvs(upload, options, |uvs, warnings| {
+        let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution);
+        Report::new(groups, warnings.to_vec())
     })
 }
 
@@ -219,7 +220,7 @@ pub fn verify_document(
     options: &MeasureOptions,
     overlap: Overlap,
 ) -> Result<Verified, PipelineError> {
-    with_uvs(upload, options, |uvs| {
+    with_uvs(upload, options, |uvs, _| {
         let groups = uvs.verify(&options.claims(overlap));
         Verified {
             proven: Proven::of(groups.iter().map(|group| &group.certificate)),
@@ -228,11 +229,11 @@ pub fn verify_document(
     })
 }
 
-/// Does something with the UVs that a document has, within the limits.
+/// Does something with the UVs that a document has and with its warnings, within the limits.
 fn with_uvs<T: Send>(
     upload: &Upload,
     options: &MeasureOptions,
-    judge: impl FnOnce(&WrittenUvs) -> T + Send,
+    judge: impl FnOnce(&WrittenUvs, &[Warning]) -> T + Send,
 ) -> Result<T, PipelineError> {
     options.check()?;
     in_pool(options.limits.threads, || {
@@ -240,6 +241,6 @@ fn with_uvs<T: Send>(
         options.limits.check(&document)?;
         let spaces = (options.group_by, options.nodes());
         let uvs = WrittenUvs::gather(&document, spaces, |_| options.texcoord)?;
-        Ok(judge(&uvs))
+        Ok(judge(&uvs, document.warnings()))
     })?
 }

@@ -8,7 +8,7 @@ use super::options::Options;
 use super::proven::Proven;
 use crate::certificate::Certificate;
 use crate::charts::Bound;
-use crate::document::WriteNotes;
+use crate::document::{Warning, WriteNotes};
 use crate::measure::{Distortion, Measures};
 use crate::mesh::Defects;
 use crate::solver::Status;
@@ -34,6 +34,8 @@ pub struct Report {
     pub certified: bool,
     /// What is proven on the written bytes, beside what was asked for.
     pub proven: Proven,
+    /// What users should know of the file that was read, of the work and of the file that was written.
+    pub warnings: Vec<Warning>,
     /// One entry per atlas, in the document's order.
     pub groups: Vec<GroupReport>,
     /// What was changed in the document; absent where existing UVs were measured.
@@ -131,7 +133,7 @@ pub struct Seconds {
 
 impl Report {
     /// The report of UVs as they are: what only unwrapping knows is absent.
-    pub(super) fn new(groups: Vec<GroupReport>) -> Self {
+    pub(super) fn new(groups: Vec<GroupReport>, warnings: Vec<Warning>) -> Self {
         let proven = Proven::of(groups.iter().map(|group| &group.certificate));
         Self {
             schema_version: SCHEMA_VERSION,
@@ -140,6 +142,7 @@ impl Report {
             limits: None,
             certified: proven.locally_injective,
             proven,
+            warnings,
             groups,
             written: None,
             seconds: None,

@@ -89,7 +89,7 @@ fn obj_keeps_all_but_its_texture_coordinates() {
     assert_eq!(text(&written), expected);
     let note = &written.notes.primitives[0];
     assert!(note.replaced && note.vertices_before == 7 && note.vertices_after == 7);
-    assert_eq!(written.notes.remarks.len(), 1);
+    assert_eq!(written.notes.warnings.len(), 1);
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn polygons_are_split_only_where_their_uvs_differ() {
         let obj = obj::read(&written.files[0].1).unwrap();
         let sizes: Vec<usize> = obj.polygons().map(<[_]>::len).collect();
         assert_eq!(obj.mesh.triangles, document.primitives()[0].triangles);
-        (sizes, written.notes.remarks.len())
+        (sizes, written.notes.warnings.len())
     };
     assert_eq!(polygons(&faces), (vec![5], 0));
     faces[2][0] = [500, 500];

@@ -7,7 +7,8 @@ use super::texcoord_set::{self, Choice, Textures};
 use super::textures::{affected, remove_transform};
 use super::{GltfDocument, extensions, glb, images, primitives, uri};
 use crate::document::{
-    BakedTextures, DocumentError, Layout, NewUvs, OutputFormat, WriteNotes, WriteOptions, Written,
+    BakedTextures, DocumentError, Layout, NewUvs, OutputFormat, Warning, WriteNotes, WriteOptions,
+    Written,
 };
 use crate::measure::VAxis;
 use serde_json::{Value, json};
@@ -40,9 +41,12 @@ pub(super) fn write(
             .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
         notes.primitives.push(note);
         if !choice.missing.is_empty() {
-            notes.remarks.push(format!(
-                "mesh {}, primitive {}: lower UV sets were missing and hold the same UVs",
-                primitive.mesh, primitive.primitive
+            notes.warnings.push(Warning::new(
+                "uv_sets_filled",
+                format!(
+                    "mesh {}, primitive {}: lower UV sets were missing and hold the same UVs",
+                    primitive.mesh, primitive.primitive
+                ),
             ));
         }
     }
@@ -129,8 +133,9 @@ fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), Documen
     let meshes: BTreeSet<usize> = split.map(|note| note.mesh).collect();
     for mesh in meshes {
         if remove_extension(item_mut(json, "meshes", mesh)?, MANIFOLD).is_some() {
-            notes.remarks.push(format!(
-                "mesh {mesh}: {MANIFOLD} described the indices before vertices were split"
+            notes.warnings.push(Warning::new(
+                "manifold_dropped",
+                format!("mesh {mesh}: {MANIFOLD} described the indices before vertices were split"),
             ));
         }
     }
@@ -171,8 +176,9 @@ fn files(
     };
     for uri in outside {
         let uri: String = uri.chars().filter(|c| !c.is_control()).take(120).collect();
-        notes.remarks.push(format!(
-            "the image `{uri}` was not supplied and stays a reference"
+        notes.warnings.push(Warning::new(
+            "image_missing",
+            format!("the image `{uri}` was not supplied and stays a reference"),
         ));
     }
     Ok(files)

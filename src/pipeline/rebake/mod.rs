@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use super::PipelineError;
 use super::options::Options;
 use crate::bake::{Coverage, MOST_TEXELS, baked, side_for};
-use crate::document::{BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs};
+use crate::document::{BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning};
 use images::read_images;
 use planes::Bake;
 use surface::Surface;
@@ -86,7 +86,7 @@ fn files(
 }
 
 /// What is to be said of textures in which charts are so near that bilinear filtering at the border of one reads texels of another.
-pub(super) fn remarks(baked: &BakedTextures, options: &Options) -> Vec<String> {
+pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning> {
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();
     sides.dedup();
@@ -95,7 +95,10 @@ pub(super) fn remarks(baked: &BakedTextures, options: &Options) -> Vec<String> {
     let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
     near.map(|side| {
         let gap = gap(side);
-        format!("charts are {gap:.2} texels apart in textures of {side}: filtering mixes them; see padding")
+        let message = format!(
+            "charts are {gap:.2} texels apart in textures of {side}: filtering mixes them; see padding"
+        );
+        Warning::new("charts_near", message)
     })
     .collect()
 }

@@ -108,7 +108,7 @@ fn a_texture_follows_its_uvs() {
     );
     assert!(notes.textures_affected.is_empty() && notes.textures_kept.is_empty());
     // The padding of 2 texels at 1024 is much less at 32.
-    assert_eq!(notes.remarks.len(), 1, "{:?}", notes.remarks);
+    assert_eq!(notes.warnings.len(), 1, "{:?}", notes.warnings);
     assert_eq!(
         (
             notes.textures_baked[0].texture,

@@ -218,9 +218,9 @@ fn images_follow_the_document() {
     assert!(
         written
             .notes
-            .remarks
+            .warnings
             .iter()
-            .any(|remark| remark.contains("gone.png"))
+            .any(|warning| warning.message.contains("gone.png"))
     );
     let written = document
         .write(&new_uvs(&grid, 8), &options(OutputFormat::Gltf))

@@ -180,9 +180,9 @@ fn primitives_of_a_mesh_share_the_set_without_gaps() {
     assert!(
         written
             .notes
-            .remarks
+            .warnings
             .iter()
-            .any(|remark| remark.contains("lower UV sets"))
+            .any(|warning| warning.message.contains("lower UV sets"))
     );
 }
 
