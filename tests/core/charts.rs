@@ -1,8 +1,10 @@
 //! Surfaces divided into charts.
 
 use crate::cut::few_vertices;
+use crate::places;
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
+use std::path::Path;
 use unwrapd::charts::{Chart, Cut, MappedChart, charts, halves, min_cut, seam_length};
 use unwrapd::embed::Embedding;
 use unwrapd::mesh::{CUT, Disk, Surface};
@@ -183,27 +185,19 @@ fn shuffled_faces_make_as_many_disks() {
 }
 
 #[test]
-fn shared_meshes_are_one_disk_per_component() {
-    for folder in ["closed", "disk"] {
-        let Some(folder) = zoo::shared_data(folder) else {
-            return;
-        };
-        let mut paths: Vec<_> = std::fs::read_dir(folder)
-            .expect("a folder")
-            .map(|entry| entry.expect("an entry").path())
-            .filter(|p| p.extension().is_some_and(|e| e == "obj" || e == "off"))
-            .filter(|p| p.metadata().is_ok_and(|m| m.len() < 1_500_000))
-            .collect();
-        paths.sort();
-        for path in paths {
-            let mesh = zoo::read_mesh(&path).expect("a readable mesh");
-            let surface = surface(&mesh);
-            let disks = checked(&surface, Cut::Disk);
-            println!("{}: {} disks", mesh.name, disks.len());
-            assert!(disks.len() <= surface.defects.components, "{}", mesh.name);
-            checked(&surface, Cut::Fast);
-        }
+fn files_are_one_disk_per_component() {
+    for name in ["cat_head.obj", "moebius.obj"] {
+        assert_disk_per_component(&places::asset(name));
     }
+}
+
+fn assert_disk_per_component(path: &Path) {
+    let mesh = zoo::read_mesh(path).expect("a readable mesh");
+    let surface = surface(&mesh);
+    let disks = checked(&surface, Cut::Disk);
+    println!("{}: {} disks", mesh.name, disks.len());
+    assert!(disks.len() <= surface.defects.components, "{}", mesh.name);
+    checked(&surface, Cut::Fast);
 }
 
 proptest! {
@@ -393,4 +387,25 @@ fn seams_have_two_sides_and_the_boundary_of_a_mesh_one() {
     assert!(seams == 0.0 && around > 14.0);
     let (seams, around) = length(&zoo::sphere(12, 9));
     assert!(seams > 0.0 && (2.0 * seams - around).abs() < 1e-9);
+}
+
+mod shared {
+    use super::{assert_disk_per_component, places};
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn meshes_are_one_disk_per_component() {
+        for folder in ["data/closed", "data/disk"] {
+            let mut paths: Vec<_> = std::fs::read_dir(places::shared(folder))
+                .expect("a folder")
+                .map(|entry| entry.expect("an entry").path())
+                .filter(|p| p.extension().is_some_and(|e| e == "obj" || e == "off"))
+                .filter(|p| p.metadata().is_ok_and(|m| m.len() < 1_500_000))
+                .collect();
+            paths.sort();
+            for path in paths {
+                assert_disk_per_component(&path);
+            }
+        }
+    }
 }

@@ -1,6 +1,5 @@
 //! Planar and tetrahedral meshes: what is checked, what files they come from and go to.
 
-use std::path::Path;
 use unwrapd::mesh::io::{ElementFormat, Elements, ReadError, text_positions};
 use unwrapd::mesh::{ElementError, PlanarMesh, TetMesh, boundary_triangles};
 use unwrapd::numerics::predicates::orient3d_sign;
@@ -11,16 +10,6 @@ const CORNERS: [[f64; 3]; 4] = [
     [0.0, 1.0, 0.0],
     [0.0, 0.0, 1.0],
 ];
-
-fn shared(file: &str) -> Option<Elements> {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared"));
-    let Ok(bytes) = std::fs::read(folder.join(file)) else {
-        println!("skipped: {file} is not here");
-        return None;
-    };
-    let format = ElementFormat::of_name(file).expect("a known extension");
-    Some(format.read(&bytes).expect(file))
-}
 
 /// Two tetrahedra on either side of a common face, and a point beyond f32.
 fn two_tets() -> Elements {
@@ -144,59 +133,6 @@ fn what_is_no_planar_mesh_is_named() {
         flat(&[a, b, c, [0.2, 0.2, 0.0]], &[[0, 1, 2], [1, 0, 3]]),
         Err(ElementError::Folded { elements: [0, 1] })
     );
-}
-
-#[test]
-fn real_files_are_read_whole() {
-    // Vertices, elements, boundary triangles, as the tables beside the files have them.
-    let tets: [(&str, usize, usize, usize); 11] = [
-        ("data/tet/Armadillo13K.msh", 13230, 54985, 17296),
-        ("data/tet/bar.mesh", 2152, 8118, 3200),
-        ("data/tet/bunny.mesh", 5433, 34055, 670),
-        ("data/tet/bunny_19k.msh", 4670, 19379, 6266),
-        ("data/tet/decimated-knight.mesh", 1822, 5452, 3544),
-        ("data/tet/hand.mesh", 7234, 29998, 9556),
-        ("data/tet/homer.mesh", 16592, 61257, 24972),
-        ("data/tet/octopus-low.mesh", 452, 1140, 898),
-        ("data/tet/square_beam.mesh", 739, 2886, 894),
-        ("reference/meshes/bar_c.tet", 153, 384, 272),
-        ("reference/meshes/bar_f.tet", 3969, 18432, 3328),
-    ];
-    for (file, n_vertices, n_tets, n_boundary) in tets {
-        let Some(elements) = shared(file) else {
-            continue;
-        };
-        let mesh = elements.into_tet_mesh().expect(file);
-        let sizes = (
-            mesh.vertices().len(),
-            mesh.tets().len(),
-            mesh.boundary().len(),
-        );
-        assert_eq!(sizes, (n_vertices, n_tets, n_boundary), "{file}");
-    }
-    let planar: [(&str, usize, usize, usize); 9] = [
-        ("data/planar/grid.off", 145, 256, 32),
-        ("data/planar/woody-lo.off", 199, 336, 60),
-        ("data/planar/bar792.obj", 597, 792, 400),
-        ("data/planar/woody_gingerbread.obj", 694, 1267, 119),
-        ("data/planar/kangaroo_fine.msh", 1508, 2700, 314),
-        ("data/planar/woody-hi.off", 2642, 5040, 242),
-        ("data/planar/alligator.obj", 3208, 5981, 433),
-        ("data/planar/bump-domain.obj", 4172, 8058, 284),
-        ("data/planar/annulus.obj", 4985, 9724, 246),
-    ];
-    for (file, n_vertices, n_triangles, n_boundary) in planar {
-        let Some(elements) = shared(file) else {
-            continue;
-        };
-        let mesh = elements.into_planar_mesh().expect(file);
-        let sizes = (
-            mesh.vertices().len(),
-            mesh.triangles().len(),
-            mesh.boundary().len(),
-        );
-        assert_eq!(sizes, (n_vertices, n_triangles, n_boundary), "{file}");
-    }
 }
 
 #[test]
@@ -466,4 +402,63 @@ fn no_truncation_and_no_byte_makes_a_reader_panic() {
         }
     }
     assert!(refused > 1000, "only {refused} of the changes were noticed");
+}
+
+mod shared {
+    use super::{ElementFormat, Elements};
+    use crate::places;
+
+    fn read(file: &str) -> Elements {
+        let bytes = std::fs::read(places::shared(file)).expect(file);
+        let format = ElementFormat::of_name(file).expect("a known extension");
+        format.read(&bytes).expect(file)
+    }
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn real_files_are_read_whole() {
+        // Vertices, elements, boundary triangles, as the tables beside the files have them.
+        let tets: [(&str, usize, usize, usize); 11] = [
+            ("data/tet/Armadillo13K.msh", 13230, 54985, 17296),
+            ("data/tet/bar.mesh", 2152, 8118, 3200),
+            ("data/tet/bunny.mesh", 5433, 34055, 670),
+            ("data/tet/bunny_19k.msh", 4670, 19379, 6266),
+            ("data/tet/decimated-knight.mesh", 1822, 5452, 3544),
+            ("data/tet/hand.mesh", 7234, 29998, 9556),
+            ("data/tet/homer.mesh", 16592, 61257, 24972),
+            ("data/tet/octopus-low.mesh", 452, 1140, 898),
+            ("data/tet/square_beam.mesh", 739, 2886, 894),
+            ("reference/meshes/bar_c.tet", 153, 384, 272),
+            ("reference/meshes/bar_f.tet", 3969, 18432, 3328),
+        ];
+        for (file, n_vertices, n_tets, n_boundary) in tets {
+            let mesh = read(file).into_tet_mesh().expect(file);
+            let sizes = (
+                mesh.vertices().len(),
+                mesh.tets().len(),
+                mesh.boundary().len(),
+            );
+            assert_eq!(sizes, (n_vertices, n_tets, n_boundary), "{file}");
+        }
+        let planar: [(&str, usize, usize, usize); 9] = [
+            ("data/planar/grid.off", 145, 256, 32),
+            ("data/planar/woody-lo.off", 199, 336, 60),
+            ("data/planar/bar792.obj", 597, 792, 400),
+            ("data/planar/woody_gingerbread.obj", 694, 1267, 119),
+            ("data/planar/kangaroo_fine.msh", 1508, 2700, 314),
+            ("data/planar/woody-hi.off", 2642, 5040, 242),
+            ("data/planar/alligator.obj", 3208, 5981, 433),
+            ("data/planar/bump-domain.obj", 4172, 8058, 284),
+            ("data/planar/annulus.obj", 4985, 9724, 246),
+        ];
+        for (file, n_vertices, n_triangles, n_boundary) in planar {
+            let mesh = read(file).into_planar_mesh().expect(file);
+            let sizes = (
+                mesh.vertices().len(),
+                mesh.triangles().len(),
+                mesh.boundary().len(),
+            );
+            assert_eq!(sizes, (n_vertices, n_triangles, n_boundary), "{file}");
+        }
+    }
 }

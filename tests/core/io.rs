@@ -1,4 +1,5 @@
 //! Readers of OBJ, OFF, PLY and STL: what they read, what they refuse, and that no byte makes them panic.
+use crate::places;
 use std::path::Path;
 use unwrapd::mesh::io::{Format, IndexedTriangles, ReadError, obj, off, ply, stl};
 
@@ -6,15 +7,6 @@ type Reader = fn(&[u8]) -> Result<IndexedTriangles, ReadError>;
 
 fn read_obj(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
     obj::read(bytes).map(|o| o.mesh)
-}
-
-fn shared_data(file: &str) -> Option<Vec<u8>> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(file);
-    let bytes = std::fs::read(&path).ok();
-    if bytes.is_none() {
-        println!("skipped: {file} is not here");
-    }
-    bytes
 }
 
 fn code(result: Result<IndexedTriangles, ReadError>) -> &'static str {
@@ -264,9 +256,6 @@ fn false_counts_end_with_the_file() {
         )),
         "invalid_mesh"
     );
-    if let Some(bytes) = shared_data("invalid/mesh_text/OutOfMemory.off") {
-        assert_eq!(code(off::read(&bytes)), "invalid_mesh");
-    }
 }
 
 #[test]
@@ -311,39 +300,75 @@ fn mutated_files_never_panic() {
 
 #[test]
 fn known_files_have_their_known_sizes() {
-    let files: [(&str, Reader, usize, usize); 9] = [
-        ("closed/cave_595k.ply", ply::read, 297_679, 595_410),
-        ("disk/bimba_357k_midpoint.ply", ply::read, 178_806, 356_860),
-        ("closed/rangemap_121k.ply", ply::read, 62_702, 120_995),
-        ("closed/spot.ply", ply::read, 2930, 5856),
-        ("closed/1002_tray_bottom.STL", stl::read, 2216, 4520),
-        ("closed/fandisk.off", off::read, 7229, 14_454),
-        ("disk/camelhead.off", off::read, 11_381, 22_704),
-        ("closed/sword-quad-dominant.obj", read_obj, 22_293, 44_582),
-        ("closed/stanford_bunny_69k.obj", read_obj, 35_947, 69_451),
+    let files: [(&str, Reader, usize, usize); 3] = [
+        ("spot.ply", ply::read, 2930, 5856),
+        ("cat_head.obj", read_obj, 131, 248),
+        ("moebius.obj", read_obj, 280, 448),
     ];
     for (file, read, n_vertices, n_triangles) in files {
-        let Some(bytes) = shared_data(file) else {
-            continue;
-        };
-        let mesh = read(&bytes).expect(file);
-        assert_eq!(
-            (mesh.positions.len(), mesh.triangles.len()),
-            (n_vertices, n_triangles),
-            "{file}"
-        );
+        assert_sizes(&places::asset(file), read, n_vertices, n_triangles);
     }
 }
 
+fn assert_sizes(file: &Path, read: Reader, n_vertices: usize, n_triangles: usize) {
+    let mesh = read(&std::fs::read(file).expect("a file")).expect("a mesh");
+    let sizes = (mesh.positions.len(), mesh.triangles.len());
+    assert_eq!(sizes, (n_vertices, n_triangles), "{}", file.display());
+}
+
 #[test]
-fn hostile_text_meshes() {
-    for (file, expected) in [
-        ("malformed.obj", "index_out_of_range"),
-        ("nancolor.obj", "read"),
-        ("notenoughindices.obj", "read"),
+fn odd_obj_texts() {
+    let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    for (rest, expected) in [
+        ("f 1 2 12 3", "index_out_of_range"),
+        ("f 0 1 2", "index_out_of_range"),
+        ("v 0.5 0.5 0.5 nan nan nan\nf 1 2 5", "read"),
+        (
+            "mtllib a.mtl\nusemtl b\ns 1\nf 1// 2//\nf 1// 2// 3//",
+            "read",
+        ),
     ] {
-        if let Some(bytes) = shared_data(&format!("invalid/mesh_text/{file}")) {
-            assert_eq!(code(read_obj(&bytes)), expected, "{file}");
+        let text = format!("{vertices}{rest}\n");
+        assert_eq!(code(read_obj(text.as_bytes())), expected, "{rest}");
+    }
+}
+
+mod shared {
+    use super::{Reader, assert_sizes, code, off, places, ply, read_obj, stl};
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn known_files_have_their_known_sizes() {
+        let files: [(&str, Reader, usize, usize); 9] = [
+            ("closed/cave_595k.ply", ply::read, 297_679, 595_410),
+            ("disk/bimba_357k_midpoint.ply", ply::read, 178_806, 356_860),
+            ("closed/rangemap_121k.ply", ply::read, 62_702, 120_995),
+            ("closed/spot.ply", ply::read, 2930, 5856),
+            ("closed/1002_tray_bottom.STL", stl::read, 2216, 4520),
+            ("closed/fandisk.off", off::read, 7229, 14_454),
+            ("disk/camelhead.off", off::read, 11_381, 22_704),
+            ("closed/sword-quad-dominant.obj", read_obj, 22_293, 44_582),
+            ("closed/stanford_bunny_69k.obj", read_obj, 35_947, 69_451),
+        ];
+        let folder = places::shared("data");
+        for (file, read, n_vertices, n_triangles) in files {
+            assert_sizes(&folder.join(file), read, n_vertices, n_triangles);
+        }
+    }
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn hostile_text_meshes() {
+        let files: [(&str, Reader, &str); 4] = [
+            ("malformed.obj", read_obj, "index_out_of_range"),
+            ("nancolor.obj", read_obj, "read"),
+            ("notenoughindices.obj", read_obj, "read"),
+            ("OutOfMemory.off", off::read, "invalid_mesh"),
+        ];
+        let folder = places::shared("data/invalid/mesh_text");
+        for (file, read, expected) in files {
+            let bytes = std::fs::read(folder.join(file)).expect("a file");
+            assert_eq!(code(read(&bytes)), expected, "{file}");
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use crate::places;
 
 /// Module, the modules it builds on directly (what those may use it may use too), and the outside crates it may name.
 /// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
@@ -152,7 +154,7 @@ fn every_module_has_a_layer() {
 }
 
 fn source() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+    places::repository("src")
 }
 
 /// The module and everything below it.

@@ -25,6 +25,7 @@ mod embed;
 mod energy;
 mod given_back;
 mod given_seams;
+mod ignored;
 #[cfg(feature = "files")]
 mod io;
 mod layers;
@@ -42,6 +43,8 @@ mod picture;
 mod picture_warp;
 mod pins;
 mod pipeline;
+#[path = "../places.rs"]
+mod places;
 #[cfg(feature = "files")]
 mod problem_files;
 mod random;

@@ -1,8 +1,9 @@
 //! Figures with known values, and all of them against an independent script.
 
-use crate::uv_meshes::{UvMesh, moebius_in_one_piece, read_obj, shared_data};
+use crate::places;
+use crate::uv_meshes::{UvMesh, moebius_in_one_piece, read_obj};
 use unwrapd::certificate::Overlap;
-use unwrapd::measure::{MeasureOptions, Measures, VAxis, face_distortion};
+use unwrapd::measure::{MeasureOptions, VAxis, face_distortion};
 
 #[track_caller]
 fn near(value: impl Into<Option<f64>>, expected: f64) {
@@ -319,28 +320,12 @@ fn distortion_of_faces_makes_up_that_of_the_mesh() {
 /// Values asserted by the tests of "A Dataset and Benchmark for Mesh Parameterization" (Shay et al. 2022).
 #[test]
 fn benchmark_meshes_have_their_published_values() {
-    let measured = |name: &str| -> Option<Measures> {
-        Some(read_obj(&shared_data(&format!("uv_metrics/{name}.obj"))?).measure())
-    };
-    let Some(triangle) = measured("triangle") else {
-        return;
-    };
-    let Some(stretched) = measured("square_stretched") else {
-        return;
-    };
-    let Some(scaled) = measured("square_scaled") else {
-        return;
-    };
-    let Some(cube) = measured("cube") else { return };
-    let Some(folded) = measured("folded") else {
-        return;
-    };
-    let Some(strip) = measured("strip_fold") else {
-        return;
-    };
-    let Some(cone) = measured("cone_disk") else {
-        return;
-    };
+    let measured =
+        |name: &str| read_obj(&places::asset(&format!("uv_metrics/{name}.obj"))).measure();
+    let (triangle, stretched) = (measured("triangle"), measured("square_stretched"));
+    let (scaled, cube) = (measured("square_scaled"), measured("cube"));
+    let (folded, strip) = (measured("folded"), measured("strip_fold"));
+    let cone = measured("cone_disk");
     near(triangle.distortion.conformal_max, 1.5); // √(3/2) over 2/√6
     near(triangle.distortion.linf_stretch, 6.0_f64.sqrt() / 2.0);
     near(stretched.distortion.conformal_max, 2.0);
@@ -356,58 +341,19 @@ fn benchmark_meshes_have_their_published_values() {
     assert_eq!(cone.seams.seam_edges, 0);
 }
 
-/// Every key of the independent script, on maps of other programs and on small faulty ones.
+/// Maps of other programs, and small faulty ones, as an independent script measures them.
 #[cfg(feature = "files")]
-#[test]
-fn all_figures_agree_with_the_independent_script() {
-    let names = [
-        "uv_baseline/camel_b_libigl.obj",
-        "uv_baseline/camel_seamster.obj",
-        "uv_baseline/lucy_8k_zbrush.obj",
-        "uv_baseline/statue5_10k_zbrush.obj",
-        "uv_metrics/cube.obj",
-        "uv_metrics/folded.obj",
-        "uv_metrics/strip_fold.obj",
-        "uv_metrics/flat_triangle.obj",
-    ];
-    let Some(paths) = names
-        .into_iter()
-        .map(shared_data)
-        .collect::<Option<Vec<_>>>()
-    else {
-        return;
-    };
-    let Some(expected) = script::evaluate(&paths) else {
-        return;
-    };
-    for (path, expected) in paths.iter().zip(&expected) {
-        let ours =
-            serde_json::to_value(read_obj(path).measure_with(VAxis::Up, MeasureOptions::default()))
-                .expect("plain numbers");
-        for (key, value) in expected.as_object().expect("an object") {
-            assert!(
-                script::agree(&ours[key], value),
-                "{path:?} {key}: {} {value}",
-                ours[key]
-            );
-        }
-    }
-}
-
-#[cfg(feature = "files")]
-mod script {
+mod shared {
+    use super::{MeasureOptions, VAxis, read_obj};
+    use crate::places;
     use serde_json::Value;
-    use std::path::{Path, PathBuf};
+    use std::path::PathBuf;
     use std::process::Command;
 
     const PROGRAM: &str = "\
 import json, sys
 sys.path.insert(0, sys.argv[1])
-try:
-    import numpy, uvmetrics
-except ImportError as e:
-    print(e, file=sys.stderr)
-    sys.exit(7)
+import uvmetrics
 out = []
 for path in sys.argv[2:]:
     r = uvmetrics.evaluate(*uvmetrics.load_obj(path))
@@ -416,42 +362,49 @@ for path in sys.argv[2:]:
 print(json.dumps(out))
 ";
 
-    /// What the script says of each file; `None`, with a printed reason, where it cannot run.
-    pub fn evaluate(paths: &[PathBuf]) -> Option<Vec<Value>> {
-        let tools = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/tools"));
-        if !tools.join("uvmetrics.py").exists() {
-            println!("skipped: no uvmetrics.py");
-            return None;
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn all_figures_agree_with_the_independent_script() {
+        let paths: Vec<PathBuf> = [
+            "uv_baseline/camel_b_libigl.obj",
+            "uv_baseline/camel_seamster.obj",
+            "uv_baseline/lucy_8k_zbrush.obj",
+            "uv_baseline/statue5_10k_zbrush.obj",
+            "uv_metrics/cube.obj",
+            "uv_metrics/folded.obj",
+            "uv_metrics/strip_fold.obj",
+            "uv_metrics/flat_triangle.obj",
+        ]
+        .map(|name| places::shared("data").join(name))
+        .into();
+        for (path, expected) in paths.iter().zip(evaluate(&paths)) {
+            let ours = read_obj(path).measure_with(VAxis::Up, MeasureOptions::default());
+            let ours = serde_json::to_value(ours).expect("plain numbers");
+            for (key, value) in expected.as_object().expect("an object") {
+                assert!(
+                    agree(&ours[key], value),
+                    "{path:?} {key}: {} {value}",
+                    ours[key]
+                );
+            }
         }
-        let output = match Command::new("python3")
+    }
+
+    /// What the script says of each file.
+    fn evaluate(paths: &[PathBuf]) -> Vec<Value> {
+        let output = Command::new(places::python())
             .args(["-c", PROGRAM])
-            .arg(tools)
+            .arg(places::shared("tools"))
             .args(paths)
             .output()
-        {
-            Ok(output) => output,
-            Err(error) => {
-                println!("skipped: python3: {error}");
-                return None;
-            }
-        };
-        if output.status.code() == Some(7) {
-            println!(
-                "skipped: {}",
-                String::from_utf8_lossy(&output.stderr).trim()
-            );
-            return None;
-        }
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        Some(serde_json::from_slice(&output.stdout).expect("JSON"))
+            .expect("a Python");
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{error}");
+        serde_json::from_slice(&output.stdout).expect("JSON")
     }
 
     /// Equal, numbers that are not counts to 1e-3.
-    pub fn agree(ours: &Value, expected: &Value) -> bool {
+    fn agree(ours: &Value, expected: &Value) -> bool {
         if let (Value::Array(ours), Value::Array(expected)) = (ours, expected) {
             return ours.len() == expected.len()
                 && ours.iter().zip(expected).all(|(a, b)| agree(a, b));

@@ -1,6 +1,6 @@
 //! Small meshes with corner UVs for the tests of `certificate` and `measure`.
 
-use std::path::PathBuf;
+use std::path::Path;
 use unwrapd::certificate::{Certificate, CornerUvs, Overlap, certify};
 use unwrapd::measure::{MeasureOptions, Measures, VAxis, measure};
 
@@ -113,18 +113,8 @@ pub fn moebius_in_one_piece(n: u32) -> UvMesh {
     mesh
 }
 
-/// A file of the shared test data, or `None` with a printed reason.
-pub fn shared_data(name: &str) -> Option<PathBuf> {
-    let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(name);
-    if path.exists() {
-        return Some(path);
-    }
-    println!("skipped: no {}", path.display());
-    None
-}
-
 /// Reads `v`, `vt` and polygons `f v/vt …`, cut into fans.
-pub fn read_obj(path: &PathBuf) -> UvMesh {
+pub fn read_obj(path: &Path) -> UvMesh {
     let text = std::fs::read_to_string(path).expect("a text file");
     let mut mesh = UvMesh::default();
     let mut vt: Vec<[f64; 2]> = Vec::new();

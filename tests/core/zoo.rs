@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f32::consts::{PI, TAU};
-use std::path::PathBuf;
+use std::path::Path;
 
 /// An indexed triangle list as a file would have it.
 #[derive(Clone, Debug, Default)]
@@ -390,18 +390,8 @@ impl Mesh {
     }
 }
 
-/// A folder of the data shared beside the repository; none, with the reason printed, where it is not there.
-pub fn shared_data(folder: &str) -> Option<PathBuf> {
-    let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(folder);
-    if path.is_dir() {
-        return Some(path);
-    }
-    println!("skipped: {} is not there", path.display());
-    None
-}
-
 /// Reads `v` and `f` lines of an OBJ file, or an OFF file; polygons are cut into fans.
-pub fn read_mesh(path: &std::path::Path) -> Option<Mesh> {
+pub fn read_mesh(path: &Path) -> Option<Mesh> {
     let text = std::fs::read_to_string(path).ok()?;
     let mut out = Mesh::default().named(&path.file_name()?.to_string_lossy());
     let mut fan = |polygon: &[u32]| {

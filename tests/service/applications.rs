@@ -1,11 +1,10 @@
 //! Every application as a job: its result on a real file.
 
-use std::path::Path;
-
 use reqwest::multipart::{Form, Part};
 use serde_json::Value;
 
 use crate::meshes::{self, PLATE, bar};
+use crate::places;
 use crate::server::{Server, json};
 
 const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60"><rect width="100" height="60"/></svg>"#;
@@ -13,10 +12,7 @@ pub const PROBLEM: &str = r#"{"mesh": "plate.off", "energy": "green", "barrier":
     "targets": [[0, 0], [0, 1], [1.5, 0.5]]}"#;
 
 pub fn asset(name: &str) -> Vec<u8> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/assets")
-        .join(name);
-    std::fs::read(path).expect("an asset")
+    std::fs::read(places::asset(name)).expect("an asset")
 }
 
 /// The job after its end, or the problem that it was refused with.
@@ -263,34 +259,35 @@ async fn a_body_stops_early_with_a_valid_map() {
     );
 }
 
-/// Real problems in the plane and in space, where the shared ones are.
-#[tokio::test]
-async fn shared_problems_are_solved() {
-    let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/reference/problems");
-    if !problems.exists() {
-        eprintln!("skipped: {} is absent", problems.display());
-        return;
-    }
-    let server = Server::start();
-    for name in [
-        "woody-lo_pt_bend_arap_spline.json",
-        "bar_c_bend_arap_spline.json",
-    ] {
-        let problem = std::fs::read(problems.join(name)).expect("a problem");
-        let parsed: Value = serde_json::from_slice(&problem).expect("JSON");
-        let mut request = form("solve", "{}", (name, problem));
-        for name in ["mesh", "initial"]
-            .into_iter()
-            .filter_map(|key| parsed[key].as_str())
-        {
-            let bytes = std::fs::read(problems.join(name)).expect("what the problem names");
-            request = request.part("resource", Part::bytes(bytes).file_name(name.to_owned()));
+mod shared {
+    use super::{Part, Server, Value, form, outcome, places};
+
+    /// Real problems in the plane and in space.
+    #[tokio::test]
+    #[ignore = "needs ../shared"]
+    async fn problems_are_solved() {
+        let problems = places::shared("reference/problems");
+        let server = Server::start();
+        for name in [
+            "woody-lo_pt_bend_arap_spline.json",
+            "bar_c_bend_arap_spline.json",
+        ] {
+            let problem = std::fs::read(problems.join(name)).expect("a problem");
+            let parsed: Value = serde_json::from_slice(&problem).expect("JSON");
+            let mut request = form("solve", "{}", (name, problem));
+            for name in ["mesh", "initial"]
+                .into_iter()
+                .filter_map(|key| parsed[key].as_str())
+            {
+                let bytes = std::fs::read(problems.join(name)).expect("what the problem names");
+                request = request.part("resource", Part::bytes(bytes).file_name(name.to_owned()));
+            }
+            let (report, _, _) = outcome(&server, request).await;
+            assert_eq!(
+                (&report["status"], &report["inverted"]),
+                (&"converged".into(), &0.into()),
+                "{name}: {report}"
+            );
         }
-        let (report, _, _) = outcome(&server, request).await;
-        assert_eq!(
-            (&report["status"], &report["inverted"]),
-            (&"converged".into(), &0.into()),
-            "{name}: {report}"
-        );
     }
 }

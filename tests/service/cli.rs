@@ -1,13 +1,8 @@
 //! The command line: exit statuses, one-line errors, files whole or absent.
 
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-pub fn asset(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/assets")
-        .join(name)
-}
+pub use crate::places::asset;
 
 pub fn unwrapd(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_unwrapd"))

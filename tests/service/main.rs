@@ -11,6 +11,8 @@ mod meshes;
 mod openapi;
 mod page;
 mod pages;
+#[path = "../places.rs"]
+mod places;
 mod progress;
 mod rendering;
 mod requests;

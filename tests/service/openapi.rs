@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::places;
 use crate::server::{Server, json};
 
 const STORED: &str = include_str!("../../openapi/openapi.json");
@@ -72,10 +73,7 @@ fn every_code_of_an_input_is_in_the_table() {
     let table = document["x-problems"].as_array().expect("a table").iter();
     let table: Vec<&str> = table.filter_map(|row| row["code"].as_str()).collect();
     let mut found = BTreeSet::new();
-    codes(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
-        &mut found,
-    );
+    codes(&places::repository("src"), &mut found);
     assert!(
         found.contains("unknown_handle") && found.contains("folded_mesh"),
         "{found:?}"

@@ -6,9 +6,11 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
+use crate::places;
+
 /// How far the pictures of each pair are apart; `None` where they cannot be rendered.
 fn compared(pairs: &[[PathBuf; 2]]) -> Option<Vec<Value>> {
-    let renderer = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/render");
+    let renderer = places::repository("tests/render");
     if !renderer.join("node_modules").is_dir() {
         println!(
             "skipped: `npm install` was not run in {}",
@@ -40,9 +42,7 @@ fn compared(pairs: &[[PathBuf; 2]]) -> Option<Vec<Value>> {
 
 /// Unwraps an asset of the tests with these options and returns it and its result.
 fn unwrapped(asset: &str, folder: &Path, options: &[&str]) -> [PathBuf; 2] {
-    let input = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/assets")
-        .join(asset);
+    let input = places::asset(asset);
     let stem = input.file_stem().expect("a name").to_string_lossy();
     let output = folder.join(format!("{stem}{}.glb", options.concat()));
     let status = Command::new(env!("CARGO_BIN_EXE_unwrapd"))

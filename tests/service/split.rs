@@ -1,10 +1,8 @@
 //! Surfaces whose triangles are cut at the cells of their cage.
 
-use std::path::Path;
-
 use serde_json::Value;
 
-use crate::cli::unwrapd;
+use crate::cli::{asset, unwrapd};
 
 /// What `measure` says of the first atlas of a file.
 fn measures(file: &str) -> Value {
@@ -15,17 +13,13 @@ fn measures(file: &str) -> Value {
 
 #[test]
 fn attributes_of_cut_triangles_are_interpolated() {
-    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/assets");
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     // A shift alone: whatever is interpolated right measures as before.
     let shift = r#"{"handles": [{"center": [0, 0, 0], "radius": 1e3, "to": [1, 2, 3]}]}"#;
     std::fs::write(path("h.json"), shift).expect("a file");
     let split = |name: &str| {
-        let (input, handles) = (
-            assets.join(name).to_string_lossy().into_owned(),
-            path("h.json"),
-        );
+        let (input, handles) = (asset(name).to_string_lossy().into_owned(), path("h.json"));
         let output = path("out.glb");
         let run = unwrapd(&[
             "deform",

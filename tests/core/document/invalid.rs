@@ -1,6 +1,8 @@
 //! Broken files: a document or a named error, never a panic.
 use super::build::{Builder, glb};
-use super::{files, grid_uvs, new_uvs, options, shared, upload};
+use super::{grid_uvs, new_uvs, options, upload};
+use crate::places;
+use serde_json::json;
 use unwrapd::document::{Document, DocumentError, OutputFormat, Upload};
 
 fn read_and_write(upload: &Upload) -> Result<(), DocumentError> {
@@ -13,38 +15,60 @@ fn read_and_write(upload: &Upload) -> Result<(), DocumentError> {
     Ok(())
 }
 
+/// A document, and what it is refused with once something in it is broken.
 #[test]
-fn every_invalid_file_is_read_or_refused_by_name() {
-    let Some(folder) = shared("invalid") else {
-        return;
+fn broken_files_are_refused_by_name() {
+    let json = |pointer: &'static str, value: serde_json::Value| {
+        let mut builder = Builder::square();
+        *builder.json.pointer_mut(pointer).unwrap() = value;
+        builder.upload()
     };
-    let mut codes = std::collections::BTreeMap::new();
-    for path in files(&folder) {
-        if !path.extension().is_some_and(|e| e == "glb" || e == "gltf") {
-            continue;
-        }
-        let code = match read_and_write(&upload(&path)) {
-            Ok(()) => "ok",
-            Err(error) => {
-                assert!(!error.to_string().contains('\n'), "{error}");
-                error.code()
-            }
-        };
-        let name = path.strip_prefix(&folder).unwrap().display().to_string();
-        println!("{code:24} {name}");
-        codes.insert(name, code);
-    }
-    for (name, code) in [
-        ("BoxWithInfinites.glb", "non_finite_position"),
-        ("IndexOutOfRange/IndexOutOfRange.gltf", "index_out_of_range"),
-        ("cubeSomeBadIndices.glb", "index_out_of_range"),
-        ("glTF1/Box.glb", "unsupported_version"),
-        ("version-unsupported.gltf", "unsupported_version"),
-        ("validator/buffer/not_found.gltf", "missing_resource"),
-        ("validator/glb/truncated_chunk_data.glb", "invalid_gltf"),
-        ("mesh-invalid-empty-primitives.gltf", "no_triangles"),
+    let binary = |at: usize, bytes: &[u8]| {
+        let mut builder = Builder::square();
+        builder.bin[at..at + bytes.len()].copy_from_slice(bytes);
+        builder.upload()
+    };
+    let whole = Builder::square().glb();
+    let file = |bytes: Vec<u8>| Upload::single("a.glb", bytes);
+    let first_version = [&whole[..4], &1_u32.to_le_bytes(), &whole[8..]].concat();
+    for (what, upload, code) in [
+        (
+            "an infinity",
+            binary(4, &f32::INFINITY.to_le_bytes()),
+            "non_finite_position",
+        ),
+        ("an index", binary(48 + 2, &[4, 0]), "index_out_of_range"),
+        ("glTF 1", file(first_version), "unsupported_version"),
+        (
+            "glTF 3",
+            json("/asset/version", json!("3.0")),
+            "unsupported_version",
+        ),
+        (
+            "a buffer",
+            json("/buffers/0", json!({"uri": "b.bin", "byteLength": 60})),
+            "missing_resource",
+        ),
+        (
+            "a chunk",
+            file(whole[..whole.len() - 8].to_vec()),
+            "invalid_gltf",
+        ),
+        ("a type", json("/accessors/0", json!([])), "invalid_gltf"),
+        (
+            "a number",
+            json("/accessors/0/count", json!("many")),
+            "invalid_gltf",
+        ),
+        (
+            "no primitive",
+            json("/meshes/0/primitives", json!([])),
+            "no_triangles",
+        ),
     ] {
-        assert_eq!(codes.get(name), Some(&code), "{name}");
+        let error = read_and_write(&upload).expect_err(what);
+        assert_eq!(error.code(), code, "{what}: {error}");
+        assert!(!error.to_string().contains('\n'), "{error}");
     }
 }
 
@@ -125,24 +149,23 @@ fn unknown_required_extensions_matter_only_on_geometry() {
 /// Damaged copies of small files; the seed is fixed.
 #[test]
 fn damaged_files_never_panic() {
+    let folder = places::asset("gltf");
     let mut seeds = vec![("synthetic.glb".to_owned(), Builder::rich().glb())];
-    if let Some(folder) = shared("gltf") {
-        for name in [
-            "BoxMeshopt.glb",
-            "box_sparse.glb",
-            "cubeQuantized.glb",
-            "cubeStripIndexed.glb",
-            "boxExtMeshManifold.glb",
-            "singleBlendshapeCube_sparse.glb",
-        ] {
-            seeds.push((name.to_owned(), std::fs::read(folder.join(name)).unwrap()));
-        }
-        for name in [
-            "BoxMetaDraco/BoxMetaDraco.gltf",
-            "KHR_meshopt-no-fallback/meshopt-no-fallback.gltf",
-        ] {
-            seeds.push((name.to_owned(), packed(&upload(&folder.join(name)))));
-        }
+    for name in [
+        "BoxMeshopt.glb",
+        "box_sparse.glb",
+        "cubeQuantized.glb",
+        "cubeStripIndexed.glb",
+        "boxExtMeshManifold.glb",
+        "singleBlendshapeCube_sparse.glb",
+    ] {
+        seeds.push((name.to_owned(), std::fs::read(folder.join(name)).unwrap()));
+    }
+    for name in [
+        "BoxMetaDraco/BoxMetaDraco.gltf",
+        "KHR_meshopt-no-fallback/meshopt-no-fallback.gltf",
+    ] {
+        seeds.push((name.to_owned(), packed(&upload(&folder.join(name)))));
     }
     let mut random = 0x9E37_79B9_7F4A_7C15_u64;
     let mut next = move |below: usize| {
@@ -186,4 +209,41 @@ fn packed(upload: &Upload) -> Vec<u8> {
     let buffer = json["buffers"][0].as_object_mut().unwrap();
     let uri = buffer.remove("uri").unwrap();
     glb(&json, &upload.resources[uri.as_str().unwrap()])
+}
+
+mod shared {
+    use super::{places, read_and_write, upload};
+    use crate::document::gltf_files;
+    use std::collections::BTreeMap;
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn every_broken_file_is_read_or_refused_by_name() {
+        let folder = places::shared("data/invalid");
+        let mut codes = BTreeMap::new();
+        for path in gltf_files(&folder) {
+            let code = match read_and_write(&upload(&path)) {
+                Ok(()) => "ok",
+                Err(error) => {
+                    assert!(!error.to_string().contains('\n'), "{error}");
+                    error.code()
+                }
+            };
+            let name = path.strip_prefix(&folder).unwrap().display().to_string();
+            println!("{code:24} {name}");
+            codes.insert(name, code);
+        }
+        for (name, code) in [
+            ("BoxWithInfinites.glb", "non_finite_position"),
+            ("IndexOutOfRange/IndexOutOfRange.gltf", "index_out_of_range"),
+            ("cubeSomeBadIndices.glb", "index_out_of_range"),
+            ("glTF1/Box.glb", "unsupported_version"),
+            ("version-unsupported.gltf", "unsupported_version"),
+            ("validator/buffer/not_found.gltf", "missing_resource"),
+            ("validator/glb/truncated_chunk_data.glb", "invalid_gltf"),
+            ("mesh-invalid-empty-primitives.gltf", "no_triangles"),
+        ] {
+            assert_eq!(codes.get(name), Some(&code), "{name}");
+        }
+    }
 }

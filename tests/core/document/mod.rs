@@ -15,18 +15,15 @@ use std::path::{Path, PathBuf};
 use unwrapd::document::{Document, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written};
 use unwrapd::measure::VAxis;
 
-/// The folder of shared meshes; `None`, with the reason printed, where it is not there.
-pub fn shared(folder: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")).join(folder);
-    if path.is_dir() {
-        return Some(path);
-    }
-    println!("skipped: {} is not there", path.display());
-    None
+/// Every glTF file below a folder, sorted.
+pub fn gltf_files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = files(folder);
+    found.retain(|path| path.extension().is_some_and(|e| e == "glb" || e == "gltf"));
+    found
 }
 
 /// Every file below a folder, sorted.
-pub fn files(folder: &Path) -> Vec<PathBuf> {
+fn files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

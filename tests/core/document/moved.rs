@@ -1,7 +1,9 @@
 //! Documents whose surfaces are moved.
 use super::build::{Builder, parts};
-use super::{files, options, reread, shared, upload};
+use super::{gltf_files, options, reread, upload};
+use crate::places;
 use serde_json::{Value, json};
+use std::path::Path;
 use unwrapd::document::{Document, Layout, NewUvs, OutputFormat, SpaceMap, Upload, Written};
 
 /// A quarter turn about z, exact in f32, and then a step along x.
@@ -88,12 +90,13 @@ fn only_positions_normals_and_tangents_change() {
 }
 
 #[test]
-fn every_shared_file_comes_back_moved() {
-    let Some(folder) = shared("gltf") else {
-        return;
-    };
+fn every_file_comes_back_moved() {
+    assert_moved(&places::asset(""));
+}
+
+fn assert_moved(folder: &Path) {
     let mut n_files = 0;
-    for path in files(&folder) {
+    for path in gltf_files(folder) {
         let Ok(before) = Document::read(&upload(&path)) else {
             continue;
         };
@@ -139,4 +142,14 @@ fn a_moved_obj_text_keeps_all_but_its_positions_and_normals() {
         String::from_utf8(written.files[0].1.clone()).unwrap(),
         expected
     );
+}
+
+mod shared {
+    use super::{assert_moved, places};
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn every_file_comes_back_moved() {
+        assert_moved(&places::shared("data/gltf"));
+    }
 }

@@ -1,18 +1,18 @@
 //! Every real file: positions per corner stay, UVs are what was written.
-use super::{files, grid_uvs, new_uvs, options, reread, shared, upload};
+use super::{gltf_files, grid_uvs, new_uvs, options, reread, upload};
+use crate::places;
+use std::path::Path;
 use unwrapd::document::{Document, OutputFormat};
 
 const BITS: u32 = 12;
 
 #[test]
-fn every_shared_file_comes_back_with_its_new_uvs() {
-    let Some(folder) = shared("gltf") else {
-        return;
-    };
-    for path in files(&folder) {
-        if !path.extension().is_some_and(|e| e == "glb" || e == "gltf") {
-            continue;
-        }
+fn every_file_comes_back_with_its_new_uvs() {
+    check_all(&places::asset(""));
+}
+
+fn check_all(folder: &Path) {
+    for path in gltf_files(folder) {
         let upload = upload(&path);
         let document = match Document::read(&upload) {
             Ok(document) => document,
@@ -61,5 +61,15 @@ fn check(document: &Document, period: usize, format: OutputFormat, name: &str) {
             let expected = grid.map(|[u, v]| [f64::from(u) / scale, 1.0 - f64::from(v) / scale]);
             assert_eq!(*stored, expected, "{name}");
         }
+    }
+}
+
+mod shared {
+    use super::{check_all, places};
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn every_file_comes_back_with_its_new_uvs() {
+        check_all(&places::shared("data/gltf"));
     }
 }

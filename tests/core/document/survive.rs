@@ -1,7 +1,9 @@
 //! What nobody asked to change is still there.
 use super::build::{Builder, parts};
-use super::{files, grid_uvs, new_uvs, options, shared, upload};
+use super::{gltf_files, grid_uvs, new_uvs, options, upload};
+use crate::places;
 use serde_json::{Value, json};
+use std::path::Path;
 use unwrapd::document::{Document, OutputFormat};
 
 /// Members that a new UV set may change, and members that decompression may.
@@ -137,13 +139,11 @@ fn lasting(names: &Value) -> Vec<&Value> {
 
 #[test]
 fn real_files_keep_all_but_their_uvs() {
-    let Some(folder) = shared("gltf") else {
-        return;
-    };
-    for path in files(&folder) {
-        if !path.extension().is_some_and(|e| e == "glb" || e == "gltf") {
-            continue;
-        }
+    assert_all_but_uvs_kept(&places::asset(""));
+}
+
+fn assert_all_but_uvs_kept(folder: &Path) {
+    for path in gltf_files(folder) {
         let upload = upload(&path);
         let Ok(document) = Document::read(&upload) else {
             continue;
@@ -271,4 +271,14 @@ fn shared_accessors_are_shared_out() {
         (&json!(3), &json!([0.0, 0.0, 0.0]), &json!([1.0, 1.0, 0.0]))
     );
     assert_eq!(json["accessors"][0], builder.json["accessors"][0]);
+}
+
+mod shared {
+    use super::{assert_all_but_uvs_kept, places};
+
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn real_files_keep_all_but_their_uvs() {
+        assert_all_but_uvs_kept(&places::shared("data/gltf"));
+    }
 }
