@@ -23,3 +23,4 @@ mod server;
 mod split;
 mod synchronous;
 mod timestamp;
+mod verdicts;

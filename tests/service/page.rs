@@ -78,3 +78,21 @@ async fn the_page_shows_what_is_proven() {
         assert!(page.contains(words), "{words}: {page}");
     }
 }
+
+#[tokio::test]
+async fn the_page_shows_warnings() {
+    let server = Server::start();
+    let options = r#"{"texcoord": 1}"#;
+    let job = ended(
+        &server,
+        form("unwrap", options, ("plate.off", PLATE.into())),
+    )
+    .await;
+    let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
+    let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
+    let Some(page) = page.expect("a browser") else {
+        return;
+    };
+    let warning = job["warnings"][0]["message"].as_str().expect("a warning");
+    assert!(page.contains(warning), "{warning}: {page}");
+}
