@@ -76,7 +76,12 @@ pub fn edit_document(
         let report = judge(&document, &edited, &written, (options.texcoord, how.rest))?;
         let is_kept = report.certified || options.model.barrier == BarrierKind::None;
         if !is_kept || options.model.bijective && !report.bijective {
-            return Err(PipelineError::NotCertified);
+            let what = if report.certified {
+                "a chart overlaps itself"
+            } else {
+                "a triangle is flipped or without area"
+            };
+            return Err(PipelineError::NotValid(what.to_owned()));
         }
         Ok(EditedDocument {
             files: written.files,

@@ -3,6 +3,7 @@
 mod applications;
 mod bad_inputs;
 mod benches;
+mod certified;
 mod cli;
 mod deforming;
 mod failures;

@@ -74,7 +74,7 @@ async fn the_page_shows_what_is_proven() {
     let Some(page) = page.expect("a browser") else {
         return;
     };
-    for words in ["no faces overlap", "holds at", "seam / √area", "layout.png"] {
+    for words in ["nothing overlaps", "safe at", "seam / √area", "layout.png"] {
         assert!(page.contains(words), "{words}: {page}");
     }
 }
