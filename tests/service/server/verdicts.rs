@@ -2,6 +2,7 @@
 
 use sqlx::sqlite::{SqliteConnectOptions, SqlitePool};
 
+use crate::certified::cards;
 use crate::meshes;
 use crate::server::{Server, json};
 
@@ -53,7 +54,7 @@ async fn a_data_folder_of_the_first_version_is_brought_up_to_date() {
     let options = SqliteConnectOptions::new().filename(&file);
     let pool = SqlitePool::connect_with(options.create_if_missing(true)).await;
     let pool = pool.expect("a database");
-    let first_version = include_str!("../../src/store/schema/1.sql");
+    let first_version = include_str!("../../../src/store/schema/1.sql");
     let row = "INSERT INTO job (id, kind, state, options, input, output, attempt, lost, finish_early, ephemeral, seq, progress, created)
                VALUES ('019a0000-0000-7000-8000-000000000000', 'unwrap', 'succeeded', '{}', '[]', '[]', 1, 0, 0, 0, 9,
                        '{\"stage\":null,\"fraction\":1,\"chart\":0,\"charts\":0,\"iteration\":0,\"energy\":null,\"smallest\":null}', 0)";
@@ -69,4 +70,27 @@ async fn a_data_folder_of_the_first_version_is_brought_up_to_date() {
     assert_eq!(old["warnings"], serde_json::json!([]));
     let job = server.submit(meshes::small(), WITH_A_WARNING).await;
     assert_eq!(server.ended(&job).await["certified"], true);
+}
+
+#[tokio::test]
+async fn a_job_that_is_not_certified_succeeds_and_says_so() {
+    let server = Server::start();
+    let post = async |path: &str| {
+        let body = server
+            .post(path)
+            .header("content-type", "model/obj")
+            .body(cards(400));
+        body.send().await.expect("an answer")
+    };
+    let job = json(post("/v1/jobs?resolution=32").await).await;
+    let job = server.ended(&job).await;
+    assert_eq!(
+        (&job["state"], &job["certified"]),
+        (&"succeeded".into(), &false.into())
+    );
+    assert_eq!(job["warnings"][0]["code"], "padding_missed");
+    let answer = post("/v1/unwrap?resolution=32").await;
+    assert_eq!(answer.status(), 200);
+    assert_eq!(answer.headers()["unwrapd-certified"], "false");
+    assert_eq!(answer.headers()["unwrapd-warnings"], "padding_missed");
 }
