@@ -126,6 +126,9 @@
 //!   nothing has to be carried over but vertices.
 //! - A lightmap needs a region for each instance, and glTF has no offset and scale of UVs per node: each node gets its own copy of
 //!   the mesh, which every engine reads.
+//! - Meshes of one shape are mapped once, and what is asked is not whether they share a name or an accessor but whether their triangles
+//!   are the same and their positions equal up to a rigid motion and a scale. In an atlas of several, those that touch others
+//!   stay with them.
 //! - A chart of which floating point finds no valid map is cut into halves, even where one chart per component was asked
 //!   for: a valid atlas with a seam more is worth more than none.
 //!

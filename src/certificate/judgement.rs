@@ -59,6 +59,8 @@ pub struct Certificate {
     pub pages: Option<PagesVerdict>,
     /// Whether the map holds at the bits asked for; null when not asked or overlaps were not tested.
     pub bits: Option<BitsVerdict>,
+    /// The first few charts that are seen from behind; charts are numbered in the order of their first faces.
+    pub mirrored: Vec<u32>,
     /// The first few faces that are flipped, degenerate or cannot be judged.
     pub offending_faces: Vec<u32>,
     /// The first few pairs found to overlap.
@@ -93,7 +95,9 @@ pub fn certify(
 ) -> Certificate {
     let topology = UvTopology::new(positions, triangles, uvs);
     let mut certificate = judge_faces(&topology);
-    certificate.mirrored_charts = topology.mirrored_charts(claims.v_axis);
+    let mirrored = topology.mirrored_charts(claims.v_axis);
+    certificate.mirrored_charts = mirrored.len();
+    certificate.mirrored = mirrored.into_iter().take(NAMED).collect();
     certificate.unaligned_charts =
         (claims.aligned).map(|texels| unaligned_charts(&topology, texels));
     certificate.pages = claims.pages.map(|pages| judge_pages(&topology, pages));

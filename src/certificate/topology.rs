@@ -107,7 +107,7 @@ impl UvTopology {
     }
 
     /// Charts of which most UV area is, as the file winds it, that of a back.
-    pub fn mirrored_charts(&self, v_axis: VAxis) -> usize {
+    pub fn mirrored_charts(&self, v_axis: VAxis) -> Vec<u32> {
         let mut signed_area = vec![0.0; self.charts.nonorientable.len()];
         for (face, &chart) in self.charts.of_face.iter().enumerate() {
             signed_area[chart as usize] += f64::from(self.orientation[face]) * self.area(face);
@@ -116,7 +116,9 @@ impl UvTopology {
             VAxis::Up => **area < 0.0,
             VAxis::Down => **area > 0.0,
         };
-        signed_area.iter().filter(is_mirrored).count()
+        let numbered = (0..).zip(&signed_area);
+        let mirrored = numbered.filter(|(_, area)| is_mirrored(area));
+        mirrored.map(|(chart, _)| chart).collect()
     }
 
     /// For each chart the orientation that carries most UV area among the faces of which `counts` holds (on a tie, the one

@@ -190,6 +190,16 @@ impl MappedChart {
             .collect()
     }
 
+    /// Makes the chart and its map so many times as large.
+    pub fn scale(&mut self, size: f64) {
+        for p in &mut self.embedding.uv {
+            *p = p.map(|x| size * x);
+        }
+        for p in &mut self.chart.positions {
+            *p = p.map(|x| size * x);
+        }
+    }
+
     /// The area of the map.
     pub fn area(&self) -> f64 {
         let corners = |t: &[u32; 3]| t.map(|v| self.embedding.uv[v as usize]);

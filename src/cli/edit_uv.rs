@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::files::{json, output_format, read_file, read_upload, write_atomically, write_outputs};
+use super::files::{
+    json, output_format, read_file, read_upload, warn, write_atomically, write_outputs,
+};
 use super::model::ModelArgs;
 use super::progress::Display;
 use super::records::stem;
@@ -92,6 +94,7 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     if let Some(path) = &args.report {
         write_atomically(path, &json(&edited.report)?)?;
     }
+    warn(&edited.report.warnings);
     for chart in &edited.report.charts {
         print_pull(&format!("chart {}: ", chart.chart), &chart.map);
     }

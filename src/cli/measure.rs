@@ -7,8 +7,7 @@ use super::files::{json, read_upload, say, warn};
 use super::words::{GROUPS, word};
 use crate::certificate::{Certificate, Resolution};
 use crate::document::GroupBy;
-use crate::measure::Page;
-use crate::pipeline::{self, GroupReport, MeasureOptions};
+use crate::pipeline::{self, MeasureOptions};
 
 /// Which UVs of a file, and what is judged of them.
 #[derive(clap::Args)]
@@ -78,34 +77,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.json {
         say(format_args!("{}", String::from_utf8_lossy(&json(&report)?)));
     } else {
-        report.groups.iter().for_each(print_group);
+        super::table::print(&report.groups);
         warn(&report.warnings);
     }
     Ok(())
-}
-
-/// One line per atlas.
-pub(super) fn print_group(group: &GroupReport) {
-    let m = &group.measures;
-    let number = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.4}"));
-    let packed = match m.packing.pack_unit {
-        None if !m.pages.is_empty() => {
-            let page = |page: &Page| format!("{} {:.4}", page.udim, page.fill);
-            m.pages.iter().map(page).collect::<Vec<_>>().join(", ")
-        }
-        packed => number(packed),
-    };
-    say(format_args!(
-        "{}: {} faces, {} charts, seam/√area {}, symmetric Dirichlet {}, packed {}, texels per unit {}; {}",
-        group.name,
-        m.size.faces,
-        m.seams.charts,
-        number(m.seams.seam_over_sqrt_area),
-        number(m.distortion.sym_dirichlet_mean),
-        packed,
-        number(group.texels_per_unit),
-        certificate_text(&group.certificate)
-    ));
 }
 
 /// Faces and faults.

@@ -1,7 +1,7 @@
 //! Commands: each subcommand is one file that fills settings structs and calls the library.
 //!
-//! Exit codes: 0 done; 2 usage; 3 the input cannot be used; 4 not certified or no valid result within the limits;
-//! 1 anything else.
+//! Exit codes: 0 done; 2 usage; 3 the input cannot be used; 4 not certified (with a file), or no valid result within the limits
+//! (without one); 1 anything else.
 
 mod deform;
 mod edit_uv;
@@ -16,6 +16,7 @@ mod records;
 mod repack;
 mod serve;
 mod solve;
+mod table;
 mod unwrap;
 mod verify;
 mod warp;

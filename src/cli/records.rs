@@ -55,8 +55,8 @@ impl Records {
 }
 
 fn summarize(Deformed { report, .. }: &Deformed) {
+    warn(&report.warnings);
     if let Some(cage) = &report.cage {
-        warn(&cage.warnings);
         say(format_args!(
             "{} voxels, {} tetrahedra, {} triangles, {} surface vertices, crossings {} before, {} after",
             cage.voxels,

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::files::{json, read_upload, say};
 use super::measure::{Which, certificate_text};
 use crate::certificate::Overlap;
-use crate::pipeline::{Proven, verify_document};
+use crate::pipeline::{Mirrored, verify_document};
 
 /// Checks exactly that every face of a file's UVs is positive relative to its chart, and what else is asked for.
 #[derive(clap::Args)]
@@ -38,26 +38,27 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     } else {
         for group in &verified.groups {
             let text = certificate_text(&group.certificate);
-            say(format_args!("{}: {text}", group.name));
+            say(format_args!("{}: {text}", group.label));
         }
     }
     let proven = &verified.proven;
-    if !holds(args, proven) {
+    let asked = (
+        if args.bijective {
+            Overlap::Test
+        } else {
+            Overlap::Skip
+        },
+        if args.unmirrored {
+            Mirrored::Refused
+        } else {
+            Mirrored::Allowed
+        },
+    );
+    if !proven.lacks(asked.0, asked.1).is_empty() {
         return Err(Failure::uncertified(format!("not valid: {proven}")));
     }
     if !args.json {
         say(format_args!("valid: {proven}"));
     }
     Ok(())
-}
-
-/// Whether everything that was asked for is proven.
-fn holds(args: &Args, proven: &Proven) -> bool {
-    proven.locally_injective
-        && (proven.bijective || !args.bijective)
-        && (proven.unmirrored || !args.unmirrored)
-        && proven.padding.as_ref().is_none_or(|padding| padding.kept)
-        && proven.aligned.unwrap_or(true)
-        && proven.pages.as_ref().is_none_or(|pages| pages.kept)
-        && proven.bits.as_ref().is_none_or(|bits| bits.hold)
 }

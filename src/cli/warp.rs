@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::files::{json, read_file, read_upload, say, write_atomically, write_outputs};
+use super::files::{json, read_file, read_upload, say, warn, write_atomically, write_outputs};
 use super::model::ModelArgs;
 use super::progress::Display;
 use super::records::stem;
@@ -59,6 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(path) = &args.report {
         write_atomically(path, &json(&warped.report)?)?;
     }
+    warn(&warped.report.warnings);
     print_pull("", &warped.report.map);
     if warped.report.certified {
         Ok(())

@@ -56,12 +56,34 @@ pub enum GroupBy {
 pub struct Group {
     /// `scene`, `mesh0`, `mesh0/prim0` or `material0` (`material-1` for no material).
     pub name: String,
+    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    pub label: String,
     /// Indices into the document's primitives, ascending.
     pub primitives: Vec<usize>,
 }
 
+/// What a file calls its meshes and materials.
+pub(super) trait Names {
+    /// The name of a mesh, if it has one.
+    fn mesh(&self, index: usize) -> Option<String>;
+    /// The name of a material, if it has one.
+    fn material(&self, index: usize) -> Option<String>;
+}
+
+/// Of a file that names nothing.
+pub(super) struct Nameless;
+
+impl Names for Nameless {
+    fn mesh(&self, _: usize) -> Option<String> {
+        None
+    }
+    fn material(&self, _: usize) -> Option<String> {
+        None
+    }
+}
+
 /// Groups in the order of their first primitives.
-pub(super) fn groups(primitives: &[Primitive], by: GroupBy) -> Vec<Group> {
+pub(super) fn groups(primitives: &[Primitive], by: GroupBy, names: &impl Names) -> Vec<Group> {
     let mut places = std::collections::HashMap::new();
     let mut groups: Vec<Group> = Vec::new();
     for (index, primitive) in primitives.iter().enumerate() {
@@ -70,6 +92,7 @@ pub(super) fn groups(primitives: &[Primitive], by: GroupBy) -> Vec<Group> {
         if place == groups.len() {
             groups.push(Group {
                 name,
+                label: group_label(primitive, by, names),
                 primitives: Vec::new(),
             });
         }
@@ -86,6 +109,24 @@ fn group_name(primitive: &Primitive, by: GroupBy) -> String {
         GroupBy::Material => match primitive.material {
             Some(material) => format!("material{material}"),
             None => "material-1".to_owned(),
+        },
+    }
+}
+
+fn group_label(primitive: &Primitive, by: GroupBy, names: &impl Names) -> String {
+    let mesh = || {
+        let name = names.mesh(primitive.mesh);
+        name.unwrap_or_else(|| format!("mesh {}", primitive.mesh))
+    };
+    match by {
+        GroupBy::Scene => "scene".to_owned(),
+        GroupBy::Mesh => mesh(),
+        GroupBy::Primitive => format!("{}, primitive {}", mesh(), primitive.primitive),
+        GroupBy::Material => match primitive.material {
+            Some(material) => {
+                (names.material(material)).unwrap_or_else(|| format!("material {material}"))
+            }
+            None => "no material".to_owned(),
         },
     }
 }

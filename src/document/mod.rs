@@ -84,11 +84,12 @@ impl Document {
     /// Which primitives share one UV space, in the order of their first primitives. Files without meshes and materials
     /// are one group.
     pub fn groups(&self, by: GroupBy) -> Vec<Group> {
-        let by = match self {
-            Self::Gltf(_) => by,
-            Self::Obj(_) | Self::Soup(_) => GroupBy::Scene,
-        };
-        group::groups(self.primitives(), by)
+        match self {
+            Self::Gltf(document) => group::groups(self.primitives(), by, document),
+            Self::Obj(_) | Self::Soup(_) => {
+                group::groups(self.primitives(), GroupBy::Scene, &group::Nameless)
+            }
+        }
     }
 
     /// The index of a material with this name, or else with this number; other files than glTF are read without materials.

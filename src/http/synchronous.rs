@@ -1,27 +1,35 @@
 //! Small meshes in one call.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use axum::extract::{Request, State};
-use axum::http::HeaderMap;
+use axum::http::{HeaderMap, HeaderName, HeaderValue};
 use axum::response::Response;
 
 use super::answers::CallProblems;
 use super::jobs::wait_for;
 use super::problem::{Code, Problem};
 use super::{App, Shared, download, upload};
-use crate::jobs::{Ended, Job, JobId, Jobs, Kind, State as JobState, Submitted};
+use crate::jobs::{Ended, Job, JobId, Jobs, Kind, State as JobState, Submitted, Verdict};
+
+const CERTIFIED: HeaderName = HeaderName::from_static("unwrapd-certified");
+const WARNINGS: HeaderName = HeaderName::from_static("unwrapd-warnings");
 
 /// Unwrap a mesh and get it back.
 ///
 /// For meshes that take seconds; it stands in the same queue as jobs do, and nothing is kept. The answer is the file in
 /// the format that `format` names, `glb` or `obj`; a `gltf` has files beside it, which one answer cannot hold: that needs
-/// a job (`needs_job`), and so do report and pictures. Closing the connection cancels.
+/// a job (`needs_job`), and so do report and pictures. `unwrapd-certified` says whether everything asked for is proven of it, and
+/// `unwrapd-warnings` names the codes of what a job would warn of. Closing the connection cancels.
 #[utoipa::path(
     post, path = "/v1/unwrap", operation_id = "unwrap", tag = "synchronous",
     params(("filename" = Option<String>, Query, description = "Name of the file in a raw body")),
     responses(
-        (status = 200, description = "The mesh with its new UVs", content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/obj"))),
+        (status = 200, description = "The mesh with its new UVs", headers(
+            ("unwrapd-certified" = bool, description = "Whether everything that was asked for is proven on its bytes"),
+            ("unwrapd-warnings" = String, description = "Codes of the warnings; absent if there are none"),
+        ), content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/obj"))),
         CallProblems,
     )
 )]
@@ -77,12 +85,31 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
     match (&job.failure, job.state, job.output.first()) {
         (Some(failure), _, _) => Err(Problem::of_failure(failure)),
         (None, JobState::Succeeded, Some(file)) => {
-            download::answer(app, job, file, &HeaderMap::new()).await
+            let mut response = download::answer(app, job, file, &HeaderMap::new()).await?;
+            tell_verdict(&job.verdict, response.headers_mut());
+            Ok(response)
         }
         _ => Err(Problem::new(
             Code::WorkerLost,
             "the computation was cancelled",
         )),
+    }
+}
+
+/// What stands in a job, as headers: nothing else of it is left.
+fn tell_verdict(verdict: &Verdict, headers: &mut HeaderMap) {
+    if let Some(certified) = verdict.certified {
+        let certified = if certified { "true" } else { "false" };
+        headers.insert(CERTIFIED, HeaderValue::from_static(certified));
+    }
+    let codes: BTreeSet<&str> = (verdict.warnings.iter())
+        .map(|warning| warning.code.as_ref())
+        .collect();
+    let codes = Vec::from_iter(codes).join(", ");
+    if let Ok(codes) = HeaderValue::from_str(&codes)
+        && !codes.is_empty()
+    {
+        headers.insert(WARNINGS, codes);
     }
 }
 

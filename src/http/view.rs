@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::problem::Problem;
+use crate::document::Warning;
 use crate::jobs::{Event, Job, Kind, Timestamp};
 
 /// A job: what was asked, how far it is, what came of it.
@@ -35,6 +36,11 @@ pub(super) struct JobView {
     /// When it reached its final state.
     #[schema(value_type = Option<String>, format = DateTime)]
     finished_at: Option<Timestamp>,
+    /// Whether everything that was asked for is proven on the bytes written; null until it succeeded, and of kinds of jobs that prove
+    /// nothing of a result. If false there is a result, and `warnings` say what is missing.
+    certified: Option<bool>,
+    /// What users should know of the input, of the work and of the result; empty until it succeeded.
+    warnings: Vec<Warning>,
     /// Why it failed; absent unless it did.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Problem>,
@@ -92,6 +98,8 @@ impl From<&Job> for JobView {
             created_at: job.created,
             started_at: job.started,
             finished_at: job.finished,
+            certified: job.verdict.certified,
+            warnings: job.verdict.warnings.clone(),
             error: job.failure.as_ref().map(Problem::of_failure),
             links: Links {
                 files: files.collect(),

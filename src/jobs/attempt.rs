@@ -7,7 +7,7 @@ use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 
 use super::child::{Child, Exit};
-use super::job::{Failure, Job, OutputFile, State};
+use super::job::{Failure, Job, State};
 use super::queue::{Control, Jobs, input_key, output_key};
 use super::storage::StoreResult;
 use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
@@ -23,7 +23,7 @@ const BUDGET_SHARE: f64 = 0.8;
 
 /// How an attempt ended.
 enum Ending {
-    Succeeded(Vec<OutputFile>),
+    Succeeded(Outcome),
     Failed(Failure),
     Cancelled,
     /// The server stops; the job shall run again.
@@ -96,7 +96,7 @@ async fn compute(
             let from: PathBuf = folder.join(task::output_file(index));
             jobs.blobs.put(&output_key(job.id, index), &from).await?;
         }
-        return Ok(Ending::Succeeded(outcome.output));
+        return Ok(Ending::Succeeded(outcome));
     }
     let said = task::read_json::<Failure>(folder, ERROR).ok();
     Ok(Ending::Failed(said.unwrap_or_else(|| exit.cause())))
@@ -169,11 +169,12 @@ pub(super) fn out_of_memory(limit: u64) -> Failure {
 
 async fn conclude(jobs: &Jobs, mut job: Job, ending: Ending) {
     match ending {
-        Ending::Succeeded(output) => {
+        Ending::Succeeded(Outcome { output, verdict }) => {
             job.state = State::Succeeded;
             job.progress.stage = None;
             job.progress.fraction = 1.0;
             job.output = output;
+            job.verdict = verdict;
         }
         Ending::Failed(failure) => {
             job.state = State::Failed;

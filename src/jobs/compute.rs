@@ -57,11 +57,11 @@ fn attempt(folder: &Path) -> Attempt<()> {
     tell(&Message::Ready);
     let upload = read_upload(folder, &task.input).map_err(internal)?;
     let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
-    let files = work
+    let made = work
         .run(&upload, task.limits, &reporter)
         .map_err(|e| refusal(&e))?;
     let mut output = Vec::new();
-    for (index, (role, name, bytes)) in files.into_iter().enumerate() {
+    for (index, (role, name, bytes)) in made.files.into_iter().enumerate() {
         std::fs::write(folder.join(task::output_file(index)), &bytes).map_err(internal)?;
         output.push(OutputFile {
             role,
@@ -72,7 +72,8 @@ fn attempt(folder: &Path) -> Attempt<()> {
     let frames = reporter.frames.into_inner();
     let frames = frames.unwrap_or_else(PoisonError::into_inner);
     frames.into_output(&mut output).map_err(internal)?;
-    task::write_json(folder, OUTCOME, &Outcome { output }).map_err(internal)
+    let verdict = made.verdict;
+    task::write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(internal)
 }
 
 /// Starts the threads that hear the end of standard input and SIGINT. Called before any other thread exists, since a

@@ -8,6 +8,7 @@ use uuid::Uuid;
 
 use super::progress::{Event, Progress};
 use super::timestamp::Timestamp;
+use crate::document::Warning;
 
 /// Names a job; ids sort by the time of their making (UUID version 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -173,6 +174,16 @@ pub struct OutputFile {
     pub bytes: u64,
 }
 
+/// What is known of a result beside its files.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Verdict {
+    /// Whether everything that was asked for is proven on the bytes written; none of kinds that prove nothing of a result.
+    pub certified: Option<bool>,
+    /// What users should know of the input, of the work and of the result.
+    pub warnings: Vec<Warning>,
+}
+
 /// Everything that is known of a job.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -188,6 +199,8 @@ pub struct Job {
     pub input: Vec<InputFile>,
     /// What it made; empty until it succeeded. The main result is first.
     pub output: Vec<OutputFile>,
+    /// What is known of that; empty until it succeeded.
+    pub verdict: Verdict,
     /// How often it was started; fences off what outdated attempts report.
     pub attempt: u32,
     /// How many attempts ended because the server was lost.

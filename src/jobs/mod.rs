@@ -36,7 +36,7 @@ mod timestamp;
 mod work;
 
 pub use events::{LocalEvents, Subscription};
-pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, State};
+pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, State, Verdict};
 pub use progress::{Event, Progress, next_attempt_seq};
 pub use queue::{Ended, Jobs};
 pub use settings::Settings;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::job::{InputFile, Job, JobId, Kind, State};
+use super::job::{InputFile, Job, JobId, Kind, State, Verdict};
 use super::progress::Progress;
 use super::queue::{Jobs, input_key};
 use super::storage::{Enqueued, IdempotencyKey, StoreError};
@@ -73,6 +73,7 @@ impl Jobs {
             options: submission.options,
             input,
             output: Vec::new(),
+            verdict: Verdict::default(),
             attempt: 0,
             lost: 0,
             finish_early: false,

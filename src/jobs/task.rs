@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use super::job::{Kind, OutputFile};
+use super::job::{Kind, OutputFile, Verdict};
 use super::progress::Progress;
 use crate::pipeline::Limits;
 
@@ -52,6 +52,7 @@ pub(super) enum Message {
 #[derive(Serialize, Deserialize)]
 pub(super) struct Outcome {
     pub output: Vec<OutputFile>,
+    pub verdict: Verdict,
 }
 
 /// Writes JSON so that a reader sees all of it or nothing.

@@ -4,15 +4,20 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::job::Kind;
-use crate::document::Upload;
+use super::job::{Kind, Verdict};
+use crate::document::{Upload, Warning};
 use crate::pipeline::{
     self, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions, Observer, Options,
     PipelineError, RepackOptions, SolveOptions, WarpOptions,
 };
 
-/// What a job leaves: role, name and content of each file.
-pub(super) type Files = Vec<(String, String, Vec<u8>)>;
+/// What a job leaves.
+pub(super) struct Made {
+    /// Role, name and content of each file.
+    pub files: Vec<(String, String, Vec<u8>)>,
+    /// What is known of them.
+    pub verdict: Verdict,
+}
 
 /// A kind of job with its options, checked as far as that is possible without the file.
 pub struct Work {
@@ -20,8 +25,8 @@ pub struct Work {
     run: Box<Run>,
 }
 
-type Run = dyn FnOnce(&Upload, Limits, &dyn Observer) -> Made + Send;
-type Made = Result<Files, PipelineError>;
+type Run = dyn FnOnce(&Upload, Limits, &dyn Observer) -> Ended + Send;
+type Ended = Result<Made, PipelineError>;
 
 impl Work {
     /// Reads and checks the options of a kind; what is absent has its default.
@@ -41,7 +46,7 @@ impl Work {
     fn of<O: DeserializeOwned + Serialize + Send + 'static>(
         options: Value,
         check: fn(&O) -> Result<(), PipelineError>,
-        run: fn(&Upload, O, Limits, &dyn Observer) -> Made,
+        run: fn(&Upload, O, Limits, &dyn Observer) -> Ended,
     ) -> Result<Self, PipelineError> {
         let refused = |error: serde_json::Error| PipelineError::InvalidOptions(error.to_string());
         let options: O = serde_json::from_value(options).map_err(refused)?;
@@ -58,12 +63,12 @@ impl Work {
     }
 
     /// Does it.
-    pub(super) fn run(self, upload: &Upload, limits: Limits, observer: &dyn Observer) -> Made {
+    pub(super) fn run(self, upload: &Upload, limits: Limits, observer: &dyn Observer) -> Ended {
         (self.run)(upload, limits, observer)
     }
 }
 
-fn unwrap(upload: &Upload, mut options: Options, limits: Limits, observer: &dyn Observer) -> Made {
+fn unwrap(upload: &Upload, mut options: Options, limits: Limits, observer: &dyn Observer) -> Ended {
     options.limits = limits;
     drawn(pipeline::unwrap_document(upload, &options, observer)?)
 }
@@ -73,26 +78,30 @@ fn repack(
     mut options: RepackOptions,
     limits: Limits,
     observer: &dyn Observer,
-) -> Made {
+) -> Ended {
     options.limits = limits;
     drawn(pipeline::repack_document(upload, &options, observer)?)
 }
 
 /// An atlas with its pictures and its report.
-fn drawn(outcome: pipeline::Outcome) -> Made {
+fn drawn(outcome: pipeline::Outcome) -> Ended {
     let drawn = outcome.pictures.draw()?;
-    let mut files = result(outcome.files);
-    let mut add = |role: &str, bytes| files.push((role.to_owned(), role.to_owned(), bytes));
-    add("layout.png", drawn.layout_png);
-    add("heatmap.png", drawn.heatmap_png);
-    files.push(report(&outcome.report));
-    Ok(files)
+    let report = &outcome.report;
+    let mut made = Made::new(outcome.files);
+    made.add("layout.png", "layout.png", drawn.layout_png);
+    made.add("heatmap.png", "heatmap.png", drawn.heatmap_png);
+    Ok(made.reported(report, Some(report.certified), &report.warnings))
 }
 
-fn measure(upload: &Upload, mut options: MeasureOptions, limits: Limits, _: &dyn Observer) -> Made {
+fn measure(
+    upload: &Upload,
+    mut options: MeasureOptions,
+    limits: Limits,
+    _: &dyn Observer,
+) -> Ended {
     options.limits = limits;
-    let measured = pipeline::measure_document(upload, &options)?;
-    Ok(vec![report(&measured)])
+    let report = pipeline::measure_document(upload, &options)?;
+    Ok(Made::new(Vec::new()).reported(&report, None, &report.warnings))
 }
 
 fn solve(
@@ -100,7 +109,7 @@ fn solve(
     mut options: SolveOptions,
     limits: Limits,
     observer: &dyn Observer,
-) -> Made {
+) -> Ended {
     options.limits = limits;
     pipeline::solve_file(upload, &options, observer).map(body)
 }
@@ -110,17 +119,16 @@ fn deform(
     mut options: DeformOptions,
     limits: Limits,
     observer: &dyn Observer,
-) -> Made {
+) -> Ended {
     options.limits = limits;
     pipeline::deform_file(upload, &options, observer).map(body)
 }
 
-fn body(deformed: Deformed) -> Files {
-    let mut files = result(deformed.files);
-    files.push(report(&deformed.report));
-    let name = "trace.csv".to_owned();
-    files.push((format!("files/{name}"), name, deformed.trace.into_bytes()));
-    files
+fn body(deformed: Deformed) -> Made {
+    let report = &deformed.report;
+    let mut made = Made::new(deformed.files).reported(report, None, &report.warnings);
+    made.add("files/trace.csv", "trace.csv", deformed.trace.into_bytes());
+    made
 }
 
 fn warp(
@@ -128,12 +136,11 @@ fn warp(
     mut options: WarpOptions,
     limits: Limits,
     observer: &dyn Observer,
-) -> Made {
+) -> Ended {
     options.limits = limits;
     let warped = pipeline::warp_file(upload, &options, observer)?;
-    let mut files = result(warped.files);
-    files.push(report(&warped.report));
-    Ok(files)
+    let report = &warped.report;
+    Ok(Made::new(warped.files).reported(report, Some(report.certified), &report.warnings))
 }
 
 fn edit_uv(
@@ -141,7 +148,7 @@ fn edit_uv(
     mut options: EditOptions,
     limits: Limits,
     observer: &dyn Observer,
-) -> Made {
+) -> Ended {
     options.limits = limits;
     edit(upload, Editing::Map, &options, observer)
 }
@@ -151,32 +158,56 @@ fn texture_map(
     mut options: EditOptions,
     limits: Limits,
     observer: &dyn Observer,
-) -> Made {
+) -> Ended {
     options.limits = limits;
     edit(upload, Editing::Texture, &options, observer)
 }
 
-fn edit(upload: &Upload, editing: Editing, options: &EditOptions, observer: &dyn Observer) -> Made {
+fn edit(
+    upload: &Upload,
+    editing: Editing,
+    options: &EditOptions,
+    observer: &dyn Observer,
+) -> Ended {
     let edited = pipeline::edit_document(upload, editing, options, observer)?;
-    let mut files = result(edited.files);
-    files.push(report(&edited.report));
-    Ok(files)
+    let report = &edited.report;
+    Ok(Made::new(edited.files).reported(report, Some(report.certified), &report.warnings))
 }
 
-/// The main file, and what belongs to it.
-fn result(files: Vec<(String, Vec<u8>)>) -> Files {
-    let with_role = |(index, (name, bytes)): (usize, (String, Vec<u8>))| {
-        let role = match index {
-            0 => "result".to_owned(),
-            _ => format!("files/{name}"),
+impl Made {
+    /// The main file, and what belongs to it.
+    fn new(files: Vec<(String, Vec<u8>)>) -> Self {
+        let with_role = |(index, (name, bytes)): (usize, (String, Vec<u8>))| {
+            let role = match index {
+                0 => "result".to_owned(),
+                _ => format!("files/{name}"),
+            };
+            (role, name, bytes)
         };
-        (role, name, bytes)
-    };
-    files.into_iter().enumerate().map(with_role).collect()
-}
+        Self {
+            files: files.into_iter().enumerate().map(with_role).collect(),
+            verdict: Verdict::default(),
+        }
+    }
 
-fn report(report: &impl Serialize) -> (String, String, Vec<u8>) {
-    // Reports are plain data, which serialization cannot refuse.
-    let bytes = serde_json::to_vec_pretty(report).unwrap_or_default();
-    ("report".to_owned(), "report.json".to_owned(), bytes)
+    fn add(&mut self, role: &str, name: &str, bytes: Vec<u8>) {
+        self.files.push((role.to_owned(), name.to_owned(), bytes));
+    }
+
+    /// With the report, and with what of it stands in the job.
+    fn reported(
+        mut self,
+        report: &impl Serialize,
+        certified: Option<bool>,
+        warnings: &[Warning],
+    ) -> Self {
+        // Reports are plain data, which serialization cannot refuse.
+        let bytes = serde_json::to_vec_pretty(report).unwrap_or_default();
+        self.add("report", "report.json", bytes);
+        self.verdict = Verdict {
+            certified,
+            warnings: warnings.to_vec(),
+        };
+        self
+    }
 }

@@ -46,12 +46,14 @@ pub struct Distortion {
 /// Distortion of one face; the definitions are those of [`Distortion`].
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct FaceDistortion {
-    /// σ₁/σ₂; infinite for a degenerate face, as are the next two.
+    /// σ₁/σ₂; infinite for a degenerate face, as are the next three.
     pub conformal: f64,
     /// max(σ₁σ₂, 1/σ₁σ₂).
     pub area: f64,
     /// σ₁² + σ₂² + σ₁⁻² + σ₂⁻².
     pub symmetric_dirichlet: f64,
+    /// max(σ₁, 1/σ₂).
+    pub stretch: f64,
     /// Oriented against its chart.
     pub flipped: bool,
     /// Without area in 3D or in UV.
@@ -73,6 +75,7 @@ pub fn face_distortion(
             conformal: values.map_or(f64::INFINITY, |v| v.conformal()),
             area: values.map_or(f64::INFINITY, |v| v.area()),
             symmetric_dirichlet: values.map_or(f64::INFINITY, |v| v.symmetric_dirichlet()),
+            stretch: values.map_or(f64::INFINITY, |v| v.greatest()),
             flipped,
             degenerate: values.is_none(),
         }

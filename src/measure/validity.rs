@@ -47,7 +47,7 @@ impl Validity {
             flipped_uv_area_frac: area_of_flipped.map(|(_, area)| area).sum::<f64>()
                 / faces.total_uv.max(1e-300),
             winding_inconsistent_faces: topology.charts.winding.iter().filter(|&&w| w < 0).count(),
-            mirrored_charts: topology.mirrored_charts(v_axis),
+            mirrored_charts: topology.mirrored_charts(v_axis).len(),
             uv_degenerate,
             uv_collapsed,
             uv_degenerate_area3d_frac: area_lost / faces.total_3d.max(1e-300),

@@ -2,16 +2,17 @@
 
 use rayon::prelude::*;
 
-use super::map::mapped_charts;
+use super::divided::Divided;
 use super::observer::{Observer, Stage, Tracker};
 use super::packed::packed;
 use super::packing::atlas_options;
 use super::seams::Seams;
 use super::settings::Settings;
+use super::soup::Soup;
 use super::{PipelineError, repeated};
 use crate::atlas::{self, Atlas};
 use crate::charts::MappedChart;
-use crate::mesh::{Defects, Surface};
+use crate::mesh::Defects;
 use crate::solver::Summary;
 
 /// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`]; on page n of several u is from n to n + 1.
@@ -28,6 +29,8 @@ pub struct Unwrapped {
     pub defects: Defects,
     /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
+    /// The mesh of which it is the atlas too, where several are unwrapped and that one has the same shape.
+    pub same_as: Option<usize>,
     /// Padding that was kept, in texels; less than asked for only where the charts alone would fill the square.
     pub padding_texels: f64,
 }
@@ -80,28 +83,10 @@ pub fn unwrap_along(
         positions,
         triangles,
         seams,
+        parts: &[],
     };
     let mut atlases = in_pool(settings.threads, || unwrap_all(&[mesh], settings, &tracker))??;
     atlases.pop().ok_or(PipelineError::NoTriangles)
-}
-
-/// A mesh as arrays.
-#[derive(Clone, Copy)]
-pub(super) struct Soup<'a> {
-    pub(super) positions: &'a [[f32; 3]],
-    pub(super) triangles: &'a [[u32; 3]],
-    pub(super) seams: &'a Seams,
-}
-
-impl Soup<'_> {
-    /// The surface, cut along its seams.
-    fn surface(&self) -> Result<Surface, PipelineError> {
-        let mut surface = Surface::new(self.positions, self.triangles)?;
-        self.seams
-            .check(self.positions.len(), self.triangles.len())?;
-        self.seams.cut(&mut surface, self.positions);
-        Ok(surface)
-    }
 }
 
 /// Runs `work` with the given number of threads; nothing of it touches rayon's global pool.
@@ -116,36 +101,52 @@ pub(super) fn in_pool<T: Send>(
     Ok(pool.install(work))
 }
 
-/// Unwraps every mesh into its own atlas; the charts of all of them are mapped from one queue.
+/// Unwraps every mesh into its own atlas; the charts of all of them are mapped from one queue. What has the same shape is mapped
+/// once, and packed once where it has an atlas to itself.
 pub(super) fn unwrap_all(
     meshes: &[Soup],
     settings: &Settings,
     tracker: &Tracker,
 ) -> Result<Vec<Unwrapped>, PipelineError> {
     tracker.stage(Stage::Cut);
-    let surfaces: Vec<Surface> = meshes
-        .par_iter()
-        .map(Soup::surface)
-        .collect::<Result<_, _>>()?;
-    if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
-        return Err(PipelineError::NoTriangles);
-    }
-    let seams: Vec<&Seams> = meshes.iter().map(|mesh| mesh.seams).collect();
-    let mapped = mapped_charts(&surfaces, &seams, settings, tracker);
+    let divided = Divided::new(meshes, settings)?;
+    let same_as: Vec<Option<(usize, f64)>> = (0..meshes.len())
+        .map(|mesh| divided.same_mesh(mesh, settings))
+        .collect();
+    let is_own: Vec<bool> = same_as.iter().map(Option::is_none).collect();
+    let charts = divided.charts(&is_own, settings, tracker);
     tracker.stage(Stage::Pack);
-    let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
-    jobs.into_par_iter()
-        .map(|((mesh, surface), charts)| {
-            let options = atlas_options(settings, meshes.len(), surface.triangles.len(), &charts);
-            let charts = weighted(charts, mesh.seams, surface);
-            let (charts, atlas) = packed(charts, &options, settings)?;
-            Ok(assemble(*mesh, surface, &charts, &atlas))
+    let n_atlases = is_own.iter().filter(|own| **own).count();
+    let atlases: Vec<Option<(Vec<MappedChart>, Atlas)>> = (charts.into_par_iter().enumerate())
+        .with_max_len(1)
+        .map(|(index, charts)| {
+            if !is_own[index] {
+                return Ok(None);
+            }
+            let n_faces = charts.iter().map(|c| c.chart.corners.len()).sum();
+            let options = atlas_options(settings, n_atlases, n_faces, &charts);
+            let charts = weighted(charts, meshes[index].seams);
+            packed(charts, &options, settings).map(Some)
+        })
+        .collect::<Result<_, PipelineError>>()?;
+    (meshes.par_iter().enumerate())
+        .map(|(index, mesh)| {
+            let (first, size) = same_as[index].unwrap_or((index, 1.0));
+            let (charts, atlas) = atlases[first].as_ref().ok_or(PipelineError::NoTriangles)?;
+            Ok(Unwrapped {
+                grid: face_corners(*mesh, &divided.faces(index), charts, atlas),
+                charts: charts.iter().map(ChartRecord::new).collect(),
+                defects: divided.defects(index, mesh)?,
+                scale: atlas.scale / size,
+                same_as: (first != index).then_some(first),
+                padding_texels: atlas.padding_texels,
+            })
         })
         .collect()
 }
 
 /// The charts enlarged by the weights of their faces.
-fn weighted(mut charts: Vec<MappedChart>, seams: &Seams, surface: &Surface) -> Vec<MappedChart> {
+fn weighted(mut charts: Vec<MappedChart>, seams: &Seams) -> Vec<MappedChart> {
     let Some(weights) = &seams.weights else {
         return charts;
     };
@@ -155,7 +156,7 @@ fn weighted(mut charts: Vec<MappedChart>, seams: &Seams, surface: &Surface) -> V
     {
         // All faces of a chart have one weight: where two meet there is a seam.
         if let Some([corner, ..]) = chart.corners.first() {
-            let weight = weights[surface.faces[*corner as usize / 3] as usize];
+            let weight = weights[*corner as usize / 3];
             for p in &mut embedding.uv {
                 *p = p.map(|x| weight * x);
             }
@@ -164,25 +165,20 @@ fn weighted(mut charts: Vec<MappedChart>, seams: &Seams, surface: &Surface) -> V
     charts
 }
 
-/// Hands every face of the input its corners in the atlas.
-fn assemble(mesh: Soup, surface: &Surface, charts: &[MappedChart], atlas: &Atlas) -> Unwrapped {
-    let records = charts.iter().map(|mapped| ChartRecord {
-        faces: mapped.chart.disk.triangles.len(),
-        summary: mapped.embedding.summary,
-        seconds: mapped.seconds,
-    });
-    Unwrapped {
-        grid: face_corners(mesh, surface, charts, atlas),
-        charts: records.collect(),
-        defects: surface.defects,
-        scale: atlas.scale,
-        padding_texels: atlas.padding_texels,
+impl ChartRecord {
+    fn new(mapped: &MappedChart) -> Self {
+        Self {
+            faces: mapped.chart.disk.triangles.len(),
+            summary: mapped.embedding.summary,
+            seconds: mapped.seconds,
+        }
     }
 }
 
+/// For every face of the input its corners in the atlas; `faces` are those that charts have.
 fn face_corners(
     mesh: Soup,
-    surface: &Surface,
+    faces: &[u32],
     charts: &[MappedChart],
     atlas: &Atlas,
 ) -> Vec<GridCorners> {
@@ -190,11 +186,10 @@ fn face_corners(
     for (MappedChart { chart, .. }, placed) in charts.iter().zip(&atlas.placed) {
         for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
             for (&vertex, &corner) in triangle.iter().zip(corners) {
-                let face = surface.faces[corner as usize / 3] as usize;
-                grid[face][corner as usize % 3] = placed.grid[vertex as usize];
+                grid[corner as usize / 3][corner as usize % 3] = placed.grid[vertex as usize];
             }
         }
     }
-    repeated::place(mesh.positions, mesh.triangles, &surface.faces, &mut grid);
+    repeated::place(mesh.positions, mesh.triangles, faces, &mut grid);
     grid
 }

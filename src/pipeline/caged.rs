@@ -74,7 +74,8 @@ pub struct CageReport {
     pub crossings_before: Crossings,
     /// Where they do in the file written.
     pub crossings_after: Crossings,
-    /// What users should know of the files.
+    /// What users should know of the files; reports have it among their own warnings.
+    #[serde(skip)]
     pub warnings: Vec<Warning>,
 }
 
@@ -117,6 +118,7 @@ pub(super) fn deform(
     tracker.stage(Stage::Write);
     let (written, cage) = caged.write(&solved.solution)?;
     let mut report = solved.report;
+    report.warnings.clone_from(&cage.warnings);
     report.cage = Some(cage);
     Ok(Deformed {
         files: written.files,

@@ -1,16 +1,18 @@
 //! From a file's bytes to a file's bytes: read, unwrap, write, read again, judge.
 
 use super::PipelineError;
-use super::arrays::{GridCorners, Soup, Unwrapped, in_pool, unwrap_all};
+use super::arrays::{GridCorners, Unwrapped, in_pool, unwrap_all};
+use super::bound_report::BoundReport;
 use super::judge::WrittenUvs;
 use super::merged::Merged;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
 use super::rebake::{self, rebaked};
-use super::report::{AtlasReport, BoundReport, GroupReport, Report, Seconds};
+use super::report::{AtlasReport, GroupReport, Report, Seconds};
+use super::shortfalls::shortfalls;
+use super::soup::Soup;
 use crate::atlas::GRID_BITS;
-use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 use crate::document::{
     BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
@@ -87,17 +89,20 @@ fn unwrap_in_pool(
         group.weights = mesh.seams.weights;
     }
     let mut groups = uvs.judge(&options.claims(), options.resolution);
-    add_history(&mut groups, &atlases, options);
+    add_history(&mut groups, &atlases, &uvs, options);
     seconds.judge = watch.lap();
 
-    let warnings = [document.warnings(), &written.notes.warnings].concat();
+    let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
+    let missing = shortfalls(&judged);
+    let is_valid = groups.iter().all(|group| group.certificate.is_valid());
+    if options.is_promised() && !is_valid {
+        let messages: Vec<&str> = missing.iter().map(|w| w.message.as_str()).collect();
+        return Err(PipelineError::NotValid(messages.join("; ")));
+    }
+    let warnings = [document.warnings(), &written.notes.warnings, &missing].concat();
     let mut report = Report::new(groups, warnings);
     report.options = Some(options.clone());
     report.limits = Some(options.limits);
-    if options.is_promised() && !report.certified {
-        return Err(PipelineError::NotCertified);
-    }
-    report.certified &= options.barrier != BarrierKind::None;
     report.written = Some(written.notes);
     report.seconds = Some(seconds);
     Ok(Outcome {
@@ -178,12 +183,21 @@ pub(super) fn stem(name: &str) -> String {
 }
 
 /// Adds to each group what only unwrapping knows.
-fn add_history(groups: &mut [GroupReport], atlases: &[Unwrapped], options: &Options) {
+fn add_history(
+    groups: &mut [GroupReport],
+    atlases: &[Unwrapped],
+    uvs: &WrittenUvs,
+    options: &Options,
+) {
+    let aspect = options.resolution.aspect();
     let bound = (options.cut == Cut::Auto).then(|| options.settings().bound());
-    for (group, atlas) in groups.iter_mut().zip(atlases) {
+    let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
+    for ((group, atlas), uvs) in groups.iter_mut().zip(atlases).zip(&uvs.groups) {
         group.defects = Some(atlas.defects);
         group.atlas = Some(AtlasReport {
-            bound: bound.map(|bound| BoundReport::new(&bound, &group.measures.distortion)),
+            bound: bound
+                .map(|bound| BoundReport::new(&bound, &group.measures.distortion, (uvs, aspect))),
+            same_as: atlas.same_as.map(|group| names[group].clone()),
             ..AtlasReport::new(atlas)
         });
     }

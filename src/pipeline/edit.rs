@@ -12,7 +12,7 @@ use crate::certificate::CornerUvs;
 use crate::deform::PullReport;
 use crate::deform::uv::{EditedUvs, UvMesh, UvRest, edit_uvs};
 use crate::document::{
-    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
+    Corners, Document, DocumentError, Layout, NewUvs, Upload, Warning, WriteOptions, Written,
 };
 
 /// A document with edited UVs.
@@ -32,6 +32,8 @@ pub struct EditReport {
     pub certified: bool,
     /// Whether, beyond that, none of them overlaps itself.
     pub bijective: bool,
+    /// What users should know of the file that was read, of the work and of the file that was written.
+    pub warnings: Vec<Warning>,
     /// The shapes that were kept.
     pub rest: UvRest,
     /// The charts with anchors.
@@ -74,7 +76,12 @@ pub fn edit_document(
         let report = judge(&document, &edited, &written, (options.texcoord, how.rest))?;
         let is_kept = report.certified || options.model.barrier == BarrierKind::None;
         if !is_kept || options.model.bijective && !report.bijective {
-            return Err(PipelineError::NotCertified);
+            let what = if report.certified {
+                "a chart overlaps itself"
+            } else {
+                "a triangle is flipped or without area"
+            };
+            return Err(PipelineError::NotValid(what.to_owned()));
         }
         Ok(EditedDocument {
             files: written.files,
@@ -195,6 +202,7 @@ fn judge(
     Ok(EditReport {
         certified: charts.iter().all(|c| c.map.certificate.is_valid()),
         bijective: charts.iter().all(|c| c.map.bijective),
+        warnings: [document.warnings(), &written.notes.warnings].concat(),
         rest,
         charts,
     })

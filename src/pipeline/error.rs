@@ -61,10 +61,10 @@ pub enum PipelineError {
     /// At the texels per unit asked for the charts do not fit.
     #[error("the texture is too small for that many texels per unit{0}")]
     TextureTooSmall(Enough),
-    /// The UVs that were written are not those that were promised: a mistake of this program, found by the certificate.
+    /// The UVs that were to be written have flips where none were promised: a mistake of this program, found by the certificate.
     #[cfg(feature = "files")]
-    #[error("a face is flipped, degenerate or overlapped in the bytes that were to be written")]
-    NotCertified,
+    #[error("nothing is written, since it would not be valid: {0}")]
+    NotValid(String),
     /// The UVs cannot be edited.
     #[cfg(feature = "files")]
     #[error(transparent)]
@@ -119,7 +119,7 @@ impl PipelineError {
             Self::TextureTooSmall(_) => "texture_too_small",
             Self::Atlas(_) | Self::Inverted | Self::Crossed => "no_valid_result",
             #[cfg(feature = "files")]
-            Self::NotCertified => "no_valid_result",
+            Self::NotValid(_) => "no_valid_result",
             Self::Threads(_) => "internal_error",
         }
     }
@@ -141,7 +141,7 @@ impl PipelineError {
             Self::Document(_) | Self::Edit(_) | Self::Outline(_) | Self::Warp(_) => 3,
             Self::Atlas(_) | Self::Inverted | Self::Crossed => 4,
             #[cfg(feature = "files")]
-            Self::NotCertified => 4,
+            Self::NotValid(_) => 4,
             Self::Threads(_) => 1,
         }
     }

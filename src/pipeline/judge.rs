@@ -1,35 +1,26 @@
 //! Judging the UVs of a document as its bytes have them.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::PipelineError;
 use super::arrays::in_pool;
+use super::group_uvs::GroupUvs;
 use super::measure_options::MeasureOptions;
 use super::nodes::Nodes;
 use super::proven::Proven;
 use super::report::{GroupReport, Report};
-use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, Resolution, certify};
-use crate::document::{Document, Group, GroupBy, Primitive, Upload, Warning, Written};
-use crate::measure::{self, Measures, VAxis};
-use crate::numerics::vec3::{area_vector, norm};
+use crate::certificate::{Certificate, Claims, Overlap, Resolution};
+use crate::document::{Document, GroupBy, Upload, Warning, Written};
+use crate::measure::{Measures, VAxis};
 
 /// The UVs of every group of a file with the meshes they belong to, in the numbers of the file.
 #[derive(Clone, Debug)]
 pub(super) struct WrittenUvs {
     pub(super) groups: Vec<GroupUvs>,
     pub(super) v_axis: VAxis,
-}
-
-/// The UVs of one group with its mesh.
-#[derive(Clone, Debug)]
-pub(super) struct GroupUvs {
-    pub(super) name: String,
-    pub(super) positions: Vec<[f64; 3]>,
-    pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) uvs: Vec<CornerUvs>,
-    /// The texel density intended for each face; one for all if absent.
-    pub(super) weights: Option<Vec<f64>>,
 }
 
 impl WrittenUvs {
@@ -78,16 +69,45 @@ impl WrittenUvs {
 
     /// Measures and certifies every group, in texels of a texture.
     pub(super) fn judge(&self, claims: &Claims, texture: Resolution) -> Vec<GroupReport> {
-        self.groups
-            .par_iter()
-            .map(|group| group.judge(&self.told(claims), texture))
+        let claims = self.told(claims);
+        let first = self.first_of_content();
+        let measure = |(index, group): (usize, &GroupUvs)| {
+            (first[index] == index).then(|| group.measure(claims.v_axis, texture))
+        };
+        let groups = || self.groups.par_iter().with_max_len(1);
+        let (measured, certificates): (Vec<Option<Measures>>, Vec<Certificate>) = rayon::join(
+            || groups().enumerate().map(measure).collect(),
+            || groups().map(|group| group.certify(&claims)).collect(),
+        );
+        (self.groups.iter().zip(&first).zip(certificates))
+            .filter_map(|((group, &first), certificate)| {
+                Some(group.report(measured[first].clone()?, certificate, texture))
+            })
             .collect()
+    }
+
+    /// For each group the first with the same numbers in all.
+    fn first_of_content(&self) -> Vec<usize> {
+        let mut firsts: HashMap<u64, Vec<usize>> = HashMap::new();
+        let number = |(index, group): (usize, &GroupUvs)| {
+            let of_hash = firsts.entry(group.hash()).or_default();
+            let same = of_hash
+                .iter()
+                .copied()
+                .find(|&first| self.groups[first].is_same(group));
+            same.unwrap_or_else(|| {
+                of_hash.push(index);
+                index
+            })
+        };
+        self.groups.iter().enumerate().map(number).collect()
     }
 
     /// Certifies every group.
     fn verify(&self, claims: &Claims) -> Vec<VerifiedGroup> {
         let verified = |group: &GroupUvs| VerifiedGroup {
             name: group.name.clone(),
+            label: group.label.clone(),
             certificate: group.certify(&self.told(claims)),
         };
         self.groups.par_iter().map(verified).collect()
@@ -98,89 +118,6 @@ impl WrittenUvs {
         Claims {
             v_axis: self.v_axis,
             ..*claims
-        }
-    }
-}
-
-impl GroupUvs {
-    fn gather(
-        document: &Document,
-        primitives: &[Primitive],
-        group: &Group,
-        set: &impl Fn(usize) -> u32,
-    ) -> Result<Self, PipelineError> {
-        let mut gathered = Self {
-            name: group.name.clone(),
-            positions: vec![],
-            triangles: vec![],
-            uvs: vec![],
-            weights: None,
-        };
-        for &index in &group.primitives {
-            let primitive = &primitives[index];
-            let texcoord = set(index);
-            let uvs =
-                document
-                    .corner_uvs(index, texcoord)?
-                    .ok_or_else(|| PipelineError::NoUvs {
-                        group: group.name.clone(),
-                        texcoord,
-                    })?;
-            let first = gathered.positions.len() as u32;
-            gathered
-                .positions
-                .extend(primitive.positions.iter().map(|p| p.map(f64::from)));
-            gathered
-                .triangles
-                .extend(primitive.triangles.iter().map(|t| t.map(|v| v + first)));
-            gathered.uvs.extend(uvs);
-        }
-        Ok(gathered)
-    }
-
-    /// The area of the surface enlarged by its weights, if it has any.
-    fn intended_area(&self) -> Option<f64> {
-        let area = |(t, weight): (&[u32; 3], &f64)| {
-            let [a, b, c] = t.map(|v| self.positions[v as usize]);
-            norm(area_vector(a, b, c)) / 2.0 * weight * weight
-        };
-        let weights = self.weights.as_ref()?;
-        Some(self.triangles.iter().zip(weights).map(area).sum())
-    }
-
-    fn certify(&self, claims: &Claims) -> Certificate {
-        certify(&self.positions, &self.triangles, &self.uvs, claims)
-    }
-
-    fn measure(&self, v_axis: VAxis, texture: Resolution) -> Measures {
-        let options = measure::MeasureOptions {
-            aspect: texture.aspect(),
-            weights: self.weights.as_deref(),
-            ..measure::MeasureOptions::default()
-        };
-        measure::measure(
-            &self.positions,
-            &self.triangles,
-            &self.uvs,
-            v_axis,
-            &options,
-        )
-    }
-
-    fn judge(&self, claims: &Claims, texture: Resolution) -> GroupReport {
-        let (measures, certificate) = rayon::join(
-            || self.measure(claims.v_axis, texture),
-            || self.certify(claims),
-        );
-        let area = self.intended_area().unwrap_or(measures.size.area_3d);
-        let squared = measures.size.area_uv / area;
-        GroupReport {
-            name: self.name.clone(),
-            texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
-            measures,
-            certificate,
-            defects: None,
-            atlas: None,
         }
     }
 }
@@ -199,6 +136,8 @@ pub struct Verified {
 pub struct VerifiedGroup {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
+    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    pub label: String,
     /// What is proven of it.
     pub certificate: Certificate,
 }

@@ -19,7 +19,7 @@ use crate::solver;
 /// The charts of every surface with their maps; with [`Cut::Keep`] they begin at the given UVs. What was cut off where a map
 /// overlapped itself is given back where it finds room; [`Cut::Fast`] leaves it.
 pub(super) fn mapped_charts(
-    surfaces: &[Surface],
+    surfaces: &[&Surface],
     seams: &[&Seams],
     settings: &Settings,
     tracker: &Tracker,
@@ -45,7 +45,7 @@ pub(super) fn mapped_charts(
         .collect();
     let kept = |mesh: usize, chart: &Chart| {
         let uvs = (settings.cut == Cut::Keep).then_some(seams[mesh].uvs.as_ref());
-        Some(uvs_of(chart, &surfaces[mesh], uvs.flatten()?))
+        Some(uvs_of(chart, surfaces[mesh], uvs.flatten()?))
     };
     let maps = map_charts(charts, kept, settings, tracker);
     if settings.cut == Cut::Fast || folds(settings) == Folds::Keep {

@@ -1,9 +1,9 @@
 //! The primitives of a group as one mesh.
 
 use super::PipelineError;
-use super::arrays::Soup;
 use super::options::{GivenSeams, NamedSeams, Options};
 use super::seams::Seams;
+use super::soup::{Part, Soup};
 use super::texel_weight::face_weights;
 use crate::certificate::CornerUvs;
 use crate::charts::Cut;
@@ -15,6 +15,8 @@ pub(super) struct Merged {
     pub positions: Vec<[f32; 3]>,
     pub triangles: Vec<[u32; 3]>,
     pub seams: Seams,
+    /// The meshes that it was put together from.
+    pub parts: Vec<Part>,
 }
 
 impl Merged {
@@ -23,9 +25,12 @@ impl Merged {
             positions: Vec::new(),
             triangles: Vec::new(),
             seams: Seams::default(),
+            parts: Vec::new(),
         };
+        let mut last = None;
         for &index in &group.primitives {
             let first = merged.positions.len() as u32;
+            let first_face = merged.triangles.len() as u32;
             merged.positions.extend(&primitives[index].positions);
             merged.triangles.extend(
                 primitives[index]
@@ -33,6 +38,16 @@ impl Merged {
                     .iter()
                     .map(|t| t.map(|v| v + first)),
             );
+            if last.replace(primitives[index].mesh) != Some(primitives[index].mesh) {
+                merged.parts.push(Part {
+                    vertices: first..first,
+                    faces: first_face..first_face,
+                });
+            }
+            if let Some(part) = merged.parts.last_mut() {
+                part.vertices.end = merged.positions.len() as u32;
+                part.faces.end = merged.triangles.len() as u32;
+            }
         }
         merged
     }
@@ -78,6 +93,7 @@ impl Merged {
             positions: &self.positions,
             triangles: &self.triangles,
             seams: &self.seams,
+            parts: &self.parts,
         }
     }
 }
@@ -92,7 +108,7 @@ pub(super) fn corner_uvs(
     for &index in &group.primitives {
         let uvs = document.corner_uvs(index, texcoord)?;
         all.extend(uvs.ok_or_else(|| PipelineError::NoUvs {
-            group: group.name.clone(),
+            group: group.label.clone(),
             texcoord,
         })?);
     }
@@ -107,7 +123,7 @@ pub(super) fn corner_uvs(
 fn corner_normals(document: &Document, group: &Group) -> Result<Vec<[[f64; 3]; 3]>, PipelineError> {
     let mut all = Vec::new();
     for &index in &group.primitives {
-        let none = || PipelineError::Seams(format!("{} has no normals", group.name));
+        let none = || PipelineError::Seams(format!("{} has no normals", group.label));
         all.extend(document.corner_normals(index)?.ok_or_else(none)?);
     }
     Ok(all)

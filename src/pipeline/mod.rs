@@ -10,20 +10,29 @@
 //! two ways to call them.
 //!
 //! The work runs on a thread pool of its own. Charts of all groups share one queue, largest first; each is mapped by
-//! one thread, so the result does not depend on their number.
+//! one thread, so the result does not depend on their number. Meshes of one shape are mapped once, and packed once where each has an
+//! atlas of its own; the written bytes are certified for each.
+//!
+//! **Certified** means that everything that was asked for is proven on the written bytes ([`Report::certified`] has the list). What is
+//! not proven stands among the warnings; only flips where none were promised are an error, and leave no file.
 
+mod alike;
 mod arrays;
 mod clearance;
 mod compact;
+mod divided;
 mod error;
 mod map;
 mod observer;
 mod repeated;
 mod seams;
 mod settings;
+mod soup;
 
 #[cfg(feature = "files")]
 mod bodies;
+#[cfg(feature = "files")]
+mod bound_report;
 #[cfg(feature = "files")]
 mod cage_map;
 #[cfg(feature = "files")]
@@ -36,6 +45,8 @@ mod documents;
 mod edit;
 #[cfg(feature = "files")]
 mod edit_options;
+#[cfg(feature = "files")]
+mod group_uvs;
 #[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]
@@ -67,6 +78,8 @@ mod repack;
 #[cfg(feature = "files")]
 mod report;
 #[cfg(feature = "files")]
+mod shortfalls;
+#[cfg(feature = "files")]
 mod solution;
 #[cfg(feature = "files")]
 mod solve;
@@ -85,6 +98,8 @@ pub use settings::{KeptMaps, PackingMode, Settings};
 
 #[cfg(feature = "files")]
 pub use bodies::BodyFormat;
+#[cfg(feature = "files")]
+pub use bound_report::{BoundReport, WorstChart, stretch_percent};
 #[cfg(feature = "files")]
 pub use caged::{CageOptions, CageReport, CagedDocument, Surfaces};
 #[cfg(feature = "files")]
@@ -108,13 +123,11 @@ pub use pictures::{Drawn, Pictures};
 #[cfg(feature = "files")]
 pub use preset::Preset;
 #[cfg(feature = "files")]
-pub use proven::{Proven, ProvenBits, ProvenPadding, ProvenPages};
+pub use proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
 #[cfg(feature = "files")]
 pub use repack::{RepackOptions, repack_document};
 #[cfg(feature = "files")]
-pub use report::{
-    AtlasReport, BoundReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds,
-};
+pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
 #[cfg(feature = "files")]
 pub use solution::{DeformReport, Deformed};
 #[cfg(feature = "files")]

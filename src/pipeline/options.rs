@@ -45,7 +45,7 @@ pub struct Options {
     pub preset: Preset,
     /// Distortion energy to minimize.
     pub energy: EnergyKind,
-    /// Barrier that keeps every triangle from inverting; `none` is for comparison and never certified.
+    /// Barrier that keeps every triangle from inverting; `none` is for comparison: what flips without it is written, and is not certified.
     pub barrier: BarrierKind,
     /// Weight β of the barrier.
     #[cfg_attr(feature = "service", schema(minimum = 1e-9, maximum = 1e9))]

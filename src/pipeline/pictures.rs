@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::PipelineError;
 use super::arrays::in_pool;
-use super::judge::{GroupUvs, WrittenUvs};
+use super::group_uvs::GroupUvs;
+use super::judge::WrittenUvs;
 use crate::certificate::{CornerUvs, Resolution, chart_ids};
 use crate::measure::{FaceDistortion, face_distortion};
 use crate::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::certificate::{Certificate, Resolution};
+use crate::certificate::{Certificate, Overlap, Resolution};
 
 /// What is proven about the UVs of all groups, beside what was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -138,13 +138,59 @@ fn bits<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<Prove
         })
 }
 
+impl Proven {
+    /// What of this is asked for and does not hold, in words; with [`Overlap::Skip`] faces may overlap.
+    pub fn lacks(&self, overlap: Overlap, mirrored: Mirrored) -> Vec<&'static str> {
+        let overlaps = overlap == Overlap::Test && self.locally_injective && !self.bijective;
+        let missing = [
+            (!self.locally_injective, "triangles flipped or without area"),
+            (overlaps, "triangles overlapping"),
+            (
+                mirrored == Mirrored::Refused && !self.unmirrored,
+                "charts mirrored",
+            ),
+            (
+                self.padding.as_ref().is_some_and(|p| !p.kept),
+                "charts closer than the padding",
+            ),
+            (self.aligned == Some(false), "charts not aligned to texels"),
+            (
+                self.pages.as_ref().is_some_and(|p| !p.kept),
+                "charts not on one page each",
+            ),
+            (
+                self.bits.as_ref().is_some_and(|b| !b.hold),
+                "not safe at the bits asked for",
+            ),
+        ];
+        let missing = missing.into_iter().filter(|(is_missing, _)| *is_missing);
+        missing.map(|(_, words)| words).collect()
+    }
+}
+
+/// Whether charts may be seen from behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mirrored {
+    /// They may.
+    Allowed,
+    /// They may not.
+    Refused,
+}
+
 /// In words, with what was asked for and does not hold.
 impl fmt::Display for Proven {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let not = |holds: bool| if holds { "" } else { "not " };
-        write!(f, "{}locally injective", not(self.locally_injective))?;
-        if self.bijective {
-            write!(f, ", bijective")?;
+        match (self.locally_injective, self.bijective) {
+            (true, true) => write!(
+                f,
+                "no triangle flipped, without area or overlapping (bijective)"
+            )?,
+            (true, false) => write!(f, "no triangle flipped or without area (locally injective)")?,
+            (false, _) => write!(
+                f,
+                "triangles flipped or without area (not locally injective)"
+            )?,
         }
         if !self.unmirrored {
             write!(f, ", charts mirrored")?;
@@ -171,13 +217,10 @@ impl fmt::Display for Proven {
         match (&self.bits, self.safe_bits) {
             (Some(bits), _) if !bits.hold => {
                 let (asked, in_doubt) = (bits.asked, bits.in_doubt);
-                write!(
-                    f,
-                    ", does not hold at {asked} bits ({in_doubt} places in doubt)"
-                )
+                write!(f, ", not safe at {asked} bits ({in_doubt} places in doubt)")
             }
-            (Some(bits), None) => write!(f, ", holds at {} bits", bits.asked),
-            (_, Some(bits)) => write!(f, ", holds at {bits} bits"),
+            (Some(bits), None) => write!(f, ", safe at {} bits", bits.asked),
+            (_, Some(bits)) => write!(f, ", safe at {bits} bits"),
             (None, None) => Ok(()),
         }
     }

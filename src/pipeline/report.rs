@@ -3,18 +3,18 @@
 use serde::Serialize;
 
 use super::arrays::{ChartRecord, Unwrapped};
+use super::bound_report::BoundReport;
 use super::limits::Limits;
 use super::options::Options;
-use super::proven::Proven;
-use crate::certificate::Certificate;
-use crate::charts::Bound;
+use super::proven::{Mirrored, Proven};
+use crate::certificate::{Certificate, Overlap};
 use crate::document::{Warning, WriteNotes};
-use crate::measure::{Distortion, Measures};
+use crate::measure::Measures;
 use crate::mesh::Defects;
 use crate::solver::Status;
 
 /// Version of the report's schema; it rises when a key changes its meaning or goes.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// The report of a document: what was read, what was done, and what the written bytes are worth.
 #[derive(Clone, Debug, Serialize)]
@@ -30,7 +30,9 @@ pub struct Report {
     /// What it was allowed to use of that; absent where existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<Limits>,
-    /// Every group has a valid certificate (is locally injective) and was mapped with a barrier.
+    /// Whether everything that was asked for is proven on the written bytes: no face flipped or without area, no chart mirrored, no two
+    /// faces overlapping, and padding, pages, alignment and bits as asked. What is missing stands among the warnings. A bound on
+    /// the distortion that is missed is a warning too, but does not count.
     pub certified: bool,
     /// What is proven on the written bytes, beside what was asked for.
     pub proven: Proven,
@@ -52,6 +54,8 @@ pub struct Report {
 pub struct GroupReport {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
+    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    pub label: String,
     /// Texels along one unit of length of the mesh, of materials of weight 1: the root of the area of all faces in texels over that on
     /// the surface, enlarged by its weights; null where the surface has none.
     pub texels_per_unit: Option<f64>,
@@ -73,6 +77,9 @@ pub struct GroupReport {
 pub struct AtlasReport {
     /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
+    /// `name` of the group that has the same atlas, since its mesh has the same shape: it was mapped and packed once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub same_as: Option<String>,
     /// Padding kept between charts, in texels at the resolution asked for.
     pub padding_texels: f64,
     /// What was asked of the distortion, and whether it was kept; absent where `cut` is not `auto`.
@@ -80,19 +87,6 @@ pub struct AtlasReport {
     pub bound: Option<BoundReport>,
     /// One entry per chart.
     pub charts: Vec<ChartReport>,
-}
-
-/// A bound on the distortion of an atlas.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub struct BoundReport {
-    /// The largest mean symmetric Dirichlet energy that was asked for.
-    pub max_distortion: f64,
-    /// The largest stretch of all but a hundredth of the area that was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_stretch: Option<f64>,
-    /// Whether `sym_dirichlet_mean` and `stretch_p99`, measured on the written bytes, keep them.
-    pub kept: bool,
 }
 
 /// How a chart was mapped.
@@ -140,7 +134,7 @@ impl Report {
             unwrapd_version: env!("CARGO_PKG_VERSION"),
             options: None,
             limits: None,
-            certified: proven.locally_injective,
+            certified: proven.lacks(Overlap::Test, Mirrored::Refused).is_empty(),
             proven,
             warnings,
             groups,
@@ -150,28 +144,22 @@ impl Report {
     }
 }
 
+impl GroupReport {
+    /// Whether everything that was asked for is proven of it, as [`Report::certified`] says of all.
+    pub fn is_certified(&self) -> bool {
+        let proven = Proven::of(std::iter::once(&self.certificate));
+        proven.lacks(Overlap::Test, Mirrored::Refused).is_empty()
+    }
+}
+
 impl AtlasReport {
     pub(super) fn new(unwrapped: &Unwrapped) -> Self {
         Self {
             scale: unwrapped.scale,
             padding_texels: unwrapped.padding_texels,
             bound: None,
+            same_as: None,
             charts: unwrapped.charts.iter().map(ChartReport::new).collect(),
-        }
-    }
-}
-
-impl BoundReport {
-    pub(super) fn new(bound: &Bound, measured: &Distortion) -> Self {
-        let keeps = |most: Option<f64>, measured: Option<f64>| {
-            most.zip(measured)
-                .is_none_or(|(most, measured)| measured <= most)
-        };
-        Self {
-            max_distortion: bound.mean,
-            max_stretch: bound.stretch,
-            kept: keeps(Some(bound.mean), measured.sym_dirichlet_mean)
-                && keeps(bound.stretch, measured.stretch_p99),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Where a caller wants a mesh to be cut.
 
 use std::collections::HashSet;
+use std::ops::Range;
 
 use super::PipelineError;
 use super::repeated::key as position_key;
@@ -12,7 +13,7 @@ use crate::numerics::vec3::dot;
 const SOFT: f64 = 0.999_85;
 
 /// Edges that a mesh shall be cut along, by what its faces have at their corners. Each part is absent or has an entry per face.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seams {
     /// UVs, v up: an edge at which those of two faces differ is a seam. With [`Cut::Keep`](crate::charts::Cut::Keep) maps begin here.
     pub uvs: Option<Vec<CornerUvs>>,
@@ -45,6 +46,26 @@ impl Seams {
                 "vertex {v} is named, but there are only {n_positions}"
             ))),
             None => Ok(()),
+        }
+    }
+
+    /// What of it concerns some faces, and positions that are counted from the first of a range.
+    pub(super) fn restricted(&self, faces: &[u32], vertices: Range<u32>) -> Self {
+        fn of<T: Copy>(all: Option<&Vec<T>>, faces: &[u32]) -> Option<Vec<T>> {
+            let all = all?;
+            Some(faces.iter().map(|&face| all[face as usize]).collect())
+        }
+        let within = |edge: &&[u32; 2]| edge.iter().all(|v| vertices.contains(v));
+        let edges = |all: &Vec<[u32; 2]>| {
+            let edges = all.iter().filter(within);
+            edges.map(|edge| edge.map(|v| v - vertices.start)).collect()
+        };
+        Self {
+            uvs: of(self.uvs.as_ref(), faces),
+            normals: of(self.normals.as_ref(), faces),
+            labels: of(self.labels.as_ref(), faces),
+            weights: of(self.weights.as_ref(), faces),
+            edges: self.edges.as_ref().map(edges),
         }
     }
 

@@ -9,6 +9,7 @@ use super::PipelineError;
 use super::caged::CageReport;
 use super::observer::Tracker;
 use crate::deform::{Method, Problem, Solution, Worth};
+use crate::document::Warning;
 use crate::solver::{Control, Iterate, Settings, Summary, Watch};
 
 /// What a body became.
@@ -46,6 +47,8 @@ pub struct DeformReport {
     pub setup_seconds: f64,
     /// Seconds of everything after that, but for writing.
     pub solve_seconds: f64,
+    /// What users should know of the files.
+    pub warnings: Vec<Warning>,
     /// The cage and the surfaces in it, if that is what was deformed.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub cage: Option<CageReport>,
@@ -113,6 +116,7 @@ pub(super) fn solve(
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,
         solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
+        warnings: Vec::new(),
         cage: None,
     };
     Ok(Solved {

@@ -10,7 +10,7 @@ use super::observer::{Observer, Stage, Tracker};
 use crate::barrier::BarrierKind;
 use crate::deform::warp::{self, PictureHandle, warp_picture};
 use crate::deform::{Boundary, Model, PullReport};
-use crate::document::Upload;
+use crate::document::{Upload, Warning};
 use crate::picture::Image;
 
 /// How a picture is warped. The command line's long names in snake case; a file of handles is one with the handles only.
@@ -85,6 +85,8 @@ pub struct WarpedPicture {
 pub struct WarpReport {
     /// Whether the map is proven to have no inverted triangle and, with a fixed border or if asked for, to be bijective.
     pub certified: bool,
+    /// What users should know of the picture and of the map.
+    pub warnings: Vec<Warning>,
     /// Where the upper left corner of the result lies, in pixels of the original.
     pub origin: [i64; 2],
     /// The map.
@@ -123,6 +125,7 @@ pub fn warp_file(
             files: vec![(format!("{stem}.png"), warped.picture.image.png())],
             report: WarpReport {
                 certified,
+                warnings: Vec::new(),
                 origin: warped.picture.origin,
                 map: warped.report,
             },

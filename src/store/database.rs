@@ -10,8 +10,8 @@ use sqlx::{Row, Sqlite, Transaction};
 
 use crate::jobs::{StoreError, StoreResult};
 
-const SCHEMA: &str = include_str!("schema.sql");
-const SCHEMA_VERSION: i64 = 1;
+/// The n-th leads from version n to the next; each sets `user_version`.
+const STEPS: [&str; 2] = [include_str!("schema/1.sql"), include_str!("schema/2.sql")];
 /// How long a statement waits for another one's lock.
 const BUSY: Duration = Duration::from_secs(5);
 
@@ -27,7 +27,7 @@ impl From<sqlx::Error> for StoreError {
 }
 
 impl Database {
-    /// Opens the file, and makes it if need be.
+    /// Opens the file, makes it if need be, and brings what an earlier version of the program made up to date.
     pub async fn open(file: &Path) -> StoreResult<Self> {
         let options = SqliteConnectOptions::new()
             .filename(file)
@@ -41,24 +41,22 @@ impl Database {
             .connect_with(options)
             .await?;
         let database = Self { pool };
+        let mut transaction = database.begin().await?;
         let version: i64 = sqlx::query("PRAGMA user_version")
-            .fetch_one(&database.pool)
+            .fetch_one(&mut *transaction)
             .await?
             .try_get(0)?;
-        match version {
-            0 => {
-                let mut transaction = database.begin().await?;
-                sqlx::raw_sql(SCHEMA).execute(&mut *transaction).await?;
-                transaction.commit().await?;
-            }
-            SCHEMA_VERSION => {}
-            newer => {
-                let file = file.display();
-                return Err(StoreError(format!(
-                    "{file} has schema version {newer}; this program knows {SCHEMA_VERSION}"
-                )));
-            }
+        let missing = usize::try_from(version).map(|done| STEPS.get(done..));
+        let Ok(Some(missing)) = missing else {
+            let (file, known) = (file.display(), STEPS.len());
+            return Err(StoreError(format!(
+                "{file} has schema version {version}; this program knows {known}"
+            )));
+        };
+        for step in missing {
+            sqlx::raw_sql(*step).execute(&mut *transaction).await?;
         }
+        transaction.commit().await?;
         Ok(database)
     }
 

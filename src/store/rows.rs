@@ -66,6 +66,7 @@ pub(super) fn job(row: &SqliteRow) -> StoreResult<Job> {
         options: parsed(&text("options")?)?,
         input: parsed(&text("input")?)?,
         output: parsed(&text("output")?)?,
+        verdict: parsed(&text("verdict")?)?,
         attempt: number("attempt")? as u32,
         lost: number("lost")? as u32,
         finish_early: number("finish_early")? != 0,

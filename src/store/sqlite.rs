@@ -143,11 +143,12 @@ impl JobStore for SqliteStore {
         async move {
             let failure = job.failure.as_ref().map(rows::json).transpose()?;
             let changed = sqlx::query(
-                "UPDATE job SET state = ?, output = ?, seq = ?, progress = ?, failure = ?, finished = ?
+                "UPDATE job SET state = ?, output = ?, verdict = ?, seq = ?, progress = ?, failure = ?, finished = ?
                  WHERE id = ? AND attempt = ? AND state IN ('queued', 'running')",
             )
             .bind(job.state.word())
             .bind(rows::json(&job.output)?)
+            .bind(rows::json(&job.verdict)?)
             .bind(job.seq as i64)
             .bind(rows::json(&job.progress)?)
             .bind(failure)

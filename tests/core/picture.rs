@@ -28,6 +28,7 @@ fn face(value: f64, flipped: bool) -> FaceDistortion {
         conformal: value,
         area: value,
         symmetric_dirichlet: 4.0 * value,
+        stretch: value,
         flipped,
         degenerate: !value.is_finite(),
     }

@@ -2,6 +2,7 @@
 
 mod benches;
 mod browser;
+mod certified;
 mod cli;
 mod deforming;
 mod meshes;

@@ -19,6 +19,7 @@ mod images;
 mod json;
 mod meshopt;
 mod moved;
+mod names;
 mod positions;
 mod primitives;
 mod references;

@@ -190,6 +190,8 @@ async function showEnd(ended) {
   const links = ended.links.files.map((file, index) => element("a", { href: file.href, download: file.name, textContent: file.name, className: index ? "" : "main" }));
   byId("downloads").replaceChildren(...links);
   byId("pictures").replaceChildren(...pictures(ended).map(([href, caption]) => element("figure", {}, element("img", { src: href, alt: caption }), element("figcaption", { textContent: caption }))));
+  show("uncertified", ended.certified === false);
+  byId("warnings").replaceChildren(...ended.warnings.map((warning) => element("li", { textContent: warning.message })));
   const report = await call(`${ended.links.self}/report`);
   pairs(byId("report"), summary(report));
   show("result");

@@ -11,13 +11,13 @@ function words(value) {
 // What is proven of the UVs written.
 function proofs({ locally_injective, bijective, unmirrored, padding, aligned, pages, safe_bits, bits }) {
   return [
-    ["no face flipped or degenerate", words(locally_injective)],
-    ["no faces overlap", words(bijective)],
+    ["nothing flipped or without area", words(locally_injective)],
+    ["nothing overlaps", words(bijective)],
     ["no chart mirrored", words(unmirrored)],
     ...(padding ? [[`charts ${padding.asked_texels} texels apart at ${padding.resolution}`, `${words(padding.kept)} (nearest ${short(padding.reached_texels)})`]] : []),
     ...(aligned == null ? [] : [["chart edges on texels", words(aligned)]]),
     ...(pages?.asked > 1 ? [[`each chart on one of ${pages.asked} pages`, words(pages.kept)]] : []),
-    ...(bits ? [[`holds at ${bits.asked} bits`, words(bits.hold)]] : safe_bits ? [["holds at", `${safe_bits} bits`]] : []),
+    ...(bits ? [[`safe at ${bits.asked} bits`, words(bits.hold)]] : safe_bits ? [["safe at", `${safe_bits} bits`]] : []),
   ];
 }
 
@@ -40,7 +40,7 @@ export function summary(report) {
   entries.push(...keys.filter((key) => key in report).map((key) => [key.replaceAll("_", " "), words(report[key])]));
   for (const group of groups.slice(0, 4)) {
     const known = Object.entries(MEASURES).map(([name, key]) => [name, (group.measures ?? group)[key]]);
-    entries.push(...known.filter(([, value]) => value !== undefined).map(([name, value]) => [`${group.name}: ${name}`, words(value)]));
+    entries.push(...known.filter(([, value]) => value !== undefined).map(([name, value]) => [`${group.label ?? group.name}: ${name}`, words(value)]));
   }
   return entries;
 }

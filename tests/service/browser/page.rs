@@ -62,7 +62,23 @@ async fn the_page_shows_what_is_proven() {
     let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
     let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
     let page = page.expect("a browser");
-    for words in ["no faces overlap", "holds at", "seam / √area", "layout.png"] {
+    for words in ["nothing overlaps", "safe at", "seam / √area", "layout.png"] {
         assert!(page.contains(words), "{words}: {page}");
     }
+}
+
+#[tokio::test]
+async fn the_page_shows_warnings() {
+    let server = Server::start();
+    let options = r#"{"texcoord": 1}"#;
+    let job = ended(
+        &server,
+        form("unwrap", options, ("plate.off", PLATE.into())),
+    )
+    .await;
+    let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
+    let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
+    let page = page.expect("a browser");
+    let warning = job["warnings"][0]["message"].as_str().expect("a warning");
+    assert!(page.contains(warning), "{warning}: {page}");
 }

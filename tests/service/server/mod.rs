@@ -10,6 +10,7 @@ mod restarts;
 mod results;
 mod retention;
 mod synchronous;
+mod verdicts;
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;

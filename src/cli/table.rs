@@ -1,0 +1,140 @@
+//! Atlases in a table: at most ten lines and totals.
+
+use super::files::say;
+use crate::certificate::Certificate;
+use crate::measure::Page;
+use crate::pipeline::{GroupReport, stretch_percent};
+
+/// Lines at most, without those of the head and the totals.
+const LINES: usize = 10;
+/// Characters of a name at most.
+const NAME: usize = 28;
+
+/// Prints what atlases are worth: those that are not certified first, then the largest; of more than ten the rest is one line.
+pub(super) fn print(groups: &[GroupReport]) {
+    let mut order: Vec<&GroupReport> = groups.iter().collect();
+    order.sort_by_key(|group| (group.is_certified(), usize::MAX - group.measures.size.faces));
+    let n_shown = if order.len() <= LINES {
+        order.len()
+    } else {
+        LINES - 1
+    };
+    let (shown, rest) = order.split_at(n_shown);
+    let width = shown
+        .iter()
+        .map(|group| group.label.chars().count())
+        .max()
+        .unwrap_or(0);
+    let width = width.clamp(10, NAME);
+    say(format_args!(
+        "{:width$} {:>9} {:>7} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {:>11}",
+        "",
+        "triangles",
+        "charts",
+        "stretch",
+        "filled",
+        "texels/unit",
+        "seam/√A",
+        "flipped",
+        "no area",
+        "overlapping"
+    ));
+    for group in shown {
+        let name: String = group.label.chars().take(NAME).collect();
+        say(line(&name, width, &Sums::of(&[group])));
+    }
+    if !rest.is_empty() {
+        let name = format!("{} others", rest.len());
+        say(line(&name, width, &Sums::of(rest)));
+    }
+    if groups.len() > 1 {
+        let name = format!("{} atlases", groups.len());
+        say(line(&name, width, &Sums::of(&order)));
+    }
+    for group in shown.iter().filter(|group| group.measures.pages.len() > 1) {
+        let page = |page: &Page| format!("{} {:.1} % filled", page.udim, 100.0 * page.fill);
+        let pages: Vec<String> = group.measures.pages.iter().map(page).collect();
+        say(format_args!("{}: {}", group.label, pages.join(", ")));
+    }
+}
+
+fn line(name: &str, width: usize, sums: &Sums) -> String {
+    let number = |x: Option<f64>, digits: usize| x.map_or("-".into(), |x| format!("{x:.digits$}"));
+    let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.1} %"));
+    let overlapping = sums.overlapping.map_or("-".to_owned(), |n| n.to_string());
+    format!(
+        "{name:width$} {:>9} {:>7} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {overlapping:>11}",
+        sums.faces,
+        sums.charts,
+        percent(sums.energy().map(stretch_percent)),
+        percent(sums.filled.map(|share| 100.0 * share)),
+        number(sums.density(), 4),
+        number(sums.seams(), 2),
+        sums.flipped,
+        sums.degenerate,
+    )
+}
+
+/// Figures of several atlases: counts added, means weighted by the areas of the surfaces.
+#[derive(Default)]
+struct Sums {
+    faces: usize,
+    charts: usize,
+    area: f64,
+    /// Energies times areas, over surfaces that have one.
+    energies: Option<f64>,
+    texels: Option<f64>,
+    seam: f64,
+    /// The mean of all pages.
+    filled: Option<f64>,
+    flipped: usize,
+    degenerate: usize,
+    overlapping: Option<u64>,
+}
+
+impl Sums {
+    fn of(groups: &[&GroupReport]) -> Self {
+        let mut sums = Self::default();
+        let mut fills = Vec::new();
+        for group in groups {
+            let m = &group.measures;
+            let area = m.size.area_3d;
+            let certificate: &Certificate = &group.certificate;
+            sums.faces += m.size.faces;
+            sums.charts += m.seams.charts;
+            sums.area += area;
+            if let Some(energy) = m.distortion.sym_dirichlet_mean {
+                *sums.energies.get_or_insert(0.0) += energy * area;
+            }
+            if let Some(texels) = group.texels_per_unit {
+                *sums.texels.get_or_insert(0.0) += texels * texels * area;
+            }
+            sums.seam += m.seams.seam_over_sqrt_area.unwrap_or(0.0) * area.sqrt();
+            fills.extend(m.pages.iter().map(|page| page.fill));
+            sums.flipped += certificate.flipped;
+            sums.degenerate += certificate.degenerate;
+            if let Some(pairs) = certificate.overlapping_pairs {
+                *sums.overlapping.get_or_insert(0) += pairs;
+            }
+        }
+        let n = fills.len();
+        sums.filled = (n > 0).then(|| fills.iter().sum::<f64>() / n as f64);
+        sums
+    }
+
+    fn mean(&self, of: Option<f64>) -> Option<f64> {
+        of.filter(|_| self.area > 0.0).map(|sum| sum / self.area)
+    }
+
+    fn energy(&self) -> Option<f64> {
+        self.mean(self.energies)
+    }
+
+    fn density(&self) -> Option<f64> {
+        self.mean(self.texels).map(f64::sqrt)
+    }
+
+    fn seams(&self) -> Option<f64> {
+        (self.area > 0.0).then(|| self.seam / self.area.sqrt())
+    }
+}

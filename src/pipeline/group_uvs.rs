@@ -1,0 +1,128 @@
+//! The UVs of one group as its bytes have them.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use super::PipelineError;
+use super::report::GroupReport;
+use crate::certificate::{Certificate, Claims, CornerUvs, Resolution, certify};
+use crate::document::{Document, Group, Primitive};
+use crate::measure::{self, Measures, VAxis};
+use crate::numerics::vec3::{area_vector, norm};
+
+/// The UVs of one group with its mesh.
+#[derive(Clone, Debug)]
+pub(super) struct GroupUvs {
+    pub(super) name: String,
+    pub(super) label: String,
+    pub(super) positions: Vec<[f64; 3]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) uvs: Vec<CornerUvs>,
+    /// The texel density intended for each face; one for all if absent.
+    pub(super) weights: Option<Vec<f64>>,
+}
+
+impl GroupUvs {
+    pub(super) fn gather(
+        document: &Document,
+        primitives: &[Primitive],
+        group: &Group,
+        set: &impl Fn(usize) -> u32,
+    ) -> Result<Self, PipelineError> {
+        let mut gathered = Self {
+            name: group.name.clone(),
+            label: group.label.clone(),
+            positions: vec![],
+            triangles: vec![],
+            uvs: vec![],
+            weights: None,
+        };
+        for &index in &group.primitives {
+            let primitive = &primitives[index];
+            let texcoord = set(index);
+            let uvs =
+                document
+                    .corner_uvs(index, texcoord)?
+                    .ok_or_else(|| PipelineError::NoUvs {
+                        group: group.label.clone(),
+                        texcoord,
+                    })?;
+            let first = gathered.positions.len() as u32;
+            gathered
+                .positions
+                .extend(primitive.positions.iter().map(|p| p.map(f64::from)));
+            gathered
+                .triangles
+                .extend(primitive.triangles.iter().map(|t| t.map(|v| v + first)));
+            gathered.uvs.extend(uvs);
+        }
+        Ok(gathered)
+    }
+
+    /// The area of the surface enlarged by its weights, if it has any.
+    fn intended_area(&self) -> Option<f64> {
+        let area = |(t, weight): (&[u32; 3], &f64)| {
+            let [a, b, c] = t.map(|v| self.positions[v as usize]);
+            norm(area_vector(a, b, c)) / 2.0 * weight * weight
+        };
+        let weights = self.weights.as_ref()?;
+        Some(self.triangles.iter().zip(weights).map(area).sum())
+    }
+
+    pub(super) fn certify(&self, claims: &Claims) -> Certificate {
+        certify(&self.positions, &self.triangles, &self.uvs, claims)
+    }
+
+    pub(super) fn measure(&self, v_axis: VAxis, texture: Resolution) -> Measures {
+        let options = measure::MeasureOptions {
+            aspect: texture.aspect(),
+            weights: self.weights.as_deref(),
+            ..measure::MeasureOptions::default()
+        };
+        measure::measure(
+            &self.positions,
+            &self.triangles,
+            &self.uvs,
+            v_axis,
+            &options,
+        )
+    }
+
+    /// Of what [`is_same`](Self::is_same) compares.
+    pub(super) fn hash(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.triangles.hash(&mut hasher);
+        let uvs = self.uvs.as_flattened().as_flattened();
+        for x in uvs {
+            x.to_bits().hash(&mut hasher);
+        }
+        hasher.finish()
+    }
+
+    /// Whether all numbers are the same, whatever the names.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self.triangles == other.triangles
+            && self.positions == other.positions
+            && self.uvs == other.uvs
+            && self.weights == other.weights
+    }
+
+    /// What it is worth.
+    pub(super) fn report(
+        &self,
+        measures: Measures,
+        certificate: Certificate,
+        texture: Resolution,
+    ) -> GroupReport {
+        let area = self.intended_area().unwrap_or(measures.size.area_3d);
+        let squared = measures.size.area_uv / area;
+        GroupReport {
+            name: self.name.clone(),
+            label: self.label.clone(),
+            texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
+            measures,
+            certificate,
+            defects: None,
+            atlas: None,
+        }
+    }
+}
