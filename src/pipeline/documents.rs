@@ -80,6 +80,10 @@ fn unwrap_in_pool(
     tracker.stage(Stage::Write);
     let written = write(&document, &uvs, baked.as_ref(), upload, options)?;
     seconds.write = watch.lap();
+    let noticed = document.warnings().to_vec();
+    // What was written is read next: both would take twice the memory.
+    drop(primitives);
+    drop(document);
 
     tracker.stage(Stage::Judge);
     let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
@@ -90,7 +94,7 @@ fn unwrap_in_pool(
     add_history(&mut groups, &atlases, options);
     seconds.judge = watch.lap();
 
-    let warnings = [document.warnings(), &written.notes.warnings].concat();
+    let warnings = [noticed, written.notes.warnings.clone()].concat();
     let mut report = Report::new(groups, warnings);
     report.options = Some(options.clone());
     report.limits = Some(options.limits);
