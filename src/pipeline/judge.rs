@@ -14,6 +14,10 @@ use crate::document::{Document, Group, GroupBy, Primitive, Upload, Warning, Writ
 use crate::measure::{self, Measures, VAxis};
 use crate::numerics::vec3::{area_vector, norm};
 
+/// Texels of all rasters together on which coverage is counted, and the least side of each: 256 groups have the finest.
+const MOST_RASTER_TEXELS: u64 = 1 << 32;
+const COARSEST_RASTER: u32 = 256;
+
 /// The UVs of every group of a file with the meshes they belong to, in the numbers of the file.
 #[derive(Clone, Debug)]
 pub(super) struct WrittenUvs {
@@ -78,10 +82,18 @@ impl WrittenUvs {
 
     /// Measures and certifies every group, in texels of a texture.
     pub(super) fn judge(&self, claims: &Claims, texture: Resolution) -> Vec<GroupReport> {
+        let raster_texels = self.raster_texels();
         self.groups
             .par_iter()
-            .map(|group| group.judge(&self.told(claims), texture))
+            .map(|group| group.judge(&self.told(claims), texture, raster_texels))
             .collect()
+    }
+
+    /// The side of the raster on which the coverage of each group is counted: the rasters of many groups are coarser.
+    fn raster_texels(&self) -> u32 {
+        let of_each = MOST_RASTER_TEXELS / self.groups.len().max(1) as u64;
+        let finest = measure::MeasureOptions::default().raster_texels;
+        (1 << (of_each.max(1).ilog2() / 2)).clamp(COARSEST_RASTER, finest)
     }
 
     /// Certifies every group.
@@ -152,8 +164,9 @@ impl GroupUvs {
         certify(&self.positions, &self.triangles, &self.uvs, claims)
     }
 
-    fn measure(&self, v_axis: VAxis, texture: Resolution) -> Measures {
+    fn measure(&self, v_axis: VAxis, texture: Resolution, raster_texels: u32) -> Measures {
         let options = measure::MeasureOptions {
+            raster_texels,
             aspect: texture.aspect(),
             weights: self.weights.as_deref(),
             ..measure::MeasureOptions::default()
@@ -167,9 +180,9 @@ impl GroupUvs {
         )
     }
 
-    fn judge(&self, claims: &Claims, texture: Resolution) -> GroupReport {
+    fn judge(&self, claims: &Claims, texture: Resolution, raster_texels: u32) -> GroupReport {
         let (measures, certificate) = rayon::join(
-            || self.measure(claims.v_axis, texture),
+            || self.measure(claims.v_axis, texture, raster_texels),
             || self.certify(claims),
         );
         let area = self.intended_area().unwrap_or(measures.size.area_3d);
