@@ -25,10 +25,10 @@ mod embed;
 mod energy;
 mod given_back;
 mod given_seams;
-mod ignored;
 #[cfg(feature = "files")]
 mod io;
 mod layers;
+mod left_out;
 mod measure;
 mod mesh;
 mod numerics;

@@ -1,25 +1,14 @@
-//! Tests of the service: a real server on a free port, with its data in a folder that goes with it.
+//! Tests of the binary: as a command and, in `server`, as a service.
 
-mod applications;
-mod bad_inputs;
 mod benches;
+mod browser;
 mod cli;
 mod deforming;
-mod failures;
-mod jobs;
 mod meshes;
 mod openapi;
-mod page;
 mod pages;
 #[path = "../places.rs"]
 mod places;
-mod progress;
-mod rendering;
-mod requests;
-mod restarts;
-mod results;
-mod retention;
 mod server;
 mod split;
-mod synchronous;
 mod timestamp;

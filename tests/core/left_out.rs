@@ -1,4 +1,5 @@
-//! Which tests may be left out: those in modules named `shared`, where the data beside the repository is absent, and no other.
+//! Which tests may be left out: those in modules named `shared`, where the data beside the repository is absent, and those in
+//! `server` and `browser`, in a run without either.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,7 +36,7 @@ fn only_tests_of_shared_data_are_ignored() {
         sources(&places::repository(folder), &mut files);
     }
     let mut n_shared = 0;
-    for file in files.iter().filter(|file| !file.ends_with("ignored.rs")) {
+    for file in files.iter().filter(|file| !file.ends_with("left_out.rs")) {
         let text = fs::read_to_string(file).expect("text");
         let (outside, inside) = parts(&text);
         for word in [
@@ -56,4 +57,21 @@ fn only_tests_of_shared_data_are_ignored() {
         n_shared += n_tests;
     }
     assert!(n_shared > 10, "{n_shared}");
+}
+
+#[test]
+fn servers_and_browsers_are_where_runs_without_them_look() {
+    let mut files = Vec::new();
+    sources(&places::repository("tests/service"), &mut files);
+    let (apart, others): (Vec<_>, Vec<_>) = files.iter().partition(|file| {
+        file.iter()
+            .any(|part| part == "server" || part == "browser")
+    });
+    assert!(apart.len() > 10, "{apart:?}");
+    for file in others {
+        let text = fs::read_to_string(file).expect("text");
+        for word in ["Server::", "\"serve\"", "chromium", "\"node\""] {
+            assert!(!text.contains(word), "{}: {word}", file.display());
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use reqwest::multipart::Part;
 use serde_json::Value;
 
-use crate::applications::{PROBLEM, asset, ended, form, outcome};
+use super::applications::{PROBLEM, asset, ended, form, outcome};
 use crate::cli::unwrapd;
 use crate::meshes::{self, PLATE, bar};
 use crate::server::Server;

@@ -255,3 +255,36 @@ async fn a_preferred_wait_is_answered_with_the_end() {
     assert!(answer.headers().contains_key("location"));
     assert_eq!(json(answer).await["state"], "succeeded");
 }
+
+#[tokio::test]
+async fn pages_are_an_option_of_a_call() {
+    let server = Server::start();
+    let path = "/v1/unwrap?filename=sheet.glb&pages=2&resolution=512x256";
+    let answer = server.post(path).body(meshes::small()).send().await;
+    let glb = answer.expect("an answer").bytes().await.expect("bytes");
+    let path = "/v1/measure?pages=2&resolution=512x256";
+    let report = server.post(path).body(glb).send().await.expect("an answer");
+    let report = json(report).await;
+    assert_eq!(report["proven"]["pages"]["kept"], true, "{report}");
+    let send = async |query: &str| {
+        let path = format!("/v1/unwrap?filename=sheet.glb&{query}");
+        server
+            .post(&path)
+            .body(meshes::small())
+            .send()
+            .await
+            .expect("an answer")
+    };
+    let too_small = send("texels_per_unit=1e6").await;
+    assert_problem(too_small, 422, "texture_too_small").await;
+    for query in ["resolution=512x300", "resolution=512x", "pages=11"] {
+        assert_problem(send(query).await, 400, "invalid_options").await;
+    }
+}
+
+#[tokio::test]
+async fn the_stored_document_is_handed_out() {
+    let server = Server::start();
+    let served = json(server.get("/openapi.json").send().await.expect("an answer")).await;
+    assert_eq!(served, crate::openapi::stored());
+}

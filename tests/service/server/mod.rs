@@ -1,4 +1,15 @@
-//! A server for one test.
+//! Tests that talk to a real server, each to one of its own.
+
+mod applications;
+mod bad_inputs;
+mod failures;
+mod jobs;
+mod progress;
+mod requests;
+mod restarts;
+mod results;
+mod retention;
+mod synchronous;
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -10,6 +21,8 @@ use nix::unistd::Pid;
 use reqwest::{Client, RequestBuilder, Response};
 use serde_json::Value;
 use tempfile::TempDir;
+
+pub use applications::{ended, form};
 
 /// For what must happen soon, on however busy a machine.
 pub const SOON: Duration = Duration::from_mins(1);
@@ -144,7 +157,7 @@ impl Server {
     /// Waits until a job is being mapped.
     pub async fn mapping(&self, job: &Value) -> Value {
         let path = format!("{}/events", job["links"]["self"].as_str().expect("a link"));
-        let mut events = super::progress::Socket::connect(&self.socket_url(&path)).await;
+        let mut events = progress::Socket::connect(&self.socket_url(&path)).await;
         loop {
             let event = events.next().await.expect("an event");
             assert_ne!(

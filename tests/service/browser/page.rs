@@ -1,13 +1,12 @@
-//! The page in a browser, where one is installed.
+//! The page.
 
 use std::process::Command;
 
-use crate::applications::{ended, form};
 use crate::meshes::PLATE;
-use crate::server::Server;
+use crate::server::{Server, ended, form};
 
-/// The page as Chromium has it after its scripts ran; `None` without Chromium.
-fn rendered(url: &str) -> Option<String> {
+/// The page as Chromium has it after its scripts ran.
+fn rendered(url: &str) -> String {
     let profile = tempfile::tempdir().expect("a folder for the profile");
     let output = Command::new("chromium")
         .args([
@@ -18,14 +17,9 @@ fn rendered(url: &str) -> Option<String> {
         ])
         .arg(format!("--user-data-dir={}", profile.path().display()))
         .args(["--virtual-time-budget=5000", "--dump-dom", url])
-        .output();
-    match output {
-        Ok(output) => Some(String::from_utf8_lossy(&output.stdout).into_owned()),
-        Err(error) => {
-            eprintln!("skipped: no chromium ({error})");
-            None
-        }
-    }
+        .output()
+        .expect("Chromium runs");
+    String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
 #[tokio::test]
@@ -33,10 +27,8 @@ async fn the_page_and_the_docs_run_their_scripts() {
     let server = Server::start();
     let url = |path: &str| server.url(path);
     let (page, docs) = (url("/"), url("/docs"));
-    let dumped = tokio::task::spawn_blocking(move || Some((rendered(&page)?, rendered(&docs)?)));
-    let Some((page, docs)) = dumped.await.expect("a browser") else {
-        return;
-    };
+    let dumped = tokio::task::spawn_blocking(move || (rendered(&page), rendered(&docs)));
+    let (page, docs) = dumped.await.expect("a browser");
     assert!(page.contains("type=\"file\""), "{page}");
     // Listed from /openapi.json by the script.
     assert!(docs.contains("/v1/jobs/{id}/result"), "{docs}");
@@ -50,9 +42,7 @@ async fn the_page_shows_jobs_of_other_kinds() {
     let job = ended(&server, body).await;
     let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
     let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
-    let Some(page) = page.expect("a browser") else {
-        return;
-    };
+    let page = page.expect("a browser");
     for words in [
         "deform: plate.off",
         "converged",
@@ -71,9 +61,7 @@ async fn the_page_shows_what_is_proven() {
     let job = ended(&server, form("unwrap", "{}", ("plate.off", PLATE.into()))).await;
     let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
     let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
-    let Some(page) = page.expect("a browser") else {
-        return;
-    };
+    let page = page.expect("a browser");
     for words in ["no faces overlap", "holds at", "seam / √area", "layout.png"] {
         assert!(page.contains(words), "{words}: {page}");
     }
