@@ -115,8 +115,8 @@ fn nodes_do_not_multiply_primitives_without_end() {
 /// Each node's transform is found once, from that of its parent.
 #[test]
 fn a_chain_of_nodes_costs_what_its_nodes_cost() {
-    let _alone = ALONE.lock();
     const N: usize = 4000;
+    let _alone = ALONE.lock();
     let mut builder = Builder::triangle();
     let mesh = builder.json["meshes"][0].clone();
     builder.json["meshes"] = Value::Array(vec![mesh; N]);
@@ -137,8 +137,8 @@ fn a_chain_of_nodes_costs_what_its_nodes_cost() {
 /// The boxes of all its triangles meet, so that a search among them would end unfinished.
 #[test]
 fn a_fan_is_bijective_by_its_boundary() {
-    let _alone = ALONE.lock();
     const N: u32 = 60_000;
+    let _alone = ALONE.lock();
     let rim = (0..N).map(|i| {
         let (sin, cos) = (TAU * f64::from(i) / f64::from(N)).sin_cos();
         [cos, sin, 0.0].map(|x| f64::from(x as f32))

@@ -25,7 +25,7 @@ pub(super) fn covers_once(triangles: &[CornerUvs], tree: &BoxTree) -> bool {
     if triangles.len() < FEW {
         return false;
     }
-    let Some(loops) = closed_lines(uncancelled(triangles)) else {
+    let Some(loops) = closed_lines(&uncancelled(triangles)) else {
         return false;
     };
     let vertices: Vec<Vec<[f64; 2]>> = (loops.iter())
@@ -58,7 +58,7 @@ fn uncancelled(triangles: &[CornerUvs]) -> Vec<Edge> {
             }
         })
         .collect();
-    edges.sort_unstable_by(|x, y| (x.0, x.1).cmp(&(y.0, y.1)));
+    edges.sort_unstable_by_key(|edge| (edge.0, edge.1));
     let mut left = Vec::new();
     for same in edges.chunk_by(|x, y| x.0 == y.0) {
         let back = same.partition_point(|edge| !edge.1);
@@ -70,7 +70,7 @@ fn uncancelled(triangles: &[CornerUvs]) -> Vec<Edge> {
 }
 
 /// Edges one after the other; none where more than one begins at a point.
-fn closed_lines(edges: Vec<Edge>) -> Option<Vec<Vec<Edge>>> {
+fn closed_lines(edges: &[Edge]) -> Option<Vec<Vec<Edge>>> {
     let mut from: HashMap<Point, usize> = HashMap::with_capacity(edges.len());
     for (index, edge) in edges.iter().enumerate() {
         if from.insert(key(edge[0]), index).is_some() {
