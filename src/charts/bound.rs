@@ -35,6 +35,9 @@ const MOST_ROUNDS: usize = 8;
 /// not help: a sponge of a thousand handles stays one.
 const HOPELESS: [f64; 2] = [0.7, 4.0];
 
+/// Newton steps at most on a chart of needles, which go on for hundreds without gaining a shape.
+const STEPS_FOR_NEEDLES: usize = 10;
+
 /// The charts of a surface, mapped, whose mean symmetric Dirichlet energy keeps the bound where that can be had.
 ///
 /// Each component is opened to a disk; disks are slit where the predictor says that they would be distorted most, until the sum
@@ -50,7 +53,9 @@ pub fn charts_under_bound(
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     if is_mostly_needles(surface) {
-        return map_all(charts(surface, Cut::Disk), options, observer);
+        let mut options = *options;
+        options.solver.max_iterations = STEPS_FOR_NEEDLES;
+        return map_all(charts(surface, Cut::Disk), &options, observer);
     }
     let slit = slit_and_mapped(surface, bound, options, observer);
     let maps = |pieces: Vec<Piece>| {
