@@ -41,10 +41,13 @@ const LOWERED: f64 = 0.993;
 /// The share of the square that the first attempt hopes to fill.
 const HOPE: f64 = 0.75;
 
-/// Cells along a side of a square.
-fn raster(n_charts: usize) -> u32 {
+/// Cells along a side of a square, of which each chart has some 16 along its own.
+fn raster(n_charts: usize, most_cells: u32) -> u32 {
     match n_charts {
-        0..=400 => 1024,
+        0..=400 => {
+            let least = (256 * n_charts as u32).isqrt().next_power_of_two();
+            most_cells.clamp(least, 1024)
+        }
         401..=60_000 => 2048,
         60_001..=1_000_000 => 4096,
         _ => 16384,
@@ -64,7 +67,8 @@ pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f6
 /// The best layout found of a plan; none when there are more charts than cells.
 pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<Layout> {
     let texture = options.texture;
-    let cells = texture.raster(raster(plan.order.len() / texture.pages.max(1) as usize));
+    let on_page = plan.order.len() / texture.pages.max(1) as usize;
+    let cells = texture.raster(raster(on_page, options.most_cells));
     let padding = padding(options, plan.order.len(), f64::from(cells));
     let border = (padding / 2.0).max(SLACK);
     let packing = Packing {

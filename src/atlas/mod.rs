@@ -109,6 +109,8 @@ pub struct AtlasOptions {
     pub borders: Borders,
     /// Words that the search for the best order, angles and scale may read, about 3·10⁸ a second; a layout is found in any case.
     pub search_words: u64,
+    /// Cells along the side of the raster on which a few charts are placed, at most: on fewer they are placed sooner and less full.
+    pub most_cells: u32,
 }
 
 impl Default for AtlasOptions {
@@ -120,6 +122,7 @@ impl Default for AtlasOptions {
             turns: Turns::Any,
             borders: Borders::Free,
             search_words: 500_000_000,
+            most_cells: u32::MAX,
         }
     }
 }

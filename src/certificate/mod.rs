@@ -36,6 +36,7 @@ mod crossings;
 mod edges;
 mod fixed;
 mod judgement;
+mod once;
 mod overlap;
 mod padding;
 mod pages;

@@ -2,6 +2,7 @@
 
 use super::CornerUvs;
 use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
+use super::once::covers_once;
 use super::topology::UvTopology;
 use crate::numerics::predicates::orient2d_sign;
 
@@ -40,10 +41,15 @@ impl OrientedFaces {
         }
     }
 
-    /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes.
+    /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes; where there is none, that is mostly
+    /// seen from the boundary alone.
     pub fn overlaps(&self, mut visit: impl FnMut(OverlappingPair)) -> Visit {
         let boxes: Vec<Bounds> = self.corners.iter().map(|c| bounds_of(c)).collect();
-        BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        let tree = BoxTree::new(&boxes);
+        if covers_once(&self.corners, &tree) {
+            return Visit::Complete;
+        }
+        tree.pairs(search_budget(boxes.len()), |i, j| {
             let corners = [self.corners[i as usize], self.corners[j as usize]];
             if interiors_intersect(&corners[0], &corners[1]) {
                 let faces = [self.faces[i as usize], self.faces[j as usize]];

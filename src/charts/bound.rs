@@ -8,8 +8,9 @@ use super::piece::Piece;
 use super::quality::Bound;
 use super::simplified::Simplified;
 use super::slits::Slits;
-use crate::embed;
+use crate::embed::{self, is_needle};
 use crate::mesh::Surface;
+use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::Control;
 use rayon::prelude::*;
 
@@ -34,19 +35,28 @@ const MOST_ROUNDS: usize = 8;
 /// not help: a sponge of a thousand handles stays one.
 const HOPELESS: [f64; 2] = [0.7, 4.0];
 
+/// Newton steps at most on a chart of needles, which go on for hundreds without gaining a shape.
+const STEPS_FOR_NEEDLES: usize = 10;
+
 /// The charts of a surface, mapped, whose mean symmetric Dirichlet energy keeps the bound where that can be had.
 ///
 /// Each component is opened to a disk; disks are slit where the predictor says that they would be distorted most, until the sum
 /// promises to keep the bound; then they are mapped, parted where a map overlaps itself, and slit further where the maps were
 /// worse than promised. The bound is one for all charts: a slit is spent where the excess is largest. Where the stretch is too
 /// large the same goes on as for a smaller mean. A surface on which this does not lead below the bound is divided as by
-/// [`Cut::Fast`] if that does better. At last small charts are [given back](given_back).
+/// [`Cut::Fast`] if that does better. At last small charts are [given back](given_back). A surface of needles, of which no map keeps the
+/// shape, is not slit.
 pub fn charts_under_bound(
     surface: &Surface,
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
+    if is_mostly_needles(surface) {
+        let mut options = *options;
+        options.solver.max_iterations = STEPS_FOR_NEEDLES;
+        return map_all(charts(surface, Cut::Disk), &options, observer);
+    }
     let slit = slit_and_mapped(surface, bound, options, observer);
     let maps = |pieces: Vec<Piece>| {
         let maps = pieces.into_iter().filter_map(|piece| piece.map).collect();
@@ -55,18 +65,36 @@ pub fn charts_under_bound(
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
         return maps(slit);
     }
-    let divided: Vec<Piece> = charts(surface, Cut::Fast)
-        .into_par_iter()
-        .with_max_len(1)
-        .flat_map_iter(|chart| map_chart(chart, options, Folds::Cut, observer))
-        .map(Piece::of)
-        .collect();
+    let divided = map_all(charts(surface, Cut::Fast), options, observer);
+    let divided: Vec<Piece> = divided.into_iter().map(Piece::of).collect();
     let better = if mean_excess(&divided) < mean_excess(&slit) {
         divided
     } else {
         slit
     };
     maps(better)
+}
+
+fn map_all(
+    charts: Vec<Chart>,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    (charts.into_par_iter().with_max_len(1))
+        .flat_map_iter(|chart| map_chart(chart, options, Folds::Cut, observer))
+        .collect()
+}
+
+/// Whether most of the area lies in triangles whose shape no map keeps: slits and divisions cannot lessen that.
+fn is_mostly_needles(surface: &Surface) -> bool {
+    let (mut area, mut of_needles) = (0.0, 0.0);
+    for triangle in &surface.triangles {
+        let [a, b, c] = triangle.map(|v| surface.positions[v as usize]);
+        let doubled = norm(area_vector(a, b, c));
+        area += doubled;
+        of_needles += if is_needle([a, b, c]) { doubled } else { 0.0 };
+    }
+    of_needles > 0.5 * area
 }
 
 fn mean_excess(pieces: &[Piece]) -> f64 {

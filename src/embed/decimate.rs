@@ -157,6 +157,10 @@ impl<'a> Decimation<'a> {
             Care::Shape => LEAST_QUALITY.min(present),
             Care::Topology => 0.0,
         };
+        let most = MOST_NEIGHBORS.saturating_sub(ring.halfedges.len());
+        if care == Care::Shape && most == 0 {
+            return None;
+        }
         let mut candidates: Vec<(f64, usize)> = (0..ring.vertices.len())
             .filter(|&at| care == Care::Topology || self.keeps_holes(ring, at))
             .map(|at| (self.quality_after(ring, at), at))
@@ -164,9 +168,10 @@ impl<'a> Decimation<'a> {
             .collect();
         candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         (candidates.into_iter().map(|(_, at)| at)).find(|&at| {
-            let valence = self.triangulation.valence(ring.vertices[at]);
-            let crowded = care == Care::Shape && valence + ring.halfedges.len() > MOST_NEIGHBORS;
-            !crowded && self.triangulation.can_collapse(ring, at)
+            let target = ring.vertices[at];
+            let is_crowded =
+                care == Care::Shape && self.triangulation.has_more_triangles(target, most);
+            !is_crowded && self.triangulation.can_collapse(ring, at)
         })
     }
 

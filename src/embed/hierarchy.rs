@@ -12,7 +12,7 @@
 use super::closed::ClosedDisk;
 use super::decimate::{Care, Collapses, Decimation};
 use super::reinsert::{Shape, reinsert};
-use super::rest::rest_shape;
+use super::rest::{Least, rest_shape};
 use super::star::Corners;
 use super::start::{first_bad_triangle, tutte};
 use super::sweep::sweep;
@@ -72,12 +72,9 @@ struct Level {
 pub(super) fn coarse_to_fine(
     closed: &ClosedDisk,
     positions: &[[f64; 3]],
-    smallest: f64,
+    least: Least,
 ) -> Option<Vec<[f64; 2]>> {
-    let shape = Shape {
-        positions,
-        smallest,
-    };
+    let shape = Shape { positions, least };
     let mut decimation = Decimation::new(positions, &closed.triangles, closed.n_real);
     let mut levels = Vec::new();
     coarsen(&mut decimation, COARSEST, Care::Shape, &mut levels);
@@ -174,7 +171,7 @@ impl System {
             .collect();
         let rest: Vec<RestShape> = (level.iter())
             .map(|&(original, t)| {
-                let rest = rest_shape(t.map(|v| shape.positions[v as usize]), shape.smallest);
+                let rest = rest_shape(t.map(|v| shape.positions[v as usize]), shape.least);
                 let factor = if original < n_real {
                     1.0
                 } else {

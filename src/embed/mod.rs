@@ -30,6 +30,7 @@ mod tutte;
 
 pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
 pub use pins::Pins;
+pub(crate) use rest::is_needle;
 pub use rest::{RestShapes, rest_shapes};
 pub use simplify::simplified;
 pub use star::{Corners, Star};

@@ -1,7 +1,7 @@
 //! Collapsed vertices put back into a map without flipping a triangle.
 
 use super::decimate::{Collapse, Collapses};
-use super::rest::rest_shape;
+use super::rest::{Least, rest_shape};
 use super::star::{Corners, Star};
 use super::triangulation::pairs;
 use crate::numerics::predicates::orient2d_sign;
@@ -15,11 +15,11 @@ const WALK: usize = 150;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoRoom;
 
-/// Surfaces in space: positions in the unit of the rest shapes, and the size below which shapes are enlarged.
+/// Surfaces in space: positions in the unit of the rest shapes, and what shapes are enlarged to.
 #[derive(Clone, Copy)]
 pub(super) struct Shape<'a> {
     pub positions: &'a [[f64; 3]],
-    pub smallest: f64,
+    pub least: Least,
 }
 
 /// Undoes the collapses, last first; `uv` must be positive on the coarse triangles and then is on the fine ones, exactly.
@@ -53,7 +53,7 @@ fn similar_place(collapse: &Collapse, ring: &[u32], shape: &Shape, uv: &[[f64; 2
             vec3::sub(at(b), at(a)),
             vec3::sub(at(collapse.vertex), at(a)),
         );
-        let squared = vec3::dot(edge, edge).max(shape.smallest * shape.smallest);
+        let squared = vec3::dot(edge, edge).max(shape.least.size * shape.least.size);
         let along = vec3::dot(edge, side) / squared;
         let height = vec3::norm(vec3::cross(edge, side)) / squared;
         let (p, q) = (uv[a as usize], uv[b as usize]);
@@ -127,7 +127,7 @@ fn improved_place(
     let at = |v: u32| shape.positions[v as usize];
     let mut star = Star::default();
     for [a, b] in pairs(ring, collapse.closed) {
-        let rest = rest_shape([at(collapse.vertex), at(a), at(b)], shape.smallest);
+        let rest = rest_shape([at(collapse.vertex), at(a), at(b)], shape.least);
         star.push(&Corners::new(&rest), 0, [uv[a as usize], uv[b as usize]]);
     }
     star.settle(place, is_free)

@@ -8,6 +8,10 @@ use crate::numerics::vec3::{area_vector, cross, distance, dot, norm, sub};
 /// the shape would have to hold coordinates to ten digits to stay unflipped.
 const SMALLEST_ASPECT: f64 = 1e-4;
 
+/// The same where most of the area is thinner than that but not than this, as in a fan of a hundred thousand around one vertex: there
+/// substitutes would fit together no better than they would around it.
+const THINNEST_ASPECT: f64 = 1e-5;
+
 /// Shapes below this part of the chart's size are enlarged to it. An atlas stores coordinates to 2⁻²³ of its width, so
 /// smaller triangles could not be told from points there, and nobody can see them.
 const SMALLEST_SIZE: f64 = 1.0 / (1_u64 << 20) as f64;
@@ -33,8 +37,17 @@ pub struct RestShapes {
     pub area: f64,
     /// Sum of the triangles' true areas, in the mesh's unit.
     pub true_area: f64,
-    /// Shapes shorter than this, in the unit of the shapes, were enlarged to it.
-    pub smallest: f64,
+    /// What shapes were enlarged to, in the unit of the shapes.
+    pub(super) least: Least,
+}
+
+/// The least that shapes are enlarged to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Least {
+    /// Length of the longest edge.
+    pub size: f64,
+    /// Altitude over that length.
+    pub aspect: f64,
 }
 
 /// The rest shapes of triangles with three distinct corners each.
@@ -47,16 +60,20 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
         .fold(0.0, f64::max)
         .max(f64::MIN_POSITIVE);
     let relative = |t: &[u32; 3]| corners(t).map(|p| p.map(|x| x / longest));
+    let aspect = least_aspect(triangles.iter().map(relative));
     let size = (triangles.iter())
         .map(|t| {
             let edge = longest_edge(relative(t)).1;
-            area(relative(t)).max(0.5 * SMALLEST_ASPECT * edge * edge)
+            area(relative(t)).max(0.5 * aspect * edge * edge)
         })
         .sum::<f64>()
         .sqrt();
-    let smallest = SMALLEST_SIZE * size;
+    let least = Least {
+        size: SMALLEST_SIZE * size,
+        aspect,
+    };
     let mut shapes: Vec<_> = (triangles.iter())
-        .map(|t| rest_shape(relative(t), smallest))
+        .map(|t| rest_shape(relative(t), least))
         .collect();
     let total: f64 = shapes.iter().map(|shape| shape.size).sum();
     let unit = (total / triangles.len().max(1) as f64).sqrt();
@@ -73,12 +90,40 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
         scale: unit * longest,
         area: total * longest * longest,
         true_area: true_area * longest * longest,
-        smallest: smallest / unit,
+        least: Least {
+            size: least.size / unit,
+            aspect,
+        },
     }
 }
 
-/// The triangle laid on its longest edge, no shorter than `smallest` and with a bounded aspect.
-pub(super) fn rest_shape(p: [[f64; 3]; 3], smallest: f64) -> RestShape {
+/// The aspect below which shapes get a substitute.
+fn least_aspect(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> f64 {
+    let (mut all, mut thin) = (0.0, 0.0);
+    for triangle in triangles {
+        let area = area(triangle);
+        all += area;
+        let is_thin = is_thinner(triangle, SMALLEST_ASPECT);
+        if is_thin && !is_thinner(triangle, THINNEST_ASPECT) {
+            thin += area;
+        }
+    }
+    if thin > 0.5 * all {
+        THINNEST_ASPECT
+    } else {
+        SMALLEST_ASPECT
+    }
+}
+
+/// Whether the altitude of a triangle on its longest edge is a smaller part of it.
+fn is_thinner(p: [[f64; 3]; 3], aspect: f64) -> bool {
+    let length = longest_edge(p).1;
+    2.0 * area(p) < aspect * length * length
+}
+
+/// The triangle laid on its longest edge, no shorter than the least and with a bounded aspect.
+pub(super) fn rest_shape(p: [[f64; 3]; 3], least: Least) -> RestShape {
+    let smallest = least.size;
     let (first, length) = longest_edge(p);
     let [a, b, c] = [first, (first + 1) % 3, (first + 2) % 3];
     let (base, foot, altitude) = if length < smallest {
@@ -86,7 +131,7 @@ pub(super) fn rest_shape(p: [[f64; 3]; 3], smallest: f64) -> RestShape {
     } else {
         let (edge, side) = (sub(p[b], p[a]), sub(p[c], p[a]));
         let altitude = norm(cross(edge, side)) / length;
-        let floor = (SMALLEST_ASPECT * length).max(0.5 * smallest);
+        let floor = (least.aspect * length).max(0.5 * smallest);
         (length, dot(edge, side) / length, altitude.max(floor))
     };
     let mut corners = [[0.0; 2]; 3];
@@ -107,6 +152,11 @@ pub(super) fn rest_shape(p: [[f64; 3]; 3], smallest: f64) -> RestShape {
         weight: true_area + extra,
         ..shape
     }
+}
+
+/// Whether a triangle is so thin that it gets a substitute wherever it is: no map that is made here keeps its shape.
+pub fn is_needle(p: [[f64; 3]; 3]) -> bool {
+    is_thinner(p, THINNEST_ASPECT)
 }
 
 /// The corner the longest edge starts from, and its length.

@@ -46,7 +46,7 @@ pub(super) fn hierarchical_start_at(
     let relative: Vec<[f64; 3]> = (closed.positions.iter())
         .map(|p| p.map(|x| x / rest.scale))
         .collect();
-    let mut uv = coarse_to_fine(&closed, &relative, rest.smallest)?;
+    let mut uv = coarse_to_fine(&closed, &relative, rest.least)?;
     uv.truncate(disk.n_vertices);
     Some(uv)
 }

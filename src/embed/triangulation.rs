@@ -13,6 +13,8 @@ pub(super) struct Triangulation {
     /// For each vertex a halfedge that leaves it, at the boundary the one that has no opposite; NONE once collapsed.
     leaving: Vec<u32>,
     alive: Vec<bool>,
+    /// A vertex at the boundary stays there: it moves along the boundary only, and what is inside never comes there.
+    at_boundary: Vec<bool>,
     n_triangles: usize,
     /// Scratch for the link condition: the last stamp of each vertex.
     stamps: Vec<u32>,
@@ -50,6 +52,7 @@ impl Triangulation {
             opposite: vec![NONE; corners.len()],
             leaving: vec![NONE; n_vertices],
             alive: vec![true; triangles.len()],
+            at_boundary: vec![false; n_vertices],
             n_triangles: triangles.len(),
             stamps: vec![0; n_vertices],
             stamp: 0,
@@ -72,6 +75,7 @@ impl Triangulation {
             if triangulation.leaving[v] == NONE || triangulation.opposite[h as usize] == NONE {
                 triangulation.leaving[v] = h;
             }
+            triangulation.at_boundary[v] |= triangulation.opposite[h as usize] == NONE;
         }
         triangulation
     }
@@ -138,9 +142,9 @@ impl Triangulation {
         !self.has_stamped_neighbor(ring.vertices[at])
     }
 
-    /// Number of triangles at `v`.
-    pub fn valence(&self, v: u32) -> usize {
-        self.halfedges_around(v).count()
+    /// Whether more than so many triangles are at `v`; looks at no more.
+    pub fn has_more_triangles(&self, v: u32, n: usize) -> bool {
+        self.halfedges_around(v).nth(n).is_some()
     }
 
     /// The halfedges that leave `v`, counter-clockwise.
@@ -191,7 +195,10 @@ impl Triangulation {
         for outer in [g, h].into_iter().filter(|&outer| outer != NONE) {
             for leaving in [outer, next(outer)] {
                 let v = self.origin(leaving) as usize;
-                self.leaving[v] = leaving;
+                // The one without an opposite is found again only where it goes.
+                if !self.at_boundary[v] || self.leaving[v] / 3 == side / 3 {
+                    self.leaving[v] = leaving;
+                }
             }
         }
         self.alive[side as usize / 3] = false;
@@ -200,6 +207,9 @@ impl Triangulation {
 
     /// Makes the halfedge by which `v` is entered the one that has no opposite, if there is one.
     fn turn_to_boundary(&mut self, v: u32) {
+        if !self.at_boundary[v as usize] {
+            return;
+        }
         let first = self.leaving[v as usize];
         let mut h = first;
         loop {

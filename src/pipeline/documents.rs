@@ -82,6 +82,10 @@ fn unwrap_in_pool(
     tracker.stage(Stage::Write);
     let written = write(&document, &uvs, baked.as_ref(), upload, options)?;
     seconds.write = watch.lap();
+    let noticed = document.warnings().to_vec();
+    // What was written is read next: both would take twice the memory.
+    drop(primitives);
+    drop(document);
 
     tracker.stage(Stage::Judge);
     let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
@@ -99,7 +103,7 @@ fn unwrap_in_pool(
         let messages: Vec<&str> = missing.iter().map(|w| w.message.as_str()).collect();
         return Err(PipelineError::NotValid(messages.join("; ")));
     }
-    let warnings = [document.warnings(), &written.notes.warnings, &missing].concat();
+    let warnings = [noticed, written.notes.warnings.clone(), missing].concat();
     let mut report = Report::new(groups, warnings);
     report.options = Some(options.clone());
     report.limits = Some(options.limits);

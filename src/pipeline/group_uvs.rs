@@ -72,8 +72,15 @@ impl GroupUvs {
         certify(&self.positions, &self.triangles, &self.uvs, claims)
     }
 
-    pub(super) fn measure(&self, v_axis: VAxis, texture: Resolution) -> Measures {
+    /// `raster_texels` is the side of the raster on which coverage is counted.
+    pub(super) fn measure(
+        &self,
+        v_axis: VAxis,
+        texture: Resolution,
+        raster_texels: u32,
+    ) -> Measures {
         let options = measure::MeasureOptions {
+            raster_texels,
             aspect: texture.aspect(),
             weights: self.weights.as_deref(),
             ..measure::MeasureOptions::default()

@@ -14,7 +14,11 @@ use super::proven::Proven;
 use super::report::{GroupReport, Report};
 use crate::certificate::{Certificate, Claims, Overlap, Resolution};
 use crate::document::{Document, GroupBy, Upload, Warning, Written};
-use crate::measure::{Measures, VAxis};
+use crate::measure::{self, Measures, VAxis};
+
+/// Texels of all rasters together on which coverage is counted, and the least side of each: 256 groups have the finest.
+const MOST_RASTER_TEXELS: u64 = 1 << 32;
+const COARSEST_RASTER: u32 = 256;
 
 /// The UVs of every group of a file with the meshes they belong to, in the numbers of the file.
 #[derive(Clone, Debug)]
@@ -71,8 +75,12 @@ impl WrittenUvs {
     pub(super) fn judge(&self, claims: &Claims, texture: Resolution) -> Vec<GroupReport> {
         let claims = self.told(claims);
         let first = self.first_of_content();
+        let n_distinct = (first.iter().enumerate())
+            .filter(|&(index, &first)| index == first)
+            .count();
+        let raster_texels = raster_texels(n_distinct);
         let measure = |(index, group): (usize, &GroupUvs)| {
-            (first[index] == index).then(|| group.measure(claims.v_axis, texture))
+            (first[index] == index).then(|| group.measure(claims.v_axis, texture, raster_texels))
         };
         let groups = || self.groups.par_iter().with_max_len(1);
         let (measured, certificates): (Vec<Option<Measures>>, Vec<Certificate>) = rayon::join(
@@ -120,6 +128,13 @@ impl WrittenUvs {
             ..*claims
         }
     }
+}
+
+/// The side of the raster on which the coverage of each of so many groups is counted: the rasters of many are coarser.
+fn raster_texels(n_groups: usize) -> u32 {
+    let of_each = MOST_RASTER_TEXELS / n_groups.max(1) as u64;
+    let finest = measure::MeasureOptions::default().raster_texels;
+    (1 << (of_each.max(1).ilog2() / 2)).clamp(COARSEST_RASTER, finest)
 }
 
 /// The exact judgement of a document's UVs.

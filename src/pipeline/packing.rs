@@ -13,6 +13,10 @@ const SEARCH_WORDS_PER_FACE: u64 = 125_000;
 const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 600_000_000];
 /// The same of a mesh that is cut fast.
 const SEARCH_WORDS_IF_FAST: u64 = 10_000_000;
+/// All meshes together read so many at most: those of crowds are placed once, and on the coarser a raster the more there are.
+const SEARCH_WORDS_OF_ALL: u64 = 4_000_000_000;
+const WORDS_PER_CELL: u64 = 4;
+const LEAST_CELLS: u32 = 128;
 
 /// How to pack the charts of one of so many meshes, which has so many faces.
 pub(super) fn atlas_options(
@@ -27,6 +31,8 @@ pub(super) fn atlas_options(
         Cut::Fast => SEARCH_WORDS_IF_FAST,
         _ => words.clamp(least, most),
     };
+    let of_each = SEARCH_WORDS_OF_ALL / n_meshes as u64;
+    let cells = (of_each / WORDS_PER_CELL).isqrt() as u32;
     AtlasOptions {
         texture: Texture {
             resolution: settings.resolution,
@@ -42,7 +48,8 @@ pub(super) fn atlas_options(
             Turns::Any
         },
         borders: settings.borders,
-        search_words: settings.packing.passes() * words,
+        search_words: settings.packing.passes() * words.min(of_each),
+        most_cells: cells.next_power_of_two().max(LEAST_CELLS),
     }
 }
 

@@ -34,6 +34,7 @@ mod mesh;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
+mod once;
 #[cfg(feature = "files")]
 mod outline;
 mod pages;

@@ -8,14 +8,20 @@ use crate::document::{DocumentError, Upload};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
-/// Ceiling on what all meshopt views of a file may decode to.
-const MAX_DECODED: usize = 1 << 31;
-
 /// Ceiling on the zeros that stand for buffers without content, which glTF allows.
 const MAX_UNDEFINED: usize = 1 << 20;
 
 /// The bytes of a buffer; `None` where the document leaves them undefined.
 type Buffer<'a> = Option<Cow<'a, [u8]>>;
+
+/// What so many compressed bytes may decode to: many times what meshes do, and for small files as much as is done without much
+/// memory, since a stream of a kilobyte may honestly describe millions of points.
+pub(super) fn most_decoded(compressed: usize) -> usize {
+    const FEW: usize = 256 << 20;
+    const MANY: usize = 1 << 31;
+    const RATIO: usize = 64;
+    compressed.saturating_mul(RATIO).clamp(FEW, MANY)
+}
 
 /// Joins all buffers of the document into `buffers[0]`. The first keeps its place; views move with their bytes; views
 /// compressed with meshopt get their decoded bytes; fallback buffers that nothing else needs disappear.
@@ -45,13 +51,13 @@ pub(super) fn join(
         let bytes = buffer.as_deref().filter(|_| *needed);
         bases.push(bytes.map(|bytes| body.push_bytes(bytes)));
     }
-    let mut budget = MAX_DECODED;
+    reserve(&mut body, &json, &buffers)?;
     for (index, view) in array_or_empty(&mut json, "bufferViews")?
         .iter_mut()
         .enumerate()
     {
         let moved = if meshopt::of_view(view).is_some() {
-            decode(view, &buffers, &mut body, &mut budget)
+            decode(view, &buffers, &mut body)
         } else {
             relocate(view, &buffers, &bases)
         };
@@ -152,17 +158,30 @@ fn relocate(
     Ok(())
 }
 
-fn decode(
-    view: &mut Value,
-    buffers: &[Buffer],
-    body: &mut Body,
-    budget: &mut usize,
-) -> Result<(), DocumentError> {
+/// Makes room for all compressed views, which together may not claim more than their bytes back.
+fn reserve(body: &mut Body, json: &Value, buffers: &[Buffer]) -> Result<(), DocumentError> {
+    let (mut claimed, mut aligned) = (0_usize, 0);
+    for view in items(json, "bufferViews")? {
+        if let Some((_, extension)) = meshopt::of_view(view) {
+            claimed = claimed.saturating_add(meshopt::claimed_size(extension)?);
+            aligned += 4;
+        }
+    }
+    let present = buffers.iter().flatten().map(|buffer| buffer.len()).sum();
+    if claimed > most_decoded(present) {
+        return Err(DocumentError::LimitExceeded(format!(
+            "compressed buffer views of {present} bytes claim to hold {claimed}"
+        )));
+    }
+    body.bin.reserve_exact(claimed + aligned);
+    Ok(())
+}
+
+fn decode(view: &mut Value, buffers: &[Buffer], body: &mut Body) -> Result<(), DocumentError> {
     let Some((name, extension)) = meshopt::of_view(view) else {
         return Ok(());
     };
-    let decoded = meshopt::decode(extension, slice(extension, buffers)?, *budget)?;
-    *budget -= decoded.len();
+    let decoded = meshopt::decode(extension, slice(extension, buffers)?)?;
     if required(view, "byteLength")? > decoded.len() {
         return Err(invalid("it is longer than what its compressed data holds"));
     }

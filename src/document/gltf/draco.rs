@@ -1,6 +1,7 @@
 //! `KHR_draco_mesh_compression`: primitives decoded into plain accessors.
 use super::body::{Body, Target};
 use super::bounds;
+use super::buffers::most_decoded;
 use super::component::Component;
 use super::json::{
     invalid, item, item_mut, items, primitive_mut, remove, remove_extension, required, unsigned,
@@ -14,13 +15,9 @@ use serde_json::{Value, json};
 /// Name of the extension.
 pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 
-/// Ceiling on what all compressed primitives of a file may decode to, in bytes. A stream of a kilobyte may honestly
-/// describe millions of points, so the size of the file is no measure.
-const MAX_DECODED: usize = 1 << 30;
-
 /// Decodes every compressed primitive. Where the file has uncompressed data beside the compressed, that is taken.
 pub(super) fn decompress(body: &mut Body) -> Result<(), DocumentError> {
-    let mut budget = MAX_DECODED;
+    let mut budget = most_decoded(body.bin.len());
     for mesh in 0..items(&body.json, "meshes")?.len() {
         for primitive in 0..items(item(&body.json, "meshes", mesh)?, "primitives")?.len() {
             let object = primitive_mut(&mut body.json, mesh, primitive)?;

@@ -47,12 +47,17 @@ enum Filter {
     Color,
 }
 
-/// The bytes that a compressed view stands for, at most `budget` of them.
-pub(super) fn decode(
-    extension: &Value,
-    data: &[u8],
-    budget: usize,
-) -> Result<Vec<u8>, DocumentError> {
+/// How many bytes a compressed view says that it stands for.
+pub(super) fn claimed_size(extension: &Value) -> Result<usize, DocumentError> {
+    let (count, stride) = (
+        required(extension, "count")?,
+        required(extension, "byteStride")?,
+    );
+    Ok(count.saturating_mul(stride))
+}
+
+/// The bytes that a compressed view stands for.
+pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, DocumentError> {
     let text = |key| extension.get(key).and_then(Value::as_str);
     let mode = match text("mode") {
         Some("ATTRIBUTES") => Mode::Attributes,
@@ -87,7 +92,7 @@ pub(super) fn decode(
     }
     let size = count
         .checked_mul(stride)
-        .filter(|size| *size <= budget && size / MAX_RATIO <= data.len())
+        .filter(|size| size / MAX_RATIO <= data.len())
         .ok_or_else(|| {
             DocumentError::LimitExceeded("a compressed buffer view claims too much".to_owned())
         })?;
@@ -96,7 +101,10 @@ pub(super) fn decode(
         return Err(invalid("its meshopt data is damaged"));
     }
     apply(&mut words, filter, count, stride);
-    let mut bytes: Vec<u8> = words.into_iter().flat_map(u64::to_ne_bytes).collect();
+    let mut bytes = Vec::with_capacity(words.len() * size_of::<u64>());
+    for word in words {
+        bytes.extend_from_slice(&word.to_ne_bytes());
+    }
     bytes.truncate(size);
     Ok(bytes)
 }

@@ -31,6 +31,7 @@ mod subdivide;
 mod tangents;
 mod texcoord_set;
 mod textures;
+mod tree;
 mod uri;
 mod vertices;
 mod write;
@@ -91,8 +92,7 @@ impl GltfDocument {
                 others: Vec::new(),
             }
         };
-        let json: Value = serde_json::from_slice(without_mark(container.json))
-            .map_err(|error| invalid(format!("not JSON: {error}")))?;
+        let json = tree::parse(without_mark(container.json))?;
         if !json.is_object() {
             return Err(invalid("the JSON is not an object"));
         }

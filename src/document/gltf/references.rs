@@ -1,6 +1,5 @@
 //! Which files a glTF refers to, for callers that gather them.
-use super::{glb, uri, without_mark};
-use serde_json::Value;
+use super::{glb, tree, uri, without_mark};
 
 /// Relative paths of the buffers and images that a glTF file refers to, as [`Upload::resources`](crate::document::Upload)
 /// names them. Empty for any other content; data URIs, absolute paths, schemes and paths that climb out are left out.
@@ -10,7 +9,7 @@ pub fn references(bytes: &[u8]) -> Vec<String> {
     } else {
         without_mark(bytes)
     };
-    let root: Value = serde_json::from_slice(json).unwrap_or_default();
+    let root = tree::parse(json).unwrap_or_default();
     let members = ["buffers", "images"].map(|key| root[key].as_array());
     let mut paths: Vec<String> = members
         .into_iter()

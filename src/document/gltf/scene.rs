@@ -1,8 +1,9 @@
 //! Nodes that show meshes.
 use super::json::{array_mut, as_unsigned, invalid, item, items, unsigned};
+use super::tree::Size;
 use crate::document::DocumentError;
 use serde_json::{Value, json};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Three rows of a linear map and a shift.
 pub(super) type Affine = [[f64; 4]; 3];
@@ -15,6 +16,7 @@ const IDENTITY: Affine = [
 
 /// Gives every node that shows a mesh a mesh of its own: the first keeps it, the others get copies with the same accessors.
 pub(super) fn separate_meshes(json: &mut Value) -> Result<(), DocumentError> {
+    size_when_separate(json)?.check()?;
     let mut shown = BTreeSet::new();
     for node in 0..items(json, "nodes")?.len() {
         let Some(mesh) = unsigned(item(json, "nodes", node)?, "mesh")? else {
@@ -32,6 +34,21 @@ pub(super) fn separate_meshes(json: &mut Value) -> Result<(), DocumentError> {
     Ok(())
 }
 
+/// The document with all the copies that there will be.
+fn size_when_separate(json: &Value) -> Result<Size, DocumentError> {
+    let mut times: BTreeMap<usize, usize> = BTreeMap::new();
+    for node in items(json, "nodes")? {
+        if let Some(mesh) = unsigned(node, "mesh")? {
+            *times.entry(mesh).or_default() += 1;
+        }
+    }
+    let mut size = Size::of(json);
+    for (mesh, n_nodes) in times {
+        size += Size::of(item(json, "meshes", mesh)?).times(n_nodes - 1);
+    }
+    Ok(size)
+}
+
 /// Where in the scene each mesh lies, by the first node that shows it; where it is for meshes that no node shows, or that a skin
 /// moves. Mirrored ones are mirrored back, so that faces keep their winding.
 pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
@@ -44,6 +61,7 @@ pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
             parents[child] = Some(parent);
         }
     }
+    let mut globals = vec![None; nodes.len()];
     let mut placements = vec![None; items(json, "meshes")?.len()];
     for (index, node) in nodes.iter().enumerate() {
         let Some(mesh) = unsigned(node, "mesh")? else {
@@ -53,7 +71,7 @@ pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
             .get_mut(mesh)
             .ok_or_else(|| invalid(format!("there is no meshes[{mesh}]")))?;
         if placement.is_none() && node.get("skin").is_none() {
-            *placement = Some(unmirrored(global(nodes, &parents, index)?));
+            *placement = Some(unmirrored(global(nodes, &parents, index, &mut globals)?));
         }
     }
     Ok(placements
@@ -68,21 +86,30 @@ pub(super) fn placed(placement: &Affine, point: [f32; 3]) -> [f32; 3] {
     placement.map(|[a, b, c, d]| (a * x + b * y + c * z + d) as f32)
 }
 
+/// The transform of a node in the scene; `globals` keeps those that were found on the way to the root.
 fn global(
     nodes: &[Value],
     parents: &[Option<usize>],
     node: usize,
+    globals: &mut [Option<Affine>],
 ) -> Result<Affine, DocumentError> {
-    let mut transform = local(&nodes[node]);
-    let (mut at, mut steps) = (node, 0);
-    while let Some(parent) = parents[at] {
-        transform = product(&local(&nodes[parent]), &transform);
-        (at, steps) = (parent, steps + 1);
-        if steps > nodes.len() {
+    let mut path = vec![node];
+    while let Some(parent) = parents[path[path.len() - 1]] {
+        if globals[parent].is_some() {
+            break;
+        }
+        path.push(parent);
+        if path.len() > nodes.len() {
             return Err(invalid("a node is its own ancestor"));
         }
     }
-    Ok(transform)
+    let mut transform = parents[path[path.len() - 1]].and_then(|parent| globals[parent]);
+    for &node in path.iter().rev() {
+        let own = local(&nodes[node]);
+        transform = Some(transform.map_or(own, |above| product(&above, &own)));
+        globals[node] = transform;
+    }
+    Ok(transform.unwrap_or(IDENTITY))
 }
 
 /// The transform of a node relative to its parent.

@@ -1,0 +1,180 @@
+//! What the JSON of a document takes in memory, known before it is read.
+//!
+//! A value takes 72 bytes wherever it stands, an array has room for four at least, and an object a table beside its members: text that
+//! is made for it becomes a hundred times as large. So the text is gone through once without keeping anything.
+use super::json::invalid;
+use crate::document::DocumentError;
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde_json::Value;
+use std::fmt;
+use std::ops::AddAssign;
+
+/// Ceiling on the JSON as it is read and as it is written, which are there at the same time, in bytes.
+const MOST: usize = 960 << 20;
+
+/// A value, wherever it stands.
+const VALUE: usize = size_of::<Value>();
+/// A member of an object beside its value: its name, and its hash.
+const MEMBER: usize = size_of::<String>() + 8;
+/// The least that is allocated for a name.
+const NAME: usize = 16;
+
+/// Bytes of values in memory.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Size {
+    /// Read from a text: arrays grow by doubling.
+    read: usize,
+    /// Copied: arrays are as long as they are.
+    copied: usize,
+}
+
+/// The JSON of a text; refused before it is read where it would take too much.
+pub(super) fn parse(text: &[u8]) -> Result<Value, DocumentError> {
+    let not_json = |error: serde_json::Error| invalid(format!("not JSON: {error}"));
+    let size: Size = serde_json::from_slice(text).map_err(not_json)?;
+    size.check()?;
+    serde_json::from_slice(text).map_err(not_json)
+}
+
+impl Size {
+    /// The size of a value that is there.
+    pub fn of(value: &Value) -> Self {
+        let mut size = Self::VALUE;
+        match value {
+            Value::Array(items) => {
+                for item in items {
+                    size += Self::of(item);
+                }
+                size.hold_items(items.len());
+            }
+            Value::Object(members) => {
+                for (name, member) in members {
+                    size += Self::of(member);
+                    size.hold_name(name.len());
+                }
+                size.hold_members(members.len());
+            }
+            _ => {}
+        }
+        size
+    }
+
+    /// The same so many times.
+    pub fn times(self, n: usize) -> Self {
+        Self {
+            read: self.read.saturating_mul(n),
+            copied: self.copied.saturating_mul(n),
+        }
+    }
+
+    /// Refuses what takes too much.
+    pub fn check(self) -> Result<(), DocumentError> {
+        let total = self.read.saturating_add(self.copied);
+        if total <= MOST {
+            return Ok(());
+        }
+        let [takes, most] = [total, MOST].map(|bytes| bytes >> 20);
+        Err(DocumentError::LimitExceeded(format!(
+            "the JSON has so many values that it takes {takes} MiB of memory, more than {most} MiB"
+        )))
+    }
+
+    /// A value without anything in it. Text is as long as it stands in the file, and not counted.
+    const VALUE: Self = Self {
+        read: VALUE,
+        copied: VALUE,
+    };
+
+    /// Places for `n` items, of which those taken are counted.
+    fn hold_items(&mut self, n: usize) {
+        if n > 0 {
+            self.read += VALUE * (n.next_power_of_two().max(4) - n);
+        }
+    }
+
+    /// Places for `n` members, of which the values of those taken are counted, and a table of where they are.
+    fn hold_members(&mut self, n: usize) {
+        if n > 0 {
+            let slots = (n * 8 / 7 + 1).next_power_of_two().max(4);
+            let table = slots * 9 + 16;
+            let room = (slots / 8 * 7).max(3).max(n);
+            self.read += table + MEMBER * room + VALUE * (room - n);
+            self.copied += table + MEMBER * n;
+        }
+    }
+
+    fn hold_name(&mut self, length: usize) {
+        let length = length.max(NAME);
+        self.read += length;
+        self.copied += length;
+    }
+}
+
+impl AddAssign for Size {
+    fn add_assign(&mut self, other: Self) {
+        self.read = self.read.saturating_add(other.read);
+        self.copied = self.copied.saturating_add(other.copied);
+    }
+}
+
+impl<'de> Deserialize<'de> for Size {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Counter)
+    }
+}
+
+/// Adds up what goes by.
+struct Counter;
+
+impl<'de> Visitor<'de> for Counter {
+    type Value = Size;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str("JSON")
+    }
+
+    fn visit_bool<E: Error>(self, _: bool) -> Result<Size, E> {
+        Ok(Size::VALUE)
+    }
+
+    fn visit_i64<E: Error>(self, _: i64) -> Result<Size, E> {
+        Ok(Size::VALUE)
+    }
+
+    fn visit_u64<E: Error>(self, _: u64) -> Result<Size, E> {
+        Ok(Size::VALUE)
+    }
+
+    fn visit_f64<E: Error>(self, _: f64) -> Result<Size, E> {
+        Ok(Size::VALUE)
+    }
+
+    fn visit_str<E: Error>(self, _: &str) -> Result<Size, E> {
+        Ok(Size::VALUE)
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<Size, E> {
+        Ok(Size::VALUE)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Size, A::Error> {
+        let (mut size, mut n) = (Size::VALUE, 0);
+        while let Some(item) = items.next_element::<Size>()? {
+            size += item;
+            n += 1;
+        }
+        size.hold_items(n);
+        Ok(size)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<Size, A::Error> {
+        let (mut size, mut n) = (Size::VALUE, 0);
+        while members.next_key::<IgnoredAny>()?.is_some() {
+            size += members.next_value::<Size>()?;
+            size.hold_name(0);
+            n += 1;
+        }
+        size.hold_members(n);
+        Ok(size)
+    }
+}
