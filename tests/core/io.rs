@@ -122,9 +122,8 @@ const L: [[f32; 2]; 6] = [
 #[test]
 fn every_format_fills_a_concave_polygon() {
     let lines = |prefix: &str| -> String {
-        L.iter()
-            .map(|[x, y]| format!("{prefix}{x} {y} 0.5\n"))
-            .collect()
+        let lines = L.map(|[x, y]| format!("{prefix}{x} {y} 0.5\n"));
+        lines.concat()
     };
     let obj = format!("{}f 1 2 3 4 5 6\n", lines("v "));
     let off = format!("OFF\n6 1 0\n{}6 0 1 2 3 4 5\n", lines(""));
