@@ -53,7 +53,7 @@
 //! | module | what lives there |
 //! |---|---|
 //! | [`numerics`] | multifrontal sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices, convex hulls |
-//! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; readers and writers |
+//! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; triangles inside polygons; readers and writers |
 //! | [`cut`] | surfaces opened along seams to disks |
 //! | [`energy`], [`barrier`] | densities as functions of singular values, for triangles and tetrahedra; quadratic terms; what keeps elements from inverting |
 //! | [`solver`] | projected Newton, exact largest step, line search, status; handles that travel; the paper's own iteration |
@@ -107,6 +107,8 @@
 //! - GLB framing is our own 60 lines: the `gltf` crate's typed round trip loses members and its validation panics.
 //! - The readers of OBJ, OFF, PLY and STL are our own: the crates that were tried lose what writing back needs, refuse
 //!   files that occur, or never return on crafted ones (the docs of `mesh::io` say which).
+//! - Polygons are filled with triangles by `spade`, which [`mesh`] may name for that in `mesh::polygon`, as a part of the feature
+//!   `files`: a fan from the first corner overlaps itself in concave ones. What is left as a fan is named in a warning.
 //! - What UVs are worth has a module of its own, [`measure`], apart from the certificate that says whether they hold.
 //! - An OBJ file has one UV space: written as OBJ, a document is one group whatever `group-by` says.
 //! - Charts too small for the grid (fewer than 16 cells per triangle) are enlarged and counted: the one exception to uniform

@@ -9,6 +9,7 @@
 //! taken to be hostile: counts are believed only as far as bytes back them, and every failure is a [`DocumentError`].
 mod bake;
 mod error;
+mod fanned;
 pub mod gltf;
 mod group;
 mod new_gltf;
@@ -16,6 +17,7 @@ mod new_obj;
 mod notes;
 pub mod obj;
 mod obj_moved;
+mod obj_pieces;
 mod obj_text;
 pub mod soup;
 mod space_map;
@@ -68,7 +70,9 @@ impl Document {
     /// What reading noticed and users should know.
     pub fn warnings(&self) -> &[Warning] {
         match self {
-            Self::Gltf(_) | Self::Obj(_) | Self::Soup(_) => &[],
+            Self::Gltf(_) => &[],
+            Self::Obj(document) => document.warnings(),
+            Self::Soup(document) => document.warnings(),
         }
     }
 

@@ -2,14 +2,14 @@
 //!
 //! The text is the document. It is read once into triangles, and written by going through its statements again: texture
 //! coordinates are replaced, corners of polygons are given the new ones, everything else stands as it stood. OBJ has one
-//! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along its
-//! diagonals, as a corner of a polygon has one UV.
+//! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along
+//! diagonals between them, as a corner of a polygon has one UV.
 use super::obj_text::rewrite;
 use super::{
     DocumentError, Layout, NewUvs, OutputFormat, Primitive, SpaceMap, Upload, Warning,
     WriteOptions, Written,
 };
-use super::{new_gltf, new_obj, obj_moved};
+use super::{fanned, new_gltf, new_obj, obj_moved};
 use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
 use crate::mesh::io::{self, Format};
@@ -22,6 +22,7 @@ pub struct ObjDocument {
     obj: io::obj::Obj,
     primitives: Vec<Primitive>,
     resources: BTreeMap<String, Vec<u8>>,
+    warnings: Vec<Warning>,
 }
 
 /// Whether the content, or else the name, says so.
@@ -37,12 +38,16 @@ impl ObjDocument {
 
     fn parse(bytes: Vec<u8>, resources: BTreeMap<String, Vec<u8>>) -> Result<Self, DocumentError> {
         let mut obj = io::obj::read(&bytes)?;
+        let warnings = fanned::warning(&obj.mesh.fanned, "line")
+            .into_iter()
+            .collect();
         let primitive = Primitive::of_file(std::mem::take(&mut obj.mesh))?;
         Ok(Self {
             bytes,
             obj,
             primitives: vec![primitive],
             resources,
+            warnings,
         })
     }
 
@@ -51,6 +56,11 @@ impl ObjDocument {
         let positions = &self.primitives[0].positions;
         let bytes = obj_moved::moved(&self.bytes, &self.obj, positions, map);
         Self::parse(bytes, self.resources)
+    }
+
+    /// What reading noticed.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
     }
 
     /// The triangles: all polygons of the file as one primitive.
@@ -68,7 +78,7 @@ impl ObjDocument {
             return Ok(None);
         }
         let uv = |corner: &io::obj::Corner| Some(self.obj.texcoords[corner.texcoord? as usize]);
-        Ok(self.fans(uv).collect())
+        Ok(self.per_face(uv).collect())
     }
 
     /// The normals per face corner; `None` where a corner has none.
@@ -76,7 +86,7 @@ impl ObjDocument {
         let normal = |corner: &io::obj::Corner| {
             Some(self.obj.normals[corner.normal? as usize].map(f64::from))
         };
-        self.fans(normal).collect()
+        self.per_face(normal).collect()
     }
 
     /// The document with `uvs`.
@@ -84,7 +94,7 @@ impl ObjDocument {
         if options.format != OutputFormat::Obj {
             let primitive = &self.primitives[0];
             let normal = |corner: &io::obj::Corner| Some(self.obj.normals[corner.normal? as usize]);
-            let normals: Option<Vec<_>> = self.fans(normal).collect();
+            let normals: Option<Vec<_>> = self.per_face(normal).collect();
             return new_gltf::write(primitive, normals.as_deref(), uvs, options);
         }
         new_obj::only_set(options)?;
@@ -95,7 +105,12 @@ impl ObjDocument {
                 notes
                     .primitives
                     .push(new_obj::note(&self.primitives[0], had_uvs));
-                let rewritten = rewrite(&self.bytes, &self.obj, &corners);
+                let rewritten = rewrite(
+                    &self.bytes,
+                    &self.obj,
+                    &self.primitives[0].positions,
+                    &corners,
+                );
                 if had_uvs && uvs.layout == Layout::New {
                     notes.warnings.push(Warning::new(
                         "uvs_replaced",
@@ -120,19 +135,13 @@ impl ObjDocument {
 
     /// A value for each corner of each triangle, in the order of the triangles; `None` for a triangle of which a corner
     /// has none.
-    fn fans<T: Copy>(
+    fn per_face<T>(
         &self,
-        value: impl Fn(&io::obj::Corner) -> Option<T> + Copy,
+        value: impl Fn(&io::obj::Corner) -> Option<T>,
     ) -> impl Iterator<Item = Option<[T; 3]>> {
-        self.obj.polygons().flat_map(move |polygon| {
-            (1..polygon.len().saturating_sub(1)).map(move |k| {
-                Some([
-                    value(&polygon[0])?,
-                    value(&polygon[k])?,
-                    value(&polygon[k + 1])?,
-                ])
-            })
-        })
+        let of = move |corner: u32| value(&self.obj.corners[corner as usize]);
+        let triangles = self.obj.corner_triangles.iter();
+        triangles.map(move |&[a, b, c]| Some([of(a)?, of(b)?, of(c)?]))
     }
 
     /// The material files that the text names, as far as they were supplied.

@@ -1,4 +1,5 @@
 //! An OBJ text with new texture coordinates.
+use super::obj_pieces::NumberedPolygon;
 use super::texcoord_lines::{TexcoordLines, decimal};
 use super::uvs::Corners;
 use crate::mesh::io::obj::{Corner, Obj, Statement, statements};
@@ -10,14 +11,19 @@ pub(super) struct Rewritten {
     pub split_polygons: usize,
 }
 
-/// Goes through the statements of `bytes`, which `obj` was read from.
+/// Goes through the statements of `bytes`, which `obj` and `positions` were read from.
 ///
 /// The new `vt` lines stand before the first face. Positions keep their text where it says what was read, f32 by f32;
 /// otherwise ([`decimal`]) the text is that of the f32, so that vertices that are one here are one for every reader.
-pub(super) fn rewrite(bytes: &[u8], obj: &Obj, uvs: &[Corners]) -> Rewritten {
+pub(super) fn rewrite(
+    bytes: &[u8],
+    obj: &Obj,
+    positions: &[[f32; 3]],
+    uvs: &[Corners],
+) -> Rewritten {
     let line_end = line_end(bytes);
     let mut lines = TexcoordLines::default();
-    let mut faces = Faces::new(obj, uvs, &mut lines, line_end);
+    let mut faces = Faces::new(obj, positions, uvs, &mut lines, line_end);
     let mut texcoords = std::mem::take(&mut lines.text);
     let mut text = Vec::with_capacity(bytes.len() + texcoords.len());
     for statement in statements(bytes) {
@@ -126,66 +132,76 @@ fn push_without_texcoords(text: &mut Vec<u8>, statement: &Statement, line_end: &
 
 /// The polygons with the numbers of their new texture coordinates.
 struct Faces<'a> {
-    polygons: Box<dyn Iterator<Item = &'a [Corner]> + 'a>,
-    numbers: std::vec::IntoIter<[u32; 3]>,
+    obj: &'a Obj,
+    positions: &'a [[f32; 3]],
+    /// Per triangle.
+    numbers: Vec<[u32; 3]>,
     line_end: &'static str,
+    n_polygons: usize,
+    n_corners: usize,
+    n_triangles: usize,
     split_polygons: usize,
 }
 
 impl<'a> Faces<'a> {
     fn new(
         obj: &'a Obj,
+        positions: &'a [[f32; 3]],
         uvs: &[Corners],
         lines: &mut TexcoordLines,
         line_end: &'static str,
     ) -> Self {
-        let mut numbers = Vec::with_capacity(uvs.len());
-        let mut uvs = uvs.iter();
-        for polygon in obj.polygons() {
-            for k in 1..polygon.len().saturating_sub(1) {
-                let Some(corners) = uvs.next() else { break };
-                let vertices = [polygon[0].vertex, polygon[k].vertex, polygon[k + 1].vertex];
-                numbers.push([0, 1, 2].map(|c| lines.number(vertices[c], corners[c], line_end)));
-            }
-        }
+        let numbers = obj.corner_triangles.iter().zip(uvs).map(|(corners, uvs)| {
+            let vertices = corners.map(|corner| obj.corners[corner as usize].vertex);
+            [0, 1, 2].map(|c| lines.number(vertices[c], uvs[c], line_end))
+        });
         Self {
-            polygons: Box::new(obj.polygons()),
-            numbers: numbers.into_iter(),
+            obj,
+            positions,
+            numbers: numbers.collect(),
             line_end,
+            n_polygons: 0,
+            n_corners: 0,
+            n_triangles: 0,
             split_polygons: 0,
         }
     }
 
-    /// Writes the next polygon: whole where the UVs of its triangles agree, else in as few pieces as they allow. The
-    /// fans of the pieces are the fan of the polygon.
+    /// Writes the next polygon: whole where the UVs of its triangles agree, else in pieces.
     fn push_next(&mut self, text: &mut Vec<u8>) {
-        let Some(polygon) = self.polygons.next() else {
+        let Some(&end) = self.obj.polygon_ends.get(self.n_polygons) else {
             return;
         };
+        let start = std::mem::replace(&mut self.n_corners, end);
+        let polygon = &self.obj.corners[start..end];
+        self.n_polygons += 1;
         if polygon.len() < 3 {
             let corners = polygon.iter().map(|corner| (corner, None));
             push_face(text, corners, self.line_end);
             return;
         }
-        let mut piece: Vec<(&Corner, Option<u32>)> = Vec::with_capacity(polygon.len());
-        let mut n_pieces = 0;
-        for k in 1..polygon.len() - 1 {
-            let Some([first, last, next]) = self.numbers.next() else {
-                return;
-            };
-            let continues = piece.first().is_some_and(|corner| corner.1 == Some(first))
-                && piece.last().is_some_and(|corner| corner.1 == Some(last));
-            if !continues {
-                if !piece.is_empty() {
-                    push_face(text, piece.drain(..), self.line_end);
-                }
-                n_pieces += 1;
-                piece.extend([(&polygon[0], Some(first)), (&polygon[k], Some(last))]);
-            }
-            piece.push((&polygon[k + 1], Some(next)));
+        let triangles = self.n_triangles..self.n_triangles + polygon.len() - 2;
+        self.n_triangles = triangles.end;
+        let local = |triangle: &[u32; 3]| triangle.map(|corner| corner - start as u32);
+        let numbered = NumberedPolygon {
+            n_corners: polygon.len(),
+            triangles: self.obj.corner_triangles[triangles.clone()]
+                .iter()
+                .map(local)
+                .collect(),
+            numbers: &self.numbers[triangles],
+        };
+        let position = |corner: u32| {
+            let vertex = polygon[corner as usize].vertex;
+            self.positions[vertex as usize].map(f64::from)
+        };
+        let pieces = numbered.pieces(position);
+        self.split_polygons += usize::from(pieces.len() > 1);
+        for piece in pieces {
+            let corners = piece.into_iter();
+            let corners = corners.map(|(corner, number)| (&polygon[corner as usize], Some(number)));
+            push_face(text, corners, self.line_end);
         }
-        push_face(text, piece.into_iter(), self.line_end);
-        self.split_polygons += usize::from(n_pieces > 1);
     }
 }
 

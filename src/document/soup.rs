@@ -1,7 +1,7 @@
 //! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
 use super::{
-    DocumentError, NewUvs, Primitive, SpaceMap, Subdivision, Upload, WriteOptions, Written,
-    new_gltf,
+    DocumentError, NewUvs, Primitive, SpaceMap, Subdivision, Upload, Warning, WriteOptions,
+    Written, fanned, new_gltf,
 };
 use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
@@ -10,6 +10,7 @@ use crate::mesh::io::{self, Format};
 #[derive(Clone)]
 pub struct SoupDocument {
     primitives: Vec<Primitive>,
+    warnings: Vec<Warning>,
 }
 
 /// Whether the content, or else the name, says so.
@@ -23,15 +24,21 @@ pub(super) fn is_soup(upload: &Upload) -> bool {
 impl SoupDocument {
     /// Reads the main file.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
-        let mesh = match Format::detect(&upload.name, &upload.bytes) {
-            Some(Format::Off) => io::off::read(&upload.bytes),
-            Some(Format::Ply) => io::ply::read(&upload.bytes),
-            Some(Format::Stl) => io::stl::read(&upload.bytes),
+        let (mesh, place) = match Format::detect(&upload.name, &upload.bytes) {
+            Some(Format::Off) => (io::off::read(&upload.bytes)?, "line"),
+            Some(Format::Ply) => (io::ply::read(&upload.bytes)?, "face"),
+            Some(Format::Stl) => (io::stl::read(&upload.bytes)?, "line"),
             Some(Format::Obj) | None => return Err(DocumentError::UnknownFormat),
-        }?;
+        };
         Ok(Self {
+            warnings: fanned::warning(&mesh.fanned, place).into_iter().collect(),
             primitives: vec![Primitive::of_file(mesh)?],
         })
+    }
+
+    /// What reading noticed.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
     }
 
     /// The triangles: all polygons of the file as one primitive.

@@ -17,6 +17,8 @@ mod element_error;
 #[cfg(feature = "files")]
 pub mod io;
 mod planar;
+#[cfg(feature = "files")]
+pub mod polygon;
 mod surface;
 mod tets;
 mod union_find;

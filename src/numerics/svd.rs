@@ -96,7 +96,7 @@ pub fn svd3(f: &Matrix<3>, det: f64) -> Svd<3> {
     sort_columns(&mut a, &mut v);
     let first = vec3::norm(a[0]);
     let u0 = direction(a[0], [1.0, 0.0, 0.0]);
-    let u1 = direction(orthogonal_part(a[1], u0), perpendicular(u0));
+    let u1 = direction(orthogonal_part(a[1], u0), vec3::perpendicular(u0));
     let u2 = vec3::cross(u0, u1);
     let second = vec3::norm(a[1]);
     let product = first * second;
@@ -151,14 +151,4 @@ fn direction(a: [f64; 3], otherwise: [f64; 3]) -> [f64; 3] {
     } else {
         otherwise
     }
-}
-
-/// A unit vector at right angles to a unit vector.
-fn perpendicular(unit: [f64; 3]) -> [f64; 3] {
-    let axis = if unit[0].abs() < 0.7 {
-        [1.0, 0.0, 0.0]
-    } else {
-        [0.0, 1.0, 0.0]
-    };
-    direction(vec3::cross(unit, axis), axis)
 }

@@ -48,3 +48,13 @@ pub fn unit(a: [f64; 3]) -> [f64; 3] {
         [0.0; 3]
     }
 }
+
+/// A unit vector at right angles to a unit vector; along an axis where that is.
+pub fn perpendicular(direction: [f64; 3]) -> [f64; 3] {
+    let axis = if direction[0].abs() < 0.7 {
+        [1.0, 0.0, 0.0]
+    } else {
+        [0.0, 1.0, 0.0]
+    };
+    unit(cross(direction, axis))
+}

@@ -109,6 +109,51 @@ fn every_format_gives_the_same_square() {
     }
 }
 
+/// An L whose first corner does not see all of it.
+const L: [[f32; 2]; 6] = [
+    [3.0, 1.0],
+    [1.0, 1.0],
+    [1.0, 2.0],
+    [0.0, 2.0],
+    [0.0, 0.0],
+    [3.0, 0.0],
+];
+
+#[test]
+fn every_format_fills_a_concave_polygon() {
+    let lines = |prefix: &str| -> String {
+        let lines = L.map(|[x, y]| format!("{prefix}{x} {y} 0.5\n"));
+        lines.concat()
+    };
+    let obj = format!("{}f 1 2 3 4 5 6\n", lines("v "));
+    let off = format!("OFF\n6 1 0\n{}6 0 1 2 3 4 5\n", lines(""));
+    let ply = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 6\n\
+        property float x\nproperty float y\nproperty float z\nend_header\n6 0 1 2 3 4 5\n";
+    let ply = ply.to_owned() + &lines("");
+    let stl = format!(
+        "solid\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid\n",
+        lines("vertex ")
+    );
+    let files: [(&str, Reader, String); 4] = [
+        ("obj", read_obj, obj),
+        ("off", off::read, off),
+        ("ply", ply::read, ply),
+        ("stl", stl::read, stl),
+    ];
+    for (name, read, text) in files {
+        let mesh = read(text.as_bytes()).expect(name);
+        assert_eq!(mesh.triangles.len(), 4, "{name}");
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+            ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0
+        };
+        let areas: Vec<f32> = mesh.triangles.iter().map(area).collect();
+        assert!(areas.iter().all(|&area| area > 0.0), "{name}: {areas:?}");
+        assert_eq!(areas.iter().sum::<f32>(), 4.0, "{name}");
+        assert_eq!(mesh.fanned.n_polygons, 0, "{name}");
+    }
+}
+
 #[test]
 fn formats_are_told_by_content_then_by_name() {
     for (name, _, bytes) in squares() {

@@ -10,7 +10,7 @@ use crate::places;
 /// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("numerics", &[], &["faer", "feral_metis", "robust", "rayon"]),
-    ("mesh", &["numerics"], &["robust"]),
+    ("mesh", &["numerics"], &["robust", "spade"]),
     ("cut", &["mesh"], &[]),
     ("energy", &["mesh"], &[]),
     ("barrier", &["energy"], &[]),

@@ -47,14 +47,20 @@ mod pipeline;
 #[path = "../places.rs"]
 mod places;
 #[cfg(feature = "files")]
+mod polygon;
+#[cfg(feature = "files")]
 mod problem_files;
 mod random;
 mod separation;
+#[cfg(feature = "files")]
+mod simple_polygons;
 mod solver;
 mod taylor;
 mod texture_mapping;
 mod threads;
 mod untangle;
+#[cfg(feature = "files")]
+mod unwrapped_polygons;
 mod uv_editing;
 mod uv_meshes;
 #[cfg(feature = "files")]

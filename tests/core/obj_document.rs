@@ -1,10 +1,14 @@
 //! OBJ written back, and new glTF and OBJ files for what came without a document.
+use crate::simple_polygons::simple_polygon;
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use unwrapd::document::{
     Document, GroupBy, Layout, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
 };
 use unwrapd::measure::VAxis;
 use unwrapd::mesh::io::obj;
+use unwrapd::mesh::polygon::smallest_first;
+use unwrapd::numerics::random::Random;
 
 type GridFaces = Vec<[[i32; 2]; 3]>;
 
@@ -119,7 +123,9 @@ fn polygons_are_split_only_where_their_uvs_differ() {
         let written = write(&document, faces, OutputFormat::Obj);
         let obj = obj::read(&written.files[0].1).unwrap();
         let sizes: Vec<usize> = obj.polygons().map(<[_]>::len).collect();
-        assert_eq!(obj.mesh.triangles, document.primitives()[0].triangles);
+        let mut triangles: Vec<_> = obj.mesh.triangles.into_iter().map(smallest_first).collect();
+        triangles.sort_unstable();
+        assert_eq!(triangles, document.primitives()[0].triangles);
         (sizes, written.notes.warnings.len())
     };
     assert_eq!(polygons(&faces), (vec![5], 0));
@@ -127,6 +133,61 @@ fn polygons_are_split_only_where_their_uvs_differ() {
     assert_eq!(polygons(&faces), (vec![4, 3], 1));
     faces[1][0] = [400, 400];
     assert_eq!(polygons(&faces), (vec![3, 3, 3], 1));
+}
+
+/// The triangles of a document with their UVs, in any order.
+fn mapped(document: &Document) -> Vec<([u32; 3], [[u64; 2]; 3])> {
+    let uvs = document.corner_uvs(0, 0).unwrap().unwrap();
+    let triangles = document.primitives()[0].triangles.iter().zip(uvs);
+    let mut mapped: Vec<_> = triangles
+        .map(|(&triangle, uvs)| {
+            let first = smallest_first(triangle)[0];
+            let shift = triangle.iter().position(|&v| v == first).unwrap();
+            let (mut triangle, mut uvs) = (triangle, uvs.map(|uv| uv.map(f64::to_bits)));
+            triangle.rotate_left(shift);
+            uvs.rotate_left(shift);
+            (triangle, uvs)
+        })
+        .collect();
+    mapped.sort_unstable();
+    mapped
+}
+
+#[test]
+fn cut_polygons_come_back_with_the_same_triangles_and_uvs() {
+    let mut random = Random::new(17);
+    for number in 0..100 {
+        let polygon = simple_polygon(4 + number % 40, &mut random);
+        let mut file = String::new();
+        for [x, y, z] in &polygon.space {
+            writeln!(file, "v {x} {y} {z}").unwrap();
+        }
+        let corners: Vec<String> = (1..=polygon.space.len()).map(|v| v.to_string()).collect();
+        writeln!(file, "f {}", corners.join(" ")).unwrap();
+        let document = read("a.obj", &file);
+        let mut faces = per_vertex(&document.primitives()[0]);
+        // As many charts as chance makes: triangles of another one have other UVs.
+        let n_charts = 1 + number as i32 % 4;
+        for face in &mut faces {
+            let chart = random.below(n_charts as usize) as i32;
+            *face = face.map(|[i, j]| [i + 1000 * chart, j]);
+        }
+        let written = write(&document, &faces, OutputFormat::Obj);
+        let again = read("out.obj", &text(&written));
+        let uvs = as_numbers(&faces, again.v_axis());
+        let n_faces = text(&written)
+            .lines()
+            .filter(|line| line.starts_with("f "))
+            .count();
+        assert!(n_charts > 1 || n_faces == 1, "polygon {number} is whole");
+        let triangles = document.primitives()[0].triangles.iter().copied();
+        let expected = triangles
+            .zip(uvs)
+            .map(|(t, uvs)| (t, uvs.map(|uv| uv.map(f64::to_bits))));
+        let mut expected: Vec<_> = expected.collect();
+        expected.sort_unstable();
+        assert_eq!(mapped(&again), expected, "polygon {number}");
+    }
 }
 
 #[test]
@@ -295,4 +356,39 @@ fn obj_normals_reach_the_gltf() {
     let without = cube_corner.replace("vn 0 -1 0", "vn 0 0 0");
     let written = write(&read("a.obj", &without), &faces, OutputFormat::Glb);
     assert!(!String::from_utf8_lossy(&written.files[0].1).contains("\"NORMAL\""));
+}
+
+#[test]
+fn polygons_without_an_inside_are_named() {
+    let bow_ties = |n: usize| {
+        let vertices = "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n";
+        vertices.to_owned() + &"f 1 2 3 4\n".repeat(n)
+    };
+    let messages = |name: &str, text: &str| -> Vec<(String, String)> {
+        let document = read(name, text);
+        let warnings = document.warnings().iter();
+        warnings
+            .map(|w| (w.code.to_string(), w.message.clone()))
+            .collect()
+    };
+    assert_eq!(messages("a.obj", &bow_ties(0)), []);
+    let one = messages("a.obj", &bow_ties(1));
+    assert_eq!(one.len(), 1);
+    assert_eq!(one[0].0, "polygon_fanned");
+    assert!(
+        one[0]
+            .1
+            .starts_with("1 polygon crosses itself or has no area (line 6): "),
+        "{}",
+        one[0].1
+    );
+    let many = messages("a.obj", &bow_ties(70));
+    assert_eq!(many.len(), 1);
+    let start = "70 polygons cross themselves or have no area (lines 6, 7, 8, 9, 10, …): ";
+    assert!(many[0].1.starts_with(start), "{}", many[0].1);
+    let ply = "ply\nformat ascii 1.0\nelement face 2\nproperty list uchar int vertex_indices\nelement vertex 4\n\
+        property float x\nproperty float y\nproperty float z\nend_header\n3 0 2 1\n4 0 1 2 3\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n";
+    assert!(messages("a.ply", ply)[0].1.contains("(face 1)"));
+    let off = "OFF\n4 2 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n3 0 2 1\n4 0 1 2 3\n";
+    assert!(messages("a.off", off)[0].1.contains("(line 8)"));
 }

@@ -2,12 +2,12 @@
 //!
 //! Bytes in, plain arrays or a [`ReadError`] out; nothing is opened, nothing panics, and memory is bounded by
 //! a small multiple of the input: a count that a file claims is never trusted, it only says when to stop.
-//! Polygons become fans of triangles around their first corner, in the order of the file, so a face index means
-//! the same in every tool that does so. Coordinates are parsed as `f64` and, for surfaces that are unwrapped, rounded to
+//! Polygons become triangles inside them ([`polygon`](super::polygon)), in the order of the file. Coordinates are parsed as `f64` and, for surfaces that are unwrapped, rounded to
 //! `f32` once, −0 becoming 0: what is welded, mapped and measured is what is written. What is deformed ([`Elements`]) keeps
 //! its `f64`.
 mod cursor;
 mod elements;
+mod faces;
 pub mod gmsh;
 pub mod medit;
 pub mod obj;
@@ -18,6 +18,8 @@ pub mod tet;
 pub mod vtu;
 
 pub use elements::{ElementFormat, Elements, text_positions};
+use faces::Faces;
+pub use faces::Fanned;
 
 /// Positions and triangles of one file, in the file's order.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -26,6 +28,8 @@ pub struct IndexedTriangles<T = f32> {
     pub positions: Vec<[T; 3]>,
     /// Three vertex indices for each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// Polygons that have no inside.
+    pub fanned: Fanned,
 }
 
 /// The mesh formats read here.
@@ -110,17 +114,27 @@ impl Format {
 trait Coordinate: Copy + Default {
     /// The nearest such number, without a negative zero; `None` where that is not finite.
     fn nearest(x: f64) -> Option<Self>;
+
+    fn to_f64(self) -> f64;
 }
 
 impl Coordinate for f32 {
     fn nearest(x: f64) -> Option<Self> {
         Some(x as f32 + 0.0).filter(|x| x.is_finite())
     }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
 }
 
 impl Coordinate for f64 {
     fn nearest(x: f64) -> Option<Self> {
         Some(x + 0.0).filter(|x| x.is_finite())
+    }
+
+    fn to_f64(self) -> f64 {
+        self
     }
 }
 
@@ -130,28 +144,6 @@ fn position<T: Coordinate>(coordinates: [f64; 3], vertex: usize) -> Result<[T; 3
         [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
         _ => Err(ReadError::NonFinitePosition { vertex }),
     }
-}
-
-/// Appends the fan of a polygon to `triangles`; fewer than three corners make none.
-fn push_fan(
-    triangles: &mut Vec<[u32; 3]>,
-    polygon: &[i64],
-    n_vertices: usize,
-) -> Result<(), ReadError> {
-    let corner = |index: i64| match usize::try_from(index) {
-        Ok(i) if i < n_vertices => {
-            u32::try_from(i).map_err(|_| ReadError::IndexOutOfRange { index, n_vertices })
-        }
-        _ => Err(ReadError::IndexOutOfRange { index, n_vertices }),
-    };
-    for k in 1..polygon.len().saturating_sub(1) {
-        triangles.push([
-            corner(polygon[0])?,
-            corner(polygon[k])?,
-            corner(polygon[k + 1])?,
-        ]);
-    }
-    Ok(())
 }
 
 /// The lines of a text, numbered from 1; `\n`, `\r\n` and `\r` all end a line.

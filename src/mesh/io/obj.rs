@@ -7,7 +7,7 @@
 //! position that is not there is an error. A texture coordinate or normal that is not there is taken as not
 //! given, as neither is needed to map the surface.
 use super::{
-    Coordinate, Elements, IndexedTriangles, ReadError, number, position, push_fan, three_numbers,
+    Coordinate, Elements, Faces, IndexedTriangles, ReadError, number, position, three_numbers,
     words,
 };
 use std::fmt::Write;
@@ -26,7 +26,7 @@ pub struct Corner {
 /// An OBJ file.
 #[derive(Debug, Clone, Default)]
 pub struct Obj<T = f32> {
-    /// Positions and the fans of all polygons, in the file's order.
+    /// Positions and the triangles of all polygons, in the file's order.
     pub mesh: IndexedTriangles<T>,
     /// Texture coordinates as the file has them, v up.
     pub texcoords: Vec<[f64; 2]>,
@@ -36,6 +36,8 @@ pub struct Obj<T = f32> {
     pub corners: Vec<Corner>,
     /// For each polygon the end of its corners in `corners`.
     pub polygon_ends: Vec<usize>,
+    /// The triangles again, by their corners in `corners`: of n corners n − 2 for each polygon, one polygon after the other.
+    pub corner_triangles: Vec<[u32; 3]>,
 }
 
 impl<T> Obj<T> {
@@ -141,6 +143,7 @@ pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
 pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> {
     let mut obj = Obj::default();
     let mut raw_corners: Vec<RawCorner> = Vec::new();
+    let (mut faces, mut polygon) = (Faces::default(), Vec::new());
     for statement in statements(bytes) {
         let words = &mut statement.words.iter().copied();
         match statement.keyword {
@@ -160,6 +163,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
                     obj.texcoords.len(),
                     obj.normals.len(),
                 ];
+                let start = raw_corners.len();
                 for word in words {
                     let corner = raw_corner(word, defined);
                     raw_corners
@@ -168,11 +172,24 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
                         })?);
                 }
                 obj.polygon_ends.push(raw_corners.len());
+                let end = u32::try_from(raw_corners.len());
+                let end = end.map_err(|_| malformed(statement.line, "too many corners"))?;
+                polygon.clear();
+                polygon.extend(start as u32..end);
+                faces.push(&polygon, statement.line);
             }
             _ => {}
         }
     }
     resolve(&mut obj, &raw_corners)?;
+    let vertex_of = |corner: u32| obj.corners[corner as usize].vertex;
+    let position = |corner: u32| obj.mesh.positions[vertex_of(corner) as usize];
+    (obj.corner_triangles, obj.mesh.fanned) = faces.filled(position);
+    obj.mesh.triangles = obj
+        .corner_triangles
+        .iter()
+        .map(|t| t.map(vertex_of))
+        .collect();
     Ok(obj)
 }
 
@@ -205,7 +222,7 @@ fn raw_corner(word: &[u8], defined: [usize; 3]) -> Option<RawCorner> {
     Some(corner)
 }
 
-/// Checks the corners against what the whole file defines, and makes the triangles.
+/// Checks the corners against what the whole file defines.
 fn resolve<T>(obj: &mut Obj<T>, raw_corners: &[RawCorner]) -> Result<(), ReadError> {
     let n_vertices = obj.mesh.positions.len();
     let optional = |index: i64, n: usize| {
@@ -223,14 +240,6 @@ fn resolve<T>(obj: &mut Obj<T>, raw_corners: &[RawCorner]) -> Result<(), ReadErr
             texcoord: optional(corner[1], obj.texcoords.len()),
             normal: optional(corner[2], obj.normals.len()),
         });
-    }
-    let mut start = 0;
-    let mut polygon = Vec::new();
-    for &end in &obj.polygon_ends {
-        polygon.clear();
-        polygon.extend(obj.corners[start..end].iter().map(|c| i64::from(c.vertex)));
-        push_fan(&mut obj.mesh.triangles, &polygon, n_vertices)?;
-        start = end;
     }
     Ok(())
 }

@@ -4,7 +4,7 @@
 //! (normals, colours, texture coordinates) is passed over, and so are the colours of faces. Four-dimensional and
 //! binary files are refused. The counts are read as `u64` and nothing is reserved by them.
 use super::{
-    Coordinate, Elements, IndexedTriangles, ReadError, lines, number, position, push_fan,
+    Coordinate, Elements, Faces, IndexedTriangles, ReadError, lines, number, position,
     three_numbers, words,
 };
 use std::fmt::Write;
@@ -57,13 +57,14 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<IndexedTriangles<T>
             .ok_or_else(|| malformed(at, "a vertex needs three numbers"))?;
         mesh.positions.push(position(coordinates, vertex as usize)?);
     }
-    let mut polygon = Vec::new();
+    let (mut faces, mut polygon) = (Faces::default(), Vec::new());
     for _ in 0..n_faces {
         let (at, line) = statements.next().ok_or_else(|| end.clone())?;
         read_polygon(line, &mut polygon)
             .ok_or_else(|| malformed(at, "a face needs its count and as many indices"))?;
-        push_fan(&mut mesh.triangles, &polygon, mesh.positions.len())?;
+        faces.push_checked(&polygon, mesh.positions.len(), at)?;
     }
+    (mesh.triangles, mesh.fanned) = faces.filled(|v| mesh.positions[v as usize]);
     Ok(mesh)
 }
 

@@ -4,7 +4,7 @@
 //! Normals are not used. Read without a library: the ones at hand read only the first of several solids, refuse
 //! facets whose normal is not a number (which is what exporters write for slivers), and take a binary file for
 //! text when its header happens to begin with `solid`.
-use super::{IndexedTriangles, ReadError, lines, position, push_fan, three_numbers, words};
+use super::{Faces, IndexedTriangles, ReadError, lines, position, three_numbers, words};
 use std::collections::HashMap;
 
 /// A header of 80 bytes and the number of facets.
@@ -49,26 +49,32 @@ pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
 /// Vertices found so far, by the bits of their position.
 #[derive(Default)]
 struct Builder {
-    mesh: IndexedTriangles,
-    vertices: HashMap<[u32; 3], i64>,
+    positions: Vec<[f32; 3]>,
+    faces: Faces,
+    vertices: HashMap<[u32; 3], u32>,
 }
 
 impl Builder {
-    fn vertex(&mut self, coordinates: [f64; 3]) -> Result<i64, ReadError> {
-        let position = position(coordinates, self.mesh.positions.len())?;
-        let next = self.mesh.positions.len() as i64;
+    fn vertex(&mut self, coordinates: [f64; 3]) -> Result<u32, ReadError> {
+        let position = position(coordinates, self.positions.len())?;
+        let next = self.positions.len() as u32;
         let vertex = *self
             .vertices
             .entry(position.map(f32::to_bits))
             .or_insert(next);
         if vertex == next {
-            self.mesh.positions.push(position);
+            self.positions.push(position);
         }
         Ok(vertex)
     }
 
-    fn face(&mut self, polygon: &[i64]) -> Result<(), ReadError> {
-        push_fan(&mut self.mesh.triangles, polygon, self.mesh.positions.len())
+    fn mesh(self) -> IndexedTriangles {
+        let (triangles, fanned) = self.faces.filled(|v| self.positions[v as usize]);
+        IndexedTriangles {
+            positions: self.positions,
+            triangles,
+            fanned,
+        }
     }
 }
 
@@ -80,7 +86,7 @@ fn read_binary(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
         return Err(malformed("byte", bytes.len(), "the file ends early"));
     }
     let mut builder = Builder::default();
-    for facet in facets.take(n_facets) {
+    for (at, facet) in facets.take(n_facets).enumerate() {
         let coordinate = |k: usize| {
             let at = 12 + 4 * k;
             f64::from(f32::from_le_bytes([
@@ -94,9 +100,9 @@ fn read_binary(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
         for (c, corner) in polygon.iter_mut().enumerate() {
             *corner = builder.vertex([0, 1, 2].map(|axis| coordinate(3 * c + axis)))?;
         }
-        builder.face(&polygon)?;
+        builder.faces.push(&polygon, at);
     }
-    Ok(builder.mesh)
+    Ok(builder.mesh())
 }
 
 fn read_text(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
@@ -126,7 +132,7 @@ fn read_text(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
                     return Err(malformed("line", at, "a facet needs three vertices"));
                 }
                 inside = false;
-                builder.face(&polygon)?;
+                builder.faces.push(&polygon, at);
             }
             b"" | b"solid" | b"endsolid" | b"outer" | b"endloop" => {}
             _ => return Err(malformed("line", at, "an unknown statement")),
@@ -135,5 +141,5 @@ fn read_text(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
     if inside {
         return Err(malformed("line", last, "the file ends early"));
     }
-    Ok(builder.mesh)
+    Ok(builder.mesh())
 }

@@ -9,7 +9,7 @@ mod header;
 
 use self::data::Data;
 use self::header::{Element, Kind, header};
-use super::{IndexedTriangles, ReadError, position, push_fan};
+use super::{Faces, IndexedTriangles, ReadError, position};
 
 fn malformed(at: usize, cause: &'static str) -> ReadError {
     ReadError::Malformed {
@@ -29,20 +29,24 @@ pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
         encoding: header.encoding,
     };
     let mut mesh = IndexedTriangles::default();
+    let mut faces = Faces::default();
     for element in &header.elements {
         match element.name.as_slice() {
             b"vertex" => read_vertices(element, &mut data, &mut mesh)?,
-            b"face" => read_faces(element, &mut data, &mut mesh)?,
+            b"face" => read_faces(element, &mut data, &mut faces)?,
             _ => read_records(element, &mut data, None, |_| Ok(()))?,
         }
     }
     let n_vertices = mesh.positions.len();
-    match mesh.triangles.iter().flatten().max() {
-        Some(&index) if index as usize >= n_vertices => Err(ReadError::IndexOutOfRange {
+    match faces.last_corner() {
+        Some(index) if index as usize >= n_vertices => Err(ReadError::IndexOutOfRange {
             index: i64::from(index),
             n_vertices,
         }),
-        _ => Ok(mesh),
+        _ => {
+            (mesh.triangles, mesh.fanned) = faces.filled(|v| mesh.positions[v as usize]);
+            Ok(mesh)
+        }
     }
 }
 
@@ -66,17 +70,16 @@ fn read_vertices(
 }
 
 /// Faces may come before the vertices: their indices are compared with the vertices at the end of the file.
-fn read_faces(
-    element: &Element,
-    data: &mut Data,
-    mesh: &mut IndexedTriangles,
-) -> Result<(), ReadError> {
+fn read_faces(element: &Element, data: &mut Data, faces: &mut Faces) -> Result<(), ReadError> {
     let list = element.properties.iter().position(|p| {
         matches!(p.kind, Kind::List { .. })
             && matches!(p.name.as_slice(), b"vertex_indices" | b"vertex_index")
     });
+    let mut face = 0;
     read_records(element, data, list, |record| {
-        push_fan(&mut mesh.triangles, &record.list, u32::MAX as usize)
+        faces.push_checked(&record.list, u32::MAX as usize, face)?;
+        face += 1;
+        Ok(())
     })
 }
 
