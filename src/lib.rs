@@ -108,7 +108,8 @@
 //! - The readers of OBJ, OFF, PLY and STL are our own: the crates that were tried lose what writing back needs, refuse
 //!   files that occur, or never return on crafted ones (the docs of `mesh::io` say which).
 //! - What UVs are worth has a module of its own, [`measure`], apart from the certificate that says whether they hold.
-//! - An OBJ file has one UV space: written as OBJ, a document is one group whatever `group-by` says.
+//! - An OBJ file has one UV space: written as OBJ, a document is one group whatever `group-by` says. Written as glTF it is one unless
+//!   `group-by` is given, and becomes glTF before anything else is done, so that one code knows sets, materials and textures.
 //! - Charts too small for the grid (fewer than 16 cells per triangle) are enlarged and counted: the one exception to uniform
 //!   texel density.
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::files::{json, output_format, read_file, read_upload, write_atomically, write_outputs};
+use super::files::{
+    json, output_format, read_file, read_upload, warn, write_atomically, write_outputs,
+};
 use super::model::ModelArgs;
 use super::progress::Display;
 use super::records::stem;
@@ -95,6 +97,7 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     for chart in &edited.report.charts {
         print_pull(&format!("chart {}: ", chart.chart), &chart.map);
     }
+    warn(&edited.report.warnings);
     if edited.report.certified {
         Ok(())
     } else {

@@ -7,14 +7,14 @@ use super::merged::Merged;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
+use super::prepared::Prepared;
 use super::rebake::{self, rebaked};
 use super::report::{AtlasReport, BoundReport, GroupReport, Report, Seconds};
 use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 use crate::document::{
-    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
-    WriteOptions, Written,
+    BakedTextures, Corners, Document, Group, Layout, NewUvs, Upload, WriteOptions, Written,
 };
 use crate::measure::VAxis;
 
@@ -54,14 +54,16 @@ fn unwrap_in_pool(
 
     tracker.stage(Stage::Read);
     let nodes = options.nodes();
-    let document = nodes.prepared(Document::read(upload)?)?;
-    options.limits.check(&document)?;
-    let group_by = group_by(options);
+    let Prepared {
+        document,
+        group_by,
+        seams,
+    } = Prepared::read(upload, options)?;
     let groups = document.groups(group_by);
     let primitives = nodes.primitives(&document)?;
     let meshes: Vec<Merged> = groups
         .iter()
-        .map(|group| Merged::with_seams(&document, &primitives, group, options))
+        .map(|group| Merged::with_seams(&document, &primitives, group, &seams))
         .collect::<Result<_, _>>()?;
     seconds.read = watch.lap();
 
@@ -92,7 +94,10 @@ fn unwrap_in_pool(
 
     let warnings = [document.warnings(), &written.notes.warnings].concat();
     let mut report = Report::new(groups, warnings);
-    report.options = Some(options.clone());
+    report.options = Some(Options {
+        group_by: Some(group_by),
+        ..options.clone()
+    });
     report.limits = Some(options.limits);
     if options.is_promised() && !report.certified {
         return Err(PipelineError::NotCertified);
@@ -131,14 +136,6 @@ fn write(
         written.notes.warnings.extend(warnings);
     }
     Ok(written)
-}
-
-/// An OBJ file has one UV space, whatever was asked for.
-fn group_by(options: &Options) -> GroupBy {
-    match options.format {
-        OutputFormat::Obj => GroupBy::Scene,
-        OutputFormat::Glb | OutputFormat::Gltf => options.group_by,
-    }
 }
 
 /// The atlases as UVs of the document.

@@ -35,6 +35,10 @@ mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
 #[cfg(feature = "files")]
+mod obj_materials;
+#[cfg(feature = "files")]
+mod obj_pipeline;
+#[cfg(feature = "files")]
 mod outline;
 mod pages;
 #[cfg(feature = "files")]
