@@ -141,7 +141,9 @@ fn join(parts: &mut [Part]) -> usize {
     if n_parts <= MOST_PARTS {
         return 0;
     }
-    parts.iter_mut().for_each(|part| part.object = None);
+    for part in &mut *parts {
+        part.object = None;
+    }
     if n(parts) > MOST_PARTS {
         parts.fill(Part::default());
     }

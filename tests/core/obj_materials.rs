@@ -1,5 +1,6 @@
 //! Materials, names and colours between OBJ, PLY and glTF, and what is said of those that cannot be carried.
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use unwrapd::document::{
     Corners, Document, Layout, NewUvs, OldUvs, OutputFormat, Upload, WriteOptions, Written,
 };
@@ -280,14 +281,14 @@ fn colours_of_vertices_come_back() {
 
 #[test]
 fn names_of_gltf_are_each_others_and_one_line_in_obj() {
-    let json = r##"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0, "name": "a#b"}, {"mesh": 1}, {"mesh": 2}],
+    let json = r#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0, "name": "a#b"}, {"mesh": 1}, {"mesh": 2}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]},
                    {"name": "A_b", "primitives": [{"attributes": {"POSITION": 0}, "material": 1}]},
                    {"name": "x\ny", "primitives": [{"attributes": {"POSITION": 0}}]}],
         "materials": [{"name": "m"}, {"name": "m"}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
-        "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"##;
+        "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
     let document = Document::read(&Upload::single("a.gltf", json.as_bytes().to_vec())).unwrap();
     let obj = text(
         &written(&document, OutputFormat::Obj, Layout::New),
@@ -307,7 +308,7 @@ fn names_of_gltf_are_each_others_and_one_line_in_obj() {
 fn too_many_objects_become_one_mesh() {
     let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     for object in 0..10_000 {
-        text += &format!("o part {object}\nusemtl m{}\nf 1 2 3\n", object % 2);
+        let _ = write!(text, "o part {object}\nusemtl m{}\nf 1 2 3\n", object % 2);
     }
     let document = as_gltf(&Upload::single("a.obj", text.into_bytes()));
     let faces: Vec<usize> = document
