@@ -110,7 +110,8 @@
 //! - Polygons are filled with triangles by `spade`, which [`mesh`] may name for that in `mesh::polygon`, as a part of the feature
 //!   `files`: a fan from the first corner overlaps itself in concave ones. What is left as a fan is named in a warning.
 //! - What UVs are worth has a module of its own, [`measure`], apart from the certificate that says whether they hold.
-//! - An OBJ file has one UV space: written as OBJ, a document is one group whatever `group-by` says.
+//! - An OBJ file has one UV space: written as OBJ, a document is one group whatever `group-by` says. Written as glTF it is one unless
+//!   `group-by` is given, and becomes glTF before anything else is done, so that one code knows sets, materials and textures.
 //! - Charts too small for the grid (fewer than 16 cells per triangle) are enlarged and counted: the one exception to uniform
 //!   texel density.
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.

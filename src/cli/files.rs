@@ -1,13 +1,13 @@
 //! Files in and out of the command line: an input with what it references, outputs that are never half-written.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use crate::document::{OutputFormat, Upload, Warning, gltf};
+use crate::document::{OutputFormat, Upload, Warning};
 
 /// Reads a file.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
@@ -17,8 +17,24 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
 /// Reads a file and the files beside it that it references by relative URI. A missing one is left to the document,
 /// which knows whether it is needed.
 pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
-    let references = gltf::references(&read_file(path)?);
-    read_upload_with(path, references)
+    let mut upload = read_upload_with(path, [])?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut tried = BTreeSet::new();
+    // What is found may refer to more.
+    while let new = (upload.references())
+        .difference(&tried)
+        .cloned()
+        .collect::<Vec<_>>()
+        && !new.is_empty()
+    {
+        for reference in new {
+            if let Ok(content) = fs::read(folder.join(&reference)) {
+                upload.resources.insert(reference.clone(), content);
+            }
+            tried.insert(reference);
+        }
+    }
+    Ok(upload)
 }
 
 /// Reads a file and those of the files that it references that are there.

@@ -84,9 +84,9 @@ pub(super) struct Args {
     /// Price of a seam where charts are cut for a fuller atlas: 0 cuts wherever that gains anything, a large number never
     #[arg(long, default_value_t = 1.0, value_name = "W")]
     seam_weight: f64,
-    /// What shares one atlas
-    #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
-    group_by: GroupBy,
+    /// What shares one atlas [default: mesh; of another file than glTF: scene]
+    #[arg(long, value_parser = word::<GroupBy>(GROUPS))]
+    group_by: Option<GroupBy>,
     /// UV set to write [default: 0 where no texture samples it, else the next free one]
     #[arg(long, value_name = "N")]
     texcoord: Option<u32>,

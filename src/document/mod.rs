@@ -8,15 +8,22 @@
 //! a URI that is neither data nor a member of the upload is an error, never an open file or a connection. Every input is
 //! taken to be hostile: counts are believed only as far as bytes back them, and every failure is a [`DocumentError`].
 mod bake;
+mod colors;
+mod conversion;
 mod error;
 mod fanned;
 pub mod gltf;
 mod group;
+mod material;
 mod new_gltf;
 mod new_obj;
+mod new_vertices;
 mod notes;
 pub mod obj;
+mod obj_gltf;
+mod obj_materials;
 mod obj_moved;
+mod obj_parts;
 mod obj_pieces;
 mod obj_text;
 pub mod soup;
@@ -33,6 +40,7 @@ pub use bake::{
     BakePlan, BakePlane, BakedTexture, BakedTextures, CornerTangents, Encoding, KeptTexture,
     TextureSource, Wrap,
 };
+pub use conversion::{Conversion, OldUvs};
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
@@ -70,7 +78,7 @@ impl Document {
     /// What reading noticed and users should know.
     pub fn warnings(&self) -> &[Warning] {
         match self {
-            Self::Gltf(_) => &[],
+            Self::Gltf(document) => document.warnings(),
             Self::Obj(document) => document.warnings(),
             Self::Soup(document) => document.warnings(),
         }
@@ -82,6 +90,14 @@ impl Document {
             Self::Gltf(document) => document.primitives(),
             Self::Obj(document) => document.primitives(),
             Self::Soup(document) => document.primitives(),
+        }
+    }
+
+    /// What shares one UV space unless something else is asked for: a mesh of glTF, else all of a file, as that has one UV space.
+    pub fn grouping(&self) -> GroupBy {
+        match self {
+            Self::Gltf(_) => GroupBy::Mesh,
+            Self::Obj(_) | Self::Soup(_) => GroupBy::Scene,
         }
     }
 
@@ -189,10 +205,22 @@ impl Document {
     ) -> Result<Written, DocumentError> {
         uvs.check(self.primitives())?;
         match (self, options.format) {
-            (Self::Obj(document), _) => document.write(uvs, options),
-            (_, OutputFormat::Obj) => new_obj::write(self.primitives(), uvs, options),
             (Self::Gltf(document), _) => document.write(uvs, options, baked),
-            (Self::Soup(document), _) => document.write(uvs, options),
+            (Self::Obj(document), OutputFormat::Obj) => document.write(uvs, options),
+            (Self::Soup(document), OutputFormat::Obj) => {
+                new_obj::write(&document.primitives()[0], document.colors(), uvs, options)
+            }
+            (Self::Obj(_) | Self::Soup(_), _) => {
+                let conversion = self.clone().for_output(options.format, OldUvs::Sampled)?;
+                let uvs = conversion.uvs(uvs);
+                let mut written = conversion.document.write_baked(&uvs, options, None)?;
+                let known = self.warnings();
+                let noticed = conversion.document.warnings().iter();
+                let new = noticed.filter(|warning| !known.contains(warning));
+                written.notes.warnings.splice(0..0, new.cloned());
+                written.notes.faces = conversion.faces;
+                Ok(written)
+            }
         }
     }
 }

@@ -17,6 +17,9 @@ pub struct WriteNotes {
     pub transforms_removed: Vec<String>,
     /// Extensions that are gone from the file: compression that was undone, data that the new indices made wrong.
     pub extensions_dropped: Vec<String>,
+    /// For each triangle over all primitives written its number among those of the document; `None` where none has changed.
+    #[serde(skip)]
+    pub faces: Option<Vec<u32>>,
     /// What else users should know; reports have it among their own warnings.
     #[serde(skip)]
     pub warnings: Vec<Warning>,

@@ -4,12 +4,14 @@
 //! coordinates are replaced, corners of polygons are given the new ones, everything else stands as it stood. OBJ has one
 //! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along
 //! diagonals between them, as a corner of a polygon has one UV.
+use super::conversion::{Conversion, OldUvs};
+use super::obj_materials::ObjMaterials;
 use super::obj_text::rewrite;
 use super::{
-    DocumentError, Layout, NewUvs, OutputFormat, Primitive, SpaceMap, Upload, Warning,
-    WriteOptions, Written,
+    DocumentError, Layout, NewUvs, Primitive, SpaceMap, Upload, Warning, WriteNotes, WriteOptions,
+    Written,
 };
-use super::{fanned, new_gltf, new_obj, obj_moved};
+use super::{fanned, new_obj, obj_gltf, obj_moved};
 use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
 use crate::mesh::io::{self, Format};
@@ -58,6 +60,11 @@ impl ObjDocument {
         Self::parse(bytes, self.resources)
     }
 
+    /// The same triangles as glTF, with objects, materials, pictures and colors.
+    pub(super) fn to_gltf(&self, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
+        obj_gltf::convert(self, old_uvs)
+    }
+
     /// What reading noticed.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
@@ -77,28 +84,22 @@ impl ObjDocument {
         if primitive > 0 || set > 0 {
             return Ok(None);
         }
-        let uv = |corner: &io::obj::Corner| Some(self.obj.texcoords[corner.texcoord? as usize]);
-        Ok(self.per_face(uv).collect())
+        Ok(self.face_uvs().collect())
     }
 
     /// The normals per face corner; `None` where a corner has none.
     pub fn corner_normals(&self) -> Option<Vec<[[f64; 3]; 3]>> {
-        let normal = |corner: &io::obj::Corner| {
-            Some(self.obj.normals[corner.normal? as usize].map(f64::from))
-        };
-        self.per_face(normal).collect()
+        self.face_normals().collect()
     }
 
     /// The document with `uvs`.
     pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
-        if options.format != OutputFormat::Obj {
-            let primitive = &self.primitives[0];
-            let normal = |corner: &io::obj::Corner| Some(self.obj.normals[corner.normal? as usize]);
-            let normals: Option<Vec<_>> = self.per_face(normal).collect();
-            return new_gltf::write(primitive, normals.as_deref(), uvs, options);
-        }
         new_obj::only_set(options)?;
-        let mut notes = super::WriteNotes::default();
+        let materials = self.materials();
+        let mut notes = WriteNotes {
+            warnings: materials.warnings(),
+            ..WriteNotes::default()
+        };
         let text = match uvs.toward(0, VAxis::Up) {
             Some(corners) => {
                 let had_uvs = !self.obj.texcoords.is_empty();
@@ -112,10 +113,7 @@ impl ObjDocument {
                     &corners,
                 );
                 if had_uvs && uvs.layout == Layout::New {
-                    notes.warnings.push(Warning::new(
-                        "uvs_replaced",
-                        "the UVs of the file were replaced: textures made for them need a re-bake",
-                    ));
+                    notes.warnings.extend(materials.warnings_of_new_uvs());
                 }
                 if rewritten.split_polygons > 0 {
                     let n = rewritten.split_polygons;
@@ -129,7 +127,7 @@ impl ObjDocument {
             None => self.bytes.clone(),
         };
         let mut files = vec![(format!("{}.obj", options.stem), text)];
-        files.extend(self.material_files());
+        files.extend(materials.beside(&self.resources));
         Ok(Written { files, notes })
     }
 
@@ -144,16 +142,33 @@ impl ObjDocument {
         triangles.map(move |&[a, b, c]| Some([of(a)?, of(b)?, of(c)?]))
     }
 
-    /// The material files that the text names, as far as they were supplied.
-    fn material_files(&self) -> Vec<(String, Vec<u8>)> {
-        let mut names: Vec<String> = io::obj::statements(&self.bytes)
-            .filter(|statement| statement.keyword == b"mtllib")
-            .flat_map(|statement| statement.words)
-            .map(|word| String::from_utf8_lossy(word).into_owned())
-            .collect();
-        names.sort_unstable();
-        names.dedup();
-        let supplied = |name: String| Some((name.clone(), self.resources.get(&name)?.clone()));
-        names.into_iter().filter_map(supplied).collect()
+    /// The texture coordinates of each triangle that has them.
+    pub(super) fn face_uvs(&self) -> impl Iterator<Item = Option<CornerUvs>> {
+        self.per_face(|corner| Some(self.obj.texcoords[corner.texcoord? as usize]))
+    }
+
+    /// The normals of each triangle that has them.
+    pub(super) fn face_normals(&self) -> impl Iterator<Item = Option<[[f64; 3]; 3]>> {
+        self.per_face(|corner| Some(self.obj.normals[corner.normal? as usize].map(f64::from)))
+    }
+
+    /// The corners of each polygon; one of n has n − 2 triangles.
+    pub(super) fn polygon_sizes(&self) -> impl Iterator<Item = usize> {
+        self.obj.polygons().map(<[_]>::len)
+    }
+
+    /// The text.
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The files that it may refer to.
+    pub(super) fn resources(&self) -> &BTreeMap<String, Vec<u8>> {
+        &self.resources
+    }
+
+    /// The materials that the text names.
+    pub(super) fn materials(&self) -> ObjMaterials {
+        ObjMaterials::of(&self.bytes, &self.resources)
     }
 }

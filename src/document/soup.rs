@@ -1,8 +1,8 @@
 //! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
-use super::{
-    DocumentError, NewUvs, Primitive, SpaceMap, Subdivision, Upload, Warning, WriteOptions,
-    Written, fanned, new_gltf,
-};
+use super::colors::{Color, from_srgb};
+use super::conversion::{Conversion, of_triangles};
+use super::warning::listed;
+use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fanned};
 use crate::certificate::CornerUvs;
 use crate::mesh::io::{self, Format};
 
@@ -10,6 +10,8 @@ use crate::mesh::io::{self, Format};
 #[derive(Clone)]
 pub struct SoupDocument {
     primitives: Vec<Primitive>,
+    /// For each vertex, where the file has any.
+    colors: Option<Vec<Color>>,
     warnings: Vec<Warning>,
 }
 
@@ -30,15 +32,43 @@ impl SoupDocument {
             Some(Format::Stl) => (io::stl::read(&upload.bytes)?, "line"),
             Some(Format::Obj) | None => return Err(DocumentError::UnknownFormat),
         };
-        Ok(Self {
+        let mut document = Self {
             warnings: fanned::warning(&mesh.fanned, place).into_iter().collect(),
             primitives: vec![Primitive::of_file(mesh)?],
-        })
+            colors: None,
+        };
+        if Format::detect(&upload.name, &upload.bytes) == Some(Format::Ply) {
+            document.add(io::ply::extras(&upload.bytes)?);
+        }
+        Ok(document)
     }
 
     /// What reading noticed.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
+    }
+
+    /// The triangles and colours as glTF.
+    pub(super) fn to_gltf(&self) -> Result<Conversion, DocumentError> {
+        of_triangles(&self.primitives[0], self.colors.as_deref(), &self.warnings)
+    }
+
+    /// The colours of the vertices.
+    pub(super) fn colors(&self) -> Option<&[Color]> {
+        self.colors.as_deref()
+    }
+
+    fn add(&mut self, extras: io::ply::Extras) {
+        if !extras.left_out.is_empty() {
+            let names = listed(extras.left_out.iter().map(String::as_str));
+            let message =
+                format!("properties of the PLY file that are not read are left out: {names}");
+            self.warnings
+                .push(Warning::new("properties_dropped", message));
+        }
+        let colors = extras.colors.into_iter().flatten().map(from_srgb);
+        let colors: Vec<Color> = colors.collect();
+        self.colors = (colors.len() == self.primitives[0].positions.len()).then_some(colors);
     }
 
     /// The triangles: all polygons of the file as one primitive.
@@ -50,6 +80,9 @@ impl SoupDocument {
     #[must_use]
     pub fn subdivided(mut self, cuts: &[Subdivision]) -> Self {
         for (primitive, cut) in self.primitives.iter_mut().zip(cuts) {
+            if let Some(colors) = &mut self.colors {
+                cut.interpolate(colors);
+            }
             cut.apply(primitive);
         }
         self
@@ -73,10 +106,5 @@ impl SoupDocument {
         _set: u32,
     ) -> Result<Option<Vec<CornerUvs>>, DocumentError> {
         Ok(None)
-    }
-
-    /// The triangles with `uvs`, as a new glTF file.
-    pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
-        new_gltf::write(&self.primitives[0], None, uvs, options)
     }
 }

@@ -28,6 +28,20 @@ impl Subdivision {
         primitive.triangles.clone_from(&self.triangles);
     }
 
+    /// Appends the values of the added vertices to those of a primitive's own.
+    pub(super) fn interpolate<const N: usize>(&self, values: &mut Vec<[f32; N]>) {
+        for AddedVertex {
+            corners, weights, ..
+        } in &self.added
+        {
+            let corners = corners.map(|vertex| values[vertex as usize]);
+            values.push(std::array::from_fn(|k| {
+                let terms = corners.iter().zip(weights);
+                terms.map(|(value, w)| f64::from(value[k]) * w).sum::<f64>() as f32
+            }));
+        }
+    }
+
     /// Refuses what does not belong to the primitives.
     pub(super) fn check(all: &[Self], primitives: &[Primitive]) -> Result<(), DocumentError> {
         let fits = |(cut, primitive): (&Self, &Primitive)| {

@@ -1,4 +1,6 @@
-use std::collections::BTreeMap;
+use super::obj::is_obj;
+use super::{gltf, obj_materials};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A main file and the files it may refer to.
 #[derive(Debug, Clone, Default)]
@@ -19,6 +21,29 @@ impl Upload {
             bytes,
             resources: BTreeMap::new(),
         }
+    }
+
+    /// Paths that the main file, and the material files among the others, may refer to: those of buffers, images, material files
+    /// and their pictures. None is absolute or climbs out of the folder.
+    pub fn references(&self) -> BTreeSet<String> {
+        if gltf::is_gltf(self) {
+            return gltf::references(&self.bytes).into_iter().collect();
+        }
+        if !is_obj(self) {
+            return BTreeSet::new();
+        }
+        let materials = obj_materials::material_paths(&self.bytes);
+        let supplied = self
+            .resources
+            .iter()
+            .filter(|(path, _)| materials.contains(*path));
+        let pictures: Vec<_> = supplied
+            .map(|(path, bytes)| obj_materials::picture_paths(path, bytes))
+            .collect();
+        materials
+            .into_iter()
+            .chain(pictures.into_iter().flatten())
+            .collect()
     }
 
     /// The extension of the main file in lower case, without the dot; empty where there is none.

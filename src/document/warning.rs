@@ -20,3 +20,20 @@ impl Warning {
         }
     }
 }
+
+/// The first names of many, each cut short, for a message.
+pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    const SHOWN: usize = 6;
+    let mut names = names.map(shortened);
+    let shown: Vec<String> = names.by_ref().take(SHOWN).collect();
+    let shown = shown.join(", ");
+    match names.count() {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+/// The beginning of a name that a file gives.
+fn shortened(name: &str) -> String {
+    name.chars().filter(|c| !c.is_control()).take(80).collect()
+}

@@ -8,6 +8,7 @@ use super::merged::Merged;
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
+use super::prepared::Prepared;
 use super::rebake::{self, rebaked};
 use super::report::{AtlasReport, GroupReport, Report, Seconds};
 use super::shortfalls::shortfalls;
@@ -15,8 +16,7 @@ use super::soup::Soup;
 use crate::atlas::GRID_BITS;
 use crate::charts::Cut;
 use crate::document::{
-    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
-    WriteOptions, Written,
+    BakedTextures, Corners, Document, Group, Layout, NewUvs, Upload, WriteOptions, Written,
 };
 use crate::measure::VAxis;
 
@@ -56,14 +56,16 @@ fn unwrap_in_pool(
 
     tracker.stage(Stage::Read);
     let nodes = options.nodes();
-    let document = nodes.prepared(Document::read(upload)?)?;
-    options.limits.check(&document)?;
-    let group_by = group_by(options);
+    let Prepared {
+        document,
+        group_by,
+        seams,
+    } = Prepared::read(upload, options)?;
     let groups = document.groups(group_by);
     let primitives = nodes.primitives(&document)?;
     let meshes: Vec<Merged> = groups
         .iter()
-        .map(|group| Merged::with_seams(&document, &primitives, group, options))
+        .map(|group| Merged::with_seams(&document, &primitives, group, &seams))
         .collect::<Result<_, _>>()?;
     seconds.read = watch.lap();
 
@@ -105,7 +107,10 @@ fn unwrap_in_pool(
     }
     let warnings = [noticed, written.notes.warnings.clone(), missing].concat();
     let mut report = Report::new(groups, warnings);
-    report.options = Some(options.clone());
+    report.options = Some(Options {
+        group_by: Some(group_by),
+        ..options.clone()
+    });
     report.limits = Some(options.limits);
     report.written = Some(written.notes);
     report.seconds = Some(seconds);
@@ -140,14 +145,6 @@ fn write(
         written.notes.warnings.extend(warnings);
     }
     Ok(written)
-}
-
-/// An OBJ file has one UV space, whatever was asked for.
-fn group_by(options: &Options) -> GroupBy {
-    match options.format {
-        OutputFormat::Obj => GroupBy::Scene,
-        OutputFormat::Glb | OutputFormat::Gltf => options.group_by,
-    }
 }
 
 /// The atlases as UVs of the document.

@@ -38,6 +38,8 @@ pub struct EditReport {
     pub rest: UvRest,
     /// The charts with anchors.
     pub charts: Vec<ChartEditReport>,
+    /// What users should know of the files.
+    pub warnings: Vec<Warning>,
 }
 
 /// What was done to a chart.
@@ -180,13 +182,18 @@ fn judge(
         bytes,
         resources,
     })?;
-    let found = Whole::gather(&again, texcoord)?;
-    if found.uvs.len() != edited.uvs.len() {
+    let mut found = Whole::gather(&again, texcoord)?.uvs;
+    if found.len() != edited.uvs.len() {
         return Err(DocumentError::InvalidUvs.into());
+    }
+    if let Some(faces) = &written.notes.faces {
+        let mut placed: Vec<_> = faces.iter().zip(&found).collect();
+        placed.sort_unstable_by_key(|(face, _)| **face);
+        found = placed.into_iter().map(|(_, uvs)| *uvs).collect();
     }
     let flip_v = again.v_axis() != document.v_axis();
     let charts = edited.charts.iter().map(|chart| {
-        let certificate = chart.faces.certify(&found.uvs, flip_v);
+        let certificate = chart.faces.certify(&found, flip_v);
         let map = PullReport {
             bijective: certificate.is_bijective(),
             certificate,
@@ -205,5 +212,6 @@ fn judge(
         warnings: [document.warnings(), &written.notes.warnings].concat(),
         rest,
         charts,
+        warnings: [document.warnings(), &written.notes.warnings].concat(),
     })
 }

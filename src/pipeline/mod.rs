@@ -68,6 +68,7 @@ mod pictures;
 #[cfg(feature = "files")]
 mod planar_map;
 #[cfg(feature = "files")]
+mod prepared;
 mod preset;
 #[cfg(feature = "files")]
 mod proven;

@@ -89,8 +89,9 @@ pub struct Options {
     /// Charts that `cut` `auto` may make for an atlas: where it needs more it allows more distortion, up to one chart per component.
     #[cfg_attr(feature = "service", schema(minimum = 1))]
     pub max_charts: Option<u32>,
-    /// What shares one atlas.
-    pub group_by: GroupBy,
+    /// What shares one atlas. If absent each mesh of a glTF file has its own, and all of another file one; a lightmap and an OBJ file
+    /// have one for the scene in any case.
+    pub group_by: Option<GroupBy>,
     /// The UV set to write; chosen so that no texture breaks if absent.
     #[cfg_attr(feature = "service", schema(maximum = 7))]
     pub texcoord: Option<u32>,
@@ -169,7 +170,7 @@ impl Default for Options {
             packing: settings.packing,
             seam_weight: settings.seam_weight,
             max_charts: settings.max_charts,
-            group_by: GroupBy::Mesh,
+            group_by: None,
             texcoord: None,
             overwrite: false,
             rebake: false,
@@ -204,7 +205,7 @@ impl Options {
         match self.preset {
             Preset::Material => options,
             Preset::Lightmap => Self {
-                group_by: GroupBy::Scene,
+                group_by: Some(GroupBy::Scene),
                 texcoord: self.texcoord.or(Some(1)),
                 mips: self.mips.max(LIGHTMAP_MIPS),
                 ..options
@@ -276,9 +277,6 @@ impl Options {
         self.texel_weights.iter().try_for_each(TexelWeight::check)?;
         if self.cut == Cut::Seams && self.seams.is_none() {
             return Err("cut seams needs seams".to_owned());
-        }
-        if self.rebake && self.format == OutputFormat::Obj {
-            return Err("rebake writes glTF, not OBJ".to_owned());
         }
         if self.rebake && (self.pages > 1 || self.resolution.aspect() != 1.0) {
             return Err(

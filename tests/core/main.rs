@@ -34,6 +34,10 @@ mod mesh;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
+#[cfg(feature = "files")]
+mod obj_materials;
+#[cfg(feature = "files")]
+mod obj_pipeline;
 mod once;
 #[cfg(feature = "files")]
 mod outline;

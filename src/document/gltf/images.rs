@@ -90,6 +90,17 @@ fn external_uri(image: &Value) -> Option<String> {
     (!uri::is_data(uri)).then(|| uri.to_owned())
 }
 
+/// The extension of a file with this content.
+pub(super) fn file_extension(bytes: &[u8]) -> &'static str {
+    match mime_type("", bytes) {
+        Some("image/png") => "png",
+        Some("image/jpeg") => "jpg",
+        Some("image/webp") => "webp",
+        Some("image/ktx2") => "ktx2",
+        _ => "bin",
+    }
+}
+
 /// The media type by content, else by name; `None` where it is not known, and an embedded image must have one.
 fn mime_type(name: &str, bytes: &[u8]) -> Option<&'static str> {
     match bytes {

@@ -6,6 +6,7 @@
 //! appends: new views and accessors behind the old ones, and the primitives point to them; accessors that something
 //! else may share are never changed.
 mod accessor;
+mod as_obj;
 mod bake_plan;
 mod baked;
 mod body;
@@ -20,6 +21,9 @@ mod json;
 mod meshopt;
 mod moved;
 mod names;
+mod obj_losses;
+mod obj_names;
+mod obj_pictures;
 mod positions;
 mod primitives;
 mod references;
@@ -38,11 +42,12 @@ mod write;
 
 use super::{
     BakePlan, BakedTextures, CornerTangents, DocumentError, Group, NewUvs, Primitive, SpaceMap,
-    Subdivision, Upload, WriteOptions, Written,
+    Subdivision, Upload, Warning, WriteOptions, Written,
 };
 use crate::certificate::CornerUvs;
 pub use references::references;
 pub use tangents::tangents;
+pub(in crate::document) use uri::{encoded, normalized};
 
 use accessor::Accessor;
 use body::Body;
@@ -64,6 +69,8 @@ pub struct GltfDocument {
     primitives: Vec<Primitive>,
     /// For primitives that use a part of shared accessors, the elements that are their vertices, ascending.
     used: Vec<Option<Vec<u32>>>,
+    /// What was noticed on the way here.
+    warnings: Vec<Warning>,
 }
 
 /// Whether the content, or else the name, says that this is glTF.
@@ -116,7 +123,20 @@ impl GltfDocument {
             decompressed,
             primitives,
             used,
+            warnings: Vec::new(),
         })
+    }
+
+    /// The document with more to be said of it.
+    #[must_use]
+    pub(in crate::document) fn with_warnings(mut self, warnings: Vec<Warning>) -> Self {
+        self.warnings.extend(warnings);
+        self
+    }
+
+    /// What was noticed on the way here.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
     }
 
     /// The triangle primitives in file order.

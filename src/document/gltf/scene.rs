@@ -80,6 +80,12 @@ pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
         .collect())
 }
 
+/// Whether each mesh lies in the scene where it is, as far as the first node shows it that shows it.
+pub(super) fn is_in_place(json: &Value) -> Result<Vec<bool>, DocumentError> {
+    let placements = placements(json)?;
+    Ok(placements.iter().map(|place| *place == IDENTITY).collect())
+}
+
 /// The place of a point.
 pub(super) fn placed(placement: &Affine, point: [f32; 3]) -> [f32; 3] {
     let [x, y, z] = point.map(f64::from);

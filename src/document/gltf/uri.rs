@@ -62,12 +62,12 @@ pub(super) fn is_data(uri: &str) -> bool {
 }
 
 /// A relative URI for a file name.
-pub(super) fn encoded(name: &str) -> String {
+pub(in crate::document) fn encoded(name: &str) -> String {
     utf8_percent_encode(name, FILE_NAME).to_string()
 }
 
 /// A path below the main file without `.` and `..`; `None` for absolute paths, schemes and what climbs out.
-fn normalized(path: &str) -> Option<String> {
+pub(in crate::document) fn normalized(path: &str) -> Option<String> {
     if path.contains([':', '\0']) {
         return None;
     }

@@ -1,11 +1,11 @@
 //! The document with a new UV set, as files.
-use super::baked;
 use super::body::Body;
 use super::json::{item_mut, remove_extension};
 use super::rewrite::rewrite;
 use super::texcoord_set::{self, Choice, Textures};
 use super::textures::{affected, remove_transform};
 use super::{GltfDocument, extensions, glb, images, primitives, uri};
+use super::{as_obj, baked};
 use crate::document::{
     BakedTextures, DocumentError, Layout, NewUvs, OutputFormat, Warning, WriteNotes, WriteOptions,
     Written,
@@ -25,6 +25,9 @@ pub(super) fn write(
     options: &WriteOptions,
     baked: Option<&BakedTextures>,
 ) -> Result<Written, DocumentError> {
+    if options.format == OutputFormat::Obj {
+        return as_obj::write(document, uvs, options, baked);
+    }
     let plan = baked.map(|baked| &baked.plan);
     let (choices, textures) = texcoord_set::choose(document, uvs, options, plan)?;
     let mut body = document.body.clone();

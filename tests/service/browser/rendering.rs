@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-use crate::places;
+use crate::{places, textured_obj};
 
 /// How far the pictures of each pair are apart.
 fn compared(pairs: &[[PathBuf; 2]]) -> Vec<Value> {
@@ -34,15 +34,19 @@ fn unwrapped(asset: &str, folder: &Path, options: &[&str]) -> [PathBuf; 2] {
     let input = places::asset(asset);
     let stem = input.file_stem().expect("a name").to_string_lossy();
     let output = folder.join(format!("{stem}{}.glb", options.concat()));
+    unwrap(&input, &output, options);
+    [input, output]
+}
+
+fn unwrap(input: &Path, output: &Path, options: &[&str]) {
     let status = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
         .arg("unwrap")
-        .args([&input, Path::new("-o"), &output])
+        .args([input, Path::new("-o"), output])
         .args(options)
         .stdout(Stdio::null())
         .status()
         .expect("the binary runs");
-    assert!(status.success(), "{asset}: {status}");
-    [input, output]
+    assert!(status.success(), "{}: {status}", input.display());
 }
 
 /// How far the pictures of an asset are apart where it is seen.
@@ -91,4 +95,35 @@ fn a_textured_asset_looks_the_same_with_another_uv_set() {
         assert_eq!(number(answer, "max"), 0.0, "{answer}");
     }
     assert!(number(replaced, "mean") > 1.0, "{replaced}");
+}
+
+/// Materials and pictures of an OBJ file look the same in glTF, and on the new UVs of the OBJ file that comes of that.
+#[test]
+fn a_textured_obj_looks_the_same_through_gltf_and_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [first, glb, baked, stale] = ["a", "b", "c", "d"].map(|name| folder.path().join(name));
+    for made in [&glb, &baked, &stale] {
+        std::fs::create_dir(made).expect("a folder");
+    }
+    let first = textured_obj::write(&first);
+    let (glb, baked, stale) = (
+        glb.join("house.glb"),
+        baked.join("house.obj"),
+        stale.join("house.obj"),
+    );
+    unwrap(&first, &glb, &[]);
+    unwrap(&glb, &baked, &["--rebake", "--resolution", "2048"]);
+    unwrap(&glb, &stale, &[]);
+    let pairs = [&glb, &baked, &stale].map(|other| [first.clone(), other.clone()]);
+    let compared = compared(&pairs);
+    let db = |k: usize| compared[k]["db"].as_f64().unwrap_or(f64::INFINITY);
+    assert!(
+        compared
+            .iter()
+            .all(|answer| answer["colours"].as_u64() > Some(1000)),
+        "{compared:?}"
+    );
+    assert!(db(0) > 40.0 && db(1) > 30.0, "{compared:?}");
+    // Without new textures they sit wrongly, and that is seen.
+    assert!(db(2) < 20.0, "{compared:?}");
 }

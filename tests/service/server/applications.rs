@@ -6,6 +6,7 @@ use serde_json::Value;
 use crate::meshes::{self, PLATE, bar};
 use crate::places;
 use crate::server::{Server, json};
+use crate::textured_obj;
 
 const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60"><rect width="100" height="60"/></svg>"#;
 pub const PROBLEM: &str = r#"{"mesh": "plate.off", "energy": "green", "barrier": "spline", "handles": [0, 3, 2],
@@ -290,4 +291,31 @@ mod shared {
             );
         }
     }
+}
+
+/// The material file and the pictures of an OBJ file come as resources, and the report says what cannot be carried.
+#[tokio::test]
+async fn an_obj_comes_with_its_materials() {
+    let server = Server::start();
+    let folder = tempfile::tempdir().expect("a folder");
+    let obj = textured_obj::write(folder.path());
+    let mut form = form(
+        "unwrap",
+        "{}",
+        ("house.obj", std::fs::read(obj).expect("a file")),
+    );
+    for path in ["house.mtl", "pictures/wood grain.png", "pictures/lid.jpg"] {
+        let bytes = std::fs::read(folder.path().join(path)).expect("a file");
+        // Browsers leave the folders out.
+        let name = path.rsplit('/').next().unwrap_or(path).to_owned();
+        form = form.part("resource", Part::bytes(bytes).file_name(name));
+    }
+    let (report, _, glb) = outcome(&server, form).await;
+    assert_eq!(
+        report["warnings"][0]["code"], "material_statements_dropped",
+        "{report}"
+    );
+    assert_eq!(report["warnings"].as_array().map(Vec::len), Some(1));
+    let text = String::from_utf8_lossy(&glb);
+    assert!(text.contains("image/png") && text.contains("image/jpeg"));
 }

@@ -1,0 +1,113 @@
+//! What of a document an OBJ file has no place for.
+use super::GltfDocument;
+use super::json::{extension, items, unsigned};
+use super::scene::is_in_place;
+use crate::document::{DocumentError, Warning};
+use serde_json::{Map, Value};
+use std::collections::BTreeSet;
+
+/// A warning per kind, with how many of it there are.
+pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentError> {
+    let json = &document.body.json;
+    let mut warnings = Vec::new();
+    let mut lose = |n: usize, code: &'static str, what: &str| {
+        if n > 0 {
+            let message = format!("OBJ has no place for {what}: {n} left out");
+            warnings.push(Warning::new(code, message));
+        }
+    };
+    lose(items(json, "skins")?.len(), "skins_dropped", "skins");
+    lose(
+        items(json, "animations")?.len(),
+        "animations_dropped",
+        "animations",
+    );
+    lose(items(json, "cameras")?.len(), "cameras_dropped", "cameras");
+    let lights = extension(json, "KHR_lights_punctual");
+    let lights = lights.map_or(Ok(0), |lights| items(lights, "lights").map(<[_]>::len))?;
+    lose(lights, "lights_dropped", "lights");
+    let variants = extension(json, "KHR_materials_variants");
+    let variants = variants.map_or(Ok(0), |all| items(all, "variants").map(<[_]>::len))?;
+    lose(variants, "variants_dropped", "variants of materials");
+    let counts = Counts::of(document)?;
+    lose(
+        counts.morphed,
+        "morph_targets_dropped",
+        "morph targets of primitives",
+    );
+    lose(
+        counts.uv_sets,
+        "uv_sets_dropped",
+        "UV sets beyond the first",
+    );
+    lose(
+        counts.attributes,
+        "attributes_dropped",
+        "further attributes of vertices",
+    );
+    lose(
+        counts.elements,
+        "elements_dropped",
+        "primitives without triangles",
+    );
+    let moved = n_moved(json)?;
+    if moved > 0 {
+        let message = format!(
+            "the OBJ file holds each mesh once, without the transforms of nodes: {moved} are elsewhere or more often in the scene"
+        );
+        warnings.push(Warning::new("transforms_lost", message));
+    }
+    Ok(warnings)
+}
+
+#[derive(Default)]
+struct Counts {
+    morphed: usize,
+    uv_sets: usize,
+    attributes: usize,
+    elements: usize,
+}
+
+impl Counts {
+    fn of(document: &GltfDocument) -> Result<Self, DocumentError> {
+        let mut counts = Self::default();
+        let mut n_primitives = 0;
+        for mesh in items(&document.body.json, "meshes")? {
+            n_primitives += items(mesh, "primitives")?.len();
+        }
+        counts.elements = n_primitives - document.primitives.len();
+        for primitive in &document.primitives {
+            let object = document.object(primitive)?;
+            counts.morphed += items(object, "targets")?.len();
+            let attributes = object["attributes"].as_object();
+            for name in attributes.into_iter().flat_map(Map::keys) {
+                match name.as_str() {
+                    // Skins are counted themselves, and tangents follow from UVs.
+                    "POSITION" | "NORMAL" | "TANGENT" | "TEXCOORD_0" | "COLOR_0" => {}
+                    name if name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") => {}
+                    name if name.starts_with("TEXCOORD_") => counts.uv_sets += 1,
+                    _ => counts.attributes += 1,
+                }
+            }
+        }
+        Ok(counts)
+    }
+}
+
+/// Meshes that the scene shows elsewhere than where they are, or more than once.
+fn n_moved(json: &Value) -> Result<usize, DocumentError> {
+    let in_place = is_in_place(json)?;
+    let mut moved: BTreeSet<usize> = (0..in_place.len())
+        .filter(|&mesh| !in_place[mesh])
+        .collect();
+    let mut shown = BTreeSet::new();
+    for node in items(json, "nodes")? {
+        let Some(mesh) = unsigned(node, "mesh")? else {
+            continue;
+        };
+        if !shown.insert(mesh) || extension(node, "EXT_mesh_gpu_instancing").is_some() {
+            moved.insert(mesh);
+        }
+    }
+    Ok(moved.len())
+}

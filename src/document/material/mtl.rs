@@ -1,0 +1,250 @@
+//! Reading of material files.
+use super::map::next_word;
+use super::{Map, Material};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The materials of several files by name, the first of a name.
+#[derive(Debug, Default)]
+pub(in crate::document) struct MaterialFiles {
+    statements: BTreeMap<String, Statements>,
+}
+
+/// The folder of the file that a material comes from, and its statements by keyword in lower case.
+#[derive(Debug, Default)]
+struct Statements {
+    folder: String,
+    words: BTreeMap<String, String>,
+}
+
+/// What cannot be carried: keywords, and of how many materials.
+pub(in crate::document) type Dropped = BTreeMap<String, usize>;
+
+/// Words that say how to render rather than what a surface is, or that all files have: no one misses them.
+const IDLE: &[&str] = &["ka", "illum", "sharpness", "tr", "d", "ni", "km", "map_aat"];
+
+impl MaterialFiles {
+    /// Adds the materials of the file at `path`, relative to the main file.
+    pub fn add(&mut self, path: &str, bytes: &[u8]) {
+        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let text = String::from_utf8_lossy(bytes);
+        let mut name: Option<String> = None;
+        for line in text.split(['\n', '\r']) {
+            let (keyword, rest) = next_word(line);
+            if keyword.is_empty() || keyword.starts_with('#') {
+                continue;
+            }
+            let keyword = keyword.to_ascii_lowercase();
+            if keyword == "newmtl" {
+                let new = rest.trim().to_owned();
+                name = (!self.statements.contains_key(&new)).then_some(new);
+                if let Some(name) = &name {
+                    let folder = folder.to_owned();
+                    let words = BTreeMap::new();
+                    self.statements
+                        .insert(name.clone(), Statements { folder, words });
+                }
+            } else if let Some(name) = &name
+                && let Some(statements) = self.statements.get_mut(name)
+            {
+                statements.words.insert(keyword, rest.trim().to_owned());
+            }
+        }
+    }
+
+    /// Whether there is any material.
+    pub fn is_empty(&self) -> bool {
+        self.statements.is_empty()
+    }
+
+    /// The files that maps name, each with the folder of its material file.
+    pub fn pictures(&self) -> impl Iterator<Item = (&str, String)> {
+        self.statements.values().flat_map(|statements| {
+            let maps = statements
+                .words
+                .iter()
+                .filter(|(keyword, _)| is_map(keyword));
+            maps.filter_map(|(_, rest)| Some((statements.folder.as_str(), Map::parse(rest)?.path)))
+        })
+    }
+
+    /// The keywords of maps that a material has.
+    pub fn maps_of(&self, name: &str) -> impl Iterator<Item = &str> {
+        let words = self.statements.get(name).into_iter();
+        let keywords = words.flat_map(|statements| statements.words.keys());
+        keywords.map(String::as_str).filter(|k| is_map(k))
+    }
+
+    /// A material, and the folder that its maps are relative to; what of it is left out is added to `dropped`.
+    pub fn material(&self, name: &str, dropped: &mut Dropped) -> Option<(Material, &str)> {
+        let statements = self.statements.get(name)?;
+        let mut reader = Reader {
+            words: &statements.words,
+            used: BTreeSet::new(),
+            lost: BTreeSet::new(),
+        };
+        let material = reader.material(name);
+        for keyword in reader.left() {
+            *dropped.entry(keyword).or_default() += 1;
+        }
+        Some((material, &statements.folder))
+    }
+}
+
+/// Whether a keyword names a picture.
+fn is_map(keyword: &str) -> bool {
+    keyword.starts_with("map_") && keyword != "map_aat"
+        || matches!(
+            keyword,
+            "bump" | "norm" | "disp" | "decal" | "refl" | "map_refl"
+        )
+}
+
+/// Goes through the statements of a material and remembers which it has used.
+struct Reader<'a> {
+    words: &'a BTreeMap<String, String>,
+    used: BTreeSet<&'static str>,
+    lost: BTreeSet<String>,
+}
+
+impl Reader<'_> {
+    fn material(&mut self, name: &str) -> Material {
+        let new = Material::named(name);
+        let color_map = self.map("map_kd");
+        let mut color = self.color("kd").unwrap_or(new.color);
+        if color == [0.0; 3] && color_map.is_some() {
+            // Written by tools that take a map for all of the colour.
+            color = [1.0; 3];
+        }
+        let opacity = self.number("d").or(self.number("tr").map(|tr| 1.0 - tr));
+        let shine = self.number("ns");
+        let from_shine = shine.map(|ns| 1.0 - (ns.clamp(0.0, 1000.0) / 1000.0).sqrt());
+        let roughness = self.number("pr").or(from_shine).unwrap_or(new.roughness);
+        let (normal_map, is_bump) = self.normal_map();
+        let emission_map = self.map("map_ke");
+        let emission = self.color("ke").unwrap_or(new.emission);
+        let glows = emission != [0.0; 3] || emission_map.is_none();
+        Material {
+            color,
+            alpha: opacity.map_or(1.0, unit),
+            is_cut_out: self.is_cut_out(color_map.as_ref()),
+            color_map,
+            metallic: self.number("pm").map_or(0.0, unit),
+            roughness: unit(roughness),
+            metallic_roughness_map: self.metallic_roughness_map(),
+            specular: self.color("ks").unwrap_or(new.specular),
+            // 1 and less is what is written by those who do not know better.
+            ior: self.number("ni").filter(|n| *n > 1.0).unwrap_or(new.ior),
+            emission: if glows { emission } else { [1.0; 3] },
+            emission_map,
+            normal_map,
+            is_bump,
+            coat: [self.number("pc"), self.number("pcr")].map(|x| x.map_or(0.0, unit)),
+            is_unlit: self.number("illum") == Some(0.0),
+            ..new
+        }
+    }
+
+    fn number(&mut self, keyword: &'static str) -> Option<f64> {
+        let word = next_word(self.words.get(keyword)?).0;
+        let number = word.parse().ok().filter(|x: &f64| x.is_finite())?;
+        self.used.insert(keyword);
+        Some(number)
+    }
+
+    /// Three numbers, or one for all three, none negative.
+    fn color(&mut self, keyword: &'static str) -> Option<[f64; 3]> {
+        let words = self.words.get(keyword)?.split_whitespace();
+        let numbers: Result<Vec<f64>, _> = words.take(3).map(str::parse).collect();
+        let color = match numbers.ok()?[..] {
+            [r, g, b] => [r, g, b],
+            [r] => [r; 3],
+            _ => return None,
+        };
+        if !color.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        self.used.insert(keyword);
+        Some(color.map(|x| x.max(0.0)))
+    }
+
+    fn map(&mut self, keyword: &'static str) -> Option<Map> {
+        let map = Map::parse(self.words.get(keyword)?)?;
+        self.used.insert(keyword);
+        let options = map.lost_options.iter();
+        self.lost
+            .extend(options.map(|option| format!("{keyword} {option}")));
+        Some(map)
+    }
+
+    /// Whether `map_d` is the alpha of `map_Kd`; another picture cannot be had beside it.
+    fn is_cut_out(&mut self, color_map: Option<&Map>) -> bool {
+        let alpha = self.words.get("map_d").and_then(|rest| Map::parse(rest));
+        let is_same =
+            matches!((color_map, &alpha), (Some(color), Some(alpha)) if color.shows_same(alpha));
+        if is_same {
+            self.used.insert("map_d");
+        }
+        is_same
+    }
+
+    /// Roughness and metalness where both are channels of one picture.
+    fn metallic_roughness_map(&mut self) -> Option<Map> {
+        let parse = |keyword| self.words.get(keyword).and_then(|rest| Map::parse(rest));
+        let (roughness, metallic) = (parse("map_pr")?, parse("map_pm")?);
+        let channels = [roughness.channel, metallic.channel];
+        if !roughness.shows_same(&metallic) || channels != [Some('g'), Some('b')] {
+            return None;
+        }
+        self.used.extend(["map_pr", "map_pm"]);
+        Some(roughness)
+    }
+
+    /// A normal map, and whether it is only called a bump map, as many tools do.
+    fn normal_map(&mut self) -> (Option<Map>, bool) {
+        let normal = self.map("norm");
+        let bump = self.map("map_bump").or_else(|| self.map("bump"));
+        match (normal, bump) {
+            // The strength of normal maps is said where bump maps have it.
+            (Some(normal), Some(bump)) if bump.shows_same(&normal) => (Some(bump), false),
+            (Some(normal), Some(_)) => {
+                self.lost.insert("map_bump".to_owned());
+                (Some(normal), false)
+            }
+            (Some(normal), None) => (Some(normal), false),
+            (None, bump) => {
+                let is_bump = bump.is_some();
+                (bump, is_bump)
+            }
+        }
+    }
+
+    /// What was not used and says something.
+    fn left(&self) -> Vec<String> {
+        let says_something = |(keyword, rest): &(&String, &String)| {
+            let is_idle = IDLE.contains(&keyword.as_str());
+            let is_used = self.used.contains(keyword.as_str());
+            !is_idle && !is_used && !self.is_neutral(keyword, rest)
+        };
+        let left = self.words.iter().filter(says_something);
+        let keywords = left.map(|(keyword, _)| keyword.clone());
+        keywords.chain(self.lost.iter().cloned()).collect()
+    }
+
+    fn is_neutral(&self, keyword: &str, rest: &str) -> bool {
+        let all = |value: f64| {
+            let words = rest.split_whitespace();
+            words.into_iter().all(|word| word.parse() == Ok(value))
+        };
+        match keyword {
+            "tf" => all(1.0),
+            // What is lit from nowhere looks like what is lit.
+            "map_ka" => self.words.get("map_kd").is_some_and(|map| map == rest),
+            "ns" | "ps" | "aniso" | "anisor" => all(0.0) || keyword == "ns",
+            _ => false,
+        }
+    }
+}
+
+fn unit(x: f64) -> f64 {
+    x.clamp(0.0, 1.0)
+}
