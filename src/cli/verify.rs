@@ -1,10 +1,10 @@
 //! `unwrapd verify`: what can be proven of existing UVs.
 
 use super::failure::Failure;
-use super::files::{json, read_upload, say};
+use super::files::{json, read_upload, say, warn};
 use super::measure::{Which, certificate_text};
 use crate::certificate::Overlap;
-use crate::pipeline::{Proven, verify_document};
+use crate::pipeline::{Verified, verify_document};
 
 /// Checks exactly that every face of a file's UVs is positive relative to its chart, and what else is asked for.
 #[derive(clap::Args)]
@@ -26,23 +26,26 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let upload = read_upload(&args.which.input)?;
     let options = args.which.options();
-    let is_alone = !args.bijective && options.padding.is_none() && options.bits.is_none();
-    let overlap = if is_alone {
-        Overlap::Skip
-    } else {
+    let overlap = if args.bijective {
         Overlap::Test
+    } else {
+        Overlap::Skip
     };
     let verified = verify_document(&upload, &options, overlap)?;
     if args.json {
         say(String::from_utf8_lossy(&json(&verified)?));
     } else {
+        if let Some(mark) = &verified.mark {
+            say(format_args!("judged as the file says: {mark}"));
+        }
         for group in &verified.groups {
             let text = certificate_text(&group.certificate);
             say(format_args!("{}: {text}", group.name));
         }
     }
+    warn(&verified.warnings);
     let proven = &verified.proven;
-    if !holds(args, proven) {
+    if !holds(args, &verified) {
         return Err(Failure::uncertified(format!("not valid: {proven}")));
     }
     if !args.json {
@@ -51,10 +54,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether everything that was asked for is proven.
-fn holds(args: &Args, proven: &Proven) -> bool {
+/// Whether everything that was asked for, by the file too, is proven.
+fn holds(args: &Args, verified: &Verified) -> bool {
+    let proven = &verified.proven;
+    let is_bijectivity_asked = args.bijective || verified.is_bijectivity_promised();
     proven.locally_injective
-        && (proven.bijective || !args.bijective)
+        && (proven.bijective || !is_bijectivity_asked)
         && (proven.unmirrored || !args.unmirrored)
         && proven.padding.as_ref().is_none_or(|padding| padding.kept)
         && proven.aligned.unwrap_or(true)

@@ -11,10 +11,12 @@ mod bake;
 mod error;
 pub mod gltf;
 mod group;
+mod mark;
 mod new_gltf;
 mod new_obj;
 mod notes;
 pub mod obj;
+mod obj_mark;
 mod obj_moved;
 mod obj_text;
 pub mod soup;
@@ -33,6 +35,7 @@ pub use bake::{
 };
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
+pub use mark::{Mark, Marked, Sets, Terms};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
 pub use space_map::SpaceMap;
 pub use subdivision::{AddedVertex, Subdivision};
@@ -183,11 +186,20 @@ impl Document {
         baked: Option<&BakedTextures>,
     ) -> Result<Written, DocumentError> {
         uvs.check(self.primitives())?;
-        match (self, options.format) {
-            (Self::Obj(document), _) => document.write(uvs, options),
-            (_, OutputFormat::Obj) => new_obj::write(self.primitives(), uvs, options),
-            (Self::Gltf(document), _) => document.write(uvs, options, baked),
-            (Self::Soup(document), _) => document.write(uvs, options),
+        // Where no UVs are written, what is said of those that there are stays.
+        let is_new = uvs.corners.iter().any(Option::is_some);
+        let mut written = match (self, options.format) {
+            (Self::Obj(document), _) => document.write(uvs, options)?,
+            (_, OutputFormat::Obj) => new_obj::write(self.primitives(), uvs, options)?,
+            (Self::Gltf(document), _) => match if is_new { self.marked()? } else { Marked::Not } {
+                Marked::Fits(mark) => document.write(uvs, options, baked, Some(&mark))?,
+                Marked::Not | Marked::Stale => document.write(uvs, options, baked, None)?,
+            },
+            (Self::Soup(document), _) => document.write(uvs, options)?,
+        };
+        if is_new && options.format == OutputFormat::Obj {
+            obj_mark::renew(&mut written, options.terms.as_ref())?;
         }
+        Ok(written)
     }
 }

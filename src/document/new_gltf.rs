@@ -24,7 +24,7 @@ pub(super) fn write(
         bytes: json.to_string().into_bytes(),
         resources: BTreeMap::from([(BUFFER.to_owned(), bin)]),
     };
-    GltfDocument::read(&upload)?.write(uvs, options, None)
+    GltfDocument::read(&upload)?.write(uvs, options, None, None)
 }
 
 /// Vertices with all attributes.

@@ -9,7 +9,7 @@ use super::{
     DocumentError, Layout, NewUvs, OutputFormat, Primitive, SpaceMap, Upload, Warning,
     WriteOptions, Written,
 };
-use super::{new_gltf, new_obj, obj_moved};
+use super::{new_gltf, new_obj, obj_mark, obj_moved};
 use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
 use crate::mesh::io::{self, Format};
@@ -51,6 +51,11 @@ impl ObjDocument {
         let positions = &self.primitives[0].positions;
         let bytes = obj_moved::moved(&self.bytes, &self.obj, positions, map);
         Self::parse(bytes, self.resources)
+    }
+
+    /// What the document has in the place of a mark.
+    pub(super) fn mark(&self) -> Option<serde_json::Value> {
+        obj_mark::find(&self.bytes)
     }
 
     /// The triangles: all polygons of the file as one primitive.

@@ -124,6 +124,7 @@ fn write(
         stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
         texcoord: options.texcoord,
         overwrite: options.overwrite,
+        terms: Some(options.terms(group_by(options))),
     };
     let mut written = document.write_baked(uvs, &write_options, baked)?;
     if let Some(baked) = baked {

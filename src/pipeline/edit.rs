@@ -6,14 +6,13 @@ use super::PipelineError;
 use super::arrays::in_pool;
 use super::documents::stem;
 use super::edit_options::{EditOptions, Editing};
+use super::edit_terms::{edited_terms, holds};
 use super::observer::{Observer, Stage, Tracker};
 use crate::barrier::BarrierKind;
-use crate::certificate::CornerUvs;
+use crate::certificate::{CornerUvs, chart_ids};
 use crate::deform::PullReport;
-use crate::deform::uv::{EditedUvs, UvMesh, UvRest, edit_uvs};
-use crate::document::{
-    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
-};
+use crate::deform::uv::{EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs};
+use crate::document::{Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions};
 
 /// A document with edited UVs.
 #[derive(Clone, Debug)]
@@ -69,12 +68,29 @@ pub fn edit_document(
         let how = options.of_map(editing);
         let edited = edit_uvs(&whole.mesh(), &options.anchors, &how, &tracker)?;
         tracker.stage(Stage::Write);
-        let written = write(&document, &whole, &edited, upload, options)?;
+        let stem = options.stem.clone().unwrap_or_else(|| stem(&upload.name));
+        let mut write_options = WriteOptions {
+            format: options.format,
+            stem,
+            texcoord: Some(options.texcoord),
+            overwrite: false,
+            terms: Some(edited_terms(&document, options)?),
+        };
+        let uvs = new_uvs(&document, &whole, &edited);
+        let mut written = document.write(&uvs, &write_options)?;
         tracker.stage(Stage::Judge);
-        let report = judge(&document, &edited, &written, (options.texcoord, how.rest))?;
+        let again = written.read_again()?;
+        let found = Whole::gather(&again, options.texcoord)?;
+        let report = judge(&edited, (&document, &again), &found, how.rest)?;
         let is_kept = report.certified || options.model.barrier == BarrierKind::None;
         if !is_kept || options.model.bijective && !report.bijective {
             return Err(PipelineError::NotCertified);
+        }
+        if let Some(terms) = &mut write_options.terms
+            && !holds(&again, terms, options.texcoord)?
+        {
+            terms.charts = Some(found.numbers_of(&edited));
+            written = document.write(&uvs, &write_options)?;
         }
         Ok(EditedDocument {
             files: written.files,
@@ -119,6 +135,16 @@ impl Whole {
         Ok(whole)
     }
 
+    /// The numbers that edited charts have here.
+    fn numbers_of(&self, edited: &EditedUvs) -> Vec<u32> {
+        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
+        let first = |chart: &EditedChart| chart.faces.first().map(|face| of_face[face as usize]);
+        let mut numbers: Vec<u32> = edited.charts.iter().filter_map(first).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+
     fn mesh(&self) -> UvMesh<'_> {
         UvMesh {
             positions: &self.positions,
@@ -128,13 +154,7 @@ impl Whole {
     }
 }
 
-fn write(
-    document: &Document,
-    whole: &Whole,
-    edited: &EditedUvs,
-    upload: &Upload,
-    options: &EditOptions,
-) -> Result<Written, PipelineError> {
+fn new_uvs(document: &Document, whole: &Whole, edited: &EditedUvs) -> NewUvs {
     let mut rest = edited.uvs.as_slice();
     let mut next = |n: usize| -> Vec<Corners> {
         let (own, others) = rest.split_at(n);
@@ -143,37 +163,21 @@ fn write(
             .map(|face| face.map(|uv| uv.map(|x| x as f32)))
             .collect()
     };
-    let uvs = NewUvs {
+    NewUvs {
         layout: Layout::Edited,
         pages: 1,
         v_axis: document.v_axis(),
         corners: whole.n_faces.iter().map(|n| n.map(&mut next)).collect(),
-    };
-    let options = WriteOptions {
-        format: options.format,
-        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
-        texcoord: Some(options.texcoord),
-        overwrite: false,
-    };
-    Ok(document.write(&uvs, &options)?)
+    }
 }
 
-/// Reads the written bytes again and judges the charts in them.
+/// Judges the charts in the written bytes.
 fn judge(
-    document: &Document,
     edited: &EditedUvs,
-    written: &Written,
-    (texcoord, rest): (u32, UvRest),
+    (document, again): (&Document, &Document),
+    found: &Whole,
+    rest: UvRest,
 ) -> Result<EditReport, PipelineError> {
-    let mut files = written.files.iter().cloned();
-    let (name, bytes) = files.next().unwrap_or_default();
-    let resources = files.collect();
-    let again = Document::read(&Upload {
-        name,
-        bytes,
-        resources,
-    })?;
-    let found = Whole::gather(&again, texcoord)?;
     if found.uvs.len() != edited.uvs.len() {
         return Err(DocumentError::InvalidUvs.into());
     }

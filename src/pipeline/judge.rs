@@ -1,16 +1,13 @@
 //! Judging the UVs of a document as its bytes have them.
 
 use rayon::prelude::*;
-use serde::Serialize;
 
 use super::PipelineError;
-use super::arrays::in_pool;
-use super::measure_options::MeasureOptions;
 use super::nodes::Nodes;
-use super::proven::Proven;
-use super::report::{GroupReport, Report};
-use crate::certificate::{Certificate, Claims, CornerUvs, Overlap, Resolution, certify};
-use crate::document::{Document, Group, GroupBy, Primitive, Upload, Warning, Written};
+use super::question::Question;
+use super::report::GroupReport;
+use crate::certificate::{Certificate, Claims, CornerUvs, Resolution, certify, chart_ids};
+use crate::document::{Document, Group, GroupBy, Primitive, Written};
 use crate::measure::{self, Measures, VAxis};
 use crate::numerics::vec3::{area_vector, norm};
 
@@ -38,13 +35,7 @@ impl WrittenUvs {
         written: &Written,
         (group_by, nodes): (GroupBy, Nodes),
     ) -> Result<Self, PipelineError> {
-        let mut files = written.files.iter().cloned();
-        let (name, bytes) = files.next().unwrap_or_default();
-        let document = Document::read(&Upload {
-            name,
-            bytes,
-            resources: files.collect(),
-        })?;
+        let document = written.read_again()?;
         let sets: Vec<u32> = written
             .notes
             .primitives
@@ -52,17 +43,41 @@ impl WrittenUvs {
             .map(|note| note.texcoord)
             .collect();
         Self::gather(&document, (group_by, nodes), |primitive| {
-            sets.get(primitive).copied().unwrap_or(0)
+            Some(sets.get(primitive).copied().unwrap_or(0))
         })
     }
 
-    /// Gathers the UVs of a document; `set` tells the set of each primitive.
-    fn gather(
+    /// The UVs of a document that are asked for.
+    pub(super) fn asked(document: &Document, question: &Question) -> Result<Self, PipelineError> {
+        Self::gather(document, question.options.spaces(), |p| question.set_of(p))
+    }
+
+    /// Some charts of a document by themselves, counted over all that is asked for.
+    pub(super) fn of_charts(
+        document: &Document,
+        question: &Question,
+        charts: &[u32],
+    ) -> Result<Self, PipelineError> {
+        let spaces = (GroupBy::Scene, Nodes::Shared);
+        let whole = Self::gather(document, spaces, |p| question.set_of(p))?;
+        let groups = whole.groups.iter().flat_map(|group| group.charts(charts));
+        Ok(Self {
+            groups: groups.collect(),
+            v_axis: whole.v_axis,
+        })
+    }
+
+    /// Gathers the UVs of a document; `set` tells the set of each primitive that takes part.
+    pub(super) fn gather(
         document: &Document,
         (group_by, nodes): (GroupBy, Nodes),
-        set: impl Fn(usize) -> u32,
+        set: impl Fn(usize) -> Option<u32>,
     ) -> Result<Self, PipelineError> {
-        let groups = document.groups(group_by);
+        let mut groups = document.groups(group_by);
+        for group in &mut groups {
+            group.primitives.retain(|&index| set(index).is_some());
+        }
+        groups.retain(|group| !group.primitives.is_empty());
         let primitives = nodes.primitives(document)?;
         if groups.is_empty() {
             return Err(PipelineError::NoTriangles);
@@ -84,13 +99,10 @@ impl WrittenUvs {
             .collect()
     }
 
-    /// Certifies every group.
-    fn verify(&self, claims: &Claims) -> Vec<VerifiedGroup> {
-        let verified = |group: &GroupUvs| VerifiedGroup {
-            name: group.name.clone(),
-            certificate: group.certify(&self.told(claims)),
-        };
-        self.groups.par_iter().map(verified).collect()
+    /// Certifies every group, by its name.
+    pub(super) fn certify(&self, claims: &Claims) -> Vec<(String, Certificate)> {
+        let certified = |group: &GroupUvs| (group.name.clone(), group.certify(&self.told(claims)));
+        self.groups.par_iter().map(certified).collect()
     }
 
     /// The claims with what only the file tells.
@@ -107,7 +119,7 @@ impl GroupUvs {
         document: &Document,
         primitives: &[Primitive],
         group: &Group,
-        set: &impl Fn(usize) -> u32,
+        set: &impl Fn(usize) -> Option<u32>,
     ) -> Result<Self, PipelineError> {
         let mut gathered = Self {
             name: group.name.clone(),
@@ -118,7 +130,9 @@ impl GroupUvs {
         };
         for &index in &group.primitives {
             let primitive = &primitives[index];
-            let texcoord = set(index);
+            let Some(texcoord) = set(index) else {
+                continue;
+            };
             let uvs =
                 document
                     .corner_uvs(index, texcoord)?
@@ -136,6 +150,22 @@ impl GroupUvs {
             gathered.uvs.extend(uvs);
         }
         Ok(gathered)
+    }
+
+    /// Some of its charts, each as a group.
+    fn charts(&self, numbers: &[u32]) -> Vec<Self> {
+        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
+        let chart = |&number: &u32| {
+            let faces = || (0..of_face.len()).filter(|&face| of_face[face] == number);
+            Self {
+                name: format!("chart{number}"),
+                positions: self.positions.clone(),
+                triangles: faces().map(|face| self.triangles[face]).collect(),
+                uvs: faces().map(|face| self.uvs[face]).collect(),
+                weights: None,
+            }
+        };
+        numbers.iter().map(chart).collect()
     }
 
     /// The area of the surface enlarged by its weights, if it has any.
@@ -183,64 +213,4 @@ impl GroupUvs {
             atlas: None,
         }
     }
-}
-
-/// The exact judgement of a document's UVs.
-#[derive(Clone, Debug, Serialize)]
-pub struct Verified {
-    /// What holds of all groups.
-    pub proven: Proven,
-    /// A certificate per group.
-    pub groups: Vec<VerifiedGroup>,
-}
-
-/// The exact judgement of a group's UVs.
-#[derive(Clone, Debug, Serialize)]
-pub struct VerifiedGroup {
-    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
-    pub name: String,
-    /// What is proven of it.
-    pub certificate: Certificate,
-}
-
-/// Measures the UVs that a document has.
-pub fn measure_document(
-    upload: &Upload,
-    options: &MeasureOptions,
-) -> Result<Report, PipelineError> {
-    with_uvs(upload, options, |uvs, warnings| {
-        let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution);
-        Report::new(groups, warnings.to_vec())
-    })
-}
-
-/// Judges the UVs that a document has. Shares no code with the writer.
-pub fn verify_document(
-    upload: &Upload,
-    options: &MeasureOptions,
-    overlap: Overlap,
-) -> Result<Verified, PipelineError> {
-    with_uvs(upload, options, |uvs, _| {
-        let groups = uvs.verify(&options.claims(overlap));
-        Verified {
-            proven: Proven::of(groups.iter().map(|group| &group.certificate)),
-            groups,
-        }
-    })
-}
-
-/// Does something with the UVs that a document has and with its warnings, within the limits.
-fn with_uvs<T: Send>(
-    upload: &Upload,
-    options: &MeasureOptions,
-    judge: impl FnOnce(&WrittenUvs, &[Warning]) -> T + Send,
-) -> Result<T, PipelineError> {
-    options.check()?;
-    in_pool(options.limits.threads, || {
-        let document = options.nodes().prepared(Document::read(upload)?)?;
-        options.limits.check(&document)?;
-        let spaces = (options.group_by, options.nodes());
-        let uvs = WrittenUvs::gather(&document, spaces, |_| options.texcoord)?;
-        Ok(judge(&uvs, document.warnings()))
-    })?
 }

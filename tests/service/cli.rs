@@ -65,6 +65,43 @@ fn what_is_unwrapped_verifies() {
 }
 
 #[test]
+fn where_uvs_went_is_said_and_judged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let truck = asset("gltf/CesiumMilkTruck-Draco/CesiumMilkTruck.gltf");
+    let (truck, first, second) = (truck.to_string_lossy(), path("a.glb"), path("b.glb"));
+    for (input, output) in [(&*truck, &first), (&*first, &second)] {
+        let run = unwrapd(&["unwrap", input, "-o", output]);
+        assert_status(&run, 0);
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(said.contains("are in UV set 1, because textures"), "{said}");
+        let run = unwrapd(&["verify", output, "--bijective"]);
+        assert_status(&run, 0);
+        let said = String::from_utf8_lossy(&run.stdout).into_owned();
+        assert!(said.starts_with("judged as the file says: "), "{said}");
+        assert!(said.contains("2 texels apart at 1024"), "{said}");
+        assert_status(&unwrapd(&["measure", output]), 0);
+    }
+    let bytes = |path: &str| std::fs::metadata(path).expect("a file").len();
+    assert_eq!(bytes(&first), bytes(&second));
+    let baked = path("c.gltf");
+    assert_status(&unwrapd(&["unwrap", &truck, "-o", &baked, "--rebake"]), 0);
+    assert_status(&unwrapd(&["verify", &baked, "--bijective"]), 0);
+    let names = std::fs::read_dir(folder.path()).expect("a folder");
+    let names = names.map(|entry| entry.expect("an entry").file_name());
+    let pictures: Vec<_> = names
+        .filter(|name| !name.to_string_lossy().starts_with(['a', 'b']))
+        .collect();
+    // The document, its buffer, and one new texture; the old one is not written.
+    assert_eq!(pictures.len(), 3, "{pictures:?}");
+    assert!(
+        pictures
+            .iter()
+            .any(|name| name.to_string_lossy().ends_with(".jpg"))
+    );
+}
+
+#[test]
 fn equal_input_gives_equal_bytes_for_any_number_of_threads() {
     let folder = tempfile::tempdir().expect("a folder");
     let written = |threads: &str| {

@@ -90,6 +90,14 @@ fn external_uri(image: &Value) -> Option<String> {
     (!uri::is_data(uri)).then(|| uri.to_owned())
 }
 
+/// The extension of the name of a new file, PNG or JPEG.
+pub(super) fn extension(bytes: &[u8]) -> &'static str {
+    match mime_type("", bytes) {
+        Some("image/jpeg") => "jpg",
+        _ => "png",
+    }
+}
+
 /// The media type by content, else by name; `None` where it is not known, and an embedded image must have one.
 fn mime_type(name: &str, bytes: &[u8]) -> Option<&'static str> {
     match bytes {
