@@ -83,21 +83,21 @@ fn where_uvs_went_is_said_and_judged() {
         assert_status(&unwrapd(&["measure", output]), 0);
     }
     let bytes = |path: &str| std::fs::metadata(path).expect("a file").len();
-    assert_eq!(bytes(&first), bytes(&second));
+    // Offsets may have more digits than they had.
+    assert!(bytes(&second) < bytes(&first) + 64);
     let baked = path("c.gltf");
     assert_status(&unwrapd(&["unwrap", &truck, "-o", &baked, "--rebake"]), 0);
     assert_status(&unwrapd(&["verify", &baked, "--bijective"]), 0);
-    let names = std::fs::read_dir(folder.path()).expect("a folder");
-    let names = names.map(|entry| entry.expect("an entry").file_name());
-    let pictures: Vec<_> = names
-        .filter(|name| !name.to_string_lossy().starts_with(['a', 'b']))
-        .collect();
-    // The document, its buffer, and one new texture; the old one is not written.
-    assert_eq!(pictures.len(), 3, "{pictures:?}");
+    let entries = std::fs::read_dir(folder.path()).expect("a folder");
+    let names = entries.map(|entry| entry.expect("an entry").file_name());
+    let names = names.map(|name| name.to_string_lossy().into_owned());
+    let beside: Vec<String> = names.filter(|name| name.starts_with(['c', 'C'])).collect();
+    // The old texture is not written, and the new ones are of its format.
+    let pictures = beside.iter().filter(|name| name.ends_with(".jpg"));
+    assert_eq!(pictures.count(), beside.len() - 2, "{beside:?}");
     assert!(
-        pictures
-            .iter()
-            .any(|name| name.to_string_lossy().ends_with(".jpg"))
+        beside.iter().all(|name| name.starts_with('c')),
+        "{beside:?}"
     );
 }
 
