@@ -93,7 +93,15 @@ fn where_uvs_went_is_said_and_judged() {
     let names = names.map(|name| name.to_string_lossy().into_owned());
     let beside: Vec<String> = names.filter(|name| name.starts_with(['c', 'C'])).collect();
     // The old texture is not written, and the new ones are of its format.
-    let pictures = beside.iter().filter(|name| name.ends_with(".jpg"));
+    let extension = |name: &String| {
+        std::path::Path::new(name)
+            .extension()
+            .map(ToOwned::to_owned)
+    };
+    let pictures = beside
+        .iter()
+        .filter_map(extension)
+        .filter(|extension| extension == "jpg");
     assert_eq!(pictures.count(), beside.len() - 2, "{beside:?}");
     assert!(
         beside.iter().all(|name| name.starts_with('c')),
