@@ -14,27 +14,27 @@ use crate::pipeline::{self, MeasureOptions};
 pub(super) struct Which {
     /// Mesh with UVs: .glb, .gltf or .obj
     pub(super) input: PathBuf,
-    /// UV set
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    texcoord: u32,
-    /// What shares one atlas
-    #[arg(long, default_value = "mesh", value_parser = word::<GroupBy>(GROUPS))]
-    group_by: GroupBy,
+    /// UV set [default: the one that the file says was written, judged by what it says it was written for; else 0]
+    #[arg(long, value_name = "N")]
+    texcoord: Option<u32>,
+    /// What shares one atlas [default: what the file says, else mesh]
+    #[arg(long, value_parser = word::<GroupBy>(GROUPS))]
+    group_by: Option<GroupBy>,
     /// Judge what each node shows by itself, where it is in the scene: nodes that show one mesh show the same UVs
     #[arg(long)]
     separate_nodes: bool,
     /// Least distance of two charts to prove, in texels
     #[arg(long, value_name = "TEXELS")]
     padding: Option<u32>,
-    /// Texels along the side of the texture that the padding is counted in, or along both
-    #[arg(long, default_value = "1024", value_name = "N|WxH")]
-    resolution: Resolution,
+    /// Texels along the side of the texture that the padding is counted in, or along both [default: what the file says, else 1024]
+    #[arg(long, value_name = "N|WxH")]
+    resolution: Option<Resolution>,
     /// Prove that each chart lies on one of so many pages side by side
     #[arg(long, value_name = "N")]
     pages: Option<u32>,
-    /// Mip levels beyond the first in which to prove the padding, in texels of each
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    mips: u32,
+    /// Mip levels beyond the first in which to prove the padding, in texels of each [default: what the file says, else 0]
+    #[arg(long, value_name = "N")]
+    mips: Option<u32>,
     /// Prove that the bounding rectangles of charts end where texels end
     #[arg(long)]
     aligned: bool,

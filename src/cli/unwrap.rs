@@ -8,7 +8,7 @@ use super::files::{
 };
 use super::progress::Display;
 use super::words::{
-    BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, PACKINGS, PRESETS, QUALITIES, word,
+    BARRIERS, CUTS, ENERGIES, GROUPS, HEATMAPS, IMAGE_FORMATS, PACKINGS, PRESETS, QUALITIES, word,
 };
 use crate::barrier::BarrierKind;
 use crate::certificate::{Overlap, Resolution};
@@ -17,8 +17,8 @@ use crate::document::{GroupBy, WriteNotes};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
-    self, GivenSeams, KeptMaps, Limits, Mirrored, NamedSeams, Options, Outcome, PackingMode,
-    Preset, TexelWeight,
+    self, GivenSeams, ImageFormat, KeptMaps, Limits, Mirrored, NamedSeams, Options, Outcome,
+    PackingMode, Preset, TexelWeight,
 };
 
 /// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
@@ -99,6 +99,9 @@ pub(super) struct Args {
     /// Side of the resampled textures in texels [default: `--resolution`, or more where the surface would have fewer texels]
     #[arg(long, value_name = "TEXELS")]
     bake_size: Option<u32>,
+    /// Format of the resampled textures; `source` is that of the images they are made of
+    #[arg(long, default_value = "source", value_parser = word::<ImageFormat>(IMAGE_FORMATS))]
+    image_format: ImageFormat,
     /// Texels along the side of the texture, or along both: one is the other times a power of two
     #[arg(long, default_value = "1024", value_name = "N|WxH")]
     resolution: Resolution,
@@ -165,6 +168,7 @@ impl Args {
             overwrite: self.overwrite,
             rebake: self.rebake,
             bake_size: self.bake_size,
+            image_format: self.image_format,
             resolution: self.resolution,
             pages: self.pages,
             texels_per_unit: self.texels_per_unit,

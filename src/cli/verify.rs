@@ -1,7 +1,7 @@
 //! `unwrapd verify`: what can be proven of existing UVs.
 
 use super::failure::Failure;
-use super::files::{json, read_upload, say};
+use super::files::{json, read_upload, say, warn};
 use super::measure::{Which, certificate_text};
 use crate::certificate::Overlap;
 use crate::pipeline::{Mirrored, verify_document};
@@ -26,24 +26,28 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let upload = read_upload(&args.which.input)?;
     let options = args.which.options();
-    let is_alone = !args.bijective && options.padding.is_none() && options.bits.is_none();
-    let overlap = if is_alone {
-        Overlap::Skip
-    } else {
+    let overlap = if args.bijective {
         Overlap::Test
+    } else {
+        Overlap::Skip
     };
     let verified = verify_document(&upload, &options, overlap)?;
     if args.json {
         say(String::from_utf8_lossy(&json(&verified)?));
     } else {
+        if let Some(mark) = &verified.mark {
+            say(format_args!("judged as the file says: {mark}"));
+        }
         for group in &verified.groups {
             let text = certificate_text(&group.certificate);
             say(format_args!("{}: {text}", group.label));
         }
     }
+    warn(&verified.warnings);
     let proven = &verified.proven;
+    let is_bijectivity_asked = args.bijective || verified.is_bijectivity_promised();
     let asked = (
-        if args.bijective {
+        if is_bijectivity_asked {
             Overlap::Test
         } else {
             Overlap::Skip

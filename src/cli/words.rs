@@ -33,6 +33,7 @@ pub(super) const PRESETS: &[&str] = &["material", "lightmap"];
 pub(super) const PACKINGS: &[&str] = &["fast", "tight"];
 pub(super) const QUALITIES: &[&str] = &["smooth", "balanced", "few"];
 pub(super) const GROUPS: &[&str] = &["mesh", "scene", "material", "primitive"];
+pub(super) const IMAGE_FORMATS: &[&str] = &["source", "png", "jpeg"];
 pub(super) const HEATMAPS: &[&str] = &["conformal", "area", "symmetric-dirichlet"];
 
 /// A parser of one of `words` into the enum that serde reads from it.

@@ -107,7 +107,7 @@ impl BakePlan {
 pub struct BakedTextures {
     /// What was to be made.
     pub plan: BakePlan,
-    /// For each plane its side in texels and the PNG file.
+    /// For each plane its side in texels and the file, PNG or JPEG.
     pub files: Vec<(u32, Vec<u8>)>,
     /// For each primitive the tangents of its new UVs, where it has normals and a normal map.
     pub tangents: Vec<Option<Vec<CornerTangents>>>,

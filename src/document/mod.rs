@@ -14,6 +14,7 @@ mod error;
 mod fanned;
 pub mod gltf;
 mod group;
+mod mark;
 mod material;
 mod new_gltf;
 mod new_obj;
@@ -21,6 +22,7 @@ mod new_vertices;
 mod notes;
 pub mod obj;
 mod obj_gltf;
+mod obj_mark;
 mod obj_materials;
 mod obj_moved;
 mod obj_parts;
@@ -43,6 +45,7 @@ pub use bake::{
 pub use conversion::{Conversion, OldUvs};
 pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
+pub use mark::{Mark, Marked, Sets, Terms};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
 pub use space_map::SpaceMap;
 pub use subdivision::{AddedVertex, Subdivision};
@@ -204,23 +207,39 @@ impl Document {
         baked: Option<&BakedTextures>,
     ) -> Result<Written, DocumentError> {
         uvs.check(self.primitives())?;
-        match (self, options.format) {
-            (Self::Gltf(document), _) => document.write(uvs, options, baked),
-            (Self::Obj(document), OutputFormat::Obj) => document.write(uvs, options),
+        // Where no UVs are written, what is said of those that there are stays.
+        let is_new = uvs.corners.iter().any(Option::is_some);
+        let mut written = match (self, options.format) {
+            (Self::Gltf(document), _) => match if is_new { self.marked()? } else { Marked::Not } {
+                Marked::Fits(mark) => document.write(uvs, options, baked, Some(&mark))?,
+                Marked::Not | Marked::Stale => document.write(uvs, options, baked, None)?,
+            },
+            (Self::Obj(document), OutputFormat::Obj) => document.write(uvs, options)?,
             (Self::Soup(document), OutputFormat::Obj) => {
-                new_obj::write(&document.primitives()[0], document.colors(), uvs, options)
+                new_obj::write(&document.primitives()[0], document.colors(), uvs, options)?
             }
-            (Self::Obj(_) | Self::Soup(_), _) => {
-                let conversion = self.clone().for_output(options.format, OldUvs::Sampled)?;
-                let uvs = conversion.uvs(uvs);
-                let mut written = conversion.document.write_baked(&uvs, options, None)?;
-                let known = self.warnings();
-                let noticed = conversion.document.warnings().iter();
-                let new = noticed.filter(|warning| !known.contains(warning));
-                written.notes.warnings.splice(0..0, new.cloned());
-                written.notes.faces = conversion.faces;
-                Ok(written)
-            }
+            (Self::Obj(_) | Self::Soup(_), _) => self.write_converted(uvs, options)?,
+        };
+        if is_new && options.format == OutputFormat::Obj {
+            obj_mark::renew(&mut written, options.terms.as_ref())?;
         }
+        Ok(written)
+    }
+
+    /// Triangles of another format, written as glTF.
+    fn write_converted(
+        &self,
+        uvs: &NewUvs,
+        options: &WriteOptions,
+    ) -> Result<Written, DocumentError> {
+        let conversion = self.clone().for_output(options.format, OldUvs::Sampled)?;
+        let uvs = conversion.uvs(uvs);
+        let mut written = conversion.document.write_baked(&uvs, options, None)?;
+        let known = self.warnings();
+        let noticed = conversion.document.warnings().iter();
+        let new = noticed.filter(|warning| !known.contains(warning));
+        written.notes.warnings.splice(0..0, new.cloned());
+        written.notes.faces = conversion.faces;
+        Ok(written)
     }
 }

@@ -11,7 +11,7 @@ use super::{
     DocumentError, Layout, NewUvs, Primitive, SpaceMap, Upload, Warning, WriteNotes, WriteOptions,
     Written,
 };
-use super::{fanned, new_obj, obj_gltf, obj_moved};
+use super::{fanned, new_obj, obj_gltf, obj_mark, obj_moved};
 use crate::certificate::CornerUvs;
 use crate::measure::VAxis;
 use crate::mesh::io::{self, Format};
@@ -63,6 +63,11 @@ impl ObjDocument {
     /// The same triangles as glTF, with objects, materials, pictures and colors.
     pub(super) fn to_gltf(&self, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
         obj_gltf::convert(self, old_uvs)
+    }
+
+    /// What the document has in the place of a mark.
+    pub(super) fn mark(&self) -> Option<serde_json::Value> {
+        obj_mark::find(&self.bytes)
     }
 
     /// What reading noticed.

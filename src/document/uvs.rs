@@ -1,4 +1,4 @@
-use super::{DocumentError, Primitive, WriteNotes};
+use super::{Document, DocumentError, Primitive, Terms, Upload, WriteNotes};
 use crate::measure::VAxis;
 use serde::{Deserialize, Serialize};
 
@@ -88,6 +88,8 @@ pub struct WriteOptions {
     pub texcoord: Option<u32>,
     /// Replace a set that textures sample; set 0 where `texcoord` names none.
     pub overwrite: bool,
+    /// What the UVs were made for, which the file will say where it can.
+    pub terms: Option<Terms>,
 }
 
 /// Written files and what was done to write them.
@@ -97,4 +99,17 @@ pub struct Written {
     pub files: Vec<(String, Vec<u8>)>,
     /// What the reader of the report has to know.
     pub notes: WriteNotes,
+}
+
+impl Written {
+    /// The document in the written bytes.
+    pub fn read_again(&self) -> Result<Document, DocumentError> {
+        let mut files = self.files.iter().cloned();
+        let (name, bytes) = files.next().unwrap_or_default();
+        Document::read(&Upload {
+            name,
+            bytes,
+            resources: files.collect(),
+        })
+    }
 }

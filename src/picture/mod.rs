@@ -9,6 +9,7 @@ mod canvas;
 mod colour;
 mod heat;
 mod image;
+mod jpeg;
 mod layout;
 mod legend;
 mod mipmaps;

@@ -82,7 +82,7 @@ fn unwrap_in_pool(
     seconds.bake = watch.lap();
 
     tracker.stage(Stage::Write);
-    let written = write(&document, &uvs, baked.as_ref(), upload, options)?;
+    let written = write(&document, (&uvs, group_by), baked.as_ref(), upload, options)?;
     seconds.write = watch.lap();
     let noticed = document.warnings().to_vec();
     // What was written is read next: both would take twice the memory.
@@ -128,7 +128,7 @@ fn unwrap_in_pool(
 
 fn write(
     document: &Document,
-    uvs: &NewUvs,
+    (uvs, group_by): (&NewUvs, GroupBy),
     baked: Option<&BakedTextures>,
     upload: &Upload,
     options: &Options,
@@ -138,6 +138,7 @@ fn write(
         stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
         texcoord: options.texcoord,
         overwrite: options.overwrite,
+        terms: Some(options.terms(group_by)),
     };
     let mut written = document.write_baked(uvs, &write_options, baked)?;
     if let Some(baked) = baked {

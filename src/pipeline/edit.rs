@@ -6,11 +6,12 @@ use super::PipelineError;
 use super::arrays::in_pool;
 use super::documents::stem;
 use super::edit_options::{EditOptions, Editing};
+use super::edit_terms::{edited_terms, holds};
 use super::observer::{Observer, Stage, Tracker};
 use crate::barrier::BarrierKind;
-use crate::certificate::CornerUvs;
+use crate::certificate::{CornerUvs, chart_ids};
 use crate::deform::PullReport;
-use crate::deform::uv::{EditedUvs, UvMesh, UvRest, edit_uvs};
+use crate::deform::uv::{EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs};
 use crate::document::{
     Corners, Document, DocumentError, Layout, NewUvs, Upload, Warning, WriteOptions, Written,
 };
@@ -38,8 +39,6 @@ pub struct EditReport {
     pub rest: UvRest,
     /// The charts with anchors.
     pub charts: Vec<ChartEditReport>,
-    /// What users should know of the files.
-    pub warnings: Vec<Warning>,
 }
 
 /// What was done to a chart.
@@ -73,9 +72,27 @@ pub fn edit_document(
         let how = options.of_map(editing);
         let edited = edit_uvs(&whole.mesh(), &options.anchors, &how, &tracker)?;
         tracker.stage(Stage::Write);
-        let written = write(&document, &whole, &edited, upload, options)?;
+        let stem = options.stem.clone().unwrap_or_else(|| stem(&upload.name));
+        let mut write_options = WriteOptions {
+            format: options.format,
+            stem,
+            texcoord: Some(options.texcoord),
+            overwrite: false,
+            terms: Some(edited_terms(&document, options)?),
+        };
+        let uvs = new_uvs(&document, &whole, &edited);
+        let mut written = document.write(&uvs, &write_options)?;
         tracker.stage(Stage::Judge);
-        let report = judge(&document, &edited, &written, (options.texcoord, how.rest))?;
+        let again = written.read_again()?;
+        let found = Whole::gather(&again, options.texcoord)?;
+        let places = places(&written, edited.uvs.len());
+        let warnings = [document.warnings(), &written.notes.warnings].concat();
+        let report = judge(
+            &edited,
+            (&document, &again),
+            (&found, &places),
+            (how.rest, warnings),
+        )?;
         let is_kept = report.certified || options.model.barrier == BarrierKind::None;
         if !is_kept || options.model.bijective && !report.bijective {
             let what = if report.certified {
@@ -84,6 +101,12 @@ pub fn edit_document(
                 "a triangle is flipped or without area"
             };
             return Err(PipelineError::NotValid(what.to_owned()));
+        }
+        if let Some(terms) = &mut write_options.terms
+            && !holds(&again, terms, options.texcoord)?
+        {
+            terms.charts = Some(found.numbers_of(&edited, &places));
+            written = document.write(&uvs, &write_options)?;
         }
         Ok(EditedDocument {
             files: written.files,
@@ -128,6 +151,21 @@ impl Whole {
         Ok(whole)
     }
 
+    /// The numbers that edited charts have here; `places` are those of their faces.
+    fn numbers_of(&self, edited: &EditedUvs, places: &[usize]) -> Vec<u32> {
+        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
+        let first = |chart: &EditedChart| {
+            chart
+                .faces
+                .first()
+                .map(|face| of_face[places[face as usize]])
+        };
+        let mut numbers: Vec<u32> = edited.charts.iter().filter_map(first).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+
     fn mesh(&self) -> UvMesh<'_> {
         UvMesh {
             positions: &self.positions,
@@ -137,13 +175,7 @@ impl Whole {
     }
 }
 
-fn write(
-    document: &Document,
-    whole: &Whole,
-    edited: &EditedUvs,
-    upload: &Upload,
-    options: &EditOptions,
-) -> Result<Written, PipelineError> {
+fn new_uvs(document: &Document, whole: &Whole, edited: &EditedUvs) -> NewUvs {
     let mut rest = edited.uvs.as_slice();
     let mut next = |n: usize| -> Vec<Corners> {
         let (own, others) = rest.split_at(n);
@@ -152,45 +184,39 @@ fn write(
             .map(|face| face.map(|uv| uv.map(|x| x as f32)))
             .collect()
     };
-    let uvs = NewUvs {
+    NewUvs {
         layout: Layout::Edited,
         pages: 1,
         v_axis: document.v_axis(),
         corners: whole.n_faces.iter().map(|n| n.map(&mut next)).collect(),
-    };
-    let options = WriteOptions {
-        format: options.format,
-        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
-        texcoord: Some(options.texcoord),
-        overwrite: false,
-    };
-    Ok(document.write(&uvs, &options)?)
+    }
 }
 
-/// Reads the written bytes again and judges the charts in them.
+/// Where each face is among those of the file written.
+fn places(written: &Written, n_faces: usize) -> Vec<usize> {
+    let Some(faces) = &written.notes.faces else {
+        return (0..n_faces).collect();
+    };
+    let mut places = vec![0; n_faces];
+    for (place, &face) in faces.iter().enumerate() {
+        if let Some(slot) = places.get_mut(face as usize) {
+            *slot = place;
+        }
+    }
+    places
+}
+
+/// Judges the charts in the written bytes, where each face has its place.
 fn judge(
-    document: &Document,
     edited: &EditedUvs,
-    written: &Written,
-    (texcoord, rest): (u32, UvRest),
+    (document, again): (&Document, &Document),
+    (found, places): (&Whole, &[usize]),
+    (rest, warnings): (UvRest, Vec<Warning>),
 ) -> Result<EditReport, PipelineError> {
-    let mut files = written.files.iter().cloned();
-    let (name, bytes) = files.next().unwrap_or_default();
-    let resources = files.collect();
-    let again = Document::read(&Upload {
-        name,
-        bytes,
-        resources,
-    })?;
-    let mut found = Whole::gather(&again, texcoord)?.uvs;
-    if found.len() != edited.uvs.len() {
+    if found.uvs.len() != edited.uvs.len() {
         return Err(DocumentError::InvalidUvs.into());
     }
-    if let Some(faces) = &written.notes.faces {
-        let mut placed: Vec<_> = faces.iter().zip(&found).collect();
-        placed.sort_unstable_by_key(|(face, _)| **face);
-        found = placed.into_iter().map(|(_, uvs)| *uvs).collect();
-    }
+    let found: Vec<CornerUvs> = places.iter().map(|&place| found.uvs[place]).collect();
     let flip_v = again.v_axis() != document.v_axis();
     let charts = edited.charts.iter().map(|chart| {
         let certificate = chart.faces.certify(&found, flip_v);
@@ -209,9 +235,8 @@ fn judge(
     Ok(EditReport {
         certified: charts.iter().all(|c| c.map.certificate.is_valid()),
         bijective: charts.iter().all(|c| c.map.bijective),
-        warnings: [document.warnings(), &written.notes.warnings].concat(),
+        warnings,
         rest,
         charts,
-        warnings: [document.warnings(), &written.notes.warnings].concat(),
     })
 }

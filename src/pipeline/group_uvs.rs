@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use super::PipelineError;
 use super::report::GroupReport;
-use crate::certificate::{Certificate, Claims, CornerUvs, Resolution, certify};
+use crate::certificate::{Certificate, Claims, CornerUvs, Resolution, certify, chart_ids};
 use crate::document::{Document, Group, Primitive};
 use crate::measure::{self, Measures, VAxis};
 use crate::numerics::vec3::{area_vector, norm};
@@ -26,7 +26,7 @@ impl GroupUvs {
         document: &Document,
         primitives: &[Primitive],
         group: &Group,
-        set: &impl Fn(usize) -> u32,
+        set: &impl Fn(usize) -> Option<u32>,
     ) -> Result<Self, PipelineError> {
         let mut gathered = Self {
             name: group.name.clone(),
@@ -38,7 +38,9 @@ impl GroupUvs {
         };
         for &index in &group.primitives {
             let primitive = &primitives[index];
-            let texcoord = set(index);
+            let Some(texcoord) = set(index) else {
+                continue;
+            };
             let uvs =
                 document
                     .corner_uvs(index, texcoord)?
@@ -56,6 +58,23 @@ impl GroupUvs {
             gathered.uvs.extend(uvs);
         }
         Ok(gathered)
+    }
+
+    /// Some of its charts, each as a group.
+    pub(super) fn charts(&self, numbers: &[u32]) -> Vec<Self> {
+        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
+        let chart = |&number: &u32| {
+            let faces = || (0..of_face.len()).filter(|&face| of_face[face] == number);
+            Self {
+                name: format!("chart{number}"),
+                label: format!("chart {number}"),
+                positions: self.positions.clone(),
+                triangles: faces().map(|face| self.triangles[face]).collect(),
+                uvs: faces().map(|face| self.uvs[face]).collect(),
+                weights: None,
+            }
+        };
+        numbers.iter().map(chart).collect()
     }
 
     /// The area of the surface enlarged by its weights, if it has any.

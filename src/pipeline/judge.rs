@@ -3,17 +3,14 @@
 use std::collections::HashMap;
 
 use rayon::prelude::*;
-use serde::Serialize;
 
 use super::PipelineError;
-use super::arrays::in_pool;
 use super::group_uvs::GroupUvs;
-use super::measure_options::MeasureOptions;
 use super::nodes::Nodes;
-use super::proven::Proven;
-use super::report::{GroupReport, Report};
-use crate::certificate::{Certificate, Claims, Overlap, Resolution};
-use crate::document::{Document, GroupBy, Upload, Warning, Written};
+use super::question::Question;
+use super::report::GroupReport;
+use crate::certificate::{Certificate, Claims, Resolution};
+use crate::document::{Document, GroupBy, Written};
 use crate::measure::{self, Measures, VAxis};
 
 /// Texels of all rasters together on which coverage is counted, and the least side of each: 256 groups have the finest.
@@ -33,13 +30,7 @@ impl WrittenUvs {
         written: &Written,
         (group_by, nodes): (GroupBy, Nodes),
     ) -> Result<Self, PipelineError> {
-        let mut files = written.files.iter().cloned();
-        let (name, bytes) = files.next().unwrap_or_default();
-        let document = Document::read(&Upload {
-            name,
-            bytes,
-            resources: files.collect(),
-        })?;
+        let document = written.read_again()?;
         let sets: Vec<u32> = written
             .notes
             .primitives
@@ -47,17 +38,41 @@ impl WrittenUvs {
             .map(|note| note.texcoord)
             .collect();
         Self::gather(&document, (group_by, nodes), |primitive| {
-            sets.get(primitive).copied().unwrap_or(0)
+            Some(sets.get(primitive).copied().unwrap_or(0))
         })
     }
 
-    /// Gathers the UVs of a document; `set` tells the set of each primitive.
-    fn gather(
+    /// The UVs of a document that are asked for.
+    pub(super) fn asked(document: &Document, question: &Question) -> Result<Self, PipelineError> {
+        Self::gather(document, question.options.spaces(), |p| question.set_of(p))
+    }
+
+    /// Some charts of a document by themselves, counted over all that is asked for.
+    pub(super) fn of_charts(
+        document: &Document,
+        question: &Question,
+        charts: &[u32],
+    ) -> Result<Self, PipelineError> {
+        let spaces = (GroupBy::Scene, Nodes::Shared);
+        let whole = Self::gather(document, spaces, |p| question.set_of(p))?;
+        let groups = whole.groups.iter().flat_map(|group| group.charts(charts));
+        Ok(Self {
+            groups: groups.collect(),
+            v_axis: whole.v_axis,
+        })
+    }
+
+    /// Gathers the UVs of a document; `set` tells the set of each primitive that takes part.
+    pub(super) fn gather(
         document: &Document,
         (group_by, nodes): (GroupBy, Nodes),
-        set: impl Fn(usize) -> u32,
+        set: impl Fn(usize) -> Option<u32>,
     ) -> Result<Self, PipelineError> {
-        let groups = document.groups(group_by);
+        let mut groups = document.groups(group_by);
+        for group in &mut groups {
+            group.primitives.retain(|&index| set(index).is_some());
+        }
+        groups.retain(|group| !group.primitives.is_empty());
         let primitives = nodes.primitives(document)?;
         if groups.is_empty() {
             return Err(PipelineError::NoTriangles);
@@ -112,13 +127,9 @@ impl WrittenUvs {
     }
 
     /// Certifies every group.
-    fn verify(&self, claims: &Claims) -> Vec<VerifiedGroup> {
-        let verified = |group: &GroupUvs| VerifiedGroup {
-            name: group.name.clone(),
-            label: group.label.clone(),
-            certificate: group.certify(&self.told(claims)),
-        };
-        self.groups.par_iter().map(verified).collect()
+    pub(super) fn certify(&self, claims: &Claims) -> Vec<Certificate> {
+        let certified = |group: &GroupUvs| group.certify(&self.told(claims));
+        self.groups.par_iter().map(certified).collect()
     }
 
     /// The claims with what only the file tells.
@@ -135,66 +146,4 @@ fn raster_texels(n_groups: usize) -> u32 {
     let of_each = MOST_RASTER_TEXELS / n_groups.max(1) as u64;
     let finest = measure::MeasureOptions::default().raster_texels;
     (1 << (of_each.max(1).ilog2() / 2)).clamp(COARSEST_RASTER, finest)
-}
-
-/// The exact judgement of a document's UVs.
-#[derive(Clone, Debug, Serialize)]
-pub struct Verified {
-    /// What holds of all groups.
-    pub proven: Proven,
-    /// A certificate per group.
-    pub groups: Vec<VerifiedGroup>,
-}
-
-/// The exact judgement of a group's UVs.
-#[derive(Clone, Debug, Serialize)]
-pub struct VerifiedGroup {
-    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
-    pub name: String,
-    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
-    pub label: String,
-    /// What is proven of it.
-    pub certificate: Certificate,
-}
-
-/// Measures the UVs that a document has.
-pub fn measure_document(
-    upload: &Upload,
-    options: &MeasureOptions,
-) -> Result<Report, PipelineError> {
-    with_uvs(upload, options, |uvs, warnings| {
-        let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution);
-        Report::new(groups, warnings.to_vec())
-    })
-}
-
-/// Judges the UVs that a document has. Shares no code with the writer.
-pub fn verify_document(
-    upload: &Upload,
-    options: &MeasureOptions,
-    overlap: Overlap,
-) -> Result<Verified, PipelineError> {
-    with_uvs(upload, options, |uvs, _| {
-        let groups = uvs.verify(&options.claims(overlap));
-        Verified {
-            proven: Proven::of(groups.iter().map(|group| &group.certificate)),
-            groups,
-        }
-    })
-}
-
-/// Does something with the UVs that a document has and with its warnings, within the limits.
-fn with_uvs<T: Send>(
-    upload: &Upload,
-    options: &MeasureOptions,
-    judge: impl FnOnce(&WrittenUvs, &[Warning]) -> T + Send,
-) -> Result<T, PipelineError> {
-    options.check()?;
-    in_pool(options.limits.threads, || {
-        let document = options.nodes().prepared(Document::read(upload)?)?;
-        options.limits.check(&document)?;
-        let spaces = (options.group_by, options.nodes());
-        let uvs = WrittenUvs::gather(&document, spaces, |_| options.texcoord)?;
-        Ok(judge(&uvs, document.warnings()))
-    })?
 }

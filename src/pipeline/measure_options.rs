@@ -7,30 +7,31 @@ use super::options::check_mips;
 use super::settings::{Settings, check_pages, check_texels, within};
 use super::{Limits, PipelineError};
 use crate::certificate::{Claims, Overlap, Padding, Resolution};
-use crate::document::GroupBy;
+use crate::document::{GroupBy, Terms};
 
 /// Which UVs of a document are measured or verified.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct MeasureOptions {
-    /// The UV set.
-    pub texcoord: u32,
-    /// What shares one atlas.
-    pub group_by: GroupBy,
+    /// The UV set. If absent it is the one that the file says was written, and what else is absent is what it was written for; set 0
+    /// of a file that says nothing, or whose UVs were changed since.
+    pub texcoord: Option<u32>,
+    /// What shares one atlas; if absent each mesh has its own.
+    pub group_by: Option<GroupBy>,
     /// Judge what each node shows of a mesh by itself, where it is in the scene: nodes that show one mesh show the same UVs.
     pub separate_nodes: bool,
     /// Least distance of two charts to prove, in texels of the coarsest of the mip levels that count; not judged if absent.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: Option<u32>,
-    /// The texture that `padding` is counted in, and texels per unit.
-    pub resolution: Resolution,
+    /// The texture that `padding` is counted in, and texels per unit; 1024 texels square if absent.
+    pub resolution: Option<Resolution>,
     /// Prove that each chart lies on one of so many pages side by side, the tiles of UDIM from 1001 on; not judged if absent.
     #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 10))]
     pub pages: Option<u32>,
-    /// Mip levels beyond the first in which charts are to keep the padding.
+    /// Mip levels beyond the first in which charts are to keep the padding; none if absent.
     #[cfg_attr(feature = "service", schema(maximum = 12))]
-    pub mips: u32,
+    pub mips: Option<u32>,
     /// Prove that the bounding rectangles of charts end where texels of `resolution` end.
     pub aligned: bool,
     /// Bits b at which to prove that the map stays bijective however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶.
@@ -41,29 +42,12 @@ pub struct MeasureOptions {
     pub limits: Limits,
 }
 
-impl Default for MeasureOptions {
-    fn default() -> Self {
-        Self {
-            texcoord: 0,
-            group_by: GroupBy::Mesh,
-            separate_nodes: false,
-            padding: None,
-            resolution: Settings::default().resolution,
-            pages: None,
-            mips: 0,
-            aligned: false,
-            bits: None,
-            limits: Limits::default(),
-        }
-    }
-}
-
 impl MeasureOptions {
     /// Checks every number against its range; the error names the option.
     pub fn check(&self) -> Result<(), PipelineError> {
-        let padding = self.padding.unwrap_or(0);
-        let checked = check_mips(padding, self.mips).and_then(|()| {
-            check_texels(self.resolution, padding << self.mips)?;
+        let (padding, mips) = (self.padding.unwrap_or(0), self.mips.unwrap_or(0));
+        let checked = check_mips(padding, mips).and_then(|()| {
+            check_texels(self.resolution(), padding << mips)?;
             check_pages(self.pages.unwrap_or(1))?;
             let bits = self.bits.unwrap_or(12);
             within("bits", f64::from(bits), 8.0, 16.0)
@@ -71,13 +55,19 @@ impl MeasureOptions {
         checked.map_err(PipelineError::InvalidOptions)
     }
 
-    /// What counts as a surface.
-    pub(super) fn nodes(&self) -> Nodes {
-        if self.separate_nodes {
+    /// The texture that is judged.
+    pub(super) fn resolution(&self) -> Resolution {
+        self.resolution.unwrap_or(Settings::default().resolution)
+    }
+
+    /// What shares one UV space, and what counts as a surface.
+    pub(super) fn spaces(&self) -> (GroupBy, Nodes) {
+        let nodes = if self.separate_nodes {
             Nodes::Separate
         } else {
             Nodes::Shared
-        }
+        };
+        (self.group_by.unwrap_or_default(), nodes)
     }
 
     /// What the certificate is asked to speak of.
@@ -85,13 +75,29 @@ impl MeasureOptions {
         Claims {
             overlap,
             padding: self.padding.map(|texels| Padding {
-                texels: texels << self.mips,
-                resolution: self.resolution,
+                texels: texels << self.mips.unwrap_or(0),
+                resolution: self.resolution(),
             }),
-            aligned: self.aligned.then_some(self.resolution),
+            aligned: self.aligned.then_some(self.resolution()),
             pages: self.pages,
             bits: self.bits,
             ..Claims::default()
+        }
+    }
+
+    /// With what the UVs of a file were made for where these options say nothing. Surfaces are those of the options where these say
+    /// what shares a UV space.
+    pub(super) fn with_terms(&self, terms: &Terms) -> Self {
+        Self {
+            group_by: self.group_by.or(Some(terms.group_by)),
+            separate_nodes: self.separate_nodes || self.group_by.is_none() && terms.separate_nodes,
+            padding: self.padding.or(terms.padding),
+            resolution: self.resolution.or(Some(terms.resolution)),
+            pages: self.pages.or(terms.pages),
+            mips: self.mips.or(Some(terms.mips)),
+            aligned: self.aligned || terms.aligned,
+            bits: self.bits.or(terms.bits),
+            ..self.clone()
         }
     }
 }

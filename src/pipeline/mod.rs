@@ -46,6 +46,8 @@ mod edit;
 #[cfg(feature = "files")]
 mod edit_options;
 #[cfg(feature = "files")]
+mod edit_terms;
+#[cfg(feature = "files")]
 mod group_uvs;
 #[cfg(feature = "files")]
 mod judge;
@@ -73,6 +75,8 @@ mod preset;
 #[cfg(feature = "files")]
 mod proven;
 #[cfg(feature = "files")]
+mod question;
+#[cfg(feature = "files")]
 mod rebake;
 #[cfg(feature = "files")]
 mod repack;
@@ -88,6 +92,8 @@ mod solve;
 mod source;
 #[cfg(feature = "files")]
 mod texel_weight;
+#[cfg(feature = "files")]
+mod verify;
 #[cfg(feature = "files")]
 mod warp;
 
@@ -112,8 +118,6 @@ pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document};
 #[cfg(feature = "files")]
 pub use edit_options::{EditOptions, Editing};
 #[cfg(feature = "files")]
-pub use judge::{Verified, VerifiedGroup, measure_document, verify_document};
-#[cfg(feature = "files")]
 pub use limits::Limits;
 #[cfg(feature = "files")]
 pub use measure_options::MeasureOptions;
@@ -126,6 +130,8 @@ pub use preset::Preset;
 #[cfg(feature = "files")]
 pub use proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
 #[cfg(feature = "files")]
+pub use rebake::ImageFormat;
+#[cfg(feature = "files")]
 pub use repack::{RepackOptions, repack_document};
 #[cfg(feature = "files")]
 pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
@@ -135,5 +141,7 @@ pub use solution::{DeformReport, Deformed};
 pub use solve::{SolveOptions, solve_file};
 #[cfg(feature = "files")]
 pub use texel_weight::TexelWeight;
+#[cfg(feature = "files")]
+pub use verify::{Verified, VerifiedGroup, measure_document, verify_document};
 #[cfg(feature = "files")]
 pub use warp::{WarpOptions, WarpReport, WarpedPicture, warp_file};

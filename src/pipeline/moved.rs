@@ -18,6 +18,7 @@ pub(super) fn moved(
         stem: stem.to_owned(),
         texcoord: None,
         overwrite: false,
+        terms: None,
     };
     let no_uvs = NewUvs {
         layout: Layout::Edited,

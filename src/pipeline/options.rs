@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::nodes::Nodes;
 use super::preset::Preset;
-use super::rebake::MOST_SIDE;
+use super::rebake::{ImageFormat, MOST_SIDE};
 use super::settings::{KeptMaps, PackingMode, Settings, within};
 use super::texel_weight::TexelWeight;
 use super::{Limits, PipelineError};
@@ -12,7 +12,7 @@ use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
 use crate::certificate::{Claims, Overlap, Padding, Resolution};
 use crate::charts::{Cut, Quality};
-use crate::document::{GroupBy, OutputFormat};
+use crate::document::{GroupBy, OutputFormat, Terms};
 use crate::energy::EnergyKind;
 use crate::picture::HeatmapMeasure;
 
@@ -104,6 +104,8 @@ pub struct Options {
     /// as many texels as it had, whichever is more.
     #[cfg_attr(feature = "service", schema(minimum = 16, maximum = 8192))]
     pub bake_size: Option<u32>,
+    /// The format of resampled textures: that of the images that they are made of, or one for all.
+    pub image_format: ImageFormat,
     /// The texture that `padding` is counted in. One side is the other times a power of two; texels are square on the surface.
     pub resolution: Resolution,
     /// Pages that charts may lie on: page k covers u from k to k + 1, the tile 1001 + k of UDIM. All have the resolution and one
@@ -175,6 +177,7 @@ impl Default for Options {
             overwrite: false,
             rebake: false,
             bake_size: None,
+            image_format: ImageFormat::Source,
             resolution: settings.resolution,
             pages: settings.pages,
             texels_per_unit: settings.texels_per_unit,
@@ -266,6 +269,22 @@ impl Options {
         }
     }
 
+    /// What the written file says of its UVs, with what shares an atlas in it.
+    pub(super) fn terms(&self, group_by: GroupBy) -> Terms {
+        Terms {
+            group_by,
+            separate_nodes: self.nodes() == Nodes::Separate,
+            padding: Some(self.padding),
+            resolution: self.resolution,
+            pages: Some(self.pages),
+            mips: self.mips,
+            aligned: self.preset == Preset::Lightmap,
+            bits: self.quantization_safe,
+            overlaps: false,
+            charts: None,
+        }
+    }
+
     /// Checks every number against its range; the error names the option.
     pub fn check(&self) -> Result<(), PipelineError> {
         self.validate().map_err(PipelineError::InvalidOptions)
@@ -277,6 +296,11 @@ impl Options {
         self.texel_weights.iter().try_for_each(TexelWeight::check)?;
         if self.cut == Cut::Seams && self.seams.is_none() {
             return Err("cut seams needs seams".to_owned());
+        }
+        if self.image_format != ImageFormat::Source && !self.rebake {
+            return Err(
+                "image_format is that of textures that are resampled: it needs rebake".to_owned(),
+            );
         }
         if self.rebake && (self.pages > 1 || self.resolution.aspect() != 1.0) {
             return Err(

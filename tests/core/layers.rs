@@ -30,6 +30,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "bevy_mikktspace",
             "base64",
             "percent_encoding",
+            "sha2",
         ],
     ),
     ("picture", &["measure"], &["image", "rayon"]),

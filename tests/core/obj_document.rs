@@ -24,6 +24,7 @@ fn options(format: OutputFormat) -> WriteOptions {
         stem: "out".to_owned(),
         texcoord: None,
         overwrite: false,
+        terms: None,
     }
 }
 

@@ -65,6 +65,51 @@ fn what_is_unwrapped_verifies() {
 }
 
 #[test]
+fn where_uvs_went_is_said_and_judged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let truck = asset("gltf/CesiumMilkTruck-Draco/CesiumMilkTruck.gltf");
+    let (truck, first, second) = (truck.to_string_lossy(), path("a.glb"), path("b.glb"));
+    for (input, output) in [(&*truck, &first), (&*first, &second)] {
+        let run = unwrapd(&["unwrap", input, "-o", output]);
+        assert_status(&run, 0);
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(said.contains("are in UV set 1, because textures"), "{said}");
+        let run = unwrapd(&["verify", output, "--bijective"]);
+        assert_status(&run, 0);
+        let said = String::from_utf8_lossy(&run.stdout).into_owned();
+        assert!(said.starts_with("judged as the file says: "), "{said}");
+        assert!(said.contains("2 texels apart at 1024"), "{said}");
+        assert_status(&unwrapd(&["measure", output]), 0);
+    }
+    let bytes = |path: &str| std::fs::metadata(path).expect("a file").len();
+    // Offsets may have more digits than they had.
+    assert!(bytes(&second) < bytes(&first) + 64);
+    let baked = path("c.gltf");
+    assert_status(&unwrapd(&["unwrap", &truck, "-o", &baked, "--rebake"]), 0);
+    assert_status(&unwrapd(&["verify", &baked, "--bijective"]), 0);
+    let entries = std::fs::read_dir(folder.path()).expect("a folder");
+    let names = entries.map(|entry| entry.expect("an entry").file_name());
+    let names = names.map(|name| name.to_string_lossy().into_owned());
+    let beside: Vec<String> = names.filter(|name| name.starts_with(['c', 'C'])).collect();
+    // The old texture is not written, and the new ones are of its format.
+    let extension = |name: &String| {
+        std::path::Path::new(name)
+            .extension()
+            .map(ToOwned::to_owned)
+    };
+    let pictures = beside
+        .iter()
+        .filter_map(extension)
+        .filter(|extension| extension == "jpg");
+    assert_eq!(pictures.count(), beside.len() - 2, "{beside:?}");
+    assert!(
+        beside.iter().all(|name| name.starts_with('c')),
+        "{beside:?}"
+    );
+}
+
+#[test]
 fn equal_input_gives_equal_bytes_for_any_number_of_threads() {
     let folder = tempfile::tempdir().expect("a folder");
     let written = |threads: &str| {

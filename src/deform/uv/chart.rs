@@ -183,6 +183,11 @@ impl ChartFaces {
         self.faces.is_empty()
     }
 
+    /// The first of them.
+    pub fn first(&self) -> Option<u32> {
+        self.faces.first().map(|(face, _)| *face)
+    }
+
     /// The corners `3 * face + c`, counter-clockwise.
     fn corners(&self) -> impl Iterator<Item = [u32; 3]> {
         self.faces.iter().map(|&(face, is_turned)| {

@@ -4,7 +4,7 @@ use super::json::{
     array_mut, invalid, item, items, object_mut, primitive_mut, remove, remove_extension, unsigned,
 };
 use super::textures::{TRANSFORM, materials};
-use super::{GltfDocument, uri};
+use super::{GltfDocument, images, uri};
 use crate::document::bake::MaterialPlanes;
 use crate::document::{BakedTexture, BakedTextures, DocumentError, WriteNotes};
 use serde_json::{Value, json};
@@ -23,9 +23,10 @@ pub(super) fn insert(
 ) -> Result<BTreeMap<String, Vec<u8>>, DocumentError> {
     let mut resources = document.resources.clone();
     let mut textures = Vec::new();
-    for (plane, (_, png)) in baked.plan.planes.iter().zip(&baked.files) {
+    for (plane, (_, file)) in baked.plan.planes.iter().zip(&baked.files) {
         let name = free_name(
             &format!("{stem}_{}", plane.name.replace('/', "_")),
+            images::file_extension(file),
             &resources,
         );
         let image = push(
@@ -33,7 +34,7 @@ pub(super) fn insert(
             "images",
             json!({"uri": uri::encoded(&name)}),
         )?;
-        resources.insert(name, png.clone());
+        resources.insert(name, file.clone());
         let sampler = sampler(&mut body.json, plane.filters)?;
         let texture = json!({"sampler": sampler, "source": image});
         textures.push(push(&mut body.json, "textures", texture)?);
@@ -66,10 +67,10 @@ fn push(json: &mut Value, collection: &str, object: Value) -> Result<usize, Docu
 }
 
 /// A file name that no other file has.
-fn free_name(stem: &str, taken: &BTreeMap<String, Vec<u8>>) -> String {
+fn free_name(stem: &str, extension: &str, taken: &BTreeMap<String, Vec<u8>>) -> String {
     let numbered = |n: usize| match n {
-        0 => format!("{stem}.png"),
-        n => format!("{stem}_{n}.png"),
+        0 => format!("{stem}.{extension}"),
+        n => format!("{stem}_{n}.{extension}"),
     };
     let mut names = (0..).map(numbered);
     names

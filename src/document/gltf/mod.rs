@@ -4,7 +4,7 @@
 //! Reading brings it into one shape: all buffers joined into one array of bytes, Draco and meshopt data decoded into
 //! plain accessors. Accessors are read by a reader that checks each against the bytes that are really there. Writing
 //! appends: new views and accessors behind the old ones, and the primitives point to them; accessors that something
-//! else may share are never changed.
+//! else may share are never changed. What nothing names any more then gives its place to what is new or goes.
 mod accessor;
 mod as_obj;
 mod bake_plan;
@@ -18,31 +18,38 @@ mod extensions;
 mod glb;
 mod images;
 mod json;
+mod links;
+mod marking;
 mod meshopt;
 mod moved;
 mod names;
 mod obj_losses;
 mod obj_names;
 mod obj_pictures;
+mod origin;
 mod positions;
 mod primitives;
 mod references;
+mod rejoin;
+mod repacked;
 mod rewrite;
 mod sampling;
 mod scene;
+mod set_warnings;
 mod split;
 mod subdivide;
 mod tangents;
 mod texcoord_set;
 mod textures;
 mod tree;
+mod unknown;
 mod uri;
 mod vertices;
 mod write;
 
 use super::{
-    BakePlan, BakedTextures, CornerTangents, DocumentError, Group, NewUvs, Primitive, SpaceMap,
-    Subdivision, Upload, Warning, WriteOptions, Written,
+    BakePlan, BakedTextures, CornerTangents, DocumentError, Group, Mark, NewUvs, Primitive,
+    SpaceMap, Subdivision, Upload, Warning, WriteOptions, Written,
 };
 use crate::certificate::CornerUvs;
 pub use references::references;
@@ -52,6 +59,7 @@ pub(in crate::document) use uri::{encoded, normalized};
 use accessor::Accessor;
 use body::Body;
 use json::{invalid, item, items, unsigned};
+use origin::Origin;
 use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -60,6 +68,8 @@ use std::collections::BTreeMap;
 #[derive(Clone)]
 pub struct GltfDocument {
     body: Body,
+    /// What it was when it was read.
+    origin: Origin,
     /// GLB chunks that are neither JSON nor the binary buffer.
     chunks: Vec<(u32, Vec<u8>)>,
     /// The files of the upload that images refer to.
@@ -99,11 +109,12 @@ impl GltfDocument {
                 others: Vec::new(),
             }
         };
-        let json = tree::parse(without_mark(container.json))?;
+        let mut json = tree::parse(without_mark(container.json))?;
         if !json.is_object() {
             return Err(invalid("the JSON is not an object"));
         }
         extensions::check(&json)?;
+        let origin = Origin::of(&mut json);
         let mut body = buffers::join(json, container.bin, upload)?;
         draco::decompress(&mut body)?;
         let compression = [draco::NAME, meshopt::NAMES[0], meshopt::NAMES[1]];
@@ -120,6 +131,7 @@ impl GltfDocument {
             chunks: others.map(|(kind, bytes)| (kind, bytes.to_vec())).collect(),
             resources: images::supplied(&body.json, &upload.resources)?,
             body,
+            origin,
             decompressed,
             primitives,
             used,
@@ -142,6 +154,11 @@ impl GltfDocument {
     /// The triangle primitives in file order.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
+    }
+
+    /// What the document has in the place of a mark.
+    pub(in crate::document) fn mark(&self) -> Option<Value> {
+        marking::mark(&self.body.json).cloned()
     }
 
     /// The index of a material with this name, or else with this number.
@@ -286,13 +303,14 @@ impl GltfDocument {
         Ok(self)
     }
 
-    /// The document with `uvs` as a `TEXCOORD_n`, and with textures made for them.
-    pub fn write(
+    /// The document with `uvs` as a `TEXCOORD_n`, and with textures made for them; `mark` is the one that it has, if that fits.
+    pub(in crate::document) fn write(
         &self,
         uvs: &NewUvs,
         options: &WriteOptions,
         baked: Option<&BakedTextures>,
+        mark: Option<&Mark>,
     ) -> Result<Written, DocumentError> {
-        write::write(self, uvs, options, baked)
+        write::write(self, (uvs, mark), options, baked)
     }
 }

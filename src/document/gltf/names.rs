@@ -1,10 +1,29 @@
 //! What a glTF calls its meshes and materials.
 
+use std::collections::BTreeSet;
+
 use super::GltfDocument;
 use crate::document::group::Names;
+use crate::document::warning::listed;
 
 /// Characters of a name that are shown at most.
 const SHOWN: usize = 80;
+
+/// Some of the meshes, and how many more there are.
+pub(super) fn of_meshes(document: &GltfDocument, meshes: &BTreeSet<usize>) -> String {
+    let named = |&mesh: &usize| quoted(document.mesh(mesh), "mesh", mesh);
+    let names: Vec<String> = meshes.iter().map(named).collect();
+    listed(names.iter().map(String::as_str))
+}
+
+/// The name of a material, or its number.
+pub(super) fn of_material(document: &GltfDocument, material: usize) -> String {
+    quoted(document.material(material), "material", material)
+}
+
+fn quoted(name: Option<String>, kind: &str, index: usize) -> String {
+    name.map_or_else(|| format!("{kind} {index}"), |name| format!("`{name}`"))
+}
 
 impl Names for GltfDocument {
     fn mesh(&self, index: usize) -> Option<String> {

@@ -2,14 +2,16 @@
 use super::GltfDocument;
 use super::body::Body;
 use super::json::{object_mut, primitive_mut, remove};
+use super::rejoin::{Rejoined, rejoined};
 use super::split::split;
 use super::tangents::corner_tangents;
 use super::texcoord_set::Choice;
 use super::vertices::{NewIndices, gather_vertices, push_floats, write_indices};
 use crate::document::{
-    BakedTextures, CornerTangents, Corners, DocumentError, PrimitiveNote, TangentsNote,
+    BakedTextures, CornerTangents, Corners, DocumentError, Primitive, PrimitiveNote, TangentsNote,
 };
 use serde_json::{Value, json};
+use std::borrow::Cow;
 
 /// What must agree for corners to share a vertex: the bits of the UV, and of the tangent where it is new.
 type Key = ([u32; 2], [u32; 4]);
@@ -27,13 +29,19 @@ pub(super) fn rewrite(
         Some(baked) if baked.plan.is_normal_mapped(index) => baked_tangents(baked, index),
         _ => new_tangents(document, index, uvs, choice)?,
     };
-    let split = split(
-        primitive.positions.len(),
-        &primitive.triangles,
-        &keys(uvs, tangents.as_deref()),
-    );
     let mut changed = document.object(primitive)?.clone();
     drop_stale(&mut changed, choice, tangents_note)?;
+    let joined = if choice.is_marked {
+        rejoined(document, index, &changed)?
+    } else {
+        None
+    };
+    let vertices = Vertices::new(primitive, joined.as_ref());
+    let split = split(
+        vertices.kept.len(),
+        &vertices.triangles,
+        &keys(uvs, tangents.as_deref()),
+    );
     let mut note = PrimitiveNote {
         mesh: primitive.mesh,
         primitive: primitive.primitive,
@@ -46,17 +54,19 @@ pub(super) fn rewrite(
         tangents: tangents_note,
     };
     let used = document.used[index].as_deref();
-    let is_split = !split.copies.is_empty();
+    let is_split = !split.copies.is_empty() || joined.is_some();
     if is_split || used.is_some() {
         let indices = NewIndices {
             is_split,
             triangles: &split.triangles,
             used,
+            joined: joined.as_ref().map(|joined| joined.numbers.as_slice()),
         };
         write_indices(document, body, &mut changed, &indices, &mut note)?;
-        let own = 0..primitive.positions.len() as u32;
-        let gather: Vec<u32> = own
-            .chain(split.copies)
+        let copies = split.copies.iter();
+        let own = copies.map(|&vertex| vertices.kept[vertex as usize]);
+        let gather: Vec<u32> = (vertices.kept.iter().copied())
+            .chain(own)
             .map(|vertex| used.map_or(vertex, |used| used[vertex as usize]))
             .collect();
         gather_vertices(document, body, &mut changed, &gather)?;
@@ -81,6 +91,31 @@ pub(super) fn rewrite(
     }
     *primitive_mut(&mut body.json, primitive.mesh, primitive.primitive)? = changed;
     Ok(note)
+}
+
+/// The vertices of a primitive before they are split.
+struct Vertices<'a> {
+    /// Those of the file that there are.
+    kept: Vec<u32>,
+    /// The faces in terms of these.
+    triangles: Cow<'a, [[u32; 3]]>,
+}
+
+impl<'a> Vertices<'a> {
+    fn new(primitive: &'a Primitive, joined: Option<&Rejoined>) -> Self {
+        match joined {
+            None => Self {
+                kept: (0..primitive.positions.len() as u32).collect(),
+                triangles: Cow::Borrowed(&primitive.triangles),
+            },
+            Some(joined) => Self {
+                kept: joined.kept.clone(),
+                triangles: (primitive.triangles.iter())
+                    .map(|face| face.map(|vertex| joined.numbers[vertex as usize]))
+                    .collect(),
+            },
+        }
+    }
 }
 
 /// Tangents that a normal map was made for.
@@ -133,7 +168,8 @@ fn drop_stale(
     choice: &Choice,
     tangents: TangentsNote,
 ) -> Result<(), DocumentError> {
-    let mut stale = vec![format!("TEXCOORD_{}", choice.set)];
+    let sets = choice.missing.iter().chain([&choice.set]);
+    let mut stale: Vec<String> = sets.map(|set| format!("TEXCOORD_{set}")).collect();
     if tangents != TangentsNote::Untouched {
         stale.push("TANGENT".to_owned());
     }

@@ -88,6 +88,8 @@ pub(super) struct NewIndices<'a> {
     pub triangles: &'a [[u32; 3]],
     /// The vertices of the accessors that the primitive's vertices were, where it uses some of them only.
     pub used: Option<&'a [u32]>,
+    /// The new numbers of the primitive's vertices where some were joined.
+    pub joined: Option<&'a [u32]>,
 }
 
 /// Writes new indices, as wide as the vertices need and as the old ones were.
@@ -98,7 +100,7 @@ pub(super) fn write_indices(
     new: &NewIndices,
     note: &mut PrimitiveNote,
 ) -> Result<(), DocumentError> {
-    let mut indices = old_indices(document, primitive, new.used)?;
+    let mut indices = old_indices(document, primitive, new)?;
     if new.is_split {
         let is_list = primitives::mode(primitive)? == Some(Mode::Triangles);
         // Lists keep the indices behind their last whole face.
@@ -140,14 +142,19 @@ pub(super) fn write_indices(
 fn old_indices(
     document: &GltfDocument,
     primitive: &Value,
-    used: Option<&[u32]>,
+    new: &NewIndices,
 ) -> Result<Vec<u32>, DocumentError> {
     let position = required(&primitive["attributes"], "POSITION")?;
     let n_vertices = Accessor::open(&document.body, position)?.count;
     let mut indices = primitives::indices(&document.body, primitive, n_vertices)?;
-    if let Some(used) = used {
+    if let Some(used) = new.used {
         for index in &mut indices {
             *index = used.partition_point(|vertex| vertex < index) as u32;
+        }
+    }
+    if let Some(numbers) = new.joined {
+        for index in &mut indices {
+            *index = numbers[*index as usize];
         }
     }
     Ok(indices)

@@ -1,14 +1,17 @@
 //! The document with a new UV set, as files.
 use super::body::Body;
 use super::json::{item_mut, remove_extension};
+use super::links::Collection;
+use super::origin::Places;
 use super::rewrite::rewrite;
+use super::set_warnings::set_warnings;
 use super::texcoord_set::{self, Choice, Textures};
 use super::textures::{affected, remove_transform};
-use super::{GltfDocument, extensions, glb, images, primitives, uri};
+use super::{GltfDocument, extensions, glb, images, marking, primitives, uri};
 use super::{as_obj, baked};
 use crate::document::{
-    BakedTextures, DocumentError, Layout, NewUvs, OutputFormat, Warning, WriteNotes, WriteOptions,
-    Written,
+    BakedTextures, DocumentError, Layout, Mark, NewUvs, OutputFormat, Warning, WriteNotes,
+    WriteOptions, Written,
 };
 use crate::measure::VAxis;
 use serde_json::{Value, json};
@@ -21,7 +24,7 @@ const MANIFOLD: &str = "EXT_mesh_manifold";
 /// Writes `document` with `uvs`, and with the textures made for them.
 pub(super) fn write(
     document: &GltfDocument,
-    uvs: &NewUvs,
+    (uvs, present): (&NewUvs, Option<&Mark>),
     options: &WriteOptions,
     baked: Option<&BakedTextures>,
 ) -> Result<Written, DocumentError> {
@@ -29,7 +32,7 @@ pub(super) fn write(
         return as_obj::write(document, uvs, options, baked);
     }
     let plan = baked.map(|baked| &baked.plan);
-    let (choices, textures) = texcoord_set::choose(document, uvs, options, plan)?;
+    let (choices, textures) = texcoord_set::choose(document, (uvs, present), options, plan)?;
     let mut body = document.body.clone();
     let mut notes = WriteNotes {
         extensions_dropped: document.decompressed.clone(),
@@ -43,16 +46,10 @@ pub(super) fn write(
         let note = rewrite(document, &mut body, index, &corners, (choice, baked))
             .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
         notes.primitives.push(note);
-        if !choice.missing.is_empty() {
-            notes.warnings.push(Warning::new(
-                "uv_sets_filled",
-                format!(
-                    "mesh {}, primitive {}: lower UV sets were missing and hold the same UVs",
-                    primitive.mesh, primitive.primitive
-                ),
-            ));
-        }
     }
+    let chosen = (choices.as_slice(), &textures);
+    let warnings = set_warnings(document, chosen, options, baked.is_some());
+    notes.warnings.extend(warnings);
     if uvs.layout == Layout::New {
         release_textures(&mut body.json, &choices, &textures, &mut notes);
     }
@@ -73,8 +70,46 @@ pub(super) fn write(
     notes
         .extensions_dropped
         .extend(extensions::prune(&mut body.json, &gone)?);
+    if !notes.primitives.is_empty() {
+        let warning = mark(&mut body.json, uvs, &choices, options)?;
+        notes.warnings.extend(warning);
+    }
+    let places = document.origin.clean(&mut body)?;
+    renumber(&mut notes, &places);
     let files = files((body, &document.chunks), &resources, options, &mut notes)?;
     Ok(Written { files, notes })
+}
+
+/// Lets the document say which UVs were written, where it is known what they were made for.
+fn mark(
+    json: &mut Value,
+    uvs: &NewUvs,
+    choices: &[Option<Choice>],
+    options: &WriteOptions,
+) -> Result<Option<Warning>, DocumentError> {
+    let Some(terms) = &options.terms else {
+        marking::clear(json);
+        return Ok(None);
+    };
+    let written = choices.iter().enumerate().map(|(index, choice)| {
+        let corners = uvs.toward(index, VAxis::Down)?;
+        let corners = corners.iter().map(|face| face.map(|uv| uv.map(f64::from)));
+        Some((choice.as_ref()?.set, corners.collect()))
+    });
+    marking::set(json, &Mark::new(terms, written))
+}
+
+/// Lets notes name textures and images as the written file numbers them.
+fn renumber(notes: &mut WriteNotes, places: &Places) {
+    for baked in &mut notes.textures_baked {
+        baked.texture = places.of((Collection::Textures, baked.texture));
+    }
+    for affected in &mut notes.textures_affected {
+        affected.texture = places.of((Collection::Textures, affected.texture));
+        affected.image = affected
+            .image
+            .map(|image| places.of((Collection::Images, image)));
+    }
 }
 
 fn is_dropped(name: &str, notes: &WriteNotes) -> bool {

@@ -5,7 +5,7 @@ import { short, summary } from "./report.js";
 
 const byId = (id) => document.getElementById(id);
 const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
-const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "pages", "texels_per_unit", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "heatmap_measure", "format", "time_budget"];
+const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "pages", "texels_per_unit", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "image_format", "heatmap_measure", "format", "time_budget"];
 
 let job = null;
 

@@ -1,5 +1,6 @@
 //! The textures of a document, resampled for its new UVs.
 
+mod format;
 mod images;
 mod planes;
 mod surface;
@@ -11,6 +12,7 @@ use super::PipelineError;
 use super::options::Options;
 use crate::bake::{Coverage, MOST_TEXELS, baked, side_for};
 use crate::document::{BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning};
+pub use format::ImageFormat;
 use images::read_images;
 use planes::Bake;
 use surface::Surface;
@@ -53,7 +55,7 @@ pub(super) fn rebaked(
     })
 }
 
-/// The side and the PNG file of each texture of a plan.
+/// The side and the file of each texture of a plan.
 fn files(
     bake: &Bake,
     plan: &BakePlan,
@@ -80,7 +82,9 @@ fn files(
         let known = last.take().filter(|(known, _)| *known == key);
         let new = || (key, Coverage::new(&faces, side as usize));
         let (_, coverage) = last.insert(known.unwrap_or_else(new));
-        files.push((side, baked(&plane, coverage).png()));
+        let image = baked(&plane, coverage);
+        let file = options.image_format.file(bake.document, wanted, &image)?;
+        files.push((side, file));
     }
     Ok(files)
 }

@@ -35,11 +35,11 @@ fn scene() -> Builder {
 /// What is claimed of a lightmap's UVs, asked of a file.
 fn verified(outcome: &Outcome, texcoord: u32) -> Verified {
     let options = MeasureOptions {
-        texcoord,
-        group_by: unwrapd::document::GroupBy::Scene,
+        texcoord: Some(texcoord),
+        group_by: Some(unwrapd::document::GroupBy::Scene),
         separate_nodes: true,
         padding: Some(2),
-        mips: 2,
+        mips: Some(2),
         aligned: true,
         ..MeasureOptions::default()
     };

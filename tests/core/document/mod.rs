@@ -1,7 +1,9 @@
 //! glTF read and written.
+mod again;
 mod build;
 mod invalid;
 mod lightmap;
+mod marks;
 mod moved;
 mod rebake;
 mod roundtrip;
@@ -109,5 +111,6 @@ pub fn options(format: OutputFormat) -> WriteOptions {
         stem: "out put".to_owned(),
         texcoord: None,
         overwrite: false,
+        terms: None,
     }
 }

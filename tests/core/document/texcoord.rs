@@ -182,7 +182,7 @@ fn primitives_of_a_mesh_share_the_set_without_gaps() {
             .notes
             .warnings
             .iter()
-            .any(|warning| warning.message.contains("lower UV sets"))
+            .any(|warning| warning.code == "uv_sets_filled")
     );
 }
 

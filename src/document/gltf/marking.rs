@@ -1,0 +1,37 @@
+//! The mark in `asset.extras`.
+use super::json::{object_mut, remove};
+use crate::document::mark::Mark;
+use crate::document::{DocumentError, Warning};
+use serde_json::{Map, Value};
+
+/// The member of `asset.extras`.
+const NAME: &str = "unwrapd";
+
+/// What the document has in the place of a mark.
+pub(super) fn mark(json: &Value) -> Option<&Value> {
+    json.get("asset")?.get("extras")?.get(NAME)
+}
+
+/// Lets the document have this mark and no other. Extras that are no object have no place for one.
+pub(super) fn set(json: &mut Value, mark: &Mark) -> Result<Option<Warning>, DocumentError> {
+    let extras = object_mut(&mut json["asset"])?.entry("extras");
+    let extras = extras.or_insert_with(|| Value::Object(Map::new()));
+    if let Value::Object(members) = extras {
+        members.insert(NAME.to_owned(), mark.value());
+        return Ok(None);
+    }
+    Ok(Some(Warning::new(
+        "not_marked",
+        "`asset.extras` of the file is not an object, so it cannot say which UVs were written: name the set to `verify`",
+    )))
+}
+
+/// Takes the mark off, and extras that had nothing else.
+pub(super) fn clear(json: &mut Value) {
+    let Some(extras) = json.pointer_mut("/asset/extras") else {
+        return;
+    };
+    if remove(extras, NAME).is_some() && extras.as_object().is_some_and(Map::is_empty) {
+        remove(&mut json["asset"], "extras");
+    }
+}

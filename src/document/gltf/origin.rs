@@ -1,0 +1,162 @@
+//! What a document named when it was read, and what of that nothing names any more.
+use super::body::Body;
+use super::links::{Collection, Object, visit};
+use super::repacked::repack_bytes;
+use super::unknown::Unknown;
+use crate::document::DocumentError;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a document was when it was read.
+#[derive(Debug, Clone)]
+pub(super) struct Origin {
+    /// Objects that nothing named then: they stay as they were.
+    unused: BTreeSet<Object>,
+    /// How many objects there were.
+    lengths: BTreeMap<Collection, usize>,
+}
+
+/// Where objects go: of each its new index, or nowhere.
+#[derive(Debug, Default)]
+pub(super) struct Places(BTreeMap<Collection, Vec<Option<usize>>>);
+
+impl Places {
+    /// The index of an object from now on; its present one where nothing was said of it.
+    pub fn of(&self, (collection, index): Object) -> usize {
+        let places = self.0.get(&collection);
+        let place = places.and_then(|places| *places.get(index)?);
+        place.unwrap_or(index)
+    }
+}
+
+impl Origin {
+    pub fn of(json: &mut Value) -> Self {
+        let lengths = lengths(json);
+        let live = live(json, &BTreeSet::new(), &BTreeSet::new());
+        let unused = objects(&lengths).filter(|object| !live.contains(object));
+        Self {
+            unused: unused.collect(),
+            lengths,
+        }
+    }
+
+    /// Takes what was named when the document was read, or was made since, and is not named now, out of the document, with its
+    /// bytes, and returns where the rest went. What is new takes the places of what is gone; what extensions that are not understood
+    /// may name keeps its place.
+    pub fn clean(&self, body: &mut Body) -> Result<Places, DocumentError> {
+        let unknown = Unknown::of(&body.json);
+        let pinned: BTreeSet<Object> = (Collection::ALL.into_iter())
+            .flat_map(|collection| unknown.numbers.iter().map(move |&n| (collection, n)))
+            .filter(|(collection, n)| n < &self.lengths[collection])
+            .collect();
+        let lengths = lengths(&body.json);
+        let mut kept = self.unused.clone();
+        // Objects that have to stay only because others must keep their indices may name more that has to stay.
+        let places = loop {
+            let live = live(&mut body.json, &kept, &pinned);
+            let (places, held) = self.places(&lengths, &live, &pinned);
+            if held.is_empty() {
+                break places;
+            }
+            kept.extend(held);
+        };
+        let gone = objects(&lengths).any(|(collection, n)| places.0[&collection][n].is_none());
+        if !gone {
+            return Ok(places);
+        }
+        move_objects(&mut body.json, &places);
+        if !unknown.buffers {
+            repack_bytes(body)?;
+        }
+        Ok(places)
+    }
+
+    /// The new indices of all objects, and those that are not live but cannot go.
+    fn places(
+        &self,
+        lengths: &BTreeMap<Collection, usize>,
+        live: &BTreeSet<Object>,
+        pinned: &BTreeSet<Object>,
+    ) -> (Places, Vec<Object>) {
+        let (mut places, mut held) = (Places::default(), Vec::new());
+        for collection in Collection::ALL {
+            let old = self.lengths[&collection];
+            let is_live = |n: &usize| live.contains(&(collection, *n));
+            let mut order: Vec<Option<usize>> = (0..old).map(|n| Some(n).filter(is_live)).collect();
+            let mut new = (old..lengths[&collection]).filter(is_live);
+            for slot in order.iter_mut().filter(|slot| slot.is_none()) {
+                *slot = new.next();
+            }
+            order.extend(new.map(Some));
+            // Nothing before an object that may be named by its index can go.
+            let last = pinned
+                .range((collection, 0)..=(collection, usize::MAX))
+                .last();
+            let fixed = last.map_or(0, |(_, n)| n + 1).min(order.len());
+            let empty = (0..fixed).filter(|&n| order[n].is_none());
+            held.extend(empty.map(|n| (collection, n)));
+            let mut to = vec![None; lengths[&collection]];
+            for (place, from) in order.into_iter().flatten().enumerate() {
+                to[from] = Some(place);
+            }
+            places.0.insert(collection, to);
+        }
+        (places, held)
+    }
+}
+
+fn lengths(json: &Value) -> BTreeMap<Collection, usize> {
+    let length = |collection: Collection| json[collection.key()].as_array().map_or(0, Vec::len);
+    Collection::ALL
+        .map(|c| (c, length(c)))
+        .into_iter()
+        .collect()
+}
+
+fn objects(lengths: &BTreeMap<Collection, usize>) -> impl Iterator<Item = Object> {
+    let all = lengths.iter();
+    all.flat_map(|(&collection, &n)| (0..n).map(move |index| (collection, index)))
+}
+
+/// All that is named by the rest of the document, by `kept` or by what these name.
+fn live(json: &mut Value, kept: &BTreeSet<Object>, pinned: &BTreeSet<Object>) -> BTreeSet<Object> {
+    let mut live: BTreeSet<Object> = kept.union(pinned).copied().collect();
+    let mut names = Vec::new();
+    visit(json, &mut |owner, object, _| match owner {
+        None => drop(live.insert(object)),
+        Some(owner) => names.push((owner, object)),
+    });
+    // Objects name only those of later collections, so that one pass in their order finds all.
+    names.sort_unstable();
+    for (owner, object) in names {
+        if live.contains(&owner) {
+            live.insert(object);
+        }
+    }
+    live
+}
+
+/// Gives objects their new indices, and everything that names them too.
+fn move_objects(json: &mut Value, places: &Places) {
+    visit(json, &mut |_, object, number| {
+        let place = places.of(object);
+        if place != object.1 {
+            *number = json!(place);
+        }
+    });
+    for (collection, places) in &places.0 {
+        let Some(Value::Array(objects)) = json.get_mut(collection.key()) else {
+            continue;
+        };
+        let moved = places.iter().zip(std::mem::take(objects));
+        let mut moved: Vec<(usize, Value)> = moved
+            .filter_map(|(place, object)| Some(((*place)?, object)))
+            .collect();
+        moved.sort_unstable_by_key(|(place, _)| *place);
+        objects.extend(moved.into_iter().map(|(_, object)| object));
+        // An array without an element is no glTF.
+        if objects.is_empty() && !places.is_empty() {
+            super::json::remove(json, collection.key());
+        }
+    }
+}

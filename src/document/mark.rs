@@ -1,0 +1,231 @@
+//! What a file says of the UVs that were written to it, so that it can be judged by what was promised.
+use super::{Document, DocumentError, GroupBy};
+use crate::certificate::{CornerUvs, Resolution};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use sha2::{Digest as _, Sha256};
+use std::fmt;
+
+/// The version that is written and read.
+const VERSION: u32 = 1;
+
+/// What UVs were made for: what shares a UV space, and what was promised of its charts.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Terms {
+    /// What shares one UV space.
+    pub group_by: GroupBy,
+    /// Whether each node has a part of its own, in proportion to what it shows in the scene.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub separate_nodes: bool,
+    /// Least distance of two charts, in texels of the coarsest of the mip levels that count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub padding: Option<u32>,
+    /// The texture that `padding` is counted in.
+    pub resolution: Resolution,
+    /// Pages that charts lie on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pages: Option<u32>,
+    /// Mip levels beyond the first in which charts keep the padding.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub mips: u32,
+    /// Whether charts end where texels end.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub aligned: bool,
+    /// Bits at which the map stays bijective.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bits: Option<u32>,
+    /// Whether faces may overlap.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub overlaps: bool,
+    /// The charts that alone are spoken of, each by itself, in the order of their first faces in the file; all if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub charts: Option<Vec<u32>>,
+}
+
+/// Which UV set of each primitive is meant.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Sets {
+    /// The same of all.
+    One(u32),
+    /// One of each triangle primitive in file order; none of those that take no part.
+    Each(Vec<Option<u32>>),
+}
+
+impl Sets {
+    /// The set of a primitive.
+    pub fn of(&self, primitive: usize) -> Option<u32> {
+        match self {
+            Self::One(set) => Some(*set),
+            Self::Each(sets) => sets.get(primitive).copied().flatten(),
+        }
+    }
+
+    /// One number where it is the same of all.
+    fn new(sets: Vec<Option<u32>>) -> Self {
+        match sets.first() {
+            Some(Some(first)) if sets.iter().all(|set| *set == Some(*first)) => Self::One(*first),
+            _ => Self::Each(sets),
+        }
+    }
+}
+
+/// A mark: UV sets, their terms, and a digest of the UVs by which a file that was changed is recognized.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mark {
+    version: u32,
+    /// The UV sets that were written.
+    #[serde(rename = "texcoord")]
+    pub sets: Sets,
+    /// What they were made for.
+    #[serde(flatten)]
+    pub terms: Terms,
+    digest: String,
+}
+
+/// In words.
+impl fmt::Display for Mark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let terms = &self.terms;
+        match &self.sets {
+            Sets::One(set) => write!(f, "UV set {set}")?,
+            Sets::Each(_) => write!(f, "UV sets of its own for each primitive")?,
+        }
+        if let Some(charts) = &terms.charts {
+            return write!(
+                f,
+                ", {} charts that were edited, each by itself",
+                charts.len()
+            );
+        }
+        let shared = match terms.group_by {
+            GroupBy::Mesh => "mesh",
+            GroupBy::Scene => "scene",
+            GroupBy::Material => "material",
+            GroupBy::Primitive => "primitive",
+        };
+        write!(f, ", one atlas for each {shared}")?;
+        if terms.separate_nodes {
+            write!(f, ", each node by itself")?;
+        }
+        if let Some(padding) = terms.padding {
+            write!(f, ", {padding} texels at {}", terms.resolution)?;
+        }
+        if terms.mips > 0 {
+            write!(f, " down to mip level {}", terms.mips)?;
+        }
+        if terms.overlaps {
+            write!(f, ", overlaps allowed")?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file has a mark that can be believed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Marked {
+    /// It has none.
+    Not,
+    /// It has one that does not fit its UVs: they were changed since.
+    Stale,
+    /// It has one that fits.
+    Fits(Box<Mark>),
+}
+
+impl Mark {
+    /// The mark of UVs as a file will have them: of each primitive the set and the UVs, in the numbers of the file.
+    pub(super) fn new(
+        terms: &Terms,
+        written: impl Iterator<Item = Option<(u32, Vec<CornerUvs>)>>,
+    ) -> Self {
+        let mut digest = UvDigest::default();
+        let sets = written.map(|primitive| {
+            let (set, uvs) = primitive?;
+            digest.add(set, &uvs);
+            Some(set)
+        });
+        Self {
+            version: VERSION,
+            sets: Sets::new(sets.collect()),
+            terms: terms.clone(),
+            digest: digest.text(),
+        }
+    }
+
+    /// The mark as the file has it.
+    pub(super) fn value(&self) -> Value {
+        serde_json::to_value(self).unwrap_or_default()
+    }
+
+    /// The mark that a file has, if it is of a version that is known.
+    pub(super) fn parse(value: &Value) -> Option<Self> {
+        let mark = Self::deserialize(value).ok()?;
+        (mark.version == VERSION).then_some(mark)
+    }
+
+    /// Whether the UVs of the document are those that were marked.
+    fn fits(&self, document: &Document) -> Result<bool, DocumentError> {
+        let n_primitives = document.primitives().len();
+        if matches!(&self.sets, Sets::Each(sets) if sets.len() != n_primitives) {
+            return Ok(false);
+        }
+        let mut digest = UvDigest::default();
+        for primitive in 0..n_primitives {
+            let Some(set) = self.sets.of(primitive) else {
+                continue;
+            };
+            match document.corner_uvs(primitive, set)? {
+                Some(uvs) => digest.add(set, &uvs),
+                None => return Ok(false),
+            }
+        }
+        Ok(digest.text() == self.digest)
+    }
+}
+
+impl Document {
+    /// Whether the document says of its UVs what they were made for.
+    pub fn marked(&self) -> Result<Marked, DocumentError> {
+        let mark = match self {
+            Self::Gltf(document) => document.mark(),
+            Self::Obj(document) => document.mark(),
+            Self::Soup(_) => None,
+        };
+        Ok(match mark.as_ref().map(Mark::parse) {
+            None => Marked::Not,
+            Some(Some(mark)) if mark.fits(self)? => Marked::Fits(Box::new(mark)),
+            Some(_) => Marked::Stale,
+        })
+    }
+}
+
+/// A digest of the UVs of every face corner in file order, whatever the numbers of the vertices.
+#[derive(Default)]
+struct UvDigest(Sha256);
+
+impl UvDigest {
+    fn add(&mut self, set: u32, uvs: &[CornerUvs]) {
+        self.0.update(set.to_le_bytes());
+        self.0.update((uvs.len() as u64).to_le_bytes());
+        for number in uvs.as_flattened().as_flattened() {
+            self.0.update(number.to_le_bytes());
+        }
+    }
+
+    /// The first 16 bytes in hexadecimal: changes by accident are to be recognized, not forgeries.
+    fn text(self) -> String {
+        let digest = self.0.finalize();
+        let bytes = std::array::from_fn(|k| digest[k]);
+        format!("{:032x}", u128::from_be_bytes(bytes))
+    }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(value: &u32) -> bool {
+    *value == 0
+}

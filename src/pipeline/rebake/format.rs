@@ -1,0 +1,54 @@
+//! The format of the files of resampled textures.
+
+use serde::{Deserialize, Serialize};
+
+use super::MOST_SIDE;
+use crate::document::gltf::GltfDocument;
+use crate::document::{BakePlane, DocumentError};
+use crate::picture::Image;
+
+/// The format of the files of resampled textures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum ImageFormat {
+    /// JPEG where all the images that a texture is made of are, else PNG.
+    #[default]
+    Source,
+    /// PNG, without loss.
+    Png,
+    /// JPEG, but PNG where something is transparent.
+    Jpeg,
+}
+
+// The longest side of a JPEG file is 65,535 pixels.
+const _: () = assert!(MOST_SIDE <= u16::MAX as u32);
+
+impl ImageFormat {
+    /// The file of a texture made by `plane`.
+    pub fn file(
+        self,
+        document: &GltfDocument,
+        plane: &BakePlane,
+        image: &Image,
+    ) -> Result<Vec<u8>, DocumentError> {
+        let is_jpeg = match self {
+            Self::Source => is_all_jpeg(document, plane)?,
+            Self::Png => false,
+            Self::Jpeg => true,
+        };
+        let jpeg = if is_jpeg { image.jpeg() } else { None };
+        Ok(jpeg.unwrap_or_else(|| image.png()))
+    }
+}
+
+/// Whether a texture is made of JPEG files only.
+fn is_all_jpeg(document: &GltfDocument, plane: &BakePlane) -> Result<bool, DocumentError> {
+    const MAGIC: [u8; 3] = [0xFF, 0xD8, 0xFF];
+    for source in plane.sources.values() {
+        if !document.image(source.image)?.starts_with(&MAGIC) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
