@@ -8,7 +8,7 @@
 use super::attempt::{Attempt, Extent, Packing};
 use super::plan::Plan;
 use super::spot::Spot;
-use super::{AtlasOptions, Scale};
+use super::{AtlasOptions, OnRead, Scale};
 
 /// Where all charts lie.
 #[derive(Clone, Debug)]
@@ -62,7 +62,12 @@ pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f6
 }
 
 /// The best layout found of a plan; none when there are more charts than cells.
-pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<Layout> {
+pub(super) fn layout(
+    plan: &Plan,
+    slack: &[f64],
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Option<Layout> {
     let texture = options.texture;
     let cells = texture.raster(raster(plan.order.len() / texture.pages.max(1) as usize));
     let padding = padding(options, plan.order.len(), f64::from(cells));
@@ -74,6 +79,7 @@ pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Opti
         cells,
         padding,
         border,
+        on_read,
         extent: match options.scale {
             Scale::Largest => Extent::Growing,
             Scale::TexelsPerUnit(_) => Extent::Full,

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use super::map::mapped_charts;
 use super::observer::{Observer, Stage, Tracker};
 use super::packed::packed;
-use super::packing::atlas_options;
+use super::packing::{atlas_options, expected_words, search_words};
+use super::portion::Portion;
 use super::seams::Seams;
 use super::settings::Settings;
 use super::{PipelineError, repeated};
@@ -130,15 +131,24 @@ pub(super) fn unwrap_all(
     if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
         return Err(PipelineError::NoTriangles);
     }
+    let words = |surface: &Surface| search_words(settings, meshes.len(), surface.triangles.len());
+    let all_words = surfaces.iter().map(words).sum();
+    tracker.expect(
+        surfaces.iter().map(|surface| surface.triangles.len()).sum(),
+        all_words,
+    );
     let seams: Vec<&Seams> = meshes.iter().map(|mesh| mesh.seams).collect();
     let mapped = mapped_charts(&surfaces, &seams, settings, tracker);
-    tracker.stage(Stage::Pack);
+    tracker.begin(Stage::Pack, all_words as f64);
     let jobs: Vec<_> = meshes.iter().zip(&surfaces).zip(mapped).collect();
     jobs.into_par_iter()
         .map(|((mesh, surface), charts)| {
             let options = atlas_options(settings, meshes.len(), surface.triangles.len(), &charts);
             let charts = weighted(charts, mesh.seams, surface);
-            let (charts, atlas) = packed(charts, &options, settings)?;
+            let expected = expected_words(settings, &options, charts.len());
+            let portion = Portion::of_atlas(tracker, options.search_words, expected);
+            let on_read = |words| portion.advance(words as f64);
+            let (charts, atlas) = packed(charts, &options, settings, &on_read)?;
             Ok(assemble(*mesh, surface, &charts, &atlas))
         })
         .collect()

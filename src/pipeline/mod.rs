@@ -18,6 +18,7 @@ mod compact;
 mod error;
 mod map;
 mod observer;
+mod portion;
 mod repeated;
 mod seams;
 mod settings;

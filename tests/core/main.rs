@@ -47,6 +47,7 @@ mod pipeline;
 mod places;
 #[cfg(feature = "files")]
 mod problem_files;
+mod progress;
 mod random;
 mod separation;
 mod solver;
