@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::console::{print_json, say, warn};
 use super::failure::Failure;
-use super::files::{json, read_upload, say, warn};
+use super::input::read_upload;
 use super::words::{GROUPS, word};
 use crate::certificate::{Certificate, Resolution};
 use crate::document::GroupBy;
@@ -13,7 +14,8 @@ use crate::pipeline::{self, GroupReport, MeasureOptions};
 /// Which UVs of a file, and what is judged of them.
 #[derive(clap::Args)]
 pub(super) struct Which {
-    /// Mesh with UVs: .glb, .gltf or .obj
+    /// Mesh with UVs: .glb, .gltf or .obj; `-` is standard input
+    #[arg(value_name = "IN")]
     pub(super) input: PathBuf,
     /// UV set
     #[arg(long, default_value_t = 0, value_name = "N")]
@@ -76,7 +78,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let upload = read_upload(&args.which.input)?;
     let report = pipeline::measure_document(&upload, &args.which.options())?;
     if args.json {
-        say(format_args!("{}", String::from_utf8_lossy(&json(&report)?)));
+        print_json(&report)?;
     } else {
         report.groups.iter().for_each(print_group);
         warn(&report.warnings);

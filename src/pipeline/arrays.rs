@@ -98,8 +98,7 @@ impl Soup<'_> {
     /// The surface, cut along its seams.
     fn surface(&self) -> Result<Surface, PipelineError> {
         let mut surface = Surface::new(self.positions, self.triangles)?;
-        self.seams
-            .check(self.positions.len(), self.triangles.len())?;
+        self.seams.check(self.positions, self.triangles)?;
         self.seams.cut(&mut surface, self.positions);
         Ok(surface)
     }

@@ -3,7 +3,7 @@
 use super::PipelineError;
 use super::arrays::{GridCorners, Soup, Unwrapped, in_pool, unwrap_all};
 use super::judge::WrittenUvs;
-use super::merged::Merged;
+use super::merged::{Merged, check_edges};
 use super::observer::{Observer, Stage, Tracker};
 use super::options::Options;
 use super::pictures::Pictures;
@@ -13,8 +13,7 @@ use crate::atlas::GRID_BITS;
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 use crate::document::{
-    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
-    WriteOptions, Written,
+    BakedTextures, Corners, Document, Group, Layout, NewUvs, Upload, WriteOptions, Written,
 };
 use crate::measure::VAxis;
 
@@ -56,9 +55,10 @@ fn unwrap_in_pool(
     let nodes = options.nodes();
     let document = nodes.prepared(Document::read(upload)?)?;
     options.limits.check(&document)?;
-    let group_by = group_by(options);
+    let group_by = options.group_by();
     let groups = document.groups(group_by);
     let primitives = nodes.primitives(&document)?;
+    check_edges(&primitives, options)?;
     let meshes: Vec<Merged> = groups
         .iter()
         .map(|group| Merged::with_seams(&document, &primitives, group, options))
@@ -131,14 +131,6 @@ fn write(
         written.notes.warnings.extend(warnings);
     }
     Ok(written)
-}
-
-/// An OBJ file has one UV space, whatever was asked for.
-fn group_by(options: &Options) -> GroupBy {
-    match options.format {
-        OutputFormat::Obj => GroupBy::Scene,
-        OutputFormat::Glb | OutputFormat::Gltf => options.group_by,
-    }
 }
 
 /// The atlases as UVs of the document.

@@ -38,6 +38,8 @@ mod edit;
 #[cfg(feature = "files")]
 mod edit_options;
 #[cfg(feature = "files")]
+mod idle;
+#[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]
 mod limits;

@@ -85,7 +85,7 @@ impl RepackOptions {
             source_texcoord: self.source_texcoord,
             texcoord: self.texcoord,
             overwrite: self.overwrite,
-            group_by: self.group_by,
+            group_by: Some(self.group_by),
             resolution: self.resolution,
             pages: self.pages,
             texels_per_unit: self.texels_per_unit,

@@ -3,6 +3,9 @@
 mod benches;
 mod browser;
 mod cli;
+mod cli_options;
+mod cli_outputs;
+mod cli_streams;
 mod deforming;
 mod meshes;
 mod openapi;
