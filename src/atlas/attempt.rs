@@ -2,6 +2,7 @@
 use rayon::prelude::*;
 use std::collections::HashMap;
 
+use super::OnRead;
 use super::layout::SLACK;
 use super::mask::{Distances, Mask};
 use super::outline::Outline;
@@ -35,6 +36,7 @@ pub(super) struct Packing<'a> {
     pub border: f64,
     /// How far pages are used from the start.
     pub extent: Extent,
+    pub on_read: &'a OnRead<'a>,
 }
 
 /// How far pages are used from the start.
@@ -93,7 +95,7 @@ impl Packing<'_> {
                 .collect();
             for (&i, turned) in batch.iter().zip(masks) {
                 let (turned, stretch) = turned.ok_or(placed / area)?;
-                *work +=
+                let mut read =
                     WORK_PER_CHART + WORK_PER_EDGE * self.plan.outlines[i].edges().len() as u64;
                 let [w, h] = turned[0].size;
                 let row = lowest.entry([w.min(h), w.max(h)]).or_default();
@@ -102,7 +104,9 @@ impl Packing<'_> {
                     Some(near) => find_near(near, i, &mut sheet, &turned, target),
                     None => sheet.find(&turned, Window::from(Corner { x: 0, ..*row })),
                 };
-                *work += sheet.work - before;
+                read += sheet.work - before;
+                *work += read;
+                (self.on_read)(read);
                 let (mask, spot) = spot.ok_or(placed / area)?;
                 if is_full {
                     *row = spot.corner;

@@ -53,8 +53,8 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let draft = Draft::new(charts, &largest)?;
-    let drafts = searched(draft.as_ref(), &largest);
-    let fullest = best(&first, &drafts, &slack, &largest);
+    let drafts = searched(draft.as_ref(), &largest, &|_| ());
+    let fullest = best(&first, &drafts, &slack, &largest, &|_| ());
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {
@@ -87,7 +87,7 @@ fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
         },
         ..options.clone()
     };
-    let layout = layout(first, slack, &many)?;
+    let layout = layout(first, slack, &many, &|_| ())?;
     let pages = layout.charts.iter().map(|(spot, _)| spot.corner.page + 1);
     pages.max()
 }

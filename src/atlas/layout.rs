@@ -8,7 +8,7 @@
 use super::attempt::{Attempt, Extent, Packing};
 use super::plan::Plan;
 use super::spot::Spot;
-use super::{AtlasOptions, Scale};
+use super::{AtlasOptions, OnRead, Scale};
 
 /// Where all charts lie.
 #[derive(Clone, Debug)]
@@ -65,7 +65,12 @@ pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f6
 }
 
 /// The best layout found of a plan; none when there are more charts than cells.
-pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<Layout> {
+pub(super) fn layout(
+    plan: &Plan,
+    slack: &[f64],
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Option<Layout> {
     let texture = options.texture;
     let on_page = plan.order.len() / texture.pages.max(1) as usize;
     let cells = texture.raster(raster(on_page, options.most_cells));
@@ -78,6 +83,7 @@ pub(super) fn layout(plan: &Plan, slack: &[f64], options: &AtlasOptions) -> Opti
         cells,
         padding,
         border,
+        on_read,
         extent: match options.scale {
             Scale::Largest => Extent::Growing,
             Scale::TexelsPerUnit(_) => Extent::Full,

@@ -47,6 +47,9 @@ pub use enough::{Enough, enough};
 pub use pack::{fits, pack, pack_draft};
 pub use texture::Texture;
 
+/// Is told how many words a search has read since it was told last, from several threads at once.
+pub type OnRead<'a> = dyn Fn(u64) + Sync + 'a;
+
 use thiserror::Error;
 
 /// Atlas coordinates are integers, the side of a page is 2^GRID_BITS: in the unit square those are the steps `f32` represents.

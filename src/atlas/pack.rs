@@ -9,7 +9,8 @@ use super::plan::Plan;
 use super::snap::{self, Snapped};
 use super::spot::{Corner, Spot};
 use super::{
-    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, Placed, Scale, doubled_area,
+    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale,
+    doubled_area,
 };
 
 /// Layouts tried until no vertex moves farther than its chart's room.
@@ -20,7 +21,8 @@ const ROUNDS: usize = 6;
 /// The charts must be strictly positive as given; one that has a flipped triangle is rounded without repair. The same
 /// input gives the same atlas for any number of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
-    pack_draft(charts, Draft::new(charts, options)?.as_ref(), options)
+    let draft = Draft::new(charts, options)?;
+    pack_draft(charts, draft.as_ref(), options, &|_| ())
 }
 
 /// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on. A scale that is given is
@@ -29,14 +31,15 @@ pub fn pack_draft(
     charts: &[ChartMap],
     draft: Option<&Draft>,
     options: &AtlasOptions,
+    on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
     let mut slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let (drafts, found) = match options.scale {
-        Scale::Largest => (searched(draft, options), None),
-        Scale::TexelsPerUnit(_) => match layout::layout(&first, &slack, options) {
+        Scale::Largest => (searched(draft, options, on_read), None),
+        Scale::TexelsPerUnit(_) => match layout::layout(&first, &slack, options, on_read) {
             Some(layout) => (Vec::new(), Some((first.clone(), layout))),
-            None => (searched(draft, options), None),
+            None => (searched(draft, options, on_read), None),
         },
     };
     if found.is_none()
@@ -53,7 +56,7 @@ pub fn pack_draft(
         },
         Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
     };
-    let found = found.or_else(|| best(&first, &drafts, &slack, options));
+    let found = found.or_else(|| best(&first, &drafts, &slack, options, on_read));
     let (plan, mut layout) = found.ok_or_else(|| none.clone())?;
     let mut chart = 0;
     for _ in 0..ROUNDS {
@@ -62,7 +65,7 @@ pub fn pack_draft(
             Some(cramped) => chart = cramped,
             None => return Ok(atlas(charts, &layout, &slack, snapped, options)),
         }
-        layout = layout::layout(&plan, &slack, options).ok_or_else(|| none.clone())?;
+        layout = layout::layout(&plan, &slack, options, on_read).ok_or_else(|| none.clone())?;
     }
     Err(AtlasError::NotRepresentable { chart })
 }
@@ -85,12 +88,20 @@ fn cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> Option<us
 pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasError> {
     let plan = Plan::largest_first(&outlines(charts)?, options);
     let slack = vec![SLACK; charts.len()];
-    Ok(options.scale != Scale::Largest && layout::layout(&plan, &slack, options).is_some())
+    Ok(
+        options.scale != Scale::Largest
+            && layout::layout(&plan, &slack, options, &|_| ()).is_some(),
+    )
 }
 
 /// What a search makes of a draft, the best first.
-pub(super) fn searched(draft: Option<&Draft>, options: &AtlasOptions) -> Vec<Draft> {
-    draft.map_or_else(Vec::new, |draft| draft.searched(options.search_words / 4))
+pub(super) fn searched(
+    draft: Option<&Draft>,
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Vec<Draft> {
+    let words = options.search_words / 4;
+    draft.map_or_else(Vec::new, |draft| draft.searched(words, on_read))
 }
 
 /// The plan whose layout has the largest scale: the one given, or what a search made of it.
@@ -99,6 +110,7 @@ pub(super) fn best(
     drafts: &[Draft],
     slack: &[f64],
     options: &AtlasOptions,
+    on_read: &OnRead,
 ) -> Option<(Plan, Layout)> {
     let mut plans: Vec<Plan> = drafts.iter().map(Draft::plan).collect();
     plans.push(first.clone());
@@ -107,7 +119,7 @@ pub(super) fn best(
         ..options.clone()
     };
     let layouts: Vec<Option<Layout>> = (plans.par_iter().with_max_len(1))
-        .map(|plan| layout::layout(plan, slack, &shared))
+        .map(|plan| layout::layout(plan, slack, &shared, on_read))
         .collect();
     let laid_out = plans.into_iter().zip(layouts);
     laid_out

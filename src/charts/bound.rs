@@ -217,6 +217,7 @@ fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
         // Far from the goal several slits at once do as well as one after the other.
         let is_far = expected > 2.0 * wanted * area;
         is_done[worst] = !pieces[worst].cut(is_far);
+        observer.worked(pieces[worst].n_faces());
         expected += pieces[worst].excess;
     }
 }

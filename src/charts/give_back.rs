@@ -172,6 +172,7 @@ impl<'a> Giving<'a> {
             return false;
         }
         self.left -= n_glued;
+        self.observer.worked(n_glued);
         let Some(joint) = laid.glued(neighbor) else {
             return false;
         };

@@ -26,6 +26,8 @@ pub struct MappedChart {
 pub trait Observer: Sync {
     /// An iterate of a chart of so many faces.
     fn iterate(&self, faces: usize, iterate: &Iterate) -> Control;
+    /// Work that no iterate shows, as long as one iteration of so many faces takes.
+    fn worked(&self, _faces: usize) {}
     /// Whether to go on, asked between maps.
     fn control(&self) -> Control;
     /// Time since the work began.

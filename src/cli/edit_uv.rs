@@ -2,17 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
+use super::console::{json, print_json, warn};
 use super::failure::Failure;
-use super::files::{
-    json, output_format, read_file, read_upload, warn, write_atomically, write_outputs,
-};
+use super::format::output_format;
+use super::input::{read_file, read_upload};
 use super::model::ModelArgs;
+use super::output::{OutputArgs, Outputs, stem};
 use super::progress::Display;
-use super::records::stem;
 use super::warp::print_pull;
-use super::words::{BOUNDARIES, UV_RESTS, word};
+use super::words::{BOUNDARIES, FORMATS, UV_RESTS, word};
 use crate::deform::Boundary;
 use crate::deform::uv::{UvRest, parse_anchors};
+use crate::document::OutputFormat;
 use crate::pipeline::{EditOptions, Editing, Limits, edit_document};
 
 /// Moves anchors of a UV map, everything else as it is as far as possible and no triangle flipped.
@@ -38,9 +39,10 @@ pub(super) struct TextureArgs {
 
 #[derive(clap::Args)]
 struct Common {
-    /// Mesh with UVs: .glb, .gltf or .obj
+    /// Mesh with UVs: .glb, .gltf or .obj; `-` is standard input
+    #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Where to write; .glb, .gltf or .obj decides the format
+    /// Where to write: .glb, .gltf or .obj decides the format; `-` is standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// UV set
@@ -52,14 +54,26 @@ struct Common {
     /// Which shapes of triangles to keep [default: present for edit-uv, surface for texture-map]
     #[arg(long, value_parser = word::<UvRest>(UV_RESTS))]
     rest: Option<UvRest>,
-    #[command(flatten)]
-    model: ModelArgs,
     /// End with the current valid map after this many seconds
     #[arg(long, value_name = "SECONDS")]
     time_budget: Option<f64>,
+    #[command(flatten)]
+    files: Files,
+    #[command(flatten)]
+    model: ModelArgs,
+}
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Files and messages")]
+struct Files {
+    /// Format of OUT where its name does not tell
+    #[arg(long, value_parser = word::<OutputFormat>(FORMATS))]
+    format: Option<OutputFormat>,
     /// Write a JSON report: per chart status, iterations, energy, residual, what is proven
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 /// Runs `edit-uv`.
@@ -74,25 +88,30 @@ pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
 
 /// Exit 4 if a chart with an anchor is not proven to be without flips.
 fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
-    let options = EditOptions {
-        anchors: parse_anchors(&read_file(anchors)?)?,
+    let mut options = EditOptions {
+        anchors: Vec::new(),
         texcoord: args.texcoord,
         boundary: args.boundary,
         rest: args.rest,
         model: args.model.model(),
         time_budget: args.time_budget,
-        format: output_format(&args.output)?,
+        format: output_format(&args.output, args.files.format)?,
         stem: stem(&args.output),
         limits: Limits::default(),
     };
+    options.check().map_err(Failure::of_options)?;
+    let (report, output) = (&args.files.report, &args.files.output);
+    let outputs = Outputs::check(&args.output, &[report], &[&args.input, anchors], output)?;
+    options.anchors = parse_anchors(&read_file(anchors)?)?;
     let upload = read_upload(&args.input)?;
-    let display = Display::new();
+    let outputs = outputs.with_resources_of(&upload);
+    let display = Display::new(&output.talk);
     let edited = edit_document(&upload, editing, &options, &display);
     display.finish()?;
     let edited = edited?;
-    write_outputs(&args.output, &edited.files)?;
-    if let Some(path) = &args.report {
-        write_atomically(path, &json(&edited.report)?)?;
+    outputs.write(&edited.files, &[(report, &json(&edited.report)?)])?;
+    if output.talk.json {
+        print_json(&edited.report)?;
     }
     warn(&edited.report.warnings);
     for chart in &edited.report.charts {

@@ -56,11 +56,36 @@ impl Failure {
 
 impl From<PipelineError> for Failure {
     fn from(error: PipelineError) -> Self {
+        let text = match &error {
+            PipelineError::InvalidOptions(text) => as_typed(text),
+            _ => error.to_string(),
+        };
         Self {
             exit_code: error.exit_code(),
-            message: format!("{error} ({})", error.code()),
+            message: format!("{text} ({})", error.code()),
         }
     }
+}
+
+impl Failure {
+    /// Why the options of a command were refused, in the words that were typed.
+    pub(super) fn of_options(error: PipelineError) -> Self {
+        let code = error.code();
+        Self {
+            message: format!("{} ({code})", as_typed(&error.to_string())),
+            ..error.into()
+        }
+    }
+}
+
+/// What the library says of options, with their names as they are typed: `seam_weight` becomes --seam-weight.
+fn as_typed(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    let typed = parts.map(|(i, part)| match i % 2 {
+        0 => part.to_owned(),
+        _ => format!("--{}", part.replace('_', "-")),
+    });
+    typed.collect()
 }
 
 /// Handles or a problem file that cannot be read.

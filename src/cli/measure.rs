@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::console::{print_json, warn};
 use super::failure::Failure;
-use super::files::{json, read_upload, say, warn};
+use super::input::read_upload;
 use super::words::{GROUPS, word};
 use crate::certificate::{Certificate, Resolution};
 use crate::document::GroupBy;
@@ -12,7 +13,8 @@ use crate::pipeline::{self, MeasureOptions};
 /// Which UVs of a file, and what is judged of them.
 #[derive(clap::Args)]
 pub(super) struct Which {
-    /// Mesh with UVs: .glb, .gltf or .obj
+    /// Mesh with UVs: .glb, .gltf or .obj; `-` is standard input
+    #[arg(value_name = "IN")]
     pub(super) input: PathBuf,
     /// UV set [default: the one that the file says was written, judged by what it says it was written for; else 0]
     #[arg(long, value_name = "N")]
@@ -75,7 +77,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let upload = read_upload(&args.which.input)?;
     let report = pipeline::measure_document(&upload, &args.which.options())?;
     if args.json {
-        say(format_args!("{}", String::from_utf8_lossy(&json(&report)?)));
+        print_json(&report)?;
     } else {
         super::table::print(&report.groups);
         warn(&report.warnings);

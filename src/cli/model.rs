@@ -6,6 +6,7 @@ use crate::deform::{DeformationEnergy, Model};
 
 /// What is minimized while handles are pulled.
 #[derive(clap::Args)]
+#[command(next_help_heading = "Energy and barrier")]
 pub(super) struct ModelArgs {
     /// Deformation energy
     #[arg(long, default_value = "arap", value_parser = word::<DeformationEnergy>(DEFORMATIONS))]

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::failure::Failure;
-use super::files::write_atomically;
+use super::output::{Talk, write_whole};
 use crate::pipeline::{Observer, Progress, Stage};
 use crate::solver::Control;
 
@@ -18,6 +18,7 @@ const STEPS: u64 = 1000;
 /// Shows progress, tells the time, and writes frames.
 pub(super) struct Display {
     begin: Instant,
+    is_shown: bool,
     bar: Option<ProgressBar>,
     last_stage: Mutex<Option<Stage>>,
     frames: Option<Frames>,
@@ -31,8 +32,9 @@ struct Frames {
 }
 
 impl Display {
-    pub(super) fn new() -> Self {
-        let bar = stderr().is_terminal().then(|| {
+    pub(super) fn new(talk: &Talk) -> Self {
+        let is_shown = !talk.quiet;
+        let bar = (is_shown && stderr().is_terminal()).then(|| {
             let bar =
                 ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr_with_hz(10));
             let style = ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed:>4} {msg}");
@@ -41,6 +43,7 @@ impl Display {
         });
         Self {
             begin: Instant::now(),
+            is_shown,
             bar,
             last_stage: Mutex::new(None),
             frames: None,
@@ -48,7 +51,7 @@ impl Display {
     }
 
     /// Also writes every map into a folder.
-    pub(super) fn with_frames(folder: PathBuf, extension: String) -> Self {
+    pub(super) fn with_frames(talk: &Talk, folder: PathBuf, extension: String) -> Self {
         let failure = Mutex::new(None);
         Self {
             frames: Some(Frames {
@@ -56,7 +59,7 @@ impl Display {
                 extension,
                 failure,
             }),
-            ..Self::new()
+            ..Self::new(talk)
         }
     }
 
@@ -99,7 +102,8 @@ impl Observer for Display {
                 bar.set_position((progress.fraction * STEPS as f64) as u64);
                 bar.set_message(stage_text(progress));
             }
-            None => self.line(progress),
+            None if self.is_shown => self.line(progress),
+            None => {}
         }
         if self.has_failed() {
             Control::Finish
@@ -115,7 +119,7 @@ impl Observer for Display {
     fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
         if let Some(frames) = &self.frames {
             let name = format!("{number:05}.{}", frames.extension);
-            let written = write_atomically(&frames.folder.join(name), &file());
+            let written = write_whole(&frames.folder.join(name), &file());
             let mut failure = frames
                 .failure
                 .lock()

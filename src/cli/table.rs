@@ -1,6 +1,6 @@
 //! Atlases in a table: at most ten lines and totals.
 
-use super::files::say;
+use super::console::say;
 use crate::certificate::Certificate;
 use crate::measure::Page;
 use crate::pipeline::{GroupReport, stretch_percent};

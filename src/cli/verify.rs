@@ -1,13 +1,18 @@
 //! `unwrapd verify`: what can be proven of existing UVs.
 
+use super::console::{self, Lines, print_json, say, warn};
 use super::failure::Failure;
-use super::files::{json, read_upload, say, warn};
+use super::input::read_upload;
 use super::measure::{Which, certificate_text};
 use crate::certificate::Overlap;
 use crate::pipeline::{Mirrored, verify_document};
 
 /// Checks exactly that every face of a file's UVs is positive relative to its chart, and what else is asked for.
 #[derive(clap::Args)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "switches of the command line"
+)]
 pub(super) struct Args {
     #[command(flatten)]
     which: Which,
@@ -20,10 +25,16 @@ pub(super) struct Args {
     /// Print the certificates as JSON
     #[arg(long)]
     json: bool,
+    /// Say it with the exit status alone
+    #[arg(short, long, conflicts_with = "json")]
+    quiet: bool,
 }
 
 /// Runs `verify`; a file of which something asked for does not hold ends with exit status 4.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if args.quiet {
+        console::direct(Lines::None);
+    }
     let upload = read_upload(&args.which.input)?;
     let options = args.which.options();
     let overlap = if args.bijective {
@@ -33,7 +44,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let verified = verify_document(&upload, &options, overlap)?;
     if args.json {
-        say(String::from_utf8_lossy(&json(&verified)?));
+        print_json(&verified)?;
     } else {
         if let Some(mark) = &verified.mark {
             say(format_args!("judged as the file says: {mark}"));

@@ -28,6 +28,10 @@ pub(super) const BARRIERS: &[&str] = &[
 pub(super) const BOUNDARIES: &[&str] = &["free", "fixed"];
 pub(super) const UV_RESTS: &[&str] = &["present", "surface"];
 pub(super) const METHODS: &[&str] = &["projected", "levenberg"];
+pub(super) const FORMATS: &[&str] = &["glb", "gltf", "obj"];
+pub(super) const BODY_FORMATS: &[&str] = &[
+    "txt", "obj", "off", "msh", "mesh", "tet", "vtu", "glb", "gltf",
+];
 pub(super) const CUTS: &[&str] = &["auto", "fast", "disk", "keep", "seams"];
 pub(super) const PRESETS: &[&str] = &["material", "lightmap"];
 pub(super) const PACKINGS: &[&str] = &["fast", "tight"];

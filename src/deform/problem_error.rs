@@ -83,7 +83,7 @@ pub enum ProblemError {
         epsilon: f64,
     },
     /// A number is not in its range.
-    #[error("{name} must be {range}")]
+    #[error("`{name}` must be {range}")]
     BadParameter {
         /// Which.
         name: &'static str,

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use super::divided::Divided;
 use super::observer::{Observer, Stage, Tracker};
 use super::packed::packed;
-use super::packing::atlas_options;
+use super::packing::{atlas_options, expected_words, search_words};
+use super::portion::Portion;
 use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::Soup;
@@ -114,19 +115,25 @@ pub(super) fn unwrap_all(
         .map(|mesh| divided.same_mesh(mesh, settings))
         .collect();
     let is_own: Vec<bool> = same_as.iter().map(Option::is_none).collect();
+    let own = || (0..meshes.len()).filter(|&mesh| is_own[mesh]);
+    let n_atlases = own().count();
+    let words = |mesh| search_words(settings, n_atlases, divided.n_faces(mesh));
+    let all_words = own().map(words).sum();
+    tracker.expect(divided.n_mapped_faces(), all_words);
     let charts = divided.charts(&is_own, settings, tracker);
-    tracker.stage(Stage::Pack);
-    let n_atlases = is_own.iter().filter(|own| **own).count();
+    tracker.begin(Stage::Pack, all_words as f64);
     let atlases: Vec<Option<(Vec<MappedChart>, Atlas)>> = (charts.into_par_iter().enumerate())
         .with_max_len(1)
         .map(|(index, charts)| {
             if !is_own[index] {
                 return Ok(None);
             }
-            let n_faces = charts.iter().map(|c| c.chart.corners.len()).sum();
-            let options = atlas_options(settings, n_atlases, n_faces, &charts);
+            let options = atlas_options(settings, n_atlases, divided.n_faces(index), &charts);
             let charts = weighted(charts, meshes[index].seams);
-            packed(charts, &options, settings).map(Some)
+            let expected = expected_words(settings, &options, charts.len());
+            let portion = Portion::of_atlas(tracker, options.search_words, expected);
+            let on_read = |words| portion.advance(words as f64);
+            packed(charts, &options, settings, &on_read).map(Some)
         })
         .collect::<Result<_, PipelineError>>()?;
     (meshes.par_iter().enumerate())

@@ -71,7 +71,7 @@ impl BodyFormat {
     pub(super) fn check_for_mesh(self) -> Result<(), PipelineError> {
         match self {
             Self::Glb | Self::Gltf => Err(PipelineError::InvalidOptions(
-                "format: of this input the result is txt, obj, off, msh, mesh, tet or vtu".into(),
+                "`format`: of this input the result is txt, obj, off, msh, mesh, tet or vtu".into(),
             )),
             _ => Ok(()),
         }

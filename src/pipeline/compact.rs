@@ -2,7 +2,7 @@
 
 use super::packed::chart_maps;
 use super::settings::Settings;
-use crate::atlas::{AtlasError, AtlasOptions, Draft, Scale, Texture};
+use crate::atlas::{AtlasError, AtlasOptions, Draft, OnRead, Scale, Texture};
 use crate::charts::{MappedChart, Split, seam_length};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -16,10 +16,10 @@ const PER_CHART: f64 = 0.4;
 const MOST_CUTS: u64 = 18;
 const MOST_CUTS_PER_CHART: u64 = 14;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
-const MOST_CHARTS: usize = 64;
+pub(super) const MOST_CHARTS: usize = 64;
 /// What cuts may cost at most, as a share of the square.
 const MOST_COST: f64 = 1.0;
-/// Words for packing without which one more cut is not looked at.
+/// Words for packing without which one more cut is not looked at, which takes about as long as reading them.
 const WORDS_PER_CUT: u64 = 4_000_000;
 
 /// Charts and a draft of their layout.
@@ -47,6 +47,7 @@ pub(super) fn compacted(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
     settings: &Settings,
+    on_read: &OnRead,
 ) -> Result<Drafted, AtlasError> {
     let Drafted { charts, draft } = Drafted::new(charts, options)?;
     let draft = match draft {
@@ -61,8 +62,15 @@ pub(super) fn compacted(
         .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
     let seam_weight = settings.seam_weight * settings.quality.seam_price();
-    let candidates = candidates(charts, draft, seam_weight, most_cuts as usize, options)?;
-    let Candidate { charts, draft, .. } = fullest(candidates, words);
+    let candidates = candidates(
+        charts,
+        draft,
+        seam_weight,
+        most_cuts as usize,
+        options,
+        on_read,
+    )?;
+    let Candidate { charts, draft, .. } = fullest(candidates, words, on_read);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
         draft: Some(draft),
@@ -100,6 +108,7 @@ fn candidates(
     seam_weight: f64,
     most_cuts: usize,
     options: &AtlasOptions,
+    on_read: &OnRead,
 ) -> Result<Vec<Candidate>, AtlasError> {
     let area = charts.iter().map(MappedChart::area).sum::<f64>();
     let Texture { resolution, pages } = options.texture;
@@ -138,6 +147,7 @@ fn candidates(
         splits.extend(best_splits(&parts, of_page));
         candidate.charts.extend(parts);
         candidates.push(candidate.clone());
+        on_read(WORDS_PER_CUT);
     }
     Ok(candidates)
 }
@@ -146,12 +156,15 @@ fn candidates(
 ///
 /// All are searched equally long, those that are worth more go on, half as many and each twice as long, until two are left.
 /// From: Karnin, Koren, Somekh 2013, Almost Optimal Exploration in Multi-Armed Bandits (successive halving).
-fn fullest(mut candidates: Vec<Candidate>, words: u64) -> Candidate {
+fn fullest(mut candidates: Vec<Candidate>, words: u64, on_read: &OnRead) -> Candidate {
     let rounds = u64::from(candidates.len().next_power_of_two().ilog2().max(1));
     for round in 0..rounds {
         let share = words / rounds / candidates.len() as u64;
         let each = candidates.par_iter_mut().with_max_len(1);
-        each.for_each(|candidate| candidate.draft.improve(share, round));
+        each.for_each(|candidate| {
+            candidate.draft.improve(share, round);
+            on_read(share);
+        });
         candidates.sort_by(|a, b| b.value().total_cmp(&a.value()));
         candidates.truncate(candidates.len().div_ceil(2));
     }

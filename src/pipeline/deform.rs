@@ -7,10 +7,12 @@ use super::arrays::in_pool;
 use super::bodies::BodyFormat;
 use super::caged;
 use super::documents::stem;
+use super::idle;
 use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
 use super::solution::{Deformed, Plan, WriteMap, solve};
-use super::source::Source;
+use super::source::{Source, TRIANGLES};
+use crate::barrier::BarrierKind;
 use crate::deform::{Handle, Method, Model, Problem};
 use crate::document::Upload;
 
@@ -62,7 +64,7 @@ impl Default for DeformOptions {
         Self {
             handles: Vec::new(),
             model: Model::default(),
-            triangles: 5000,
+            triangles: TRIANGLES,
             cage: None,
             split: false,
             barrier_continuation: false,
@@ -81,17 +83,35 @@ impl DeformOptions {
     pub fn check(&self) -> Result<(), PipelineError> {
         self.model.check()?;
         check_time_budget(self.time_budget)?;
-        if self.split && self.cage.is_none() {
-            let text = "split: there is no cage".to_owned();
-            return Err(PipelineError::InvalidOptions(text));
-        }
+        self.check_idle().map_err(PipelineError::InvalidOptions)?;
         match (self.format, self.cage) {
             (Some(format), Some(_)) if format.of_document().is_none() => {
-                let text = "format: surfaces in a cage are written as glb, gltf or obj";
+                let text = "`format`: surfaces in a cage are written as glb, gltf or obj";
                 Err(PipelineError::InvalidOptions(text.to_owned()))
             }
             _ => Ok(()),
         }
+    }
+
+    /// Refuses what would do nothing.
+    fn check_idle(&self) -> Result<(), String> {
+        idle::check_model(&self.model)?;
+        let idle = [
+            (
+                self.split && self.cage.is_none(),
+                "`split` goes with `cage`",
+            ),
+            (
+                self.triangles != TRIANGLES && self.cage.is_some(),
+                "`triangles` fill an outline; `cage` goes with surfaces",
+            ),
+            (
+                self.barrier_continuation && self.model.barrier == BarrierKind::None,
+                "`barrier_continuation` goes with a `barrier`",
+            ),
+        ];
+        let first = idle.into_iter().find(|(is_idle, _)| *is_idle);
+        first.map_or(Ok(()), |(_, text)| Err(text.to_owned()))
     }
 
     pub(super) fn plan(&self) -> Plan {

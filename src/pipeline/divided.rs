@@ -118,6 +118,23 @@ impl<'a> Divided<'a> {
         self.pieces[piece].face(self.surfaces[piece].faces[triangle as usize])
     }
 
+    /// Triangles of the pieces that are mapped.
+    pub(super) fn n_mapped_faces(&self) -> usize {
+        let is_first = |&piece: &usize| self.shapes[piece].first == piece;
+        let firsts = (0..self.pieces.len()).filter(is_first);
+        firsts
+            .map(|piece| self.surfaces[piece].triangles.len())
+            .sum()
+    }
+
+    /// Triangles of a mesh that are in charts.
+    pub(super) fn n_faces(&self, mesh: usize) -> usize {
+        let pieces = self.of_mesh[mesh].clone();
+        pieces
+            .map(|piece| self.surfaces[piece].triangles.len())
+            .sum()
+    }
+
     /// The faces of a mesh that are in charts, ascending.
     pub(super) fn faces(&self, mesh: usize) -> Vec<u32> {
         let of_piece = |piece: usize| {

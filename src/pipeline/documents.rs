@@ -16,7 +16,7 @@ use super::soup::Soup;
 use crate::atlas::GRID_BITS;
 use crate::charts::Cut;
 use crate::document::{
-    BakedTextures, Corners, Document, Group, Layout, NewUvs, Upload, WriteOptions, Written,
+    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, Upload, WriteOptions, Written,
 };
 use crate::measure::VAxis;
 

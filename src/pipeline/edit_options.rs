@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
+use super::idle;
 use super::limits::{Limits, check_time_budget};
 use crate::deform::uv::{Anchor, UvEditOptions, UvRest};
 use crate::deform::{Boundary, Model};
@@ -69,6 +70,7 @@ impl EditOptions {
     /// Checks what can be checked without the file.
     pub fn check(&self) -> Result<(), PipelineError> {
         self.model.check()?;
+        idle::check_model(&self.model).map_err(PipelineError::InvalidOptions)?;
         check_time_budget(self.time_budget)
     }
 

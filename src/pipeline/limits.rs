@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
+use super::settings::within;
 use crate::document::Document;
 
 /// Limits set by who runs the work, beside the options of who wants it. What is absent is not limited.
@@ -52,10 +53,5 @@ impl Limits {
 
 /// Checks the seconds that a caller gives.
 pub(super) fn check_time_budget(seconds: Option<f64>) -> Result<(), PipelineError> {
-    match seconds {
-        Some(seconds) if !(0.0..=1e6).contains(&seconds) => Err(PipelineError::InvalidOptions(
-            format!("time_budget must lie between 0 and 1000000, not {seconds}"),
-        )),
-        _ => Ok(()),
-    }
+    within("time_budget", seconds.unwrap_or(0.0), 0.0, 1e6).map_err(PipelineError::InvalidOptions)
 }

@@ -4,13 +4,14 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 
 use super::observer::Tracker;
+use super::portion::Portion;
 use super::seams::Seams;
 use super::settings::{KeptMaps, Settings};
 use crate::barrier::BarrierKind;
 use crate::certificate::CornerUvs;
 use crate::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Quality, charts, charts_under_bound, given_back,
-    map_chart, map_chart_from,
+    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
+    given_back, map_chart, map_chart_from,
 };
 use crate::embed::{self, Pins};
 use crate::mesh::Surface;
@@ -31,8 +32,9 @@ pub(super) fn mapped_charts(
         let charts = surfaces
             .par_iter()
             .map(|surface| {
-                let charts = under_bound(surface, settings, &options, tracker);
-                tracker.surface_done(surface.triangles.len(), charts.len());
+                let portion = Portion::of_surface(tracker, surface.triangles.len());
+                let charts = under_bound(surface, settings, &options, &portion);
+                tracker.charts_done(charts.len());
                 charts
             })
             .collect();
@@ -48,13 +50,21 @@ pub(super) fn mapped_charts(
         Some(uvs_of(chart, surfaces[mesh], uvs.flatten()?))
     };
     let maps = map_charts(charts, kept, settings, tracker);
-    if settings.cut == Cut::Fast || folds(settings) == Folds::Keep {
+    if !gives_back(settings) {
         return maps;
     }
     let (bound, options) = (settings.bound(), options(settings));
     (surfaces.par_iter().zip(maps))
-        .map(|(surface, maps)| given_back(surface, maps, &bound, &options, tracker))
+        .map(|(surface, maps)| {
+            let portion = Portion::of_chart(tracker, surface.triangles.len());
+            given_back(surface, maps, &bound, &options, &portion)
+        })
         .collect()
+}
+
+/// Whether charts are given back once all are mapped.
+fn gives_back(settings: &Settings) -> bool {
+    settings.cut != Cut::Fast && folds(settings) == Folds::Cut
 }
 
 /// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
@@ -63,11 +73,11 @@ fn under_bound(
     surface: &Surface,
     settings: &Settings,
     options: &embed::Options,
-    tracker: &Tracker,
+    observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     let most = settings.max_charts.map_or(usize::MAX, |n| n as usize);
     let mut bound = settings.bound();
-    let mut fewest = charts_under_bound(surface, &bound, options, tracker);
+    let mut fewest = charts_under_bound(surface, &bound, options, observer);
     while fewest.len() > most {
         let next = Quality::looser_than(bound.mean);
         let others = match next {
@@ -76,11 +86,11 @@ fn under_bound(
                     mean,
                     stretch: None,
                 };
-                charts_under_bound(surface, &bound, options, tracker)
+                charts_under_bound(surface, &bound, options, observer)
             }
             None => charts(surface, Cut::Disk)
                 .into_iter()
-                .flat_map(|chart| map_chart(chart, options, Folds::Cut, tracker))
+                .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
                 .collect(),
         };
         if others.len() < fewest.len() {
@@ -120,20 +130,22 @@ fn map_charts(
         .flat_map(|(mesh, of_mesh)| (0..).zip(of_mesh).map(move |(c, chart)| ((mesh, c), chart)))
         .collect();
     let n_faces = |(_, chart): &(_, Chart)| chart.disk.triangles.len();
-    tracker.charts(queue.len(), queue.iter().map(n_faces).sum());
+    let faces: usize = queue.iter().map(n_faces).sum();
+    let passes = 1 + usize::from(gives_back(settings));
+    tracker.charts(queue.len(), passes * faces);
     queue.sort_by_key(|entry| (Reverse(n_faces(entry)), entry.0));
     let (options, folds) = (options(settings), folds(settings));
     let mut mapped: Vec<((usize, usize), Vec<MappedChart>)> = queue
         .into_par_iter()
         .with_max_len(1)
         .map(|(id, chart)| {
-            let faces = chart.disk.triangles.len();
+            let portion = Portion::of_chart(tracker, chart.disk.triangles.len());
             let parts = match kept(id.0, &chart) {
                 Some(uv) if are_given(settings) => vec![MappedChart::given(chart, uv)],
-                Some(uv) => map_chart_from(chart, uv, &options, tracker),
-                None => map_chart(chart, &options, folds, tracker),
+                Some(uv) => map_chart_from(chart, uv, &options, &portion),
+                None => map_chart(chart, &options, folds, &portion),
             };
-            tracker.chart_done(faces);
+            tracker.charts_done(1);
             (id, parts)
         })
         .collect();

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::nodes::Nodes;
 use super::options::check_mips;
-use super::settings::{Settings, check_pages, check_texels, within};
+use super::settings::{Settings, check_pages, within};
 use super::{Limits, PipelineError};
 use crate::certificate::{Claims, Overlap, Padding, Resolution};
 use crate::document::{GroupBy, Terms};
@@ -46,8 +46,7 @@ impl MeasureOptions {
     /// Checks every number against its range; the error names the option.
     pub fn check(&self) -> Result<(), PipelineError> {
         let (padding, mips) = (self.padding.unwrap_or(0), self.mips.unwrap_or(0));
-        let checked = check_mips(padding, mips).and_then(|()| {
-            check_texels(self.resolution(), padding << mips)?;
+        let checked = check_mips(padding, mips, self.resolution()).and_then(|()| {
             check_pages(self.pages.unwrap_or(1))?;
             let bits = self.bits.unwrap_or(12);
             within("bits", f64::from(bits), 8.0, 16.0)

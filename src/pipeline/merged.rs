@@ -21,6 +21,10 @@ pub(super) struct Merged {
 
 impl Merged {
     pub fn new(primitives: &[Primitive], group: &Group) -> Self {
+        Self::of(group.primitives.iter().map(|&index| &primitives[index]))
+    }
+
+    fn of<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Self {
         let mut merged = Self {
             positions: Vec::new(),
             triangles: Vec::new(),
@@ -28,17 +32,15 @@ impl Merged {
             parts: Vec::new(),
         };
         let mut last = None;
-        for &index in &group.primitives {
+        for primitive in primitives {
             let first = merged.positions.len() as u32;
             let first_face = merged.triangles.len() as u32;
-            merged.positions.extend(&primitives[index].positions);
-            merged.triangles.extend(
-                primitives[index]
-                    .triangles
-                    .iter()
-                    .map(|t| t.map(|v| v + first)),
-            );
-            if last.replace(primitives[index].mesh) != Some(primitives[index].mesh) {
+            merged.positions.extend(&primitive.positions);
+            let triangles = primitive.triangles.iter();
+            merged
+                .triangles
+                .extend(triangles.map(|t| t.map(|v| v + first)));
+            if last.replace(primitive.mesh) != Some(primitive.mesh) {
                 merged.parts.push(Part {
                     vertices: first..first,
                     faces: first_face..first_face,
@@ -52,7 +54,7 @@ impl Merged {
         merged
     }
 
-    /// With the seams that the options ask for; `primitives` are those of the document, wherever they lie.
+    /// With the seams that the options ask for, of which the edges are [checked](check_edges); `primitives` are those of the document, wherever they lie.
     pub fn with_seams(
         document: &Document,
         primitives: &[Primitive],
@@ -81,7 +83,7 @@ impl Merged {
                 merged.seams.normals = Some(corner_normals(document, group)?);
             }
             Some(GivenSeams::Edges(edges)) => {
-                merged.seams.edges = Some(edges_of_group(primitives, group, edges)?);
+                merged.seams.edges = Some(edges_of_group(primitives, group, edges));
             }
             None => {}
         }
@@ -129,12 +131,20 @@ fn corner_normals(document: &Document, group: &Group) -> Result<Vec<[[f64; 3]; 3
     Ok(all)
 }
 
-/// Of edges between vertices of the file those within a group, in the group's numbering.
-fn edges_of_group(
+/// Checks the edges that options name, which count vertices over all primitives.
+pub(super) fn check_edges(
     primitives: &[Primitive],
-    group: &Group,
-    edges: &[[u32; 2]],
-) -> Result<Vec<[u32; 2]>, PipelineError> {
+    options: &Options,
+) -> Result<(), PipelineError> {
+    let Some(GivenSeams::Edges(edges)) = &options.seams else {
+        return Ok(());
+    };
+    let whole = Merged::of(primitives.iter());
+    Seams::check_edges(edges, &whole.positions, &whole.triangles)
+}
+
+/// Of edges between vertices of the file those within a group, in the group's numbering.
+fn edges_of_group(primitives: &[Primitive], group: &Group, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut local = Vec::new();
     let mut next = 0;
     for (index, primitive) in primitives.iter().enumerate() {
@@ -144,16 +154,7 @@ fn edges_of_group(
             next += u32::from(is_inside);
         }
     }
-    let n_vertices = local.len();
-    let number = |v: u32| {
-        let beyond = || PipelineError::Seams(format!("vertex {v} is named of {n_vertices}"));
-        local.get(v as usize).copied().ok_or_else(beyond)
-    };
-    let mut inside = Vec::new();
-    for &[a, b] in edges {
-        if let (Some(a), Some(b)) = (number(a)?, number(b)?) {
-            inside.push([a, b]);
-        }
-    }
-    Ok(inside)
+    let number = |v: u32| local.get(v as usize).copied().flatten();
+    let inside = |&[a, b]: &[u32; 2]| Some([number(a)?, number(b)?]);
+    edges.iter().filter_map(inside).collect()
 }

@@ -24,6 +24,7 @@ mod divided;
 mod error;
 mod map;
 mod observer;
+mod portion;
 mod repeated;
 mod seams;
 mod settings;
@@ -49,6 +50,8 @@ mod edit_options;
 mod edit_terms;
 #[cfg(feature = "files")]
 mod group_uvs;
+#[cfg(feature = "files")]
+mod idle;
 #[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]

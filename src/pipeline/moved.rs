@@ -44,7 +44,7 @@ pub(super) fn moved_frame(
 /// Refuses frames in a format whose files refer to others.
 pub(super) fn check_frames(format: OutputFormat) -> Result<(), PipelineError> {
     if format == OutputFormat::Gltf {
-        let text = "frames: each is one file, so they are glb or obj, not gltf".to_owned();
+        let text = "`frames` are one file each: glb or obj, not gltf".to_owned();
         return Err(PipelineError::InvalidOptions(text));
     }
     Ok(())

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::idle;
 use super::nodes::Nodes;
 use super::preset::Preset;
 use super::rebake::{ImageFormat, MOST_SIDE};
-use super::settings::{KeptMaps, PackingMode, Settings, within};
+use super::settings::{KeptMaps, PackingMode, Settings, check_texels, most_padding, within};
 use super::texel_weight::TexelWeight;
 use super::{Limits, PipelineError};
 use crate::atlas::Borders;
@@ -123,9 +124,9 @@ pub struct Options {
     /// Least distance of two charts, in texels of the coarsest of the mip levels that count; at most an eighth of its side.
     #[cfg_attr(feature = "service", schema(maximum = 8192))]
     pub padding: u32,
-    /// Mip levels beyond the first in which charts keep the padding.
+    /// Mip levels beyond the first in which charts keep the padding; none if absent, two of a lightmap.
     #[cfg_attr(feature = "service", schema(maximum = 12))]
-    pub mips: u32,
+    pub mips: Option<u32>,
     /// Bits that tools will round the texture coordinates to, 12, 14 or 16: thin triangles and narrow gaps are opened so that the map
     /// stays bijective. The report says whether that is proven, and which faces are in doubt.
     #[cfg_attr(
@@ -183,7 +184,7 @@ impl Default for Options {
             texels_per_unit: settings.texels_per_unit,
             texel_weights: Vec::new(),
             padding: settings.padding,
-            mips: 0,
+            mips: None,
             quantization_safe: settings.quantization_safe,
             threads: settings.threads,
             time_budget: settings.time_budget,
@@ -204,16 +205,26 @@ impl Options {
 
     /// With what follows from the preset.
     pub(super) fn resolved(&self) -> Self {
-        let options = self.clone();
+        let options = Self {
+            mips: Some(self.mips()),
+            ..self.clone()
+        };
         match self.preset {
             Preset::Material => options,
             Preset::Lightmap => Self {
                 group_by: Some(GroupBy::Scene),
                 texcoord: self.texcoord.or(Some(1)),
-                mips: self.mips.max(LIGHTMAP_MIPS),
                 ..options
             },
         }
+    }
+
+    /// Mip levels beyond the first in which charts keep the padding.
+    fn mips(&self) -> u32 {
+        self.mips.unwrap_or(match self.preset {
+            Preset::Material => 0,
+            Preset::Lightmap => LIGHTMAP_MIPS,
+        })
     }
 
     /// What counts as a surface.
@@ -243,7 +254,7 @@ impl Options {
             resolution: self.resolution,
             pages: self.pages,
             texels_per_unit: self.texels_per_unit,
-            padding: self.padding << self.mips,
+            padding: self.padding << self.mips(),
             borders: match self.preset {
                 Preset::Material => Borders::Free,
                 Preset::Lightmap => Borders::OnTexels,
@@ -259,7 +270,7 @@ impl Options {
         Claims {
             overlap: Overlap::Test,
             padding: Some(Padding {
-                texels: self.padding << self.mips,
+                texels: self.padding << self.mips(),
                 resolution: self.resolution,
             }),
             aligned: (self.preset == Preset::Lightmap).then_some(self.resolution),
@@ -277,7 +288,7 @@ impl Options {
             padding: Some(self.padding),
             resolution: self.resolution,
             pages: Some(self.pages),
-            mips: self.mips,
+            mips: self.mips(),
             aligned: self.preset == Preset::Lightmap,
             bits: self.quantization_safe,
             overlaps: false,
@@ -291,20 +302,17 @@ impl Options {
     }
 
     fn validate(&self) -> Result<(), String> {
-        check_mips(self.padding, self.mips)?;
+        check_mips(self.padding, self.mips(), self.resolution)?;
         self.settings().validate()?;
+        idle::check(self)?;
         self.texel_weights.iter().try_for_each(TexelWeight::check)?;
         if self.cut == Cut::Seams && self.seams.is_none() {
-            return Err("cut seams needs seams".to_owned());
-        }
-        if self.image_format != ImageFormat::Source && !self.rebake {
-            return Err(
-                "image_format is that of textures that are resampled: it needs rebake".to_owned(),
-            );
+            return Err("`cut` seams needs `seams`".to_owned());
         }
         if self.rebake && (self.pages > 1 || self.resolution.aspect() != 1.0) {
             return Err(
-                "rebake makes one square texture: pages 1 and a square resolution".to_owned(),
+                "`rebake` makes one square texture: it needs `pages` 1 and a square `resolution`"
+                    .to_owned(),
             );
         }
         within(
@@ -314,10 +322,8 @@ impl Options {
             f64::from(MOST_SIDE),
         )?;
         match self.texcoord {
-            Some(set) if set > MAX_TEXCOORD => Err(format!(
-                "texcoord must lie between 0 and {MAX_TEXCOORD}, not {set}"
-            )),
-            _ => Ok(()),
+            Some(set) => within("texcoord", f64::from(set), 0.0, MAX_TEXCOORD),
+            None => Ok(()),
         }
     }
 }
@@ -326,10 +332,19 @@ impl Options {
 const LIGHTMAP_MIPS: u32 = 2;
 
 /// Highest UV set that may be asked for; no engine reads more than eight.
-const MAX_TEXCOORD: u32 = 7;
+const MAX_TEXCOORD: f64 = 7.0;
 
 /// Mip levels for which padding holds, and that this is no more texels than can be.
-pub(super) fn check_mips(padding: u32, mips: u32) -> Result<(), String> {
+pub(super) fn check_mips(padding: u32, mips: u32, resolution: Resolution) -> Result<(), String> {
     within("mips", f64::from(mips), 0.0, 12.0)?;
-    within("padding", f64::from(padding), 0.0, 8192.0)
+    check_texels(resolution, padding)?;
+    let (texels, most) = (u64::from(padding) << mips, most_padding(resolution));
+    if texels <= u64::from(most) {
+        return Ok(());
+    }
+    Err(format!(
+        "`mips` {mips} makes of `padding` {padding} {texels} texels of `resolution` {resolution}, which allows {most}: take `mips` \
+         up to {}, less `padding` or more `resolution`",
+        (most / padding).ilog2()
+    ))
 }

@@ -7,7 +7,7 @@ use super::clearance::open_charts;
 use super::compact::{Drafted, compacted};
 use super::map::folds;
 use super::settings::Settings;
-use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, ChartMap, Draft, Placed, Scale};
+use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, ChartMap, Draft, OnRead, Placed, Scale};
 use crate::charts::{Cut, Folds, MappedChart};
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
@@ -27,12 +27,14 @@ pub(super) fn packed(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
     settings: &Settings,
+    on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
     let Scale::TexelsPerUnit(texels) = options.scale else {
         return Ok(settled(
-            drafted(charts, options, settings)?,
+            drafted(charts, options, settings, on_read)?,
             options,
             settings,
+            on_read,
         )?);
     };
     if atlas::fits(&chart_maps(&charts), options)? {
@@ -40,7 +42,7 @@ pub(super) fn packed(
             charts,
             draft: None,
         };
-        return Ok(settled(whole, options, settings)?);
+        return Ok(settled(whole, options, settings, on_read)?);
     }
     let mut last = Vec::new();
     for pages in page_numbers(&charts, texels, options) {
@@ -49,9 +51,9 @@ pub(super) fn packed(
         if pages < options.texture.pages {
             tried.search_words /= FEWER_PAGES;
         }
-        let drafted = drafted(charts.clone(), &tried, settings)?;
+        let drafted = drafted(charts.clone(), &tried, settings, on_read)?;
         last.clone_from(&drafted.charts);
-        match settled(drafted, &tried, settings) {
+        match settled(drafted, &tried, settings, on_read) {
             Err(AtlasError::TextureTooSmall) => {}
             done => return Ok(done?),
         }
@@ -79,9 +81,10 @@ fn drafted(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
     settings: &Settings,
+    on_read: &OnRead,
 ) -> Result<Drafted, AtlasError> {
     match settings.cut {
-        Cut::Auto if folds(settings) == Folds::Cut => compacted(charts, options, settings),
+        Cut::Auto if folds(settings) == Folds::Cut => compacted(charts, options, settings, on_read),
         _ => Drafted::new(charts, options),
     }
 }
@@ -92,6 +95,7 @@ fn settled(
     drafted: Drafted,
     options: &AtlasOptions,
     settings: &Settings,
+    on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
     let Drafted {
         mut charts,
@@ -99,7 +103,7 @@ fn settled(
     } = drafted;
     let (mut rounds, mut openings) = (0, 0);
     loop {
-        let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options)?;
+        let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options, on_read)?;
         let safe = settings.quantization_safe;
         if openings < OPENINGS
             && safe.is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))

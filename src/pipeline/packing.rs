@@ -1,6 +1,7 @@
 //! How charts are packed, from the settings.
 
 use super::clearance::texels_apart;
+use super::compact::MOST_CHARTS;
 use super::map::are_given;
 use super::settings::Settings;
 use crate::atlas::{AtlasOptions, Scale, Texture, Turns};
@@ -25,12 +26,6 @@ pub(super) fn atlas_options(
     n_faces: usize,
     charts: &[MappedChart],
 ) -> AtlasOptions {
-    let [least, most] = SEARCH_WORDS_OF_MESH;
-    let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
-    let words = match settings.cut {
-        Cut::Fast => SEARCH_WORDS_IF_FAST,
-        _ => words.clamp(least, most),
-    };
     let of_each = SEARCH_WORDS_OF_ALL / n_meshes as u64;
     let cells = (of_each / WORDS_PER_CELL).isqrt() as u32;
     AtlasOptions {
@@ -48,8 +43,29 @@ pub(super) fn atlas_options(
             Turns::Any
         },
         borders: settings.borders,
-        search_words: settings.packing.passes() * words.min(of_each),
+        search_words: search_words(settings, n_meshes, n_faces),
         most_cells: cells.next_power_of_two().max(LEAST_CELLS),
+    }
+}
+
+/// Words that packing one of so many meshes may read, which has so many faces.
+pub(super) fn search_words(settings: &Settings, n_meshes: usize, n_faces: usize) -> u64 {
+    let [least, most] = SEARCH_WORDS_OF_MESH;
+    let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
+    let words = match settings.cut {
+        Cut::Fast => SEARCH_WORDS_IF_FAST,
+        _ => words.clamp(least, most),
+    };
+    settings.packing.passes() * words.min(SEARCH_WORDS_OF_ALL / n_meshes as u64)
+}
+
+/// About how many words packing reads: looking for cuts takes most, and where charts are not cut the rest is all.
+pub(super) fn expected_words(settings: &Settings, options: &AtlasOptions, n_charts: usize) -> u64 {
+    let words = options.search_words;
+    if settings.cut == Cut::Auto && n_charts <= MOST_CHARTS {
+        words + words / 8
+    } else {
+        words / 4 + words / 16
     }
 }
 

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::PipelineError;
+use super::merged::check_edges;
 use super::options::{GivenSeams, Options};
 use crate::charts::Cut;
 use crate::document::{Document, DocumentError, GroupBy, OldUvs, OutputFormat, Primitive, Upload};
@@ -33,22 +34,18 @@ impl Prepared {
                 "new textures for an OBJ file from another format than glTF: write .glb or .gltf";
             return Err(DocumentError::UnsupportedOutput(what.to_owned()).into());
         }
-        let n_vertices = document
-            .primitives()
-            .iter()
-            .map(|p| p.positions.len())
-            .sum();
         let old_uvs = match options.cut {
             Cut::Keep => OldUvs::Kept,
             _ => OldUvs::Sampled,
         };
+        check_edges(document.primitives(), options)?;
         let conversion = document.for_output(options.format, old_uvs)?;
         let mut seams = options.clone();
         if let (Some(GivenSeams::Edges(edges)), Some(vertices)) =
             (&options.seams, &conversion.vertices)
         {
             let primitives = conversion.document.primitives();
-            let edges = renumbered(edges, vertices, primitives, n_vertices)?;
+            let edges = renumbered(edges, vertices, primitives);
             seams.seams = Some(GivenSeams::Edges(edges));
         }
         Ok(Self {
@@ -63,21 +60,8 @@ fn can_rebake(document: &Document, format: OutputFormat) -> bool {
     matches!(document, Document::Gltf(_)) || format != OutputFormat::Obj
 }
 
-/// Edges of a file in each of the primitives that they are in now; `vertices` are the file's, of all primitives.
-fn renumbered(
-    edges: &[[u32; 2]],
-    vertices: &[u32],
-    primitives: &[Primitive],
-    n_vertices: usize,
-) -> Result<Vec<[u32; 2]>, PipelineError> {
-    if let Some(v) = edges
-        .as_flattened()
-        .iter()
-        .find(|v| **v as usize >= n_vertices)
-    {
-        let message = format!("vertex {v} is named, but there are only {n_vertices}");
-        return Err(PipelineError::Seams(message));
-    }
+/// [Checked](check_edges) edges of a file in each of the primitives that they are in now; `vertices` are the file's, of all primitives.
+fn renumbered(edges: &[[u32; 2]], vertices: &[u32], primitives: &[Primitive]) -> Vec<[u32; 2]> {
     // Copies of a vertex lie in one place, so that the first of each primitive will do.
     let mut numbers: HashMap<u32, Vec<(usize, u32)>> = edges
         .as_flattened()
@@ -103,5 +87,5 @@ fn renumbered(
             .filter_map(|(owner, a)| Some([*a, *others.get(owner)?]));
         inside.extend(both);
     }
-    Ok(inside)
+    inside
 }

@@ -29,8 +29,13 @@ pub struct Seams {
 }
 
 impl Seams {
-    /// Checks the lengths and indices against a mesh.
-    pub(super) fn check(&self, n_positions: usize, n_faces: usize) -> Result<(), PipelineError> {
+    /// Checks that this fits a mesh.
+    pub(super) fn check(
+        &self,
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+    ) -> Result<(), PipelineError> {
+        let n_faces = triangles.len();
         let lengths = [
             self.uvs.as_ref().map(Vec::len),
             self.normals.as_ref().map(Vec::len),
@@ -40,11 +45,8 @@ impl Seams {
         if lengths.into_iter().flatten().any(|n| n != n_faces) {
             return Err(PipelineError::Seams("not one entry per face".to_owned()));
         }
-        let named = self.edges.iter().flatten().flatten();
-        match named.copied().find(|&v| v as usize >= n_positions) {
-            Some(v) => Err(PipelineError::Seams(format!(
-                "vertex {v} is named, but there are only {n_positions}"
-            ))),
+        match &self.edges {
+            Some(edges) => Self::check_edges(edges, positions, triangles),
             None => Ok(()),
         }
     }
@@ -69,10 +71,40 @@ impl Seams {
         }
     }
 
+    /// Refuses pairs that are not the ends of an edge of some triangle: nothing would be cut there.
+    pub(super) fn check_edges(
+        edges: &[[u32; 2]],
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+    ) -> Result<(), PipelineError> {
+        let n_positions = positions.len();
+        if let Some(v) = (edges.as_flattened().iter()).find(|&&v| v as usize >= n_positions) {
+            return Err(PipelineError::Seams(format!(
+                "vertex {v} is named, but there are only {n_positions}"
+            )));
+        }
+        let ends = |a, b| {
+            let [a, b] = [a, b].map(|v: u32| position_key(positions[v as usize]));
+            sorted(a, b)
+        };
+        let sides = triangles
+            .iter()
+            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let sides: HashSet<_> = sides.map(|[a, b]| ends(a, b)).collect();
+        let is_none = |&&[a, b]: &&[u32; 2]| a == b || !sides.contains(&ends(a, b));
+        let mut none = edges.iter().filter(is_none);
+        let Some(first) = none.next() else {
+            return Ok(());
+        };
+        let (n_none, n_pairs) = (1 + none.count(), edges.len());
+        Err(PipelineError::Seams(format!(
+            "{n_none} of {n_pairs} pairs of vertices are not joined by an edge, the first is {first:?}"
+        )))
+    }
+
     /// Cuts a surface, which was made of these positions, along its seams.
     pub(super) fn cut(&self, surface: &mut Surface, positions: &[[f32; 3]]) {
         let key = |v: u32| position_key(positions[v as usize]);
-        let sorted = |a, b| if a < b { [a, b] } else { [b, a] };
         let edges = self.edges.iter().flatten();
         let edges: HashSet<_> = edges.map(|&[a, b]| sorted(key(a), key(b))).collect();
         let (faces, triangles, welded) = (&surface.faces, &surface.triangles, &surface.positions);
@@ -112,6 +144,10 @@ impl Seams {
             surface.cut_along(|h, t| seams.contains(&(h, t)));
         }
     }
+}
+
+fn sorted<T: PartialOrd>(a: T, b: T) -> [T; 2] {
+    if a < b { [a, b] } else { [b, a] }
 }
 
 fn is_hard(a: [f64; 3], b: [f64; 3]) -> bool {

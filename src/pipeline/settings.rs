@@ -144,7 +144,9 @@ impl Settings {
             within("texels_per_unit", texels, 1e-9, 1e9)?;
         }
         if self.pages > 1 && self.quantization_safe.is_some() {
-            return Err("quantization_safe goes with one page: of several, tools round to fewer bits of each".to_owned());
+            return Err(
+                "`quantization_safe` goes with one page: of several, tools round to fewer bits of each".to_owned(),
+            );
         }
         within(
             "max_charts",
@@ -155,7 +157,7 @@ impl Settings {
         if self.borders == Borders::OnTexels && !self.resolution.shorter().is_power_of_two() {
             let given = self.resolution;
             return Err(format!(
-                "charts end at texels where resolution is a power of two, not {given}"
+                "charts of a lightmap end where texels end: its `resolution` is a power of two, not {given}"
             ));
         }
         for (name, given, least) in [
@@ -164,21 +166,21 @@ impl Settings {
         ] {
             within(name, given.unwrap_or(least), least, 1e6)?;
             if given.is_some() && self.cut != Cut::Auto {
-                return Err(format!("{name} goes with cut auto"));
+                return Err(format!("`{name}` goes with `cut` auto"));
             }
         }
         match self.quantization_safe {
             None | Some(12 | 14 | 16) => {}
             Some(bits) => {
                 return Err(format!(
-                    "quantization_safe must be 12, 14 or 16, not {bits}"
+                    "`quantization_safe` must be 12, 14 or 16, not {bits}"
                 ));
             }
         }
         match (self.pin, self.cut) {
             (0, _) | (2, Cut::Disk) => {}
-            (2, _) => return Err("pin 2 goes with cut disk".to_owned()),
-            (pin, _) => return Err(format!("pin must be 0 or 2, not {pin}")),
+            (2, _) => return Err("`pin` 2 goes with `cut` disk".to_owned()),
+            (pin, _) => return Err(format!("`pin` must be 0 or 2, not {pin}")),
         }
         if let Some(threads) = self.threads {
             within("threads", threads as f64, 1.0, 1024.0)?;
@@ -190,13 +192,14 @@ impl Settings {
     }
 }
 
-/// A number and its range; the text names the option.
+/// A number and its range. The text names the option as all texts about options do, in backticks: a command line tells its user of
+/// `--name` instead.
 pub(super) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
     if (low..=high).contains(&value) {
         Ok(())
     } else {
         Err(format!(
-            "{name} must lie between {low} and {high}, not {value}"
+            "`{name}` must lie between {low} and {high}, not {value}"
         ))
     }
 }
@@ -209,11 +212,16 @@ pub(super) fn check_texels(resolution: Resolution, padding: u32) -> Result<(), S
     if !resolution.is_regular() {
         let most = Resolution::MOST_ELONGATED;
         return Err(format!(
-            "resolution must have one side that is the other times a power of two up to {most}, not {resolution}"
+            "`resolution` must have one side that is the other times a power of two up to {most}, not {resolution}"
         ));
     }
-    let most = f64::from(resolution.shorter() / 8);
+    let most = f64::from(most_padding(resolution));
     within("padding", f64::from(padding), 0.0, most)
+}
+
+/// The largest padding, in texels.
+pub(super) fn most_padding(resolution: Resolution) -> u32 {
+    resolution.shorter() / 8
 }
 
 /// A number of pages.

@@ -66,8 +66,7 @@ impl Piece<'_> {
 impl<'a> Soup<'a> {
     /// All of it.
     pub(super) fn whole(&self) -> Result<Vec<Piece<'a>>, PipelineError> {
-        self.seams
-            .check(self.positions.len(), self.triangles.len())?;
+        self.seams.check(self.positions, self.triangles)?;
         Ok(vec![Piece {
             positions: Cow::Borrowed(self.positions),
             triangles: Cow::Borrowed(self.triangles),
@@ -80,8 +79,7 @@ impl<'a> Soup<'a> {
     ///
     /// A part that touches another, but for exact copies in the same place, may belong together with it, and stays there.
     pub(super) fn pieces(&self) -> Result<Vec<Piece<'a>>, PipelineError> {
-        self.seams
-            .check(self.positions.len(), self.triangles.len())?;
+        self.seams.check(self.positions, self.triangles)?;
         let repeated: Vec<&Part> = self.repeated_parts();
         if repeated.is_empty() {
             return self.whole();

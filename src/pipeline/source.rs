@@ -13,6 +13,9 @@ use crate::mesh::Surface;
 use crate::mesh::io::{ElementFormat, Elements};
 use crate::picture::Image;
 
+/// About how many triangles an outline is filled with, unless an option says otherwise.
+pub(super) const TRIANGLES: usize = 5000;
+
 /// The mesh of a file.
 pub(super) struct Source {
     elements: Elements,
@@ -21,11 +24,21 @@ pub(super) struct Source {
 }
 
 impl Source {
-    /// The mesh of a file, or of the outline in a picture or drawing, that is filled with about so many triangles.
+    /// The mesh of a file, or of the outline in a picture or drawing, that is filled with about so many triangles. Its kind is known
+    /// by the extension of its name, of a file without one by its first bytes.
     pub fn read(upload: &Upload, triangles: usize, limits: &Limits) -> Result<Self, PipelineError> {
-        let (elements, document) = if let Some(elements) = drawn(upload, triangles, limits)? {
+        let extension = match upload.extension() {
+            none if none.is_empty() => extension_by_content(&upload.bytes).to_owned(),
+            extension => extension,
+        };
+        let drawn = drawn(&upload.bytes, &extension, triangles, limits)?;
+        if drawn.is_none() && triangles != TRIANGLES {
+            let text = "`triangles` fill an outline, and this input is a mesh";
+            return Err(PipelineError::InvalidOptions(text.to_owned()));
+        }
+        let (elements, document) = if let Some(elements) = drawn {
             (elements, None)
-        } else if let Some(format) = ElementFormat::of_name(&upload.name) {
+        } else if let Some(format) = ElementFormat::of_name(&format!(".{extension}")) {
             (format.read(&upload.bytes)?, None)
         } else {
             let document = Document::read(upload)?;
@@ -96,22 +109,36 @@ impl Source {
     }
 }
 
+/// What the first bytes say of files that are no documents; empty where they are of another kind.
+fn extension_by_content(bytes: &[u8]) -> &'static str {
+    let start = bytes.trim_ascii_start();
+    let kinds: [(&[u8], _); 5] = [
+        (b"\x89PNG", "png"),
+        (b"<svg", "svg"),
+        (b"<?xml", "svg"),
+        (b"$MeshFormat", "msh"),
+        (b"MeshVersionFormatted", "mesh"),
+    ];
+    let known = kinds.iter().find(|(first, _)| start.starts_with(first));
+    known.map_or("", |(_, extension)| extension)
+}
+
 /// The mesh of the outline in a picture or drawing, if it is one.
 fn drawn(
-    upload: &Upload,
+    bytes: &[u8],
+    extension: &str,
     triangles: usize,
     limits: &Limits,
 ) -> Result<Option<Elements>, PipelineError> {
-    let extension = upload.extension();
-    if !matches!(extension.as_str(), "svg" | "png") {
+    if !matches!(extension, "svg" | "png") {
         return Ok(None);
     }
     limits.check_count(triangles)?;
     let outline = if extension == "svg" {
-        let text = String::from_utf8_lossy(&upload.bytes);
+        let text = String::from_utf8_lossy(bytes);
         outline::of_svg(&text, &SvgSettings::default())?
     } else {
-        let image = Image::decode(&upload.bytes)?;
+        let image = Image::decode(bytes)?;
         outline::of_image(&image, &ImageSettings::default())?
     };
     Ok(Some(filled(&outline, triangles)?))

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::PipelineError;
 use super::arrays::in_pool;
 use super::documents::stem;
+use super::idle;
 use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
 use crate::barrier::BarrierKind;
@@ -58,6 +59,7 @@ impl WarpOptions {
     /// Checks what can be checked without the file.
     pub fn check(&self) -> Result<(), PipelineError> {
         self.model.check()?;
+        idle::check_model(&self.model).map_err(PipelineError::InvalidOptions)?;
         check_time_budget(self.time_budget)
     }
 

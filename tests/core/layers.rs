@@ -84,6 +84,8 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         &["http", "store"],
         &[
             "clap",
+            "clap_complete",
+            "clap_mangen",
             "indicatif",
             "serde_json",
             "tokio",

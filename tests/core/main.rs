@@ -54,6 +54,7 @@ mod places;
 mod polygon;
 #[cfg(feature = "files")]
 mod problem_files;
+mod progress;
 mod random;
 mod separation;
 #[cfg(feature = "files")]

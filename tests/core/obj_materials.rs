@@ -56,6 +56,7 @@ fn written(document: &Document, format: OutputFormat, layout: Layout) -> Written
         stem: "out".to_owned(),
         texcoord: None,
         overwrite: false,
+        terms: None,
     };
     document.write(&uvs, &options).unwrap()
 }

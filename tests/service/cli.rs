@@ -18,7 +18,7 @@ pub fn assert_status(output: &Output, status: i32) {
 }
 
 /// The last line of standard error.
-fn last_error(output: &Output) -> String {
+pub fn last_error(output: &Output) -> String {
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     error.lines().last().unwrap_or_default().to_owned()
 }
@@ -137,7 +137,7 @@ fn each_kind_of_failure_has_its_exit_status_and_one_line() {
         (
             &["unwrap", &input, "-o", &path("a.fbx")],
             2,
-            ".glb, .gltf or .obj",
+            ".glb, .gltf, .obj",
         ),
         (
             &["unwrap", &input, "-o", &path("a.glb"), "--padding", "9999"],
@@ -154,7 +154,7 @@ fn each_kind_of_failure_has_its_exit_status_and_one_line() {
                 "4",
             ],
             2,
-            "max_distortion",
+            "--max-distortion must lie between 4.0001 and 1000000, not 4",
         ),
         (
             &["unwrap", &path("absent.glb"), "-o", &path("a.glb")],

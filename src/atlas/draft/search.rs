@@ -3,6 +3,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 use super::{Draft, squeezed_side};
+use crate::atlas::OnRead;
 use crate::atlas::arrangement::Arrangement;
 use crate::atlas::squeeze::Body;
 use crate::numerics::random::Random;
@@ -18,14 +19,15 @@ const WORDS_PER_CHART: u64 = 1000;
 
 impl Draft {
     /// The drafts that several searches make of this one, together reading about so many words; the best first.
-    pub(in crate::atlas) fn searched(&self, words: u64) -> Vec<Self> {
+    pub(in crate::atlas) fn searched(&self, words: u64, on_read: &OnRead) -> Vec<Self> {
         let words = words / SEEDS as u64;
         let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
         let mut drafts: Vec<Self> = seeds
             .map(|seed| {
                 let mut draft = self.clone();
                 draft.improve(words / 4, seed as u64);
-                draft.relocate(words / 4 * 3, seed as u64);
+                on_read(words / 4);
+                draft.relocate(words / 4 * 3, seed as u64, on_read);
                 draft
             })
             .collect();
@@ -88,11 +90,12 @@ impl Draft {
     }
 
     /// Lets charts look for other places while about so many words are read.
-    fn relocate(&mut self, words: u64, seed: u64) {
+    fn relocate(&mut self, words: u64, seed: u64, on_read: &OnRead) {
         let mut pages = std::mem::take(&mut self.pages);
         let each = words / pages.len().max(1) as u64;
         for page in &mut pages {
-            page.squeezed.search(&self.bodies(&page.charts), each, seed);
+            let bodies = self.bodies(&page.charts);
+            page.squeezed.search(&bodies, each, seed, on_read);
         }
         self.pages = pages;
     }

@@ -22,6 +22,7 @@ use std::sync::Arc;
 pub(super) use body::{Body, Pose};
 use contacts::{Pairs, Scene};
 
+use super::OnRead;
 use crate::numerics::random::Random;
 
 /// By how much the square's side shrinks at a time, at first and at last, as a share.
@@ -71,11 +72,12 @@ impl Squeezed {
     }
 
     /// Shrinks the square as far as is found while about so many words are read.
-    pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64) {
+    pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64, on_read: &OnRead) {
         let mut random = Random::new(seed);
         let mut scene = Scene::new(bodies, self.side, 0.0, words);
         let mut is_stuck = false;
         while scene.may_read() {
+            let before = scene.work;
             let mut trial = self.clone();
             if is_stuck {
                 trial.swap(&mut random);
@@ -86,6 +88,7 @@ impl Squeezed {
                 trial.shrink(&mut scene, LEAP);
                 *self = trial;
             }
+            on_read(scene.work - before);
         }
     }
 

@@ -11,14 +11,14 @@ const SHOWN: usize = 80;
 
 /// Some of the meshes, and how many more there are.
 pub(super) fn of_meshes(document: &GltfDocument, meshes: &BTreeSet<usize>) -> String {
-    let named = |&mesh: &usize| quoted(document.mesh(mesh), "mesh", mesh);
+    let named = |&mesh: &usize| quoted(Names::mesh(document, mesh), "mesh", mesh);
     let names: Vec<String> = meshes.iter().map(named).collect();
     listed(names.iter().map(String::as_str))
 }
 
 /// The name of a material, or its number.
 pub(super) fn of_material(document: &GltfDocument, material: usize) -> String {
-    quoted(document.material(material), "material", material)
+    quoted(Names::material(document, material), "material", material)
 }
 
 fn quoted(name: Option<String>, kind: &str, index: usize) -> String {

@@ -93,7 +93,7 @@ fn what_was_asked_for_is_what_is_judged() {
         ..Options::default()
     };
     let by_scene = Options {
-        group_by: GroupBy::Scene,
+        group_by: Some(GroupBy::Scene),
         padding: 5,
         ..Options::default()
     };

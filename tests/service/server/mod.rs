@@ -3,6 +3,7 @@
 mod applications;
 mod bad_inputs;
 mod failures;
+mod idle_options;
 mod jobs;
 mod progress;
 mod requests;

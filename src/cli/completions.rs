@@ -1,0 +1,19 @@
+//! `unwrapd completions`: scripts for shells.
+
+use std::io;
+
+use clap_complete::Shell;
+
+use super::command::command;
+
+/// Prints what makes a shell complete commands and options.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The shell
+    shell: Shell,
+}
+
+/// Runs `completions`.
+pub(super) fn run(args: &Args) {
+    clap_complete::generate(args.shell, &mut command(), "unwrapd", &mut io::stdout());
+}

@@ -1,0 +1,85 @@
+//! Files in: each is opened and read once, so that it may be a pipe; `-` is standard input.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use crate::document::Upload;
+
+/// Whether a name stands for standard input or output.
+pub(super) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Reads a file or standard input.
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
+    let read = if is_standard(path) {
+        let mut bytes = Vec::new();
+        io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+    } else {
+        fs::read(path)
+    };
+    let name = if is_standard(path) {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
+    };
+    read.map_err(|error| Failure::input(format!("{name}: {error}")))
+}
+
+/// Reads a file and the files that it references by relative URI. A missing one is left to the document, which knows whether it is
+/// needed.
+pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
+    let mut upload = upload(path, read_file(path)?, []);
+    let folder = folder(path);
+    let mut tried = BTreeSet::new();
+    // What is found may refer to more.
+    while let new = (upload.references())
+        .difference(&tried)
+        .cloned()
+        .collect::<Vec<_>>()
+        && !new.is_empty()
+    {
+        for reference in new {
+            if let Ok(content) = fs::read(folder.join(&reference)) {
+                upload.resources.insert(reference.clone(), content);
+            }
+            tried.insert(reference);
+        }
+    }
+    Ok(upload)
+}
+
+/// A file that was read, with those of the files that it references that are there.
+pub(super) fn upload(
+    path: &Path,
+    bytes: Vec<u8>,
+    references: impl IntoIterator<Item = String>,
+) -> Upload {
+    let folder = folder(path);
+    let mut resources = BTreeMap::new();
+    for reference in references {
+        if let Ok(content) = fs::read(folder.join(&reference)) {
+            resources.insert(reference, content);
+        }
+    }
+    let name = if is_standard(path) {
+        None
+    } else {
+        path.file_name()
+    };
+    Upload {
+        name: name.unwrap_or_default().to_string_lossy().into_owned(),
+        bytes,
+        resources,
+    }
+}
+
+/// The folder that references of a file count from: of what comes through a pipe the current one.
+pub(super) fn folder(path: &Path) -> PathBuf {
+    let is_file = !is_standard(path) && path.is_file();
+    let folder = if is_file { path.parent() } else { None };
+    folder.unwrap_or(Path::new("")).to_path_buf()
+}

@@ -1,0 +1,33 @@
+//! `unwrapd man`: manual pages.
+
+use std::io::{self, Write};
+
+use clap_mangen::Man;
+
+use super::command::command;
+use super::failure::Failure;
+
+/// Prints the manual page of the program or of one of its commands.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The command [default: the page of the program, which lists them]
+    command: Option<String>,
+}
+
+/// Runs `man`.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let mut program = command();
+    program.build();
+    let page = match &args.command {
+        None => &program,
+        Some(name) => program.find_subcommand(name).ok_or_else(|| {
+            Failure::usage(format!("there is no command {name}: see unwrapd --help"))
+        })?,
+    };
+    let mut text = Vec::new();
+    let rendered = Man::new(page.clone()).render(&mut text);
+    rendered.map_err(|error| Failure::other(error.to_string()))?;
+    // As with any output, a reader may go away.
+    let _ = io::stdout().write_all(&text);
+    Ok(())
+}

@@ -1,0 +1,256 @@
+//! Files out: checked before the work, written whole after it, all or none.
+
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+
+use super::console::{self, Lines};
+use super::failure::Failure;
+use super::input::{folder, is_standard};
+use crate::document::Upload;
+
+/// What is written where, and what is said.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Files and messages")]
+pub(super) struct OutputArgs {
+    /// Let OUT replace a file that is read
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    pub(super) talk: Talk,
+}
+
+/// How much is said.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Files and messages")]
+pub(super) struct Talk {
+    /// Say nothing but warnings and errors
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+    /// Print the report as JSON on standard output in place of the summary
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// Where the results of a command go.
+pub(super) struct Outputs {
+    main: PathBuf,
+    /// What is read: files that nothing replaces unless that is forced.
+    inputs: Vec<PathBuf>,
+    is_forced: bool,
+}
+
+impl Outputs {
+    /// Checks that results can be written to all of these places, that no two are one, and that none is a file that is read. From
+    /// now on lines about the result go where no result does.
+    pub(super) fn check(
+        main: &Path,
+        others: &[&Option<PathBuf>],
+        inputs: &[&Path],
+        args: &OutputArgs,
+    ) -> Result<Self, Failure> {
+        let others = others.iter().filter_map(|path| path.as_deref());
+        let places: Vec<&Path> = [main].into_iter().chain(others).collect();
+        let n_printed = count_standard(&places) + usize::from(args.talk.json);
+        if n_printed > 1 {
+            let text = "standard output takes one result: `-` or --json, and that once";
+            return Err(Failure::usage(text));
+        }
+        if count_standard(inputs) > 1 {
+            return Err(Failure::usage("standard input is one file: `-` goes once"));
+        }
+        let outputs = Self {
+            main: main.to_path_buf(),
+            inputs: inputs.iter().map(|path| path.to_path_buf()).collect(),
+            is_forced: args.force,
+        };
+        let mut files: Vec<PathBuf> = Vec::new();
+        for path in places.into_iter().filter(|path| !is_stream(path)) {
+            outputs.check_apart(path)?;
+            check_writable(path)?;
+            let file = resolved(path);
+            if files.contains(&file) {
+                let text = format!("{}: two results cannot be one file", path.display());
+                return Err(Failure::usage(text));
+            }
+            files.push(file);
+        }
+        console::direct(match (args.talk.quiet || args.talk.json, n_printed) {
+            (true, _) => Lines::None,
+            (false, 0) => Lines::Output,
+            (false, _) => Lines::Error,
+        });
+        Ok(outputs)
+    }
+
+    /// The same where also the files that an input references are read.
+    pub(super) fn with_resources_of(mut self, upload: &Upload) -> Self {
+        if let Some(input) = self.inputs.first() {
+            let folder = folder(input);
+            self.inputs
+                .extend(upload.resources.keys().map(|name| folder.join(name)));
+        }
+        self
+    }
+
+    /// Writes the files of a result, the main one where it was asked for and what belongs to it beside it, and what else was asked
+    /// for. Each is written whole under another name; once all are they are moved into place, the main one last.
+    pub(super) fn write(
+        &self,
+        files: &[(String, Vec<u8>)],
+        others: &[(&Option<PathBuf>, &[u8])],
+    ) -> Result<(), Failure> {
+        let mut contents: Vec<(PathBuf, &[u8])> = Vec::new();
+        for (path, bytes) in others {
+            contents.extend(path.iter().map(|path| (path.clone(), *bytes)));
+        }
+        for (name, bytes) in files.iter().skip(1) {
+            if is_stream(&self.main) {
+                console::warn_of(format_args!(
+                    "{name} belongs to the result, but a stream takes one file: left out"
+                ));
+                continue;
+            }
+            let path = self.main.with_file_name(name);
+            if fs::read(&path).is_ok_and(|old| old == *bytes) {
+                continue;
+            }
+            self.check_apart(&path)?;
+            contents.push((path, bytes));
+        }
+        if let Some((_, bytes)) = files.first() {
+            contents.push((self.main.clone(), bytes));
+        }
+        write_all(&contents)
+    }
+
+    /// Refuses to replace a file that is read.
+    fn check_apart(&self, path: &Path) -> Result<(), Failure> {
+        let is_read = |input: &&PathBuf| !is_standard(input) && is_same(input, path);
+        match self.inputs.iter().find(is_read) {
+            Some(input) if !self.is_forced => Err(Failure::usage(format!(
+                "{} would replace {}, which is read; --force allows it",
+                path.display(),
+                input.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn count_standard(paths: &[&Path]) -> usize {
+    paths.iter().filter(|path| is_standard(path)).count()
+}
+
+/// Standard output, a pipe or a device: what is written there replaces nothing.
+pub(super) fn is_stream(path: &Path) -> bool {
+    is_standard(path) || fs::metadata(path).is_ok_and(|of| !of.is_file() && !of.is_dir())
+}
+
+/// The name of a file without its extension; none of a stream.
+pub(super) fn stem(path: &Path) -> Option<String> {
+    let stem = path.file_stem().filter(|_| !is_stream(path))?;
+    Some(stem.to_string_lossy().into_owned())
+}
+
+/// Whether two paths are one file, through whatever links.
+fn is_same(a: &Path, b: &Path) -> bool {
+    match (fs::metadata(a), fs::metadata(b)) {
+        (Ok(a), Ok(b)) => a.is_file() && (a.dev(), a.ino()) == (b.dev(), b.ino()),
+        _ => false,
+    }
+}
+
+/// Where a path leads: what is moved to a link itself would replace the link.
+fn resolved(path: &Path) -> PathBuf {
+    let in_folder = || Some(fs::canonicalize(parent(path)).ok()?.join(path.file_name()?));
+    let whole = fs::canonicalize(path).ok();
+    whole.or_else(in_folder).unwrap_or(path.to_path_buf())
+}
+
+/// The folder of a path.
+fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Refuses what cannot be written: tried with an empty file under another name, which is removed at once.
+fn check_writable(path: &Path) -> Result<(), Failure> {
+    let refused = |cause: &dyn std::fmt::Display| {
+        Failure::other(format!("cannot write {}: {cause}", path.display()))
+    };
+    let folder = parent(path);
+    if path.is_dir() {
+        return Err(refused(&"it is a folder"));
+    }
+    if !folder.is_dir() {
+        let text = format!("there is no folder {}", folder.display());
+        return Err(refused(&text));
+    }
+    let path = resolved(path);
+    if path.exists() {
+        let opened = OpenOptions::new().write(true).open(&path);
+        opened.map_err(|error| refused(&error))?;
+    }
+    let part = part(&path);
+    let tried = fs::write(&part, []).and_then(|()| fs::remove_file(&part));
+    tried.map_err(|error| refused(&error))
+}
+
+/// The folder for numbered files, made if only it itself is missing.
+pub(super) fn check_folder(path: &Path) -> Result<(), Failure> {
+    let made = match fs::create_dir(path) {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
+        made => made,
+    };
+    made.map_err(|error| Failure::other(format!("cannot make {}: {error}", path.display())))?;
+    check_writable(&path.join("0"))
+}
+
+/// Writes a whole file or none.
+pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    write_all(&[(path.to_path_buf(), bytes)])
+}
+
+/// The name under which a file is written before it is moved into place.
+fn part(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".{}.part", std::process::id()));
+    path.with_file_name(name)
+}
+
+/// Writes all files or, as far as none is a stream, none.
+fn write_all(contents: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
+    let (streams, files): (Vec<_>, Vec<_>) = contents.iter().partition(|(path, _)| is_stream(path));
+    let files: Vec<(PathBuf, &[u8])> = (files.into_iter())
+        .map(|(path, bytes)| (resolved(path), *bytes))
+        .collect();
+    let failed = |path: &Path, error: &io::Error| {
+        for (path, _) in &files {
+            // Not all were written; the first error is the one to tell.
+            let _ = fs::remove_file(part(path));
+        }
+        Failure::other(format!("cannot write {}: {error}", path.display()))
+    };
+    for (path, bytes) in &files {
+        fs::write(part(path), bytes).map_err(|error| failed(path, &error))?;
+    }
+    for (path, bytes) in streams {
+        stream(path, bytes).map_err(|error| failed(path, &error))?;
+    }
+    for (path, _) in &files {
+        fs::rename(part(path), path).map_err(|error| failed(path, &error))?;
+    }
+    Ok(())
+}
+
+fn stream(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if is_standard(path) {
+        let mut output = io::stdout().lock();
+        return output.write_all(bytes).and_then(|()| output.flush());
+    }
+    OpenOptions::new().write(true).open(path)?.write_all(bytes)
+}
