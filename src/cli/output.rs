@@ -236,6 +236,8 @@ fn write_all(contents: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
         Failure::other(format!("cannot write {}: {error}", path.display()))
     };
     for (path, bytes) in &files {
+        // What belongs to a result may have a folder of its own; that of the result itself was checked before.
+        fs::create_dir_all(parent(path)).map_err(|error| failed(path, &error))?;
         fs::write(part(path), bytes).map_err(|error| failed(path, &error))?;
     }
     for (path, bytes) in streams {

@@ -6,6 +6,8 @@ use unwrapd::document::{
 };
 use unwrapd::measure::VAxis;
 
+use crate::places;
+
 /// The beginning of a PNG with this type of colour: 2 is RGB, 0 gray.
 fn png(color: u8) -> Vec<u8> {
     let mut bytes = vec![0x89, b'P', b'N', b'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13];
@@ -159,8 +161,7 @@ fn what_obj_has_no_place_for_is_named() {
         ),
         ("MultiUVTest.glb", &["cameras_dropped", "uv_sets_dropped"]),
     ] {
-        let path = format!("{}/tests/assets/{asset}", env!("CARGO_MANIFEST_DIR"));
-        let upload = Upload::single(asset, std::fs::read(path).unwrap());
+        let upload = Upload::single(asset, std::fs::read(places::asset(asset)).unwrap());
         let document = Document::read(&upload).unwrap();
         let obj = written(&document, OutputFormat::Obj, Layout::New);
         let expected: BTreeSet<String> = expected.iter().map(|code| (*code).to_owned()).collect();

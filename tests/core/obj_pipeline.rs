@@ -72,7 +72,6 @@ fn seams_keep_the_numbers_of_the_file() {
         let options = Options {
             cut: Cut::Seams,
             seams: Some(GivenSeams::Edges(seams.to_vec())),
-            seam_weight: 1e6,
             format,
             ..Options::default()
         };

@@ -1,5 +1,6 @@
 //! What is written drops what nothing names any more, and nothing else; written again it does not grow.
 
+use crate::places;
 use serde_json::{Value, json};
 use unwrapd::document::{Document, OutputFormat, Upload};
 use unwrapd::picture::Image;
@@ -36,10 +37,7 @@ fn unwrapping_again_adds_nothing() {
         texcoord: Some(2),
         ..Options::default()
     };
-    let asset = |name: &str| {
-        let path = format!("{}/tests/assets/{name}", env!("CARGO_MANIFEST_DIR"));
-        Upload::single(name, std::fs::read(path).unwrap())
-    };
+    let asset = |name: &str| Upload::single(name, std::fs::read(places::asset(name)).unwrap());
     for input in [
         Builder::rich().upload(),
         Builder::square().upload(),

@@ -123,7 +123,8 @@ fn a_textured_obj_looks_the_same_through_gltf_and_back() {
             .all(|answer| answer["colours"].as_u64() > Some(1000)),
         "{compared:?}"
     );
-    assert!(db(0) > 40.0 && db(1) > 30.0, "{compared:?}");
+    // Edges of a checkerboard are resampled, and one picture is JPEG once more.
+    assert!(db(0) > 40.0 && db(1) > 27.0, "{compared:?}");
     // Without new textures they sit wrongly, and that is seen.
     assert!(db(2) < 20.0, "{compared:?}");
 }
