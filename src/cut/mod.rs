@@ -27,5 +27,5 @@ pub use distances::{Neighbors, distances_until};
 pub use doubled::isolate_doubled_edges;
 pub use join::join_disks;
 pub use open::open_to_disk;
-pub use sheet::Sheet;
+pub use sheet::{Sheet, surface_fans};
 pub use slit::Branches;

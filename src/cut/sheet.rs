@@ -118,7 +118,7 @@ pub fn fans(twin: &[u32], welded: impl Fn(u32) -> u32) -> (Vec<u32>, usize) {
     corners.labels()
 }
 
-/// [`fans`] of a whole surface glued by `twin`.
+/// Numbers the vertices of a whole surface glued by `twin`: corners are one vertex when glued edges connect them around it.
 pub fn surface_fans(surface: &Surface, twin: &[u32]) -> (Vec<u32>, usize) {
     fans(twin, |corner| origin(&surface.triangles, corner))
 }

@@ -74,6 +74,7 @@ mod pictures;
 mod planar_map;
 #[cfg(feature = "files")]
 mod prepared;
+#[cfg(feature = "files")]
 mod preset;
 #[cfg(feature = "files")]
 mod proven;

@@ -6,7 +6,8 @@ use std::ops::Range;
 use super::PipelineError;
 use super::repeated::key as position_key;
 use crate::certificate::CornerUvs;
-use crate::mesh::{CUT, Surface};
+use crate::cut::surface_fans;
+use crate::mesh::{CUT, Surface, next};
 use crate::numerics::vec3::dot;
 
 /// Cosine of the least angle between normals on the two sides of a hard edge: 1°.
@@ -24,7 +25,8 @@ pub struct Seams {
     /// Texel densities against each other: an edge between faces of different ones is a seam, and charts get so many times as many
     /// texels along a line.
     pub weights: Option<Vec<f64>>,
-    /// Pairs of positions, by the indices of the mesh: an edge between two such positions is a seam.
+    /// Pairs of positions, by the indices of the mesh: an edge between two such positions is a seam, unless it is alone inside the
+    /// surface, where it would open nothing.
     pub edges: Option<Vec<[u32; 2]>>,
 }
 
@@ -135,15 +137,29 @@ impl Seams {
                 || (self.weights.as_ref()).is_some_and(|weight| weight[face(h)] != weight[face(t)])
                 || is_named()
         };
-        let seams: HashSet<(u32, u32)> = (0..)
+        let mut seams: HashSet<(u32, u32)> = (0..)
             .zip(&surface.adjacency().twin)
             .filter(|&(h, &t)| t != CUT && h < t && is_seam(h, t))
             .map(|(h, &t)| (h, t))
             .collect();
+        keep_what_opens(surface, &mut seams);
         if !seams.is_empty() {
             surface.cut_along(|h, t| seams.contains(&(h, t)));
         }
     }
+}
+
+/// Takes out edges that would open nothing: at neither end do other seams or a boundary go on, so that the faces at both sides keep
+/// both vertices in common.
+fn keep_what_opens(surface: &Surface, seams: &mut HashSet<(u32, u32)>) {
+    let mut twin = surface.adjacency().twin.clone();
+    for &(h, t) in &*seams {
+        twin[h as usize] = CUT;
+        twin[t as usize] = CUT;
+    }
+    let (vertex, _) = surface_fans(surface, &twin);
+    let ends = |h: u32| sorted(vertex[h as usize], vertex[next(h) as usize]);
+    seams.retain(|&(h, t)| ends(h) != ends(t));
 }
 
 fn sorted<T: PartialOrd>(a: T, b: T) -> [T; 2] {

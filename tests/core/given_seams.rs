@@ -346,3 +346,22 @@ fn what_shall_be_safe_at_twelve_bits_is() {
     assert!(!holds(None), "the mesh is no test");
     assert!(holds(Some(12)));
 }
+
+/// An edge alone inside a surface opens nothing: it is as if it had not been named.
+#[test]
+fn a_lone_edge_opens_nothing() {
+    let mesh = zoo::sphere(8, 6);
+    let [a, b, _] = mesh.triangles[20];
+    let lone = Seams {
+        edges: Some(vec![[a, b]]),
+        ..Seams::default()
+    };
+    for cut in [Cut::Seams, Cut::Auto] {
+        let made = unwrapped(&mesh, cut, &lone);
+        assert_eq!(
+            made.grid,
+            unwrapped(&mesh, cut, &Seams::default()).grid,
+            "{cut:?}"
+        );
+    }
+}
