@@ -9,7 +9,7 @@ use super::lay::Laid;
 use super::local::Local;
 use super::mapped::{MappedChart, Observer};
 use super::quality::Bound;
-use crate::embed;
+use crate::embed::{self, keeps_apart};
 use crate::mesh::Surface;
 use crate::solver::{Control, Iterate};
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,6 +19,9 @@ const MOST_PAIRS: usize = 100;
 
 /// Places at most from which a chart is pushed apart.
 const MOST_PUSHED: usize = 4;
+
+/// The least distance that the border of a joint keeps from itself, as a part of its extent: rounding would close what is narrower.
+const APART: f64 = 1e-6;
 
 /// Faces that are glued at most, as a multiple of all: gluing costs as much as looking at both charts.
 const MOST_GLUED: usize = 100;
@@ -179,9 +182,11 @@ impl<'a> Giving<'a> {
         let Some(joint) = self.pushed_apart(joint) else {
             return false;
         };
-        let joint = self.settled(joint, run);
+        let joint = self.settled(joint, run).facing_front();
         let cost = Cost::of(&joint, self.bound);
-        if !self.allows(&cost, [number, run.neighbor]) {
+        if !self.allows(&cost, [number, run.neighbor])
+            || !keeps_apart(&joint.chart.disk.loops, &joint.embedding.uv, APART)
+        {
             return false;
         }
         self.charts.remove(&number);

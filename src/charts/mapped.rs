@@ -162,7 +162,9 @@ impl MappedChart {
         if pairs.is_empty() {
             return vec![self];
         }
-        self.parted_until_free(pairs)
+        (self.parted_until_free(pairs).into_iter())
+            .map(Self::facing_front)
+            .collect()
     }
 
     fn parted_until_free(self, pairs: Vec<[u32; 2]>) -> Vec<Self> {

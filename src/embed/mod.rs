@@ -8,13 +8,16 @@
 //! The start is Tutte's: holes closed by virtual faces, the boundary on a circle. The theorem holds in exact arithmetic,
 //! so every triangle is checked with an exact predicate; where floating point breaks it, where the surface has long arms
 //! or is large, the start is found coarse to fine: vertices collapsed and put back level by level, each level optimized.
+//! A disk that lies in a plane starts as it lies.
 //!
 //! Invariant: every map that leaves this module is positive in every triangle by
 //! [`orient2d_sign`](crate::numerics::predicates::orient2d_sign), unless the caller asked for no barrier. Maps may
 //! still overlap themselves globally; that is not looked at here.
 
+mod apart;
 mod closed;
 mod decimate;
+mod flat;
 mod hierarchy;
 mod parameterize;
 mod pins;
@@ -28,6 +31,7 @@ mod sweep;
 mod triangulation;
 mod tutte;
 
+pub(crate) use apart::keeps_apart;
 pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
 pub use pins::Pins;
 pub(crate) use rest::is_needle;

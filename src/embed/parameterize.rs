@@ -1,6 +1,7 @@
 //! From a disk in space to its optimized map.
 
 use super::closed::outer_loop;
+use super::flat::flat_map;
 use super::pins::{Pins, distance, far_pair};
 use super::problem::Problem;
 use super::rest::rest_shapes;
@@ -108,8 +109,15 @@ fn first_map_and_objective(
     (start, objective)
 }
 
-/// Tutte's map where that is near enough, else the one found coarse to fine; at its best size.
+/// The disk as it lies where it is flat; else, at its best size, Tutte's map where that is near enough, or the one found coarse to
+/// fine.
 fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
+    if let Some(uv) = flat_map(problem.disk, positions) {
+        let uv = problem.scaled(&uv, 1.0 / problem.rest.scale);
+        if problem.mean_energy(&uv) <= FAR {
+            return uv;
+        }
+    }
     let coarse_to_fine = || {
         hierarchical_start_at(problem.disk, positions, &problem.rest)
             .map(|uv| problem.at_best_size(&uv))

@@ -12,7 +12,7 @@ use crate::charts::{Cut, Folds, MappedChart};
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
 /// another scale rounds it differently.
-const PACKINGS: usize = 4;
+const PACKINGS: usize = 8;
 
 /// Times that charts are opened for rounding at most: what is opened takes room, at a smaller scale more is too thin.
 const OPENINGS: usize = 4;

@@ -1,6 +1,7 @@
 //! Starts and optimized maps: never a flip, sizes as promised.
 
 use proptest::prelude::*;
+use std::sync::Mutex;
 use unwrapd::barrier::{BarrierKind, NoBarrier};
 use unwrapd::embed::{
     Corners, InvalidStart, Options, Star, hierarchical_start, optimize, parameterize, rest_shapes,
@@ -210,6 +211,35 @@ fn a_flat_disk_comes_back_as_it_is() {
                 / distance(&positions[a], &positions[b]);
             assert!((ratio - 1.0).abs() < 0.01, "{a} {b}: {ratio}");
         }
+    }
+}
+
+/// A flat strip that is bent to a ring, up to a gap between its ends.
+fn nearly_closed_ring(gap: f64) -> Mesh {
+    let n = 12;
+    let place = |x: usize, y: usize| {
+        let angle = (std::f64::consts::TAU - gap) * x as f64 / n as f64;
+        let radius = 1.0 + 0.1 * y as f64 / n as f64;
+        [radius * angle.sin(), radius * angle.cos(), 0.0]
+    };
+    grid(n, |_, _| false, place)
+}
+
+#[test]
+fn flat_disks_that_touch_themselves_are_opened() {
+    for (gap, starts_as_it_lies) in [(1e-3, true), (1e-7, false), (0.0, false), (-0.1, false)] {
+        let (disk, positions) = nearly_closed_ring(gap);
+        let start = Mutex::new(None);
+        let watch = |iterate: &Iterate| {
+            start
+                .lock()
+                .expect("one thread")
+                .get_or_insert(iterate.energy);
+            Control::Finish
+        };
+        parameterize(&disk, &positions, &Options::default(), &watch);
+        let energy = start.into_inner().expect("one thread").expect("the start");
+        assert_eq!(energy < 1e-9, starts_as_it_lies, "{gap}: {energy}");
     }
 }
 

@@ -15,7 +15,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("energy", &["mesh"], &[]),
     ("barrier", &["energy"], &[]),
     ("solver", &["energy", "barrier"], &[]),
-    ("embed", &["solver"], &["rayon"]),
+    ("embed", &["solver"], &["rayon", "static_aabb2d_index"]),
     ("certificate", &["mesh"], &["rayon"]),
     ("charts", &["cut", "embed", "certificate"], &["rayon"]),
     ("atlas", &["embed", "certificate"], &["rayon"]),
