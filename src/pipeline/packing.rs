@@ -15,8 +15,8 @@ const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 600_000_000];
 /// The same of a mesh that is cut fast.
 const SEARCH_WORDS_IF_FAST: u64 = 10_000_000;
 /// All meshes together read so many at most: those of crowds are placed once, and on the coarser a raster the more there are.
-const SEARCH_WORDS_OF_ALL: u64 = 4_000_000_000;
-const WORDS_PER_CELL: u64 = 4;
+const SEARCH_WORDS_OF_ALL: u64 = 16_000_000_000;
+const WORDS_PER_CELL: u64 = 16;
 const LEAST_CELLS: u32 = 128;
 
 /// How to pack the charts of one of so many meshes, which has so many faces.

@@ -73,7 +73,7 @@ impl Size {
         if total <= MOST {
             return Ok(());
         }
-        let [takes, most] = [total, MOST].map(|bytes| bytes >> 20);
+        let [takes, most] = [total, MOST].map(|bytes| bytes.div_ceil(1 << 20));
         Err(DocumentError::LimitExceeded(format!(
             "the JSON has so many values that it takes {takes} MiB of memory, more than {most} MiB"
         )))
