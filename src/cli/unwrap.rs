@@ -1,12 +1,11 @@
 //! `unwrapd unwrap`: a mesh file in, the same with certified UVs out.
 
-use super::console::{json, print_json, say, warn, warn_of};
+use super::console::{json, print_json, say, warn};
 use super::failure::Failure;
 use super::input::read_upload;
 use super::progress::Display;
 use super::unwrap_args::Args;
 use crate::certificate::Overlap;
-use crate::document::WriteNotes;
 use crate::pipeline::{self, Mirrored, Outcome};
 
 /// Runs the command.
@@ -39,31 +38,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     summarize(&outcome)
 }
 
-/// A line per texture that is not right any more, or could not be resampled.
-fn warn_of_textures(written: &WriteNotes) {
-    let of = |material: Option<usize>| {
-        material.map_or("a primitive".into(), |m| format!("material {m}"))
-    };
-    for texture in &written.textures_affected {
-        let (of, slot) = (of(texture.material), &texture.slot);
-        warn_of(format_args!(
-            "{slot} of {of} shows the old layout; see --rebake"
-        ));
-    }
-    for kept in &written.textures_kept {
-        let (of, slot, reason) = (of(kept.material), &kept.slot, &kept.reason);
-        warn_of(format_args!("{slot} of {of} stays with its UVs: {reason}"));
-    }
-}
-
 /// The atlases, the warnings, and what is certified; where something that was asked for is not proven, a failure after all is said.
 pub(super) fn summarize(outcome: &Outcome) -> Result<(), Failure> {
     let report = &outcome.report;
     super::table::print(&report.groups);
     warn(&report.warnings);
-    if let Some(written) = &report.written {
-        warn_of_textures(written);
-    }
     if report.certified {
         say(format_args!("certified: {}", report.proven));
         return Ok(());

@@ -7,6 +7,7 @@ use super::json::{item, items, unsigned};
 use super::obj_losses::losses;
 use super::obj_names::{Taken, material_names, object_names};
 use super::obj_pictures::ObjPictures;
+use super::texture_warnings::texture_warnings;
 use super::textures::{MaterialTextures, affected, materials};
 use crate::document::colors::{Color, from_linear};
 use crate::document::material::{Dropped, Material, mtl_text, of_gltf};
@@ -55,6 +56,8 @@ pub(super) fn write(
         }
     }
     notes.textures_affected = textures_affected(document, uvs, baked)?;
+    let warnings = texture_warnings(document, &notes);
+    notes.warnings.extend(warnings);
     notes.warnings.extend(losses(document)?);
     notes.warnings.extend(pictures.warnings());
 

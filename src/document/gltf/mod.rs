@@ -40,6 +40,7 @@ mod split;
 mod subdivide;
 mod tangents;
 mod texcoord_set;
+mod texture_warnings;
 mod textures;
 mod tree;
 mod unknown;

@@ -6,6 +6,7 @@ use super::origin::Places;
 use super::rewrite::rewrite;
 use super::set_warnings::set_warnings;
 use super::texcoord_set::{self, Choice, Textures};
+use super::texture_warnings::texture_warnings;
 use super::textures::{affected, remove_transform};
 use super::{GltfDocument, extensions, glb, images, marking, primitives, uri};
 use super::{as_obj, baked};
@@ -74,6 +75,8 @@ pub(super) fn write(
         let warning = mark(&mut body.json, uvs, &choices, options)?;
         notes.warnings.extend(warning);
     }
+    let warnings = texture_warnings(document, &notes);
+    notes.warnings.extend(warnings);
     let places = document.origin.clean(&mut body)?;
     renumber(&mut notes, &places);
     let files = files((body, &document.chunks), &resources, options, &mut notes)?;
