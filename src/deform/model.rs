@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::body::{Body, BodyElements};
 use crate::barrier::{Barrier, Bounded};
 use crate::energy::{
-    Amips, Arap, Density, Green, Lscm, Mips, NeoHookean, RestShape, StVenantKirchhoff,
+    Amips, Arap, Density, Green, Lscm, Mips, NeoHookean, Quadratic, RestShape, StVenantKirchhoff,
     SymmetricDirichlet, Term, Tetrahedra, Triangles, Zero, biharmonic, dirichlet,
     uniform_biharmonic,
 };
@@ -80,44 +80,40 @@ impl DeformationEnergy {
     ) -> Option<Vec<Box<dyn Term>>> {
         match &body.elements {
             BodyElements::Triangles { corners, rest } => {
-                let shapes = self.weighted(rest, 2.0);
-                let mut density = if self == Self::Lscm {
-                    Some(Box::new(Lscm) as Box<dyn Density<2>>)
-                } else {
-                    self.density()
+                let (quadratic, mut density) = match self {
+                    Self::Lscm => (None, Box::new(Lscm) as Box<dyn Density<2>>),
+                    _ => self.parts(body, rest)?,
                 };
-                let quadratic = density.is_none().then(|| self.quadratic(body, rest));
                 if let Some(bound) = bound {
-                    density = Some(Box::new(Bounded {
-                        density: density.unwrap_or(Box::new(Zero)),
+                    density = Box::new(Bounded {
+                        density,
                         bound,
                         beta: barrier.beta,
-                    }));
+                    });
                 }
-                let density = density.unwrap_or(Box::new(Zero));
-                let guarded: Box<dyn Term> =
-                    Box::new(Triangles::new(corners, &shapes, density, barrier));
-                Some(quadratic.into_iter().chain([guarded]).collect())
+                let shapes = self.weighted(rest, 2.0);
+                let guarded = Triangles::new(corners, &shapes, density, barrier);
+                Some(together(quadratic, guarded))
             }
             BodyElements::Tetrahedra { corners, rest } => {
-                if self == Self::Lscm || bound.is_some() {
+                if bound.is_some() {
                     return None;
                 }
+                let (quadratic, density) = self.parts(body, rest)?;
                 let shapes = self.weighted(rest, 6.0);
-                let density = self.density();
-                let quadratic = density.is_none().then(|| self.quadratic(body, rest));
-                let density = density.unwrap_or(Box::new(Zero));
-                let guarded: Box<dyn Term> =
-                    Box::new(Tetrahedra::new(corners, &shapes, density, barrier));
-                Some(quadratic.into_iter().chain([guarded]).collect())
+                let guarded = Tetrahedra::new(corners, &shapes, density, barrier);
+                Some(together(quadratic, guarded))
             }
         }
     }
 
-    /// The energies that are densities in every dimension.
-    fn density<const D: usize>(self) -> Option<Box<dyn Density<D>>> {
+    /// The quadratic form that the energy is, or its density, which is zero beside one; `None` for [`Self::Lscm`], which not every
+    /// dimension has.
+    fn parts<const D: usize>(self, body: &Body, rest: &[RestShape<D>]) -> Option<Parts<D>> {
         let [lambda, mu] = LAME;
-        Some(match self {
+        let sizes = || -> Vec<f64> { rest.iter().map(|shape| shape.size).collect() };
+        let (corners, x) = (body.corners(), || body.rest.clone());
+        let density: Box<dyn Density<D>> = match self {
             Self::Arap => Box::new(Arap),
             Self::Green => Box::new(Green),
             Self::SymmetricDirichlet => Box::new(SymmetricDirichlet),
@@ -125,8 +121,16 @@ impl DeformationEnergy {
             Self::Amips => Box::new(Amips { s: 1.0 }),
             Self::StVenantKirchhoff => Box::new(StVenantKirchhoff { lambda, mu }),
             Self::NeoHookean => Box::new(NeoHookean { lambda, mu }),
-            Self::Lscm | Self::Dirichlet | Self::Laplacian | Self::UniformLaplacian => return None,
-        })
+            Self::Lscm => return None,
+            Self::Dirichlet | Self::Laplacian | Self::UniformLaplacian => Box::new(Zero),
+        };
+        let quadratic = match self {
+            Self::Dirichlet => Some(dirichlet(&corners, rest, &sizes(), x())),
+            Self::Laplacian => Some(biharmonic(&corners, rest, &sizes(), &body.masses(), x())),
+            Self::UniformLaplacian => Some(uniform_biharmonic(D, &corners, x())),
+            _ => None,
+        };
+        Some((quadratic, density))
     }
 
     fn weighted<const D: usize>(
@@ -148,15 +152,15 @@ impl DeformationEnergy {
         });
         shapes.collect()
     }
+}
 
-    fn quadratic<const D: usize>(self, body: &Body, rest: &[RestShape<D>]) -> Box<dyn Term> {
-        let sizes: Vec<f64> = rest.iter().map(|shape| shape.size).collect();
-        let corners = body.corners();
-        let x = body.rest.clone();
-        Box::new(match self {
-            Self::Laplacian => biharmonic(&corners, rest, &sizes, &body.masses(), x),
-            Self::UniformLaplacian => uniform_biharmonic(D, &corners, x),
-            _ => dirichlet(&corners, rest, &sizes, x),
-        })
-    }
+/// A quadratic form, and a density.
+type Parts<const D: usize> = (Option<Quadratic>, Box<dyn Density<D>>);
+
+fn together(quadratic: Option<Quadratic>, guarded: impl Term + 'static) -> Vec<Box<dyn Term>> {
+    let quadratic = quadratic.map(|quadratic| Box::new(quadratic) as Box<dyn Term>);
+    quadratic
+        .into_iter()
+        .chain([Box::new(guarded) as Box<dyn Term>])
+        .collect()
 }

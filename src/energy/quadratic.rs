@@ -14,6 +14,9 @@ pub struct Quadratic {
     diagonal: Vec<f64>,
     /// Row, column < row, entry.
     entries: Vec<(u32, u32, f64)>,
+    /// The entries of each whole row: where those of a vertex begin, and the other vertex and the entry of each.
+    starts: Vec<usize>,
+    rows: Vec<(u32, f64)>,
 }
 
 impl Quadratic {
@@ -26,33 +29,48 @@ impl Quadratic {
         entries: Vec<(u32, u32, f64)>,
     ) -> Self {
         debug_assert!(entries.iter().all(|&(row, column, _)| row > column));
+        let (starts, rows) = rows(diagonal.len(), &entries);
         Self {
             dim,
             rest,
             diagonal,
             entries,
+            starts,
+            rows,
         }
     }
 
-    fn displacement(&self, x: &[f64]) -> Vec<f64> {
-        x.iter().zip(&self.rest).map(|(x, rest)| x - rest).collect()
-    }
-
-    /// Q times a displacement.
-    fn image(&self, y: &[f64]) -> Vec<f64> {
-        let diagonal = y.iter().enumerate();
-        let mut image: Vec<f64> = diagonal
-            .map(|(i, y)| self.diagonal[i / self.dim] * y)
-            .collect();
-        for &(row, column, q) in &self.entries {
-            let (row, column) = (self.dim * row as usize, self.dim * column as usize);
-            for k in 0..self.dim {
-                image[row + k] += q * y[column + k];
-                image[column + k] += q * y[row + k];
-            }
+    /// A coordinate of Q times the displacement.
+    fn image(&self, x: &[f64], coordinate: usize) -> f64 {
+        let (vertex, k) = (coordinate / self.dim, coordinate % self.dim);
+        let moved = |coordinate: usize| x[coordinate] - self.rest[coordinate];
+        let mut image = self.diagonal[vertex] * moved(coordinate);
+        for &(other, q) in &self.rows[self.starts[vertex]..self.starts[vertex + 1]] {
+            image += q * moved(self.dim * other as usize + k);
         }
         image
     }
+}
+
+/// The entries of the whole rows of a symmetric matrix, each row in the order of `entries`.
+fn rows(n: usize, entries: &[(u32, u32, f64)]) -> (Vec<usize>, Vec<(u32, f64)>) {
+    let mut starts = vec![0; n + 1];
+    for &(row, column, _) in entries {
+        starts[row as usize + 1] += 1;
+        starts[column as usize + 1] += 1;
+    }
+    for vertex in 0..n {
+        starts[vertex + 1] += starts[vertex];
+    }
+    let mut next = starts.clone();
+    let mut rows = vec![(0, 0.0); 2 * entries.len()];
+    for &(row, column, q) in entries {
+        for (vertex, other) in [(row, column), (column, row)] {
+            rows[next[vertex as usize]] = (other, q);
+            next[vertex as usize] += 1;
+        }
+    }
+    (starts, rows)
 }
 
 impl Term for Quadratic {
@@ -69,18 +87,14 @@ impl Term for Quadratic {
     }
 
     fn value(&self, x: &[f64]) -> f64 {
-        let y = self.displacement(x);
-        0.5 * self
-            .image(&y)
-            .iter()
-            .zip(&y)
-            .map(|(q, y)| q * y)
-            .sum::<f64>()
+        let moves = x.iter().zip(&self.rest).map(|(x, rest)| x - rest);
+        let products = moves.enumerate().map(|(i, y)| self.image(x, i) * y);
+        0.5 * products.sum::<f64>()
     }
 
     fn add_derivatives(&self, x: &[f64], _tau: f64, assembly: &mut Assembly) {
-        for (i, g) in self.image(&self.displacement(x)).into_iter().enumerate() {
-            assembly.add_to_gradient(i, g);
+        for i in 0..x.len() {
+            assembly.add_to_gradient(i, self.image(x, i));
         }
         for (vertex, &q) in self.diagonal.iter().enumerate() {
             assembly.add_diagonal_identity(vertex as u32, q);

@@ -1,6 +1,7 @@
 //! Where to go: by Newton's method while far from a minimum, within a trust region when near.
 
-use super::newton::{newton_direction, once_definite};
+use super::line_search::Step;
+use super::newton_direction::{newton_direction, once_definite};
 use super::objective::Objective;
 use super::relaxation::{Relaxation, is_settling};
 use super::settings::Projection;
@@ -53,7 +54,7 @@ impl Directions {
     }
 
     /// Leaves the next one in `direction`, a change of less than `negligible` being the last; `None` if no matrix that could
-    /// be factored gives one.
+    /// be factored gives one. Newton's method takes over where the region's preconditioner turns out not to be positive definite.
     pub fn next(
         &mut self,
         objective: &mut Objective,
@@ -63,10 +64,7 @@ impl Directions {
         factorizations: &mut usize,
     ) -> Option<Descent> {
         let Some(region) = self.region.as_mut().filter(|_| self.is_near) else {
-            let direction = &mut self.direction;
-            let decrement = newton_direction(objective, x, relaxation, direction, factorizations)?;
-            (self.served, self.products, self.met_negative) = (0, 0, false);
-            return Some(Descent::of_newton(decrement));
+            return self.newton(objective, x, relaxation, factorizations);
         };
         let is_spent = self.products >= ENOUGH_PRODUCTS && self.served >= LEAST_DIRECTIONS;
         if is_spent || self.served >= MOST_DIRECTIONS {
@@ -76,20 +74,39 @@ impl Directions {
             (self.served, self.products, self.met_negative) = (0, 0, false);
         }
         objective.linearize(x, 1.0);
-        let descent = region.direction(objective, negligible, &mut self.direction);
+        let Ok(descent) = region.direction(objective, negligible, &mut self.direction) else {
+            self.is_near = false;
+            return self.newton(objective, x, relaxation, factorizations);
+        };
         self.served += 1;
         self.products += descent.products;
         self.met_negative |= descent.end == End::NegativeCurvature;
         Some(descent)
     }
 
-    /// After a step of this length, which lowered the energy by `decrease`.
+    /// Newton's direction, from a factorization at this point.
+    fn newton(
+        &mut self,
+        objective: &mut Objective,
+        x: &[f64],
+        relaxation: &mut Relaxation,
+        factorizations: &mut usize,
+    ) -> Option<Descent> {
+        let direction = &mut self.direction;
+        let decrement = newton_direction(objective, x, relaxation, direction, factorizations)?;
+        (self.served, self.products, self.met_negative) = (0, 0, false);
+        Some(Descent::of_newton(decrement))
+    }
+
+    /// After a step along a descent, from a point of this energy.
     pub fn after_step(
         &mut self,
         relaxation: &mut Relaxation,
         descent: &Descent,
-        (energy, length, decrease): (f64, f64, f64),
+        energy: f64,
+        step: Step,
     ) {
+        let (length, decrease) = (step.length, energy - step.energy);
         self.norm = descent.norm;
         self.relative_decrease = decrease / energy.abs();
         match &mut self.region {

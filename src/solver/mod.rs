@@ -22,6 +22,7 @@ mod held;
 mod levenberg;
 mod line_search;
 mod newton;
+mod newton_direction;
 mod objective;
 mod path;
 mod points;

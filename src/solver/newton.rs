@@ -1,13 +1,12 @@
 //! The loop.
 
 use super::directions::Directions;
-use super::line_search::line_search;
+use super::line_search::{Search, line_search};
 use super::objective::Objective;
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
 use super::trust_region::End;
 use super::watch::{Control, Taken, Watch};
-use crate::numerics::cholesky::NotPositiveDefinite;
 
 /// A step of at least this length confirms what the model promised of a full one: less than a quarter of that is left to gain.
 const CONFIRMING: f64 = 0.5;
@@ -61,8 +60,13 @@ pub(super) fn minimize_with(
             return summary.ended(Status::Stalled);
         };
         let is_small = descent.end == End::Minimum && -descent.change <= negligible;
-        let from = (energy, descent.slope);
-        let Some(step) = line_search(objective, x, &directions.direction, from, &mut trial) else {
+        let search = Search {
+            x,
+            direction: &directions.direction,
+            energy,
+            slope: descent.slope,
+        };
+        let Some(step) = line_search(objective, &search, &mut trial) else {
             if is_small {
                 return summary.ended(Status::Converged);
             }
@@ -74,11 +78,7 @@ pub(super) fn minimize_with(
         x.copy_from_slice(&trial);
         summary.iterations += 1;
         summary.energy_last = step.energy;
-        directions.after_step(
-            relaxation,
-            &descent,
-            (energy, step.length, energy - step.energy),
-        );
+        directions.after_step(relaxation, &descent, energy, step);
         let taken = Taken {
             mu: objective.shift(),
             sigma: step.length,
@@ -91,37 +91,4 @@ pub(super) fn minimize_with(
         }
     }
     summary.ended(Status::IterationLimit)
-}
-
-/// Leaves −H⁻¹g in `direction` and returns the Newton decrement, as [`once_definite`] has it.
-pub(super) fn newton_direction(
-    objective: &mut Objective,
-    x: &[f64],
-    relaxation: &mut Relaxation,
-    direction: &mut [f64],
-    factorizations: &mut usize,
-) -> Option<f64> {
-    let solved = |objective: &mut Objective| objective.newton_direction(direction);
-    once_definite(objective, x, relaxation, factorizations, solved)
-}
-
-/// What comes of factoring the Hessian at `x`, with more and more of its negative curvature removed until it is positive
-/// definite; `None` if it is not even with all of it removed, as happens only when derivatives overflow.
-pub(super) fn once_definite<T>(
-    objective: &mut Objective,
-    x: &[f64],
-    relaxation: &mut Relaxation,
-    factorizations: &mut usize,
-    mut factored: impl FnMut(&mut Objective) -> Result<T, NotPositiveDefinite>,
-) -> Option<T> {
-    loop {
-        objective.linearize(x, relaxation.tau());
-        *factorizations += 1;
-        if let Ok(found) = factored(objective) {
-            return Some(found);
-        }
-        if !relaxation.after_indefinite() {
-            return None;
-        }
-    }
 }

@@ -155,13 +155,17 @@ impl QuadraticModel {
         }
     }
 
-    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side; as far as
-    /// the matrix is found to be positive definite.
-    pub fn follow(&mut self, direction: &mut [f64], add_pull: impl FnOnce(&mut [f64])) {
+    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side.
+    pub fn follow(
+        &mut self,
+        direction: &mut [f64],
+        add_pull: impl FnOnce(&mut [f64]),
+    ) -> Result<(), NotPositiveDefinite> {
         self.held.take_moves(direction);
         add_pull(direction);
-        let _ = self.solve(direction);
+        self.solve(direction)?;
         self.held.put_moves(direction);
+        Ok(())
     }
 
     /// g·d + ½d·Hd, held vertices included.

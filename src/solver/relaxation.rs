@@ -18,9 +18,32 @@ pub struct Relaxation {
 /// factorizations would fail otherwise.
 const MOST_PATIENCE: u32 = 16;
 
+/// What ω is multiplied by when it falls: five steps from 1 are enough for the true Hessian, and a step too far costs no more
+/// than a factorization.
+const LOWER: f64 = 0.25;
+
+/// An ω that would fall below a thousandth becomes 0: what is removed then no longer changes the step, but keeps convergence from
+/// being quadratic.
+const LEAST_LOWERED: f64 = 4e-3;
+
+/// After a short step ω is multiplied by this, which takes one fall back, and raised to the other at least, since 0 would stay 0.
+const RAISE_AFTER_SHORT: f64 = 4.0;
+const LEAST_AFTER_SHORT: f64 = 0.05;
+
+/// The same after a factorization that failed. It was wasted, so ω rises by more than one fall.
+const RAISE_AFTER_INDEFINITE: f64 = 8.0;
+const LEAST_AFTER_INDEFINITE: f64 = 0.02;
+
+/// Steps longer than this share of the direction say that the model is good, those shorter than the other that it is bad.
+const LONG: f64 = 0.9;
+const SHORT: f64 = 0.5;
+
+/// Gains below this share of the energy make the end slow.
+const SLOW: f64 = 0.01;
+
 /// Is the model good and the end slow?
 pub fn is_settling(length: f64, relative_decrease: f64) -> bool {
-    length > 0.9 && relative_decrease < 0.01
+    length > LONG && relative_decrease < SLOW
 }
 
 impl Relaxation {
@@ -48,8 +71,8 @@ impl Relaxation {
             self.wait -= 1;
         } else if is_settling(length, relative_decrease) {
             self.lower();
-        } else if length < 0.5 {
-            self.omega = (4.0 * self.omega).clamp(0.05, 1.0);
+        } else if length < SHORT {
+            self.omega = (RAISE_AFTER_SHORT * self.omega).clamp(LEAST_AFTER_SHORT, 1.0);
         }
     }
 
@@ -64,10 +87,10 @@ impl Relaxation {
     }
 
     fn lower(&mut self) {
-        self.omega = if self.omega < 4e-3 {
+        self.omega = if self.omega < LEAST_LOWERED {
             0.0
         } else {
-            0.25 * self.omega
+            LOWER * self.omega
         };
     }
 
@@ -76,7 +99,7 @@ impl Relaxation {
         let exhausted = self.omega >= 1.0;
         self.wait = self.patience;
         self.patience = (2 * self.patience).min(MOST_PATIENCE);
-        self.omega = (8.0 * self.omega).clamp(0.02, 1.0);
+        self.omega = (RAISE_AFTER_INDEFINITE * self.omega).clamp(LEAST_AFTER_INDEFINITE, 1.0);
         !exhausted
     }
 

@@ -1,13 +1,14 @@
 //! Handles on their way: advances along their path, each together with a Newton step of the rest.
 
-use super::line_search::line_search;
-use super::newton::newton_direction;
+use super::line_search::{Search, line_search};
+use super::newton_direction::newton_direction;
 use super::objective::Objective;
 use super::path::{Handles, Path, Rotation};
 use super::points::Points;
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
 use super::watch::{Control, Taken, Watch};
+use crate::numerics::cholesky::NotPositiveDefinite;
 use crate::numerics::square::{Matrix, Square};
 
 /// A first advance along the path: all of it, since a small deformation needs no more.
@@ -125,7 +126,9 @@ where
     fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
         while self.stride > LEAST_ADVANCE {
             let to = (self.s + self.stride).min(1.0);
-            self.aim(objective, x, to);
+            if self.aim(objective, x, to).is_err() {
+                break;
+            }
             self.points.pull(objective, x, SOFT, to);
             let largest = SAFETY * objective.largest_step(x, &self.direction);
             if largest >= 1.0 && self.is_acceptable(objective, x) {
@@ -142,7 +145,12 @@ where
     }
 
     /// Leaves in `direction` the Newton step and the advance to `to` together.
-    fn aim(&mut self, objective: &mut Objective, x: &[f64], to: f64) {
+    fn aim(
+        &mut self,
+        objective: &mut Objective,
+        x: &[f64],
+        to: f64,
+    ) -> Result<(), NotPositiveDefinite> {
         for (i, &v) in self.handles.vertices.iter().enumerate() {
             let place = self.path.position(i, to);
             let at = D * v as usize;
@@ -151,10 +159,11 @@ where
             }
         }
         let moves = self.points.moves(self.s, to);
-        objective.follow(&mut self.direction, moves);
+        objective.follow(&mut self.direction, moves)?;
         for (d, n) in self.direction.iter_mut().zip(&self.newton) {
             *d += n;
         }
+        Ok(())
     }
 
     /// Is the energy after the direction about what the model promises? Leaves the point in `trial`.
@@ -177,8 +186,13 @@ where
 
     /// The Newton step alone, with a line search; its length, 0 if none helps.
     fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
-        let from = (self.summary.energy_last, -2.0 * decrement);
-        line_search(objective, x, &self.newton, from, &mut self.trial).map_or(0.0, |step| {
+        let search = Search {
+            x,
+            direction: &self.newton,
+            energy: self.summary.energy_last,
+            slope: -2.0 * decrement,
+        };
+        line_search(objective, &search, &mut self.trial).map_or(0.0, |step| {
             x.copy_from_slice(&self.trial);
             self.summary.energy_last = step.energy;
             step.length

@@ -12,6 +12,7 @@
 //! From: Steihaug 1983, The Conjugate Gradient Method and Trust Regions in Large Scale Optimization.
 
 use super::objective::Objective;
+use crate::numerics::cholesky::NotPositiveDefinite;
 
 /// Products with the Hessian for one direction, at most: more are better spent at another point.
 const MOST_PRODUCTS: usize = 10;
@@ -102,49 +103,34 @@ impl TrustRegion {
     /// The objective must be linearized with its true Hessian and have a factorization, of any nearby positive definite
     /// matrix. A change of less than `negligible` is looked at more closely, so that it is not taken for the end when the
     /// factorization is a bad one. Cost: a solve and a product with the Hessian per step of conjugate gradients, and one solve.
+    ///
+    /// # Errors
+    /// If the preconditioner is not positive definite.
     pub fn direction(
         &mut self,
         objective: &mut Objective,
         negligible: f64,
         direction: &mut [f64],
-    ) -> Descent {
+    ) -> Result<Descent, NotPositiveDefinite> {
         direction.fill(0.0);
         self.residual.copy_from_slice(objective.gradient());
-        let mut rz = self.precondition(objective);
-        for (p, z) in self.conjugate.iter_mut().zip(&self.preconditioned) {
-            *p = -z;
-        }
-        let first = rz;
-        let mut norms = Norms {
-            direction: 0.0,
-            mixed: 0.0,
-            conjugate: rz,
-        };
+        let first = self.precondition(objective)?;
+        self.turn(0.0);
+        let mut norms = Norms::of_first(first);
+        let mut rz = first;
         let mut change = 0.0;
         let mut products = 0;
         let end = loop {
-            objective.apply_hessian(&self.conjugate, &mut self.product);
+            let step = self.step(objective, &norms, rz);
             products += 1;
-            let curvature = dot(&self.conjugate, &self.product);
-            let is_convex = curvature > 0.0;
-            let most = norms.step_to(self.radius);
-            let alpha = if is_convex {
-                (rz / curvature).min(most)
-            } else {
-                most
-            };
-            add_scaled(direction, alpha, &self.conjugate);
-            change += alpha * (0.5 * alpha * curvature - rz);
-            norms.advance(alpha);
-            if alpha == most {
-                break if is_convex {
-                    End::Radius
-                } else {
-                    End::NegativeCurvature
-                };
+            add_scaled(direction, step.alpha, &self.conjugate);
+            change += step.alpha * (0.5 * step.alpha * step.curvature - rz);
+            norms.advance(step.alpha);
+            if let Some(end) = step.end {
+                break end;
             }
-            add_scaled(&mut self.residual, alpha, &self.product);
-            let next = self.precondition(objective);
+            add_scaled(&mut self.residual, step.alpha, &self.product);
+            let next = self.precondition(objective)?;
             let share = if -change <= negligible { SURE } else { FORCING };
             if next <= share * share * first {
                 break End::Minimum;
@@ -153,28 +139,50 @@ impl TrustRegion {
                 break End::Limit;
             }
             let beta = next / rz;
-            for (p, z) in self.conjugate.iter_mut().zip(&self.preconditioned) {
-                *p = beta * *p - z;
-            }
+            self.turn(beta);
             norms.turn(beta, next);
             rz = next;
         };
-        Descent {
+        Ok(Descent {
             slope: dot(objective.gradient(), direction),
             change,
             norm: norms.direction.sqrt(),
             products,
             end,
+        })
+    }
+
+    /// The step along the conjugate direction: to the lowest point on it, or to the radius. Leaves its product with the Hessian.
+    fn step(&mut self, objective: &Objective, norms: &Norms, rz: f64) -> ConjugateStep {
+        objective.apply_hessian(&self.conjugate, &mut self.product);
+        let curvature = dot(&self.conjugate, &self.product);
+        let most = norms.step_to(self.radius);
+        let (alpha, end) = if curvature > 0.0 {
+            let lowest = rz / curvature;
+            let is_inside = lowest < most;
+            (lowest.min(most), (!is_inside).then_some(End::Radius))
+        } else {
+            (most, Some(End::NegativeCurvature))
+        };
+        ConjugateStep {
+            alpha,
+            curvature,
+            end,
         }
     }
 
-    /// P⁻¹r, and r·P⁻¹r.
-    fn precondition(&mut self, objective: &mut Objective) -> f64 {
-        self.preconditioned.copy_from_slice(&self.residual);
-        if objective.precondition(&mut self.preconditioned).is_err() {
-            return f64::NAN;
+    /// The next conjugate direction, βp − z.
+    fn turn(&mut self, beta: f64) {
+        for (p, z) in self.conjugate.iter_mut().zip(&self.preconditioned) {
+            *p = beta * *p - z;
         }
-        dot(&self.residual, &self.preconditioned)
+    }
+
+    /// Leaves P⁻¹r, and returns r·P⁻¹r.
+    fn precondition(&mut self, objective: &mut Objective) -> Result<f64, NotPositiveDefinite> {
+        self.preconditioned.copy_from_slice(&self.residual);
+        objective.precondition(&mut self.preconditioned)?;
+        Ok(dot(&self.residual, &self.preconditioned))
     }
 
     /// Learns from a step of this length along a direction.
@@ -196,6 +204,15 @@ impl TrustRegion {
     }
 }
 
+/// A step of conjugate gradients.
+struct ConjugateStep {
+    alpha: f64,
+    /// p·Hp.
+    curvature: f64,
+    /// Why there is none after it.
+    end: Option<End>,
+}
+
 /// Squared norms of the direction d so far and of the conjugate direction p, and their product, known without the matrix.
 struct Norms {
     direction: f64,
@@ -204,6 +221,15 @@ struct Norms {
 }
 
 impl Norms {
+    /// Of the first conjugate direction, which has this squared norm.
+    fn of_first(conjugate: f64) -> Self {
+        Self {
+            direction: 0.0,
+            mixed: 0.0,
+            conjugate,
+        }
+    }
+
     /// The t > 0 at which d + tp is as long as the radius.
     fn step_to(&self, radius: f64) -> f64 {
         let missing = (radius * radius - self.direction).max(0.0);

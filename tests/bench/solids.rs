@@ -252,7 +252,9 @@ fn parts(case: &str, problem: &Problem, solution: &Solution) {
         for &v in &handles.vertices {
             follow[problem.body.dim() * v as usize] = 1e-3;
         }
-        objective.follow(&mut follow, &[]);
+        objective
+            .follow(&mut follow, &[])
+            .expect("a definite matrix");
     });
     let step = least(|| {
         black_box(objective.largest_step(x, &follow));

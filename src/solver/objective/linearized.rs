@@ -88,13 +88,17 @@ impl Objective {
     /// [`newton_direction`](Self::newton_direction).
     ///
     /// Cost: one solve.
-    pub fn follow(&mut self, direction: &mut [f64], target_moves: &[f64]) {
+    pub fn follow(
+        &mut self,
+        direction: &mut [f64],
+        target_moves: &[f64],
+    ) -> Result<(), NotPositiveDefinite> {
         let constraints = self.constraints.as_ref();
         self.model.follow(direction, |pull| {
             if let Some(constraints) = constraints {
                 constraints.add_pull(target_moves, pull);
             }
-        });
+        })
     }
 
     /// What the quadratic model of the last [`linearize`](Self::linearize) says of the change of the energy along a
