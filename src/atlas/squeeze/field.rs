@@ -1,5 +1,5 @@
 //! How far points are from where a chart keeps others away.
-use crate::numerics::vec2::{dot, sub};
+use crate::numerics::vec2::{dot, squared_distance};
 
 /// Cells around the region.
 const MARGIN: f64 = 6.0;
@@ -223,13 +223,4 @@ impl Raster {
         let back = (0..n).rev();
         back.for_each(|node| nearer(node, [[1, 0], [1, 1], [0, 1], [-1, 1]]));
     }
-}
-
-/// The square of the distance of a point from a segment.
-fn squared_distance(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
-    let (along, to) = (sub(b, a), sub(p, a));
-    let share = dot(to, along) / dot(along, along).max(f64::MIN_POSITIVE);
-    let share = share.clamp(0.0, 1.0);
-    let across = [0, 1].map(|k| to[k] - share * along[k]);
-    dot(across, across)
 }
