@@ -52,15 +52,16 @@
 //!
 //! | module | what lives there |
 //! |---|---|
-//! | [`numerics`] | multifrontal sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices, convex hulls |
-//! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; triangles inside polygons; readers and writers |
+//! | [`numerics`] | multifrontal sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices, boxes, convex hulls |
+//! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; triangles inside polygons; readers and writers; UVs as files have them |
+//! | [`plane`] | plane geometry of many pieces, for those who make maps: a spatial index, segments, polygons, triangles that overlap |
 //! | [`cut`] | surfaces opened along seams to disks |
 //! | [`energy`], [`barrier`] | densities as functions of singular values, for triangles and tetrahedra; quadratic terms; what keeps elements from inverting |
 //! | [`solver`] | projected Newton, exact largest step, line search, status; handles that travel; the paper's own iteration |
 //! | [`embed`] | a valid start for every disk and the way from it to the optimum |
-//! | [`certificate`] | exact judgement of UVs as a file has them |
 //! | [`charts`] | where to cut: surfaces divided, mapped, and parted where the maps fold over themselves |
 //! | [`atlas`] | orientation, packing, pages, the integer grid |
+//! | [`certificate`] | exact judgement of UVs as a file has them |
 //! | [`measure`] | distortion, seams, packing, overlaps of any UV map |
 #![cfg_attr(
     feature = "files",
@@ -86,7 +87,13 @@
 //!
 //! A map that is injective in f64 need not be after rounding, so the atlas lives on the integer grid of 2⁻²³, exact in
 //! f32: orientation is an exact determinant. [`atlas`] moves the vertices whose rounding would flip a triangle; nothing
-//! else trusts it: the written bytes are read again and judged by [`certificate`], which shares no code with the writer.
+//! else trusts it: the written bytes are read again and judged by [`certificate`].
+//!
+//! The judge shares no code with those it judges but the exact predicates of
+//! [`numerics::predicates`] and the types and edges of [`mesh`]. Makers of maps search for overlaps
+//! too, with what is in [`plane`]; none of them imports [`certificate`], and it imports nothing of
+//! theirs, so that it finds their faults. Only [`measure`], which judges as well, and [`pipeline`],
+//! which asks for the judgement, build on it.
 //!
 //! Pages of an atlas lie side by side along u. `f32` is coarser there, so the grid of three and more pages is too; along the shorter side of
 //! a texture it has as much larger steps as texels are larger, so that charts are rounded alike in both directions.
@@ -165,6 +172,8 @@ pub mod numerics;
 
 pub mod mesh;
 
+pub mod plane;
+
 pub mod cut;
 
 pub mod energy;
@@ -175,11 +184,11 @@ pub mod solver;
 
 pub mod embed;
 
-pub mod certificate;
-
 pub mod charts;
 
 pub mod atlas;
+
+pub mod certificate;
 
 pub mod measure;
 

@@ -7,9 +7,10 @@
 use super::ChartMap;
 use super::outline::boundary;
 use super::relax::{ENOUGH_CELLS, height, neighbourhood, relax};
-use crate::certificate::{Bounds, BoxTree, bounds_of, search_budget};
 use crate::mesh::VertexFaces;
+use crate::numerics::bounds::{Bounds, bounds_of, widened};
 use crate::numerics::vec2::{dot, doubled_area, sub};
+use crate::plane::{BoxIndex, search_budget};
 
 /// Neighbourhoods tried; each has twice as many rings as the one before.
 const ROUNDS: u32 = 10;
@@ -53,14 +54,11 @@ pub fn cleared(map: &ChartMap, clearance: f64) -> Option<Vec<[f64; 2]>> {
 /// Triangles from each boundary edge to the vertices of other edges that lie less than `width` beyond it, all positive.
 fn gaps(edges: &[[u32; 2]], plane: &[[f64; 2]], width: f64) -> Vec<[u32; 3]> {
     let at = |v: u32| plane[v as usize];
-    let enlarged = |edge: &[u32; 2]| -> Bounds {
-        let [low, high] = bounds_of(&edge.map(at));
-        [low.map(|x| x - width / 2.0), high.map(|x| x + width / 2.0)]
-    };
-    let boxes: Vec<Bounds> = edges.iter().map(enlarged).collect();
+    let reach = |edge: &[u32; 2]| widened(bounds_of(&edge.map(at)), width / 2.0);
+    let boxes: Vec<Bounds> = edges.iter().map(reach).collect();
     let mut gaps = Vec::new();
     // Charts that lie in heaps are not positive; should the search end early, fewer gaps are held.
-    BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
         for (edge, other) in [(i, j), (j, i)].map(|(i, j)| (edges[i as usize], edges[j as usize])) {
             let [a, b] = edge;
             // The start of each edge: every vertex of a boundary is one.

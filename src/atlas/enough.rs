@@ -9,7 +9,7 @@ use super::pack::{best, searched};
 use super::plan::Plan;
 use super::texture::Texture;
 use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale};
-use crate::certificate::Resolution;
+use crate::mesh::Resolution;
 
 /// By how much a larger texture exceeds what the best layout needs: searches in two textures differ.
 const MARGIN: f64 = 1.03;

@@ -1,7 +1,7 @@
 //! What charts are laid out in: pages, their shape in cells, and the grid that `f32` has for them.
 
 use super::GRID_BITS;
-use crate::certificate::Resolution;
+use crate::mesh::Resolution;
 
 /// The texture of an atlas: pages of one size, side by side along u.
 ///

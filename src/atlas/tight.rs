@@ -8,7 +8,8 @@ use super::outline::Outline;
 use super::spot::{Corner, Spot};
 use super::squeeze::{Body, Squeezed};
 use super::{AtlasOptions, Scale};
-use crate::certificate::{Bounds, BoxTree, Visit, bounds_of, search_budget, segment_distance};
+use crate::numerics::bounds::{Bounds, bounds_of};
+use crate::plane::{BoxIndex, Visit, search_budget, segment_distance};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -203,7 +204,7 @@ impl Places {
         }
         let boxes: Vec<Bounds> = edges.iter().map(|edge| bounds_of(edge)).collect();
         let distance = |i: u32, j: u32| segment_distance(edges[i as usize], edges[j as usize]);
-        match BoxTree::new(&boxes).closest(&charts, search_budget(edges.len()), distance) {
+        match BoxIndex::new(&boxes).closest(&charts, search_budget(edges.len()), distance) {
             (gap, Visit::Complete) => gap,
             (_, Visit::Truncated) => 0.0,
         }

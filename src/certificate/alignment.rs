@@ -1,7 +1,7 @@
 //! Whether charts end where texels end.
 
-use super::resolution::Resolution;
 use super::topology::UvTopology;
+use crate::mesh::Resolution;
 
 /// The charts whose bounding rectangle does not lie on borders of texels of a texture of `resolution`, exactly: f32 times a
 /// whole number below 2²⁸ is exact in f64.

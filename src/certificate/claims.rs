@@ -1,18 +1,7 @@
 //! What a certificate is asked to speak of.
 
-use super::resolution::Resolution;
+use crate::mesh::{Resolution, VAxis};
 use serde::{Deserialize, Serialize};
-
-/// Which way v points in the numbers given.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum VAxis {
-    /// OBJ and most tools: (0, 0) is the lower left corner of the texture.
-    #[default]
-    Up,
-    /// glTF: (0, 0) is the upper left corner of the texture.
-    Down,
-}
 
 /// Whether faces are tested against each other.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]

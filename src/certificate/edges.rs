@@ -1,6 +1,6 @@
 //! Which faces meet at an edge, and which of them agree about its UVs.
 
-use super::CornerUvs;
+use crate::mesh::CornerUvs;
 use std::cmp::Ordering;
 
 /// How a halfedge relates to the one before it in [`UvEdges::order`].

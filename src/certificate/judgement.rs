@@ -1,6 +1,5 @@
 //! The certificate and the rules by which it is given.
 
-use super::CornerUvs;
 use super::alignment::unaligned_charts;
 use super::bits::{BitsVerdict, coarsest_safe_bits, judge_bits};
 use super::boundary::ChartBoundary;
@@ -11,6 +10,7 @@ use super::padding::{PaddingVerdict, judge_padding};
 use super::pages::{PagesVerdict, judge_pages};
 use super::rounding::coarsest_bits;
 use super::topology::UvTopology;
+use crate::mesh::CornerUvs;
 use serde::Serialize;
 
 /// How many offending faces and pairs a certificate names.

@@ -1,10 +1,14 @@
 //! Exact judgement of UVs as they stand in a file.
 //!
-//! A map that is injective in the solver need not be after rounding, so nothing the solver or the packer believes counts
-//! here. [`certify`] takes positions, triangles and the UVs of every corner, as f64 values that hold the file's numbers
-//! exactly, and finds everything again: which vertices are one (equal positions), which faces hang together in UV space
-//! (charts), how they are wound against each other, and the orientation of each by an exact predicate. Nothing is shared
-//! with the code that makes or writes UVs.
+//! A map that is injective in the solver need not be after rounding, so nothing the solver or the
+//! packer believes counts here. [`certify`] takes positions, triangles and the UVs of every corner,
+//! as f64 values that hold the file's numbers exactly, and finds everything again: which vertices
+//! are one (equal positions), which faces hang together in UV space (charts), how they are wound
+//! against each other, and the orientation of each by an exact predicate.
+//!
+//! **Independence.** Nothing is shared with the code that makes or writes UVs but the exact
+//! predicates, and types and edges of meshes: boxes, trees, distances and overlaps of makers are in
+//! [`plane`](crate::plane), and a fault in them is found here.
 //!
 //! **Charts.** Two faces on a common edge (of welded positions) belong to one chart when the UVs of both ends agree to 1e-7 of
 //! the UV extent. That is less than one step of the 2⁻²³ grid over the unit square, so for UVs this program writes it means
@@ -41,7 +45,6 @@ mod overlap;
 mod padding;
 mod pages;
 mod planar;
-mod resolution;
 mod rounding;
 mod separation;
 mod simple;
@@ -50,25 +53,20 @@ mod weld;
 
 pub use bits::BitsVerdict;
 pub(crate) use boundary::{ChartBoundary, segment_distance};
-pub(crate) use box_tree::{
-    Bounds, BoxTree, Visit, bounds_of, enlarged, meet, search_budget, union,
-};
-pub use claims::{Claims, Overlap, Padding, VAxis};
+pub(crate) use box_tree::Visit;
+use box_tree::{Bounds, BoxTree, bounds_of, enlarged, search_budget};
+pub use claims::{Claims, Overlap, Padding};
 pub use crossings::{Crossings, crossings};
 pub(crate) use edges::Start;
 pub use judgement::{Certificate, certify};
-pub(crate) use overlap::{OrientedFaces, interiors_intersect};
+pub(crate) use overlap::OrientedFaces;
 pub use padding::PaddingVerdict;
 pub use pages::PagesVerdict;
 pub use planar::{PlanarCertificate, certify_planar};
-pub use resolution::Resolution;
-pub(crate) use rounding::largest_move;
 pub use simple::boundary_crossings;
-pub(crate) use simple::meeting_point;
 pub(crate) use topology::UvTopology;
 
-/// The UVs of a face's three corners, as the file has them.
-pub type CornerUvs = [[f64; 2]; 3];
+use crate::mesh::CornerUvs;
 
 /// The UV chart of every face: 0, 1, … in the order of their first faces, found as [`certify`] finds them.
 ///

@@ -5,9 +5,10 @@
 //! some point is covered twice, then a line has triangles on its right side, too. That is asked at one point of each line. A fan around
 //! one vertex, whose triangles' boxes all meet each other, has but one line.
 
+use super::bounds_of;
 use super::box_tree::{BoxTree, enlarged};
 use super::simple::meeting_point;
-use super::{CornerUvs, bounds_of};
+use crate::mesh::CornerUvs;
 use crate::numerics::predicates::orient2d_sign;
 use std::collections::HashMap;
 

@@ -1,9 +1,9 @@
 //! OverlappingPair of faces whose interiors intersect in UV space.
 
-use super::CornerUvs;
 use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
 use super::once::covers_once;
 use super::topology::UvTopology;
+use crate::mesh::CornerUvs;
 use crate::numerics::predicates::orient2d_sign;
 
 /// The faces of non-zero orientation, all made counter-clockwise.

@@ -7,7 +7,7 @@ use super::box_tree::Visit;
 use super::claims::Padding;
 use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, is_exact, product};
 use super::judgement::NAMED;
-use super::resolution::Resolution;
+use crate::mesh::Resolution;
 use serde::Serialize;
 
 /// Coordinates from here on are not judged: their products would not fit.

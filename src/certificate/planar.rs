@@ -1,8 +1,8 @@
 //! Judgement of a deformed mesh of the plane.
 
-use super::CornerUvs;
 use super::box_tree::Visit;
 use super::overlap::OrientedFaces;
+use crate::mesh::CornerUvs;
 use crate::numerics::predicates::orient2d_sign;
 use serde::Serialize;
 

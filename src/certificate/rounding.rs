@@ -1,8 +1,8 @@
 //! How coarsely UVs may be rounded before an orientation is in doubt.
 
-use super::CornerUvs;
 use super::fixed::{Fixed, UNIT_BITS, cross, difference, fixed};
 use super::topology::UvTopology;
+use crate::mesh::CornerUvs;
 
 /// Coordinates from here on are not judged; it keeps all products within i128 with room to spare.
 const LIMIT: f64 = (1 << 20) as f64;
@@ -50,7 +50,7 @@ fn oriented(topology: &UvTopology) -> impl Iterator<Item = (u32, &CornerUvs, i8)
 }
 
 /// The move 1/(2(2ᵇ−1)) + 2⁻¹⁶ of each coordinate that a map must survive to hold at b bits.
-pub(crate) fn largest_move(bits: u32) -> f64 {
+pub(super) fn largest_move(bits: u32) -> f64 {
     0.5 / (f64::from(bits).exp2() - 1.0) + f64::from(-16).exp2()
 }
 

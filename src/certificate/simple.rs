@@ -3,12 +3,11 @@
 use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use crate::mesh::boundary_edges;
 use crate::numerics::predicates::orient2d_sign;
-use crate::numerics::vec2::{dot, sub};
 
 type Segment = [[f64; 2]; 2];
 
 /// A vertex near which closed polygons cross or touch themselves or each other.
-pub(crate) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
+pub(super) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
     let (mut segments, mut next) = (Vec::new(), Vec::new());
     for vertices in loops {
         let (first, n) = (segments.len() as u32, vertices.len());
@@ -61,7 +60,8 @@ pub fn boundary_crossings(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> u64 
 
 /// Whether a segment runs back over the one that ends where it begins.
 fn turns_back(a: Segment, b: Segment) -> bool {
-    orient2d_sign(a[0], a[1], b[1]) == 0 && dot(sub(a[1], a[0]), sub(b[1], b[0])) < 0.0
+    let along = |k: usize| (a[1][k] - a[0][k]) * (b[1][k] - b[0][k]);
+    orient2d_sign(a[0], a[1], b[1]) == 0 && along(0) + along(1) < 0.0
 }
 
 /// Whether two segments have a common point.

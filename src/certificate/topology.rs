@@ -1,10 +1,9 @@
 //! A mesh with UVs as the judge sees it: welded, charted, with exact orientations.
 
-use super::CornerUvs;
 use super::charts::{Charts, Link};
-use super::claims::VAxis;
 use super::edges::{Halfedge, Start, UvEdges, halfedge};
 use super::weld::weld;
+use crate::mesh::{CornerUvs, VAxis};
 use crate::numerics::predicates::orient2d_sign;
 
 /// UVs of an edge's ends agree within this part of the UV extent.

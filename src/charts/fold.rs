@@ -1,19 +1,19 @@
 //! Where a map of a chart overlaps itself, and which seam ends that.
 
 use super::min_cut::min_cut;
-use crate::certificate::{OrientedFaces, bounds_of, meet, meeting_point, union};
 use crate::mesh::{CUT, Disk, next};
-use crate::numerics::vec2::doubled_area;
+use crate::numerics::bounds::{bounds_of, touch};
 use crate::numerics::vec3::distance;
+use crate::plane::{doubled_polygon_area, meeting_point, overlapping_pairs};
 
-/// Pairs of triangles whose images overlap, each in ascending order, decided exactly; `uv` has no flip.
+/// Pairs of triangles whose images overlap, in ascending order and each so, decided exactly; `uv`
+/// has no flip.
 ///
 /// Most charts cost a test of their boundary only: a map without flips is injective if the images of the boundary loops are
 /// simple and apart and all but one of them turn clockwise. (Then they turn as often as the disk's Euler number says, so no
 /// interior vertex is wound around twice, and how often a point is covered, the sum of their windings, is 0 or 1.)
 pub fn overlaps(disk: &Disk, uv: &[[f64; 2]]) -> Vec<[u32; 2]> {
-    let image = |boundary: &Vec<u32>| boundary.iter().map(|&v| uv[v as usize]).collect();
-    let loops: Vec<Vec<[f64; 2]>> = disk.loops.iter().map(image).collect();
+    let loops = disk.boundary_in(uv);
     let outer = loops
         .iter()
         .filter(|l| doubled_polygon_area(l) > 0.0)
@@ -32,42 +32,36 @@ pub fn overlaps_after(
     before: &[[u32; 2]],
     moved: &[u32],
 ) -> Vec<[u32; 2]> {
-    let bounds = |f: u32| bounds_of(&disk.triangles[f as usize].map(|v| uv[v as usize]));
+    let corners = |f: u32| disk.triangles[f as usize].map(|v| uv[v as usize]);
     let mut has_moved = vec![false; disk.triangles.len()];
-    let mut region = bounds_of(&[]);
     for &f in moved {
         has_moved[f as usize] = true;
-        region = union(region, &bounds(f));
     }
+    let places: Vec<[f64; 2]> = moved.iter().flat_map(|&f| corners(f)).collect();
+    let region = bounds_of(&places);
     let near: Vec<u32> = (0..disk.triangles.len() as u32)
-        .filter(|&f| meet(&bounds(f), &region))
+        .filter(|&f| touch(&bounds_of(&corners(f)), &region))
         .collect();
     let is_new = |pair: &[u32; 2]| pair.iter().any(|&f| has_moved[f as usize]);
     let mut pairs = overlaps_among(disk, uv, &near);
     pairs.retain(is_new);
     pairs.extend(before.iter().filter(|pair| !is_new(pair)));
+    pairs.sort_unstable();
     pairs
 }
 
-/// The pairs among some faces, each in ascending order as the faces are.
+/// The pairs among some faces, which ascend, in ascending order; where faces lie in heaps, a part
+/// of them.
 fn overlaps_among(disk: &Disk, uv: &[[f64; 2]], faces: &[u32]) -> Vec<[u32; 2]> {
     let corners: Vec<_> = (faces.iter())
         .map(|&f| disk.triangles[f as usize].map(|v| uv[v as usize]))
         .collect();
     let mut pairs = Vec::new();
-    OrientedFaces::of(&corners, &vec![1; corners.len()]).overlaps(|pair| {
-        let mut pair = pair.faces.map(|i| faces[i as usize]);
-        pair.sort_unstable();
-        pairs.push(pair);
+    overlapping_pairs(&corners, |pair| {
+        pairs.push(pair.map(|i| faces[i as usize]));
     });
+    pairs.sort_unstable();
     pairs
-}
-
-/// Twice the signed area of a closed polygon.
-fn doubled_polygon_area(polygon: &[[f64; 2]]) -> f64 {
-    let after = polygon.iter().cycle().skip(1);
-    let edges = polygon.iter().zip(after);
-    edges.map(|(&p, &q)| doubled_area(polygon[0], p, q)).sum()
 }
 
 /// Faces on one side of the seam that parts a fold, given the gluing of a chart, the lengths of its halfedges and the pairs of its

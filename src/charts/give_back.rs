@@ -9,8 +9,9 @@ use super::lay::Laid;
 use super::local::Local;
 use super::mapped::{MappedChart, Observer};
 use super::quality::Bound;
-use crate::embed::{self, keeps_apart};
+use crate::embed;
 use crate::mesh::Surface;
+use crate::plane::keep_apart;
 use crate::solver::{Control, Iterate};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -185,7 +186,7 @@ impl<'a> Giving<'a> {
         let joint = self.settled(joint, run).facing_front();
         let cost = Cost::of(&joint, self.bound);
         if !self.allows(&cost, [number, run.neighbor])
-            || !keeps_apart(&joint.chart.disk.loops, &joint.embedding.uv, APART)
+            || !keep_apart(&joint.chart.disk.boundary_in(&joint.embedding.uv), APART)
         {
             return false;
         }

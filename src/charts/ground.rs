@@ -1,12 +1,14 @@
 //! The faces of a map, to be asked which of them others would cover.
 
 use super::MappedChart;
-use crate::certificate::{BoxTree, CornerUvs, bounds_of, interiors_intersect};
+use crate::mesh::CornerUvs;
+use crate::numerics::bounds::bounds_of;
+use crate::plane::{BoxIndex, interiors_intersect};
 
 /// The faces of a map.
 pub struct Ground {
     corners: Vec<CornerUvs>,
-    tree: BoxTree,
+    index: BoxIndex,
 }
 
 impl Ground {
@@ -15,7 +17,7 @@ impl Ground {
         let corners = corners(&map.chart.disk.triangles, &map.embedding.uv);
         let boxes: Vec<_> = corners.iter().map(|c| bounds_of(c)).collect();
         Self {
-            tree: BoxTree::new(&boxes),
+            index: BoxIndex::new(&boxes),
             corners,
         }
     }
@@ -25,7 +27,7 @@ impl Ground {
     pub fn n_overlaps(&self, triangles: &[[u32; 3]], uv: &[[f64; 2]], most: usize) -> usize {
         let mut n = 0;
         for face in corners(triangles, uv) {
-            self.tree.meeting(&bounds_of(&face), |f| {
+            self.index.meeting(&bounds_of(&face), |f| {
                 n += usize::from(interiors_intersect(&face, &self.corners[f as usize]));
             });
             if n > most {

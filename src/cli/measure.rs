@@ -6,8 +6,9 @@ use super::console::{print_json, warn};
 use super::failure::Failure;
 use super::input::read_upload;
 use super::words::{GROUPS, word};
-use crate::certificate::{Certificate, Resolution};
+use crate::certificate::Certificate;
 use crate::document::GroupBy;
+use crate::mesh::Resolution;
 use crate::pipeline::{self, MeasureOptions};
 
 /// Which UVs of a file, and what is judged of them.

@@ -113,7 +113,7 @@ fn summarize(Deformed { report, .. }: &Deformed) {
         worth.barrier,
         worth.residual,
         worth.inverted,
-        (worth.crossings).map_or(String::new(), |n| format!(
+        (report.crossings).map_or(String::new(), |n| format!(
             ", {n} crossings of the boundary"
         ))
     ));

@@ -10,8 +10,8 @@ use super::output::{OutputArgs, Outputs, stem};
 use super::progress::Display;
 use super::unwrap::summarize;
 use super::words::{FORMATS, GROUPS, word};
-use crate::certificate::Resolution;
 use crate::document::{GroupBy, OutputFormat};
+use crate::mesh::Resolution;
 use crate::pipeline::{Limits, RepackOptions, repack_document};
 
 /// Packs the UV islands of all meshes into one atlas; each stays as it is but for quarter turns, shifts and one scale.

@@ -11,10 +11,10 @@ use super::words::{
     QUALITIES, word,
 };
 use crate::barrier::BarrierKind;
-use crate::certificate::Resolution;
 use crate::charts::{Cut, Quality};
 use crate::document::{GroupBy, OutputFormat};
 use crate::energy::EnergyKind;
+use crate::mesh::Resolution;
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::{
     GivenSeams, ImageFormat, KeptMaps, Limits, NamedSeams, Options, PackingMode, Preset,

@@ -9,9 +9,8 @@ use super::input::{read_file, read_upload};
 use super::model::ModelArgs;
 use super::output::{OutputArgs, Outputs, stem};
 use super::progress::Display;
-use crate::deform::PullReport;
 use crate::deform::warp::parse_handles;
-use crate::pipeline::{Limits, WarpOptions, warp_file};
+use crate::pipeline::{Limits, PullReport, WarpOptions, warp_file};
 
 /// Warps a picture by handles without folding it.
 #[derive(clap::Args)]
@@ -80,13 +79,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// One line about a map.
 pub(super) fn print_pull(name: &str, report: &PullReport) {
+    let summary = &report.summary;
     say(format_args!(
         "{name}{:?}: {} iterations, {} factorizations, energy {:.6e}, residual {:.1e}, {} inverted, {}",
-        report.status,
-        report.iterations,
-        report.factorizations,
-        report.energy,
-        report.residual,
+        summary.status,
+        summary.iterations,
+        summary.factorizations,
+        summary.energy,
+        summary.residual,
         report.certificate.inverted,
         if report.bijective {
             "bijective"

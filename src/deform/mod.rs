@@ -40,6 +40,6 @@ pub use problem::{Model, Problem};
 pub use problem_error::ProblemError;
 #[cfg(feature = "files")]
 pub use problem_file::{ProblemFile, Rest};
-pub use pull::PullReport;
+pub use pull::PullSummary;
 pub use solve::{Method, Solution};
 pub use worth::Worth;

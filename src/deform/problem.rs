@@ -11,8 +11,8 @@ use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
 use super::untangle::{bad_elements, untangled};
 use crate::barrier::{Barrier, BarrierKind};
-use crate::certificate::certify_planar;
 use crate::energy::{Row, Term};
+use crate::plane::are_disjoint;
 use crate::solver::{Handles, LevenbergSettings};
 
 /// A problem with its mesh, checked.
@@ -151,7 +151,7 @@ impl Problem {
         }
         let barrier = BoundaryBarrier::new(corners, &self.start);
         let is_apart = barrier.value(&self.start).is_finite();
-        if !(is_apart && certify_planar(self.start.as_chunks().0, corners).is_bijective()) {
+        if !(is_apart && are_disjoint(self.start.as_chunks().0, corners)) {
             return Err(ProblemError::OverlappingStart);
         }
         self.boundary_barrier = Some(barrier);

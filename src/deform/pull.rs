@@ -1,13 +1,12 @@
-//! Vertices of a map of the plane pulled to targets while others stay, and what is proven about the result.
+//! Vertices of a map of the plane pulled to targets while others stay.
 
 use serde::Serialize;
 
-use super::body::{Body, BodyElements};
+use super::body::Body;
 use super::locate::sole_vertex;
 use super::problem::{Model, Problem, handles, with_points};
 use super::problem_error::ProblemError;
 use crate::barrier::epsilon;
-use crate::certificate::{PlanarCertificate, certify_planar};
 use crate::energy::Row;
 use crate::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
 
@@ -15,10 +14,10 @@ use crate::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
 /// is then put on the target exactly.
 const ARRIVED: f64 = 1e-9;
 
-/// What a map that was pulled is worth.
+/// How a map was pulled, and what that cost.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub struct PullReport {
+pub struct PullSummary {
     /// How it ended.
     pub status: Status,
     /// Steps taken.
@@ -31,13 +30,6 @@ pub struct PullReport {
     pub residual: f64,
     /// The smallest area of a triangle over its area at rest.
     pub smallest: f64,
-    /// Pairs of boundary edges that cross or touch, exactly, before the map is rounded for a file.
-    pub crossings: u64,
-    /// Whether every triangle is positive and no two overlap: the certificate's conclusion.
-    pub bijective: bool,
-    /// What is proven about the result by exact predicates.
-    #[serde(flatten)]
-    pub certificate: PlanarCertificate,
 }
 
 /// The least weight of vertices that may move in a point that is pulled itself: with less, they would have to move more than
@@ -112,7 +104,7 @@ impl Holds {
 pub(super) struct Pulled {
     /// Positions in the unit of the body.
     pub vertices: Vec<[f64; 2]>,
-    pub report: PullReport,
+    pub summary: PullSummary,
 }
 
 /// Pulls vertices of a planar body whose mean triangle has area 1 or so; `unit` is its unit of length in the caller's.
@@ -143,19 +135,15 @@ pub(super) fn pull(
     let solution = problem.solve(&Settings::follow(), watch)?;
     let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
     arrive(&mut vertices, &problem.stations[0]);
-    let certificate = certify_planar(&vertices, triangles(&problem.body));
     let worth = problem.worth(vertices.as_flattened());
     Ok(Pulled {
-        report: PullReport {
+        summary: PullSummary {
             status: solution.summary.status,
             iterations: solution.summary.iterations,
             factorizations: solution.summary.factorizations,
             energy: worth.energy,
             residual: worth.residual * unit * unit,
             smallest: worth.smallest,
-            crossings: worth.crossings.unwrap_or_default(),
-            bijective: certificate.is_bijective(),
-            certificate,
         },
         vertices,
     })
@@ -169,12 +157,5 @@ fn arrive(vertices: &mut [[f64; 2]], handles: &Handles) {
         if (0..2).all(|k| (place[k] - target[k]).abs() <= ARRIVED * target[k].abs().max(1.0)) {
             *place = *target;
         }
-    }
-}
-
-fn triangles(body: &Body) -> &[[u32; 3]] {
-    match &body.elements {
-        BodyElements::Triangles { corners, .. } => corners,
-        BodyElements::Tetrahedra { .. } => &[],
     }
 }

@@ -2,10 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::body::BodyElements;
 use super::problem::Problem;
 use crate::barrier::Barrier;
-use crate::certificate::boundary_crossings;
 use crate::energy::{Positional, Term};
 use crate::solver::Handles;
 
@@ -23,9 +21,6 @@ pub struct Worth {
     pub inverted: usize,
     /// The smallest determinant over its value at rest.
     pub smallest: f64,
-    /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub crossings: Option<u64>,
 }
 
 impl Problem {
@@ -50,12 +45,6 @@ impl Problem {
                 .map_or(0.0, |last| distance_squared(last, self.body.dim(), x)),
             inverted: now.iter().filter(|&&d| d <= 0.0).count(),
             smallest: ratios.fold(f64::INFINITY, f64::min),
-            crossings: match &self.body.elements {
-                BodyElements::Triangles { corners, .. } => {
-                    Some(boundary_crossings(x.as_chunks().0, corners))
-                }
-                BodyElements::Tetrahedra { .. } => None,
-            },
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a file says of the UVs that were written to it, so that it can be judged by what was promised.
 use super::{Document, DocumentError, GroupBy};
-use crate::certificate::{CornerUvs, Resolution};
+use crate::mesh::{CornerUvs, Resolution};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest as _, Sha256};

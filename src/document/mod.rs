@@ -36,8 +36,7 @@ mod upload;
 mod uvs;
 mod warning;
 
-use crate::certificate::CornerUvs;
-use crate::measure::VAxis;
+use crate::mesh::{CornerUvs, VAxis};
 pub use bake::{
     BakePlan, BakePlane, BakedTexture, BakedTextures, CornerTangents, Encoding, KeptTexture,
     TextureSource, Wrap,

@@ -6,7 +6,7 @@ use super::{
     Corners, DocumentError, NewUvs, Primitive, PrimitiveNote, TangentsNote, WriteNotes,
     WriteOptions, Written,
 };
-use crate::measure::VAxis;
+use crate::mesh::VAxis;
 use crate::mesh::io::obj::Corner;
 use std::collections::HashMap;
 use std::io::Write as _;

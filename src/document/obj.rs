@@ -12,9 +12,8 @@ use super::{
     Written,
 };
 use super::{fanned, new_obj, obj_gltf, obj_mark, obj_moved};
-use crate::certificate::CornerUvs;
-use crate::measure::VAxis;
 use crate::mesh::io::{self, Format};
+use crate::mesh::{CornerUvs, VAxis};
 use std::collections::BTreeMap;
 
 /// A file as it was read.

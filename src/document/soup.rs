@@ -3,7 +3,7 @@ use super::colors::{Color, from_srgb};
 use super::conversion::{Conversion, of_triangles};
 use super::warning::listed;
 use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fanned};
-use crate::certificate::CornerUvs;
+use crate::mesh::CornerUvs;
 use crate::mesh::io::{self, Format};
 
 /// A file as it was read.

@@ -1,5 +1,5 @@
 use super::{Document, DocumentError, Primitive, Terms, Upload, WriteNotes};
-use crate::measure::VAxis;
+use crate::mesh::VAxis;
 use serde::{Deserialize, Serialize};
 
 /// The UVs of each face's three corners.

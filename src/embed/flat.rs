@@ -1,9 +1,9 @@
 //! The map of a disk that lies in a plane.
 
-use super::apart::keeps_apart;
 use super::start::is_positive;
 use crate::mesh::Disk;
 use crate::numerics::vec3::{area_vector, cross, dot, norm, sub};
+use crate::plane::keep_apart;
 
 /// How far vertices may be from the plane, as a part of the disk's extent: what is left of coordinates in `f32`.
 const FLAT: f64 = 1e-6;
@@ -33,7 +33,7 @@ pub(super) fn flat_map(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 
     }
     let [u, v] = axes(normal);
     let uv: Vec<[f64; 2]> = relative.iter().map(|&p| [dot(p, u), dot(p, v)]).collect();
-    if !is_positive(&disk.triangles, &uv) || !keeps_apart(&disk.loops, &uv, APART) {
+    if !is_positive(&disk.triangles, &uv) || !keep_apart(&disk.boundary_in(&uv), APART) {
         return None;
     }
     Some(uv.into_iter().map(|p| p.map(|x| reach * x)).collect())

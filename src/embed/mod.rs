@@ -14,7 +14,6 @@
 //! [`orient2d_sign`](crate::numerics::predicates::orient2d_sign), unless the caller asked for no barrier. Maps may
 //! still overlap themselves globally; that is not looked at here.
 
-mod apart;
 mod closed;
 mod decimate;
 mod flat;
@@ -31,7 +30,6 @@ mod sweep;
 mod triangulation;
 mod tutte;
 
-pub(crate) use apart::keeps_apart;
 pub use parameterize::{Embedding, InvalidStart, Options, optimize, parameterize};
 pub use pins::Pins;
 pub(crate) use rest::is_needle;

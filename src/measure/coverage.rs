@@ -1,6 +1,6 @@
 //! How often texel centres are covered by faces.
 
-use crate::certificate::CornerUvs;
+use crate::mesh::CornerUvs;
 
 /// Fixed-point units per texel.
 const ONE: i64 = 1 << 16;

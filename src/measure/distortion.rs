@@ -3,7 +3,8 @@
 use super::faces::{FaceMeasures, dot, face_points, sub};
 use super::quantile::Weighted;
 use super::validity::flipped;
-use crate::certificate::{CornerUvs, UvTopology};
+use crate::certificate::UvTopology;
+use crate::mesh::CornerUvs;
 use serde::Serialize;
 
 /// Distortion over all faces that have area in 3D and in UV, after scaling UVs so that total areas agree; null when there is no such

@@ -37,8 +37,8 @@ pub use seams::Seams;
 pub use size::Size;
 pub use validity::Validity;
 
-pub use crate::certificate::VAxis;
-use crate::certificate::{CornerUvs, Overlap, UvTopology};
+use crate::certificate::{Overlap, UvTopology};
+use crate::mesh::{CornerUvs, VAxis};
 use faces::FaceMeasures;
 use serde::Serialize;
 

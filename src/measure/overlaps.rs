@@ -1,6 +1,7 @@
 //! Overlapping faces.
 
-use crate::certificate::{CornerUvs, OrientedFaces, Overlap, UvTopology, Visit};
+use crate::certificate::{OrientedFaces, Overlap, UvTopology, Visit};
+use crate::mesh::CornerUvs;
 use serde::Serialize;
 
 /// Overlaps no deeper than this part of the UV extent (0.0004 texel at 4096) are put down to rounding.

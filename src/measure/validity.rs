@@ -1,8 +1,8 @@
 //! Flips, mirrored charts and faces without UV area.
 
-use super::VAxis;
 use super::faces::FaceMeasures;
 use crate::certificate::UvTopology;
+use crate::mesh::VAxis;
 use serde::Serialize;
 
 /// Flips, mirrored charts and faces without UV area.

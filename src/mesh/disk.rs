@@ -78,6 +78,12 @@ impl Disk {
             loops,
         })
     }
+
+    /// The images of the boundary loops in a map, of which `uv` has the place of each vertex.
+    pub fn boundary_in(&self, uv: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+        let image = |boundary: &Vec<u32>| boundary.iter().map(|&v| uv[v as usize]).collect();
+        self.loops.iter().map(image).collect()
+    }
 }
 
 fn check_indices(n_vertices: usize, triangles: &[[u32; 3]]) -> Result<(), NotADisk> {

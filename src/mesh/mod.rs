@@ -10,6 +10,7 @@
 //! sides of what they share, or it is refused with the element that is at fault.
 
 mod adjacency;
+mod corner_uvs;
 mod defects;
 mod disk;
 mod edges;
@@ -19,6 +20,7 @@ pub mod io;
 mod planar;
 #[cfg(feature = "files")]
 pub mod polygon;
+mod resolution;
 mod surface;
 mod tets;
 mod union_find;
@@ -26,13 +28,16 @@ mod vertex_faces;
 mod weld;
 
 pub use adjacency::Adjacency;
+pub use corner_uvs::{CornerUvs, VAxis};
 pub use defects::{Defects, has_zero_area};
 pub use disk::{Disk, NotADisk};
 pub use edges::{CUT, Edges, next, origin, same_direction};
 pub use element_error::ElementError;
 pub(crate) use element_error::validate;
 pub use planar::{PlanarMesh, boundary_edges};
+pub use resolution::Resolution;
 pub use surface::{MeshError, Surface};
 pub use tets::{TetMesh, boundary_triangles};
 pub use union_find::UnionFind;
 pub use vertex_faces::VertexFaces;
+pub(crate) use weld::weld;

@@ -52,7 +52,7 @@ impl Surface {
             return Err(MeshError::TooLarge);
         }
         validate(positions, triangles)?;
-        let (distinct, vertex_of) = weld(positions);
+        let (distinct, vertex_of) = weld(positions.iter().map(|p| p.map(f64::from)));
         let mut kept = Vec::with_capacity(triangles.len());
         let mut faces = Vec::with_capacity(triangles.len());
         for (face, triangle) in triangles.iter().enumerate() {

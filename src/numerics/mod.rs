@@ -5,6 +5,7 @@
 //! plain `f64` arrays; nothing here allocates inside an iteration.
 
 pub mod block;
+pub mod bounds;
 pub mod cholesky;
 pub mod conjugate_gradients;
 pub mod hull;

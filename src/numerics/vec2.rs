@@ -21,11 +21,16 @@ pub fn doubled_area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     cross(sub(b, a), sub(c, a))
 }
 
-/// The square of the distance of a point from a segment.
-pub fn squared_distance(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
+/// The way to a point from the nearest one of a segment, which may be a point itself.
+pub fn way_from([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> [f64; 2] {
     let (along, to) = (sub(b, a), sub(p, a));
     let share = dot(to, along) / dot(along, along).max(f64::MIN_POSITIVE);
     let share = share.clamp(0.0, 1.0);
-    let across = [0, 1].map(|k| to[k] - share * along[k]);
-    dot(across, across)
+    [0, 1].map(|k| to[k] - share * along[k])
+}
+
+/// The square of the distance of a point from a segment.
+pub fn squared_distance(p: [f64; 2], segment: [[f64; 2]; 2]) -> f64 {
+    let way = way_from(segment, p);
+    dot(way, way)
 }

@@ -3,7 +3,8 @@ use super::colour::{self, NO_VALUE, Rgb};
 use super::legend;
 use super::panel::{Panel, Style, sheet};
 use super::raster::Mode;
-use crate::measure::{FaceDistortion, VAxis};
+use crate::measure::FaceDistortion;
+use crate::mesh::VAxis;
 use serde::{Deserialize, Serialize};
 
 /// What a heat map shows.

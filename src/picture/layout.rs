@@ -2,7 +2,7 @@
 use super::colour;
 use super::panel::{Panel, Style, sheet};
 use super::raster::Mode;
-use crate::measure::VAxis;
+use crate::mesh::VAxis;
 
 /// A PNG of the charts, each in its own colour; overlaps are red and flipped faces yellow.
 ///

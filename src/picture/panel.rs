@@ -3,8 +3,8 @@ use super::canvas::{Canvas, Lines};
 use super::colour::{FLIPPED, INK, Rgb};
 use super::raster::{Mode, Raster};
 use super::text;
-use crate::certificate::CornerUvs;
-use crate::measure::{FaceDistortion, VAxis};
+use crate::measure::FaceDistortion;
+use crate::mesh::{CornerUvs, VAxis};
 
 /// Faces that share one UV space.
 #[derive(Debug, Clone, Copy)]

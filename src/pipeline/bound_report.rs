@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::group_uvs::GroupUvs;
-use crate::certificate::{CornerUvs, chart_ids};
+use crate::certificate::chart_ids;
 use crate::charts::Bound;
 use crate::measure::{Distortion, FaceDistortion, face_distortion};
+use crate::mesh::CornerUvs;
 use crate::numerics::vec3::{area_vector, norm};
 
 /// A bound on the distortion of an atlas, and what was reached.

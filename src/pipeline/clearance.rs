@@ -3,12 +3,17 @@
 use rayon::prelude::*;
 
 use crate::atlas::{ChartMap, cleared};
-use crate::certificate::largest_move;
 use crate::charts::MappedChart;
 
-/// What keeps two places apart when each coordinate of both moves as far as tools that round to `bits` may move it, in UV.
+/// How far tools that round to `bits` may move a coordinate of the unit square: half a step of
+/// theirs, and what storing the result in 16 bits may add.
+fn rounding(bits: u32) -> f64 {
+    0.5 / (f64::from(bits).exp2() - 1.0) + f64::from(-16).exp2()
+}
+
+/// What keeps two places apart when each coordinate of both moves that far, in UV.
 fn clearance(bits: u32) -> f64 {
-    2.0 * std::f64::consts::SQRT_2 * largest_move(bits)
+    2.0 * std::f64::consts::SQRT_2 * rounding(bits)
 }
 
 /// The least padding, in texels at a resolution, at which charts stay apart.

@@ -18,7 +18,7 @@ use crate::charts::Cut;
 use crate::document::{
     BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, Upload, WriteOptions, Written,
 };
-use crate::measure::VAxis;
+use crate::mesh::VAxis;
 
 /// Everything that comes out of unwrapping a document.
 #[derive(Clone, Debug)]

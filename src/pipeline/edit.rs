@@ -8,13 +8,14 @@ use super::documents::stem;
 use super::edit_options::{EditOptions, Editing};
 use super::edit_terms::{edited_terms, holds};
 use super::observer::{Observer, Stage, Tracker};
+use super::pull_report::PullReport;
 use crate::barrier::BarrierKind;
-use crate::certificate::{CornerUvs, chart_ids};
-use crate::deform::PullReport;
-use crate::deform::uv::{EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs};
+use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar, chart_ids};
+use crate::deform::uv::{ChartFaces, EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs};
 use crate::document::{
     Corners, Document, DocumentError, Layout, NewUvs, Upload, Warning, WriteOptions, Written,
 };
+use crate::mesh::CornerUvs;
 
 /// A document with edited UVs.
 #[derive(Clone, Debug)]
@@ -219,16 +220,12 @@ fn judge(
     let found: Vec<CornerUvs> = places.iter().map(|&place| found.uvs[place]).collect();
     let flip_v = again.v_axis() != document.v_axis();
     let charts = edited.charts.iter().map(|chart| {
-        let certificate = chart.faces.certify(&found, flip_v);
-        let map = PullReport {
-            bijective: certificate.is_bijective(),
-            certificate,
-            ..chart.report.clone()
-        };
+        let crossings = boundary_crossings(&chart.vertices, &chart.triangles);
+        let certificate = certified(&chart.faces, &found, flip_v);
         ChartEditReport {
             chart: chart.chart,
             untangled: chart.untangled,
-            map,
+            map: PullReport::new(chart.summary.clone(), crossings, certificate),
         }
     });
     let charts: Vec<ChartEditReport> = charts.collect();
@@ -239,4 +236,16 @@ fn judge(
         rest,
         charts,
     })
+}
+
+/// Judges a chart by the numbers that the file has for its faces; `flip_v` says whether v points
+/// the other way in them than it did.
+fn certified(faces: &ChartFaces, uvs: &[CornerUvs], flip_v: bool) -> PlanarCertificate {
+    let place = |corner: u32| {
+        let [u, v] = uvs[corner as usize / 3][corner as usize % 3];
+        [u, if flip_v { -v } else { v }]
+    };
+    let places: Vec<[f64; 2]> = faces.corners().flatten().map(place).collect();
+    let triangles = (0..faces.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
+    certify_planar(&places, &triangles.collect::<Vec<_>>())
 }

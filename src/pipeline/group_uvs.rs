@@ -4,9 +4,10 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use super::PipelineError;
 use super::report::GroupReport;
-use crate::certificate::{Certificate, Claims, CornerUvs, Resolution, certify, chart_ids};
+use crate::certificate::{Certificate, Claims, certify, chart_ids};
 use crate::document::{Document, Group, Primitive};
-use crate::measure::{self, Measures, VAxis};
+use crate::measure::{self, Measures};
+use crate::mesh::{CornerUvs, Resolution, VAxis};
 use crate::numerics::vec3::{area_vector, norm};
 
 /// The UVs of one group with its mesh.

@@ -9,9 +9,10 @@ use super::group_uvs::GroupUvs;
 use super::nodes::Nodes;
 use super::question::Question;
 use super::report::GroupReport;
-use crate::certificate::{Certificate, Claims, Resolution};
+use crate::certificate::{Certificate, Claims};
 use crate::document::{Document, GroupBy, Written};
-use crate::measure::{self, Measures, VAxis};
+use crate::measure::{self, Measures};
+use crate::mesh::{Resolution, VAxis};
 
 /// Texels of all rasters together on which coverage is counted, and the least side of each: 256 groups have the finest.
 const MOST_RASTER_TEXELS: u64 = 1 << 32;

@@ -8,13 +8,12 @@ use super::portion::Portion;
 use super::seams::Seams;
 use super::settings::{KeptMaps, Settings};
 use crate::barrier::BarrierKind;
-use crate::certificate::CornerUvs;
 use crate::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
     given_back, map_chart, map_chart_from,
 };
 use crate::embed::{self, Pins};
-use crate::mesh::Surface;
+use crate::mesh::{CornerUvs, Surface};
 use crate::solver;
 
 /// The charts of every surface with their maps; with [`Cut::Keep`] they begin at the given UVs. What was cut off where a map

@@ -6,8 +6,9 @@ use super::nodes::Nodes;
 use super::options::check_mips;
 use super::settings::{Settings, check_pages, within};
 use super::{Limits, PipelineError};
-use crate::certificate::{Claims, Overlap, Padding, Resolution};
+use crate::certificate::{Claims, Overlap, Padding};
 use crate::document::{GroupBy, Terms};
+use crate::mesh::Resolution;
 
 /// Which UVs of a document are measured or verified.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

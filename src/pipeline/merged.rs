@@ -5,10 +5,9 @@ use super::options::{GivenSeams, NamedSeams, Options};
 use super::seams::Seams;
 use super::soup::{Part, Soup};
 use super::texel_weight::face_weights;
-use crate::certificate::CornerUvs;
 use crate::charts::Cut;
 use crate::document::{Document, Group, Primitive};
-use crate::measure::VAxis;
+use crate::mesh::{CornerUvs, VAxis};
 
 /// The primitives of a group as one mesh.
 pub(super) struct Merged {

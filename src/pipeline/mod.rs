@@ -79,6 +79,8 @@ mod preset;
 #[cfg(feature = "files")]
 mod proven;
 #[cfg(feature = "files")]
+mod pull_report;
+#[cfg(feature = "files")]
 mod question;
 #[cfg(feature = "files")]
 mod rebake;
@@ -133,6 +135,8 @@ pub use pictures::{Drawn, Pictures};
 pub use preset::Preset;
 #[cfg(feature = "files")]
 pub use proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
+#[cfg(feature = "files")]
+pub use pull_report::PullReport;
 #[cfg(feature = "files")]
 pub use rebake::ImageFormat;
 #[cfg(feature = "files")]

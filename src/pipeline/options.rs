@@ -11,10 +11,11 @@ use super::texel_weight::TexelWeight;
 use super::{Limits, PipelineError};
 use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
-use crate::certificate::{Claims, Overlap, Padding, Resolution};
+use crate::certificate::{Claims, Overlap, Padding};
 use crate::charts::{Cut, Quality};
 use crate::document::{GroupBy, OutputFormat, Terms};
 use crate::energy::EnergyKind;
+use crate::mesh::Resolution;
 use crate::picture::HeatmapMeasure;
 
 /// Edges of a document that are cut in any case.

@@ -6,8 +6,9 @@ use super::PipelineError;
 use super::arrays::in_pool;
 use super::group_uvs::GroupUvs;
 use super::judge::WrittenUvs;
-use crate::certificate::{CornerUvs, Resolution, chart_ids};
+use crate::certificate::chart_ids;
 use crate::measure::{FaceDistortion, face_distortion};
+use crate::mesh::{CornerUvs, Resolution};
 use crate::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
 
 /// Side of a picture in pixels.

@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::certificate::{Certificate, Overlap, Resolution};
+use crate::certificate::{Certificate, Overlap};
+use crate::mesh::Resolution;
 
 /// What is proven about the UVs of all groups, beside what was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]

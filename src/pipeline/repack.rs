@@ -8,9 +8,9 @@ use super::limits::Limits;
 use super::observer::Observer;
 use super::options::Options;
 use super::settings::KeptMaps;
-use crate::certificate::Resolution;
 use crate::charts::Cut;
 use crate::document::{GroupBy, OutputFormat, Upload};
+use crate::mesh::Resolution;
 
 /// How the UVs of a document are packed. The command line's long names in snake case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,9 +5,8 @@ use std::ops::Range;
 
 use super::PipelineError;
 use super::repeated::key as position_key;
-use crate::certificate::CornerUvs;
 use crate::cut::surface_fans;
-use crate::mesh::{CUT, Surface, next};
+use crate::mesh::{CUT, CornerUvs, Surface, next};
 use crate::numerics::vec3::dot;
 
 /// Cosine of the least angle between normals on the two sides of a hard edge: 1°.

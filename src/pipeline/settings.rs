@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::atlas::{Borders, Texture};
 use crate::barrier::BarrierKind;
-use crate::certificate::Resolution;
 use crate::charts::{Bound, Cut, Quality};
 use crate::energy::EnergyKind;
+use crate::mesh::Resolution;
 
 /// How long the fullest layout of an atlas is searched for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

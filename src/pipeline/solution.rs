@@ -8,7 +8,8 @@ use serde::Serialize;
 use super::PipelineError;
 use super::caged::CageReport;
 use super::observer::Tracker;
-use crate::deform::{Method, Problem, Solution, Worth};
+use crate::certificate::boundary_crossings;
+use crate::deform::{BodyElements, Method, Problem, Solution, Worth};
 use crate::document::Warning;
 use crate::solver::{Control, Iterate, Settings, Summary, Watch};
 
@@ -36,6 +37,9 @@ pub struct DeformReport {
     /// What the map is worth.
     #[serde(flatten)]
     pub worth: Worth,
+    /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossings: Option<u64>,
     /// Elements of the supplied start that were inverted and had to be untangled.
     pub untangled: usize,
     /// The energy that minimizing without a barrier leads to from the solution, if asked for.
@@ -104,13 +108,15 @@ pub(super) fn solve(
     if solution.worth.inverted > 0 && problem.forbids_inversion() {
         return Err(PipelineError::Inverted);
     }
-    if problem.boundary_barrier.is_some() && solution.worth.crossings > Some(0) {
+    let crossings = crossings(problem, &solution.x);
+    if problem.boundary_barrier.is_some() && crossings > Some(0) {
         return Err(PipelineError::Crossed);
     }
     let report = DeformReport {
         method: plan.method,
         summary: solution.summary,
         worth: solution.worth,
+        crossings,
         untangled: problem.untangled,
         energy_without_barrier,
         smallest_ever: trace.smallest().min(solution.worth.smallest),
@@ -124,6 +130,16 @@ pub(super) fn solve(
         report,
         trace: trace.csv(),
     })
+}
+
+/// How often the boundary of a body of the plane meets itself.
+fn crossings(problem: &Problem, x: &[f64]) -> Option<u64> {
+    match &problem.body.elements {
+        BodyElements::Triangles { corners, .. } => {
+            Some(boundary_crossings(x.as_chunks().0, corners))
+        }
+        BodyElements::Tetrahedra { .. } => None,
+    }
 }
 
 /// What happened in every iteration.

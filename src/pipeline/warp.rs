@@ -8,9 +8,11 @@ use super::documents::stem;
 use super::idle;
 use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
+use super::pull_report::PullReport;
 use crate::barrier::BarrierKind;
+use crate::certificate::{boundary_crossings, certify_planar};
 use crate::deform::warp::{self, PictureHandle, warp_picture};
-use crate::deform::{Boundary, Model, PullReport};
+use crate::deform::{Boundary, Model};
 use crate::document::{Upload, Warning};
 use crate::picture::Image;
 
@@ -113,10 +115,16 @@ pub fn warp_file(
             model: options.model,
         };
         let warped = warp_picture(&image, &options.handles, &how, &tracker)?;
+        let (vertices, triangles) = (&warped.deformed, warped.grid.triangles());
+        let map = PullReport::new(
+            warped.summary,
+            boundary_crossings(vertices, triangles),
+            certify_planar(vertices, triangles),
+        );
         let certified = if how.boundary == Boundary::Fixed || options.model.bijective {
-            warped.report.bijective
+            map.bijective
         } else {
-            warped.report.certificate.is_valid()
+            map.certificate.is_valid()
         };
         if !certified && options.model.barrier != BarrierKind::None {
             return Err(PipelineError::Inverted);
@@ -129,7 +137,7 @@ pub fn warp_file(
                 certified,
                 warnings: Vec::new(),
                 origin: warped.picture.origin,
-                map: warped.report,
+                map,
             },
         })
     })?

@@ -1,7 +1,8 @@
 //! What the certificate accepts, what it refuses and why.
 
 use crate::uv_meshes::{UvMesh, moebius_in_one_piece};
-use unwrapd::certificate::{CornerUvs, Overlap, chart_ids};
+use unwrapd::certificate::{Overlap, chart_ids};
+use unwrapd::mesh::CornerUvs;
 
 /// Uniform numbers in 0..n, the same on every run.
 struct Random(u64);

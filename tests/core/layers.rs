@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use crate::places;
 
@@ -10,19 +11,20 @@ use crate::places;
 /// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("numerics", &[], &["faer", "feral_metis", "robust", "rayon"]),
-    ("mesh", &["numerics"], &["robust", "spade"]),
+    ("mesh", &["numerics"], &["spade"]),
+    ("plane", &["numerics"], &["static_aabb2d_index"]),
     ("cut", &["mesh"], &[]),
-    ("energy", &["mesh"], &[]),
+    ("energy", &["numerics"], &[]),
     ("barrier", &["energy"], &[]),
-    ("solver", &["energy", "barrier"], &[]),
-    ("embed", &["solver"], &["rayon", "static_aabb2d_index"]),
-    ("certificate", &["mesh"], &["rayon"]),
-    ("charts", &["cut", "embed", "certificate"], &["rayon"]),
-    ("atlas", &["embed", "certificate"], &["rayon"]),
-    ("measure", &["certificate"], &["rayon"]),
+    ("solver", &["energy"], &[]),
+    ("embed", &["mesh", "plane", "solver", "barrier"], &["rayon"]),
+    ("charts", &["plane", "cut", "embed"], &["rayon"]),
+    ("atlas", &["plane", "mesh", "solver", "barrier"], &["rayon"]),
+    ("certificate", &["mesh"], &[]),
+    ("measure", &["certificate"], &[]),
     (
         "document",
-        &["measure"],
+        &["mesh"],
         &[
             "serde_json",
             "draco_core",
@@ -33,17 +35,24 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "sha2",
         ],
     ),
-    ("picture", &["measure"], &["image", "rayon"]),
+    ("picture", &["mesh", "measure"], &["image"]),
     ("bake", &["document", "picture"], &["rayon"]),
     (
         "deform",
-        &["embed", "picture"],
+        &["plane", "embed", "picture"],
         &["spade", "kurbo", "roxmltree", "serde_json"],
     ),
     (
         "pipeline",
-        &["charts", "atlas", "bake", "deform"],
-        &["serde_json", "rayon"],
+        &[
+            "charts",
+            "atlas",
+            "certificate",
+            "measure",
+            "bake",
+            "deform",
+        ],
+        &["rayon"],
     ),
     (
         "jobs",
@@ -98,51 +107,74 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("main", &["cli"], &["clap", "tikv_jemallocator"]),
 ];
 
-const ANYWHERE: &[&str] = &[
-    "crate",
-    "self",
-    "super",
-    "std",
-    "core",
-    "alloc",
-    "serde",
-    "utoipa",
-    "thiserror",
-];
+/// The judge, which [`JUDGES`] build on, and what it may name of the module that it shares with
+/// those it judges: exact predicates.
+const JUDGE: &str = "certificate";
+const JUDGES: &str = "measure";
+const SHARED: (&str, &str) = ("numerics", "predicates");
+
+/// Crates whose derives may stand anywhere.
+const ANYWHERE: &[&str] = &["serde", "utoipa", "thiserror"];
 
 #[test]
 fn nothing_is_imported_upwards() {
     let modules: BTreeSet<&str> = LAYERS.iter().map(|layer| layer.0).collect();
+    let dependencies = dependencies();
     let mut faults = Vec::new();
     for (module, _, crates) in LAYERS {
         let allowed = reachable(module);
-        for file in files_of(module) {
-            let text = fs::read_to_string(&file).expect("a source file is text");
-            for (number, line) in text.lines().enumerate() {
-                for name in crate_paths(line).filter(|name| modules.contains(name)) {
-                    if !allowed.contains(name) {
-                        faults.push(format!(
-                            "{}:{}: {module} -> {name}",
-                            file.display(),
-                            number + 1
-                        ));
-                    }
-                }
-                if let Some(name) = imported_crate(line)
-                    && !ANYWHERE.contains(&name)
-                    && !crates.contains(&name)
-                    && !is_local(&text, name)
-                {
-                    faults.push(format!(
-                        "{}:{}: {module} -> {name}",
-                        file.display(),
-                        number + 1
-                    ));
-                }
+        for (place, text, code) in code_of(module) {
+            let crates_named = dependencies.iter().filter(|name| {
+                let is_allowed = |name| ANYWHERE.contains(&name) || crates.contains(&name);
+                names_crate(&code, name) && !is_allowed(name.as_str()) && !is_local(&text, name)
+            });
+            let modules_named = crate_paths(&code).filter(|name| !allowed.contains(name));
+            let named = crates_named.map(String::as_str);
+            let named = named.chain(modules_named.filter(|name| modules.contains(name)));
+            faults.extend(named.map(|name| format!("{place}: {module} -> {name}")));
+            if code.contains("crate::{") {
+                faults.push(format!("{place}: one `use` for each module"));
             }
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// What is permitted is needed, so that the table shows how things are.
+#[test]
+fn nothing_is_permitted_in_vain() {
+    let mut faults = Vec::new();
+    for (module, below, crates) in LAYERS
+        .iter()
+        .filter(|layer| !["lib", "main"].contains(&layer.0))
+    {
+        let lines = code_of(module);
+        for name in *below {
+            let is_used = |(_, _, code): &(_, _, String)| crate_paths(code).any(|n| n == *name);
+            if !lines.iter().any(is_used) {
+                faults.push(format!("{module} does not import {name}"));
+            }
+        }
+        for name in *crates {
+            let is_used = |(_, _, code): &(_, _, String)| names_crate(code, name);
+            if !lines.iter().any(is_used) {
+                faults.push(format!("{module} does not name {name}"));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// The judge names the exact predicates and the types of meshes, and nothing else that makers of
+/// UVs use.
+#[test]
+fn the_judge_shares_predicates_only() {
+    let (module, only) = SHARED;
+    let path = format!("crate::{module}::");
+    for (place, _, code) in code_of(JUDGE) {
+        let is_shared = |rest: &str| rest.starts_with(only);
+        assert!(code.split(&path).skip(1).all(is_shared), "{place}: {code}");
+    }
 }
 
 #[test]
@@ -160,7 +192,8 @@ fn source() -> PathBuf {
     places::repository("src")
 }
 
-/// The module and everything below it.
+/// The module and everything below it; the judge is not passed on by those who build on it to
+/// judge.
 fn reachable(module: &str) -> BTreeSet<&'static str> {
     let direct: BTreeMap<&str, (&'static str, &[&'static str])> = LAYERS
         .iter()
@@ -171,7 +204,8 @@ fn reachable(module: &str) -> BTreeSet<&'static str> {
     while let Some(name) = open.pop() {
         let (name, below) = direct[name];
         if found.insert(name) {
-            open.extend(below);
+            let is_own = name == module || name != JUDGES;
+            open.extend(below.iter().filter(|below| is_own || **below != JUDGE));
         }
     }
     found
@@ -201,26 +235,61 @@ fn files_of(module: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Names directly after `crate::` outside of comments.
-fn crate_paths(line: &str) -> impl Iterator<Item = &str> {
-    let code = line.split("//").next().unwrap_or("");
-    code.split("crate::").skip(1).filter_map(|rest| {
-        rest.split(|c: char| !c.is_alphanumeric() && c != '_')
-            .next()
+/// Every line of a module: where it stands, the text of its file, the line without comment.
+fn code_of(module: &str) -> Vec<(String, Rc<str>, String)> {
+    let mut lines = Vec::new();
+    for file in files_of(module) {
+        let text: Rc<str> = fs::read_to_string(&file)
+            .expect("a source file is text")
+            .into();
+        for (number, line) in (1..).zip(text.lines()) {
+            let place = format!("{}:{number}", file.display());
+            let code = line.split("//").next().unwrap_or_default();
+            lines.push((place, Rc::clone(&text), code.to_owned()));
+        }
+    }
+    lines
+}
+
+/// Names directly after `crate::`.
+fn crate_paths(code: &str) -> impl Iterator<Item = &str> {
+    let after = code.split("crate::").skip(1);
+    after.filter_map(|rest| rest.split(|c: char| !is_of_name(c)).next())
+}
+
+/// The crates that `Cargo.toml` lists, as code names them.
+fn dependencies() -> Vec<String> {
+    let manifest = fs::read_to_string(places::repository("Cargo.toml")).expect("a manifest");
+    let after = manifest
+        .lines()
+        .skip_while(|line| *line != "[dependencies]")
+        .skip(1);
+    let listed = after.take_while(|line| !line.starts_with('['));
+    let names = listed.filter_map(|line| line.split_once(" = "));
+    names.map(|(name, _)| name.replace('-', "_")).collect()
+}
+
+/// Whether a line names a crate: in a path that begins with it, or in a `use` of its own.
+fn names_crate(code: &str, name: &str) -> bool {
+    code.match_indices(name).any(|(at, _)| {
+        let (before, after) = (&code[..at], &code[at + name.len()..]);
+        let is_within =
+            |text: &str| text.ends_with(|c: char| is_of_name(c) || c == ':' || c == '>');
+        // A path may begin with `::`.
+        let before = before
+            .strip_suffix("::")
+            .filter(|b| !is_within(b))
+            .unwrap_or(before);
+        let is_alone = before.trim_end().ends_with("use") && after.starts_with([';', ' ']);
+        !is_within(before) && (after.starts_with("::") || is_alone)
     })
 }
 
-/// The crate a `use` declaration names.
-fn imported_crate(line: &str) -> Option<&str> {
-    let path = line
-        .trim_start()
-        .trim_start_matches("pub ")
-        .strip_prefix("use ")?;
-    path.split(|c: char| !c.is_alphanumeric() && c != '_')
-        .find(|name| !name.is_empty())
+fn is_of_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }
 
-/// `use name::…` of a module or type the same file declares.
+/// Whether `name::…` is a module or type that the same file declares.
 fn is_local(text: &str, name: &str) -> bool {
     text.lines().any(|line| {
         let line = line

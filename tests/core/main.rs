@@ -50,6 +50,7 @@ mod pins;
 mod pipeline;
 #[path = "../places.rs"]
 mod places;
+mod plane;
 #[cfg(feature = "files")]
 mod polygon;
 #[cfg(feature = "files")]

@@ -3,7 +3,8 @@
 use crate::places;
 use crate::uv_meshes::{UvMesh, moebius_in_one_piece, read_obj};
 use unwrapd::certificate::Overlap;
-use unwrapd::measure::{MeasureOptions, VAxis, face_distortion};
+use unwrapd::measure::{MeasureOptions, face_distortion};
+use unwrapd::mesh::VAxis;
 
 #[track_caller]
 fn near(value: impl Into<Option<f64>>, expected: f64) {

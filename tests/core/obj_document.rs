@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use unwrapd::document::{
     Document, GroupBy, Layout, NewUvs, OutputFormat, Primitive, Upload, WriteOptions, Written,
 };
-use unwrapd::measure::VAxis;
+use unwrapd::mesh::VAxis;
 use unwrapd::mesh::io::obj;
 use unwrapd::mesh::polygon::smallest_first;
 use unwrapd::numerics::random::Random;

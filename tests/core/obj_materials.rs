@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use unwrapd::document::{
     Corners, Document, Layout, NewUvs, OldUvs, OutputFormat, Upload, WriteOptions, Written,
 };
-use unwrapd::measure::VAxis;
+use unwrapd::mesh::VAxis;
 
 use crate::places;
 

@@ -1,6 +1,7 @@
 //! Whether charts overlap, where it is seen from their boundaries.
 
-use unwrapd::certificate::{Certificate, Claims, CornerUvs, certify};
+use unwrapd::certificate::{Certificate, Claims, certify};
+use unwrapd::mesh::CornerUvs;
 
 /// The squares of a grid for which `is_there`, as triangles, from a corner and with a side.
 fn squares(corner: [f64; 2], side: f64, is_there: impl Fn(u32, u32) -> bool) -> Vec<CornerUvs> {

@@ -4,8 +4,9 @@ use crate::uv_meshes::UvMesh;
 use unwrapd::atlas::{
     Atlas, AtlasError, AtlasOptions, ChartMap, GRID_BITS, Scale, Texture, enough, fits, pack,
 };
-use unwrapd::certificate::{Certificate, Claims, Padding, Resolution, certify};
-use unwrapd::measure::{MeasureOptions, VAxis};
+use unwrapd::certificate::{Certificate, Claims, Padding, certify};
+use unwrapd::measure::MeasureOptions;
+use unwrapd::mesh::{Resolution, VAxis};
 
 type Chart = (Vec<[f64; 2]>, Vec<[u32; 3]>);
 

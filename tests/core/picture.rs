@@ -1,6 +1,7 @@
 //! Pictures of layouts and distortion, probed pixel by pixel.
 use image::RgbImage;
-use unwrapd::measure::{FaceDistortion, VAxis};
+use unwrapd::measure::FaceDistortion;
+use unwrapd::mesh::VAxis;
 use unwrapd::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
 
 type CornerUvs = [[f64; 2]; 3];

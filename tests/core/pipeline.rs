@@ -6,7 +6,8 @@ use std::time::Duration;
 use unwrapd::certificate::{Overlap, certify, chart_ids};
 use unwrapd::charts::{Cut, Quality};
 use unwrapd::energy::EnergyKind;
-use unwrapd::measure::{MeasureOptions, Measures, VAxis, measure};
+use unwrapd::measure::{MeasureOptions, Measures, measure};
+use unwrapd::mesh::VAxis;
 use unwrapd::pipeline::{
     Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap,
 };

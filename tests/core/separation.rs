@@ -2,9 +2,8 @@
 
 use crate::random::Random;
 use crate::uv_meshes::UvMesh;
-use unwrapd::certificate::{
-    Certificate, Claims, CornerUvs, Overlap, Padding, Resolution, VAxis, certify,
-};
+use unwrapd::certificate::{Certificate, Claims, Overlap, Padding, certify};
+use unwrapd::mesh::{CornerUvs, Resolution, VAxis};
 
 fn judged(mesh: &UvMesh, claims: &Claims) -> Certificate {
     certify(&mesh.positions, &mesh.triangles, &mesh.uvs, claims)

@@ -107,8 +107,8 @@ fn extreme_moves_within_a_fixed_boundary_are_bijective() {
                 continue;
             }
         };
-        let report = &edited.charts[0].report;
-        let context = format!("run {run}: {options:?} {anchors:?} {report:?}");
+        let summary = &edited.charts[0].summary;
+        let context = format!("run {run}: {options:?} {anchors:?} {summary:?}");
         let judged = certify(
             &mesh.positions,
             &mesh.triangles,
@@ -119,11 +119,10 @@ fn extreme_moves_within_a_fixed_boundary_are_bijective() {
             judged.is_valid() && judged.overlapping_pairs == Some(0),
             "{context} {judged:?}"
         );
-        assert!(report.bijective, "{context}");
-        if report.status == Status::TargetsUnreachable {
+        if summary.status == Status::TargetsUnreachable {
             unreachable += 1;
         } else {
-            assert!(report.residual <= 1e-10, "{context}");
+            assert!(summary.residual <= 1e-10, "{context}");
             reached += 1;
         }
     }

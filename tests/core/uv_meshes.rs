@@ -1,8 +1,9 @@
 //! Small meshes with corner UVs for the tests of `certificate` and `measure`.
 
 use std::path::Path;
-use unwrapd::certificate::{Certificate, CornerUvs, Overlap, certify};
-use unwrapd::measure::{MeasureOptions, Measures, VAxis, measure};
+use unwrapd::certificate::{Certificate, Overlap, certify};
+use unwrapd::measure::{MeasureOptions, Measures, measure};
+use unwrapd::mesh::{CornerUvs, VAxis};
 
 /// Plain arrays: UVs per face and corner.
 #[derive(Clone, Default)]

@@ -1,6 +1,7 @@
 //! Which vertices of a boundary may be near which of its edges.
 
-use crate::certificate::{Bounds, BoxTree, bounds_of};
+use crate::numerics::bounds::{Bounds, bounds_of, widened};
+use crate::plane::BoxIndex;
 
 /// A vertex of a boundary and an edge of it that does not end there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,17 +36,14 @@ pub(super) fn near_pairs(
     radius: f64,
     mut visit: impl FnMut(Pair),
 ) {
-    let swept = |edge: &[u32; 2]| -> Bounds {
+    let swept = |edge: &[u32; 2]| {
         let [a, b] = *edge;
-        let [low, high] = bounds_of(&[place(x, a), place(x, b), place(to, a), place(to, b)]);
-        [
-            low.map(|c| c - 0.5 * radius),
-            high.map(|c| c + 0.5 * radius),
-        ]
+        let ends = [place(x, a), place(x, b), place(to, a), place(to, b)];
+        widened(bounds_of(&ends), 0.5 * radius)
     };
     let boxes: Vec<Bounds> = edges.iter().map(swept).collect();
     // Without a budget: an edge that was left out could be crossed.
-    BoxTree::new(&boxes).pairs(u64::MAX, |i, j| {
+    BoxIndex::new(&boxes).pairs(u64::MAX, |i, j| {
         for (i, j) in [(i, j), (j, i)] {
             let (vertex, edge) = (edges[i as usize][0], edges[j as usize]);
             if !edge.contains(&vertex) {

@@ -1,7 +1,7 @@
 //! The voxel grid and its tetrahedra.
 
 use super::CageError;
-use crate::certificate::Bounds;
+use crate::numerics::bounds::Bounds;
 
 /// Voxels of the whole grid at most, kept or not: a byte and two indices each.
 const MOST_CELLS: usize = 1 << 24;

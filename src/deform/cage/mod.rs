@@ -1,10 +1,11 @@
 //! Cages: tetrahedra around surfaces, which are deformed in their stead and carry them along.
 //!
-//! A grid of voxels is laid around the surfaces; the voxels that a surface touches, or that no way from outside reaches, are
-//! cut into six tetrahedra each, the same way everywhere, so that neighbours match. A deformed cage maps every point inside
-//! piecewise linearly: [`Embedding`] carries vertices, normals and tangents, [`Cage::split`] cuts the triangles where the map has
-//! its creases, so that the surface follows it exactly. A cage without inverted tetrahedra then never folds the surface locally,
-//! and [`certificate::crossings`](crate::certificate::crossings()) counts where it passes through itself.
+//! A grid of voxels is laid around the surfaces; the voxels that a surface touches, or that no way
+//! from outside reaches, are cut into six tetrahedra each, the same way everywhere, so that
+//! neighbours match. A deformed cage maps every point inside piecewise linearly: [`Embedding`]
+//! carries vertices, normals and tangents, [`Cage::split`] cuts the triangles where the map has its
+//! creases, so that the surface follows it exactly. A cage without inverted tetrahedra then never
+//! folds the surface locally; it may pass through itself.
 //!
 //! A fine cage starts where a coarse one ends ([`Caged::start`]).
 //!
@@ -22,8 +23,8 @@ pub use embedding::Embedding;
 pub use error::CageError;
 pub use split::{Added, SplitSurface};
 
-use crate::certificate::bounds_of;
 use crate::mesh::{TetMesh, validate};
+use crate::numerics::bounds::bounds_of;
 use grid::{Grid, ORDERS, path_slots};
 use voxels::Voxels;
 

@@ -2,7 +2,7 @@
 
 use super::CageError;
 use super::grid::Grid;
-use crate::certificate::{Bounds, bounds_of};
+use crate::numerics::bounds::{Bounds, bounds_of};
 use crate::numerics::vec3::{cross, dot, sub};
 
 /// By how much voxels are taken larger when they are tested, in voxels: far above rounding, far below what matters.

@@ -1,8 +1,9 @@
 //! The outline of a picture's opaque part.
 
 use super::simplify::simplified;
-use super::{MOST_VERTICES, Outline, OutlineError, doubled_area};
+use super::{MOST_VERTICES, Outline, OutlineError};
 use crate::picture::Image;
+use crate::plane::doubled_polygon_area;
 use std::collections::HashMap;
 
 /// How a picture is outlined.
@@ -35,7 +36,7 @@ pub fn of_image(image: &Image, settings: &ImageSettings) -> Result<Outline, Outl
     let contours: Vec<Vec<[f64; 2]>> = Alpha::new(image, settings.threshold)
         .contours()?
         .into_iter()
-        .filter(|contour| doubled_area(contour).abs() >= 2.0 * settings.smallest_area)
+        .filter(|contour| doubled_polygon_area(contour).abs() >= 2.0 * settings.smallest_area)
         .collect();
     let mut tolerance = settings.tolerance_pixels.max(0.0);
     loop {

@@ -3,8 +3,8 @@
 use super::flatten::{PathError, polygons};
 use super::nesting::Windings;
 use super::style::{Rule, Style};
-use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, doubled_area, shape};
-use crate::certificate::meeting_point;
+use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, shape};
+use crate::plane::{doubled_polygon_area, meeting_point};
 use kurbo::BezPath;
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -150,7 +150,11 @@ impl Drawing {
                     }
                 }
             }
-            let turn = if doubled_area(&loops[k]) > 0.0 { 1 } else { -1 };
+            let turn = if doubled_polygon_area(&loops[k]) > 0.0 {
+                1
+            } else {
+                -1
+            };
             let is_covered = covering
                 .iter()
                 .any(|&(_, rule, winding)| rule.is_inside(winding));

@@ -1,7 +1,7 @@
 //! The box in which an outline is worked on.
 
 use super::OutlineError;
-use crate::certificate::bounds_of;
+use crate::numerics::bounds::bounds_of;
 
 /// Steps of the grid of boundary vertices along the side of the frame.
 const STEPS: f64 = (1_u64 << 36) as f64;

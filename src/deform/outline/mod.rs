@@ -15,7 +15,7 @@ mod style;
 mod transform;
 mod triangulate;
 
-use crate::certificate::meeting_point;
+use crate::plane::{doubled_polygon_area, meeting_point};
 pub use contour::{ImageSettings, of_image};
 pub use drawing::{SvgSettings, of_svg};
 pub use error::OutlineError;
@@ -69,18 +69,10 @@ impl Outline {
 
     /// The area of the region.
     pub fn area(&self) -> f64 {
-        0.5 * self.loops.iter().map(|l| doubled_area(l)).sum::<f64>()
+        0.5 * self
+            .loops
+            .iter()
+            .map(|l| doubled_polygon_area(l))
+            .sum::<f64>()
     }
-}
-
-/// Twice the signed area of a closed polygon.
-fn doubled_area(vertices: &[[f64; 2]]) -> f64 {
-    use crate::numerics::vec2::{cross, sub};
-    let Some(&origin) = vertices.first() else {
-        return 0.0;
-    };
-    vertices
-        .windows(2)
-        .map(|w| cross(sub(w[0], origin), sub(w[1], origin)))
-        .sum()
 }

@@ -1,7 +1,7 @@
 //! Which polygons lie inside which.
 
-use super::doubled_area;
-use crate::certificate::{Bounds, bounds_of};
+use crate::numerics::bounds::{Bounds, bounds_of};
+use crate::plane::doubled_polygon_area;
 
 /// How often disjoint closed polygons wind around points that lie on none of them.
 pub(super) struct Windings<'a> {
@@ -49,7 +49,7 @@ pub(super) fn orient(loops: &mut [Vec<[f64; 2]>]) {
         })
         .collect();
     for (vertices, is_hole) in loops.iter_mut().zip(is_hole) {
-        if (doubled_area(vertices) < 0.0) != is_hole {
+        if (doubled_polygon_area(vertices) < 0.0) != is_hole {
             vertices.reverse();
         }
     }

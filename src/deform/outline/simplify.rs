@@ -1,6 +1,6 @@
 //! Fewer vertices within a tolerance.
 
-use crate::numerics::vec2::{dot, sub};
+use crate::numerics::vec2::{dot, squared_distance, sub};
 
 /// A closed polygon through some of the vertices, such that none of the others is further than `tolerance` from the edge that
 /// stands for it (Douglas, Peucker 1973).
@@ -28,7 +28,7 @@ pub(super) fn simplified(vertices: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]>
     while let Some((from, to)) = open.pop() {
         let segment = [at(from), at(to)];
         let worst = (from + 1..to)
-            .map(|k| (distance_to_segment(at(k), segment), k))
+            .map(|k| (squared_distance(at(k), segment), k))
             .max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((distance, k)) = worst
             && distance > tolerance * tolerance
@@ -43,16 +43,4 @@ pub(super) fn simplified(vertices: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]>
 fn distance_squared(p: [f64; 2], q: [f64; 2]) -> f64 {
     let d = sub(p, q);
     dot(d, d)
-}
-
-/// The squared distance of a point from a segment.
-fn distance_to_segment(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
-    let d = sub(b, a);
-    let length_squared = dot(d, d);
-    let t = if length_squared > 0.0 {
-        (dot(sub(p, a), d) / length_squared).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    distance_squared(p, [a[0] + t * d[0], a[1] + t * d[1]])
 }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::chart::UvVertices;
+use super::map::UvMap;
 use super::{EditError, UvMesh};
-use crate::certificate::UvTopology;
 use crate::deform::numbers;
 use crate::numerics::predicates::orient2d_sign;
 
@@ -72,7 +72,7 @@ pub(super) enum Spot {
 /// What anchors hold, each spot once.
 pub(super) fn hold(
     mesh: &UvMesh,
-    topology: &UvTopology,
+    map: &UvMap,
     vertices: &UvVertices,
     anchors: &[Anchor],
 ) -> Result<Vec<Held>, EditError> {
@@ -90,11 +90,11 @@ pub(super) fn hold(
         }
         let (spot, to) = match *which {
             Anchor::Vertex { vertex, to } => {
-                let vertex = only_vertex(mesh, topology, vertices, (anchor, vertex))?;
+                let vertex = only_vertex(mesh, map, vertices, (anchor, vertex))?;
                 (Spot::Vertex(vertex), to)
             }
             Anchor::Place { at, to } => {
-                place(topology, vertices, at, to).ok_or(EditError::UnknownHandle(anchor))?
+                place(map, vertices, at, to).ok_or(EditError::UnknownHandle(anchor))?
             }
         };
         match held.iter().find(|other| other.spot == spot) {
@@ -109,13 +109,13 @@ pub(super) fn hold(
 /// The vertex of the UV map that a vertex of the mesh is.
 fn only_vertex(
     mesh: &UvMesh,
-    topology: &UvTopology,
+    map: &UvMap,
     vertices: &UvVertices,
     (anchor, vertex): (usize, u32),
 ) -> Result<u32, EditError> {
     let corners = mesh.triangles.as_flattened().iter().enumerate();
     let mut found = corners
-        .filter(|&(corner, &v)| v == vertex && !topology.unusable[corner / 3])
+        .filter(|&(corner, &v)| v == vertex && !map.unusable[corner / 3])
         .map(|(corner, _)| vertices.of_corner[corner]);
     let first = found.next().ok_or(EditError::UnknownHandle(anchor))?;
     if found.any(|other| other != first) {
@@ -126,42 +126,38 @@ fn only_vertex(
 
 /// What is pulled at a UV, and where to: the point itself, or the nearest vertex where no face has the UV.
 fn place(
-    topology: &UvTopology,
+    map: &UvMap,
     vertices: &UvVertices,
     at: [f64; 2],
     to: [f64; 2],
 ) -> Option<(Spot, [f64; 2])> {
-    if let Some(chart) = chart_at(topology, at) {
+    if let Some(chart) = chart_at(map, at) {
         return Some((Spot::Place { chart, at }, to));
     }
-    let (vertex, uv) = nearest_vertex(topology, vertices, at)?;
+    let (vertex, uv) = nearest_vertex(map, vertices, at)?;
     let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
     Some((Spot::Vertex(vertex), to))
 }
 
 /// The vertex nearest to a UV and its own UV; the first of equally near ones.
-fn nearest_vertex(
-    topology: &UvTopology,
-    vertices: &UvVertices,
-    at: [f64; 2],
-) -> Option<(u32, [f64; 2])> {
+fn nearest_vertex(map: &UvMap, vertices: &UvVertices, at: [f64; 2]) -> Option<(u32, [f64; 2])> {
     let usable = (0..vertices.first_corner.len() as u32)
-        .filter(|&v| !topology.unusable[vertices.first_corner[v as usize] as usize / 3])
-        .map(|v| (v, vertices.uv(topology, v)));
+        .filter(|&v| !map.unusable[vertices.first_corner[v as usize] as usize / 3])
+        .map(|v| (v, vertices.uv(map, v)));
     let distance = |uv: [f64; 2]| (uv[0] - at[0]).hypot(uv[1] - at[1]);
     usable.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
 }
 
 /// The chart of the first face that has a UV.
-fn chart_at(topology: &UvTopology, at: [f64; 2]) -> Option<u32> {
+fn chart_at(map: &UvMap, at: [f64; 2]) -> Option<u32> {
     let holds = |face: &usize| {
-        let [a, b, c] = topology.uvs[*face];
-        let orientation = topology.orientation[*face];
+        let [a, b, c] = map.uvs[*face];
+        let orientation = map.orientation[*face];
         let is_on_side = |(p, q)| orient2d_sign(p, q, at) * orientation >= 0;
-        !topology.unusable[*face]
+        !map.unusable[*face]
             && orientation != 0
             && [(a, b), (b, c), (c, a)].into_iter().all(is_on_side)
     };
-    let face = (0..topology.faces.len()).find(holds)?;
-    Some(topology.charts.of_face[face])
+    let face = (0..map.faces.len()).find(holds)?;
+    Some(map.chart[face])
 }

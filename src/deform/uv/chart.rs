@@ -1,10 +1,10 @@
 //! Charts of a UV map as maps of the plane.
 
+use super::map::UvMap;
 use super::{EditError, UvRest, body};
-use crate::certificate::{CornerUvs, PlanarCertificate, Start, UvTopology, certify_planar};
 use crate::deform::boundary::Boundary;
 use crate::deform::untangle::untangled;
-use crate::mesh::UnionFind;
+use crate::mesh::{UnionFind, next, origin};
 use crate::numerics::predicates::orient2d_sign;
 
 /// The vertices of a UV map: corners that lie on each other in space, in UV space and in their chart.
@@ -17,22 +17,19 @@ pub(super) struct UvVertices {
 
 impl UvVertices {
     /// Corners whose UVs agree over an edge, within the tolerance of charts, are one vertex; so are those that agree exactly.
-    pub fn new(topology: &UvTopology) -> Self {
-        let mut sets = UnionFind::new(3 * topology.faces.len());
-        let starts = topology.edges.start.iter().skip(1);
-        for (pair, start) in topology.edges.order.windows(2).zip(starts) {
-            if *start == Start::Same {
-                let (a, b) = (ends(topology, pair[0]), ends(topology, pair[1]));
-                sets.unite(a[0], b[0]);
-                sets.unite(a[1], b[1]);
-            }
+    pub fn new(map: &UvMap) -> Self {
+        let mut sets = UnionFind::new(3 * map.faces.len());
+        for &[a, b] in &map.joints {
+            let (a, b) = (ends(map, a), ends(map, b));
+            sets.unite(a[0], b[0]);
+            sets.unite(a[1], b[1]);
         }
         let key = |&corner: &u32| {
             let (face, c) = (corner as usize / 3, corner as usize % 3);
-            let uv = topology.uvs[face][c].map(|x| (x + 0.0).to_bits());
-            (topology.charts.of_face[face], topology.faces[face][c], uv)
+            let uv = map.uvs[face][c].map(|x| (x + 0.0).to_bits());
+            (map.chart[face], map.faces[face][c], uv)
         };
-        let mut corners: Vec<u32> = (0..3 * topology.faces.len() as u32).collect();
+        let mut corners: Vec<u32> = (0..3 * map.faces.len() as u32).collect();
         corners.sort_by_cached_key(key);
         for pair in corners.windows(2) {
             if key(&pair[0]) == key(&pair[1]) {
@@ -51,25 +48,22 @@ impl UvVertices {
     }
 
     /// Where a vertex is.
-    pub fn uv(&self, topology: &UvTopology, vertex: u32) -> [f64; 2] {
+    pub fn uv(&self, map: &UvMap, vertex: u32) -> [f64; 2] {
         let corner = self.first_corner[vertex as usize] as usize;
-        topology.uvs[corner / 3][corner % 3]
+        map.uvs[corner / 3][corner % 3]
     }
 
     /// The chart that a vertex belongs to.
-    pub fn chart(&self, topology: &UvTopology, vertex: u32) -> u32 {
-        topology.charts.of_face[self.first_corner[vertex as usize] as usize / 3]
+    pub fn chart(&self, map: &UvMap, vertex: u32) -> u32 {
+        map.chart[self.first_corner[vertex as usize] as usize / 3]
     }
 }
 
 /// The corners of a halfedge, that at the smaller vertex first.
-fn ends(topology: &UvTopology, corner: u32) -> [u32; 2] {
-    let next = corner - corner % 3 + (corner + 1) % 3;
-    if topology.halfedge(corner).forward {
-        [corner, next]
-    } else {
-        [next, corner]
-    }
+fn ends(map: &UvMap, h: u32) -> [u32; 2] {
+    let mut ends = [h, next(h)];
+    ends.sort_by_key(|&corner| origin(&map.faces, corner));
+    ends
 }
 
 /// A chart, wound so that most of its area is counter-clockwise.
@@ -92,21 +86,21 @@ impl UvChart {
     /// The chart of this number, in which `positive` is the orientation of most of its area. Faces that name a position twice
     /// and have no area in UV space are left out.
     pub fn new(
-        topology: &UvTopology,
+        map: &UvMap,
         uv_vertices: &UvVertices,
         chart: u32,
         positive: i8,
     ) -> Result<Self, EditError> {
-        let faces = (0..topology.faces.len()).filter(|&f| {
-            let is_point = topology.repeats_position(f) && topology.orientation[f] == 0;
-            topology.charts.of_face[f] == chart && !topology.unusable[f] && !is_point
+        let faces = (0..map.faces.len()).filter(|&f| {
+            let is_point = map.repeats_position(f) && map.orientation[f] == 0;
+            map.chart[f] == chart && !map.unusable[f] && !is_point
         });
         let faces = ChartFaces {
             faces: faces
-                .map(|f| (f as u32, positive * topology.charts.winding[f] < 0))
+                .map(|f| (f as u32, positive * map.winding[f] < 0))
                 .collect(),
         };
-        if topology.charts.nonorientable[chart as usize] {
+        if map.nonorientable[chart as usize] {
             let face = faces.faces.first().map_or(0, |face| face.0 as usize);
             return Err(EditError::Nonorientable { face });
         }
@@ -118,9 +112,9 @@ impl UvChart {
         let local = |corner: u32| vertices.partition_point(|&v| v < vertex(corner)) as u32;
         let space = |&v: &u32| {
             let corner = uv_vertices.first_corner[v as usize] as usize;
-            topology.points[topology.faces[corner / 3][corner % 3] as usize]
+            map.points[map.faces[corner / 3][corner % 3] as usize]
         };
-        let uv = |&v: &u32| uv_vertices.uv(topology, v);
+        let uv = |&v: &u32| uv_vertices.uv(map, v);
         let mut chart = Self {
             triangles: corners.iter().map(|c| c.map(local)).collect(),
             uvs: vertices.iter().map(uv).collect(),
@@ -129,17 +123,17 @@ impl UvChart {
             faces,
             flipped: Vec::new(),
         };
-        let is_flipped = |t: &u32| chart.is_flipped(*t as usize, topology, positive);
+        let is_flipped = |t: &u32| chart.is_flipped(*t as usize, map, positive);
         chart.flipped = (0..chart.triangles.len() as u32)
             .filter(is_flipped)
             .collect();
         Ok(chart)
     }
 
-    fn is_flipped(&self, triangle: usize, topology: &UvTopology, positive: i8) -> bool {
+    fn is_flipped(&self, triangle: usize, map: &UvMap, positive: i8) -> bool {
         let [a, b, c] = self.triangles[triangle].map(|v| self.uvs[v as usize]);
         let face = self.faces.faces[triangle].0 as usize;
-        topology.orientation_in_chart(face) != positive || orient2d_sign(a, b, c) <= 0
+        map.orientation_in_chart(face) != positive || orient2d_sign(a, b, c) <= 0
     }
 
     /// Moves vertices around flipped triangles, none of those that the boundary holds, until no triangle is flipped. Fails
@@ -188,25 +182,11 @@ impl ChartFaces {
         self.faces.first().map(|(face, _)| *face)
     }
 
-    /// The corners `3 * face + c`, counter-clockwise.
-    fn corners(&self) -> impl Iterator<Item = [u32; 3]> {
+    /// The corners `3 * face + c` of each, counter-clockwise.
+    pub fn corners(&self) -> impl Iterator<Item = [u32; 3]> {
         self.faces.iter().map(|&(face, is_turned)| {
             let [a, b, c] = [0, 1, 2].map(|c| 3 * face + c);
             if is_turned { [a, c, b] } else { [a, b, c] }
         })
-    }
-
-    /// Judges the chart by other numbers for the same faces: those of a file that was written. `flip_v` says whether v points the
-    /// other way in them.
-    pub fn certify(&self, uvs: &[CornerUvs], flip_v: bool) -> PlanarCertificate {
-        let place = |corner: u32| {
-            let [u, v] = uvs[corner as usize / 3][corner as usize % 3];
-            [u, if flip_v { -v } else { v }]
-        };
-        let places: Vec<[f64; 2]> = self.corners().flatten().map(place).collect();
-        let triangles: Vec<[u32; 3]> = (0..self.len() as u32)
-            .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
-            .collect();
-        certify_planar(&places, &triangles)
     }
 }

@@ -8,6 +8,7 @@
 mod anchors;
 mod chart;
 mod error;
+mod map;
 
 use std::collections::BTreeMap;
 
@@ -15,14 +16,14 @@ use serde::{Deserialize, Serialize};
 
 use self::anchors::{Held, Spot, hold};
 use self::chart::{UvChart, UvVertices};
-use crate::certificate::{CornerUvs, UvTopology};
+use self::map::UvMap;
 use crate::deform::body::{Body, BodyElements};
 use crate::deform::boundary::Boundary;
 use crate::deform::locate::locate;
 use crate::deform::problem::Model;
-use crate::deform::pull::{Grip, Holds, PullReport, pull};
+use crate::deform::pull::{Grip, Holds, PullSummary, pull};
 use crate::embed::rest_shapes;
-use crate::mesh::PlanarMesh;
+use crate::mesh::{CornerUvs, PlanarMesh};
 use crate::solver::Watch;
 
 pub use anchors::Anchor;
@@ -99,50 +100,57 @@ pub struct EditedChart {
     pub faces: ChartFaces,
     /// How many of them were flipped or empty and had to be untangled first.
     pub untangled: usize,
-    /// What the map is worth.
-    pub report: PullReport,
+    /// How it was pulled.
+    pub summary: PullSummary,
+    /// Its vertices after the pull.
+    pub vertices: Vec<[f64; 2]>,
+    /// Its triangles over them, counter-clockwise, one for each face.
+    pub triangles: Vec<[u32; 3]>,
 }
 
 /// Pulls anchors to their targets, every triangle of their charts positive at every iterate. Other charts keep their UVs, bit
 /// by bit, and so does every vertex that does not move. A chart with flips is untangled first, and the places that anchors name
 /// are those of the map without flips.
 ///
-/// Charts are found as [`certify`](crate::certificate::certify) finds them.
+/// Two faces on a common edge belong to one chart where the UVs of both ends agree to 1e-7 of the
+/// map's extent; charts are numbered in the order of their first faces. These are the charts and
+/// the numbers of the certificate.
 pub fn edit_uvs(
     mesh: &UvMesh,
     anchors: &[Anchor],
     options: &UvEditOptions,
     watch: &dyn Watch,
 ) -> Result<EditedUvs, EditError> {
-    let topology = UvTopology::new(mesh.positions, mesh.triangles, mesh.uvs);
-    let vertices = UvVertices::new(&topology);
+    let map = UvMap::new(mesh);
+    let vertices = UvVertices::new(&map);
     let mut held: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
-    for anchor in hold(mesh, &topology, &vertices, anchors)? {
+    for anchor in hold(mesh, &map, &vertices, anchors)? {
         let chart = match anchor.spot {
-            Spot::Vertex(vertex) => vertices.chart(&topology, vertex),
+            Spot::Vertex(vertex) => vertices.chart(&map, vertex),
             Spot::Place { chart, .. } => chart,
         };
         held.entry(chart).or_default().push(anchor);
     }
-    let is_judged = |face: usize| !topology.unusable[face] && !topology.repeats_position(face);
-    let positive = topology.chart_orientations(is_judged);
+    let positive = map.chart_orientations();
     let mut edited = EditedUvs {
         uvs: mesh.uvs.to_vec(),
         charts: Vec::new(),
     };
     let mut moved: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
     for (number, held) in held {
-        let mut chart = UvChart::new(&topology, &vertices, number, positive[number as usize])?;
+        let mut chart = UvChart::new(&map, &vertices, number, positive[number as usize])?;
         chart.untangle(options.boundary)?;
-        let (uvs, report) = edit_chart(&chart, &held, options, watch)?;
-        let before = |v: usize| vertices.uv(&topology, chart.vertices[v]);
+        let (uvs, summary) = edit_chart(&chart, &held, options, watch)?;
+        let before = |v: usize| vertices.uv(&map, chart.vertices[v]);
         let changed = (0..uvs.len()).filter(|&v| !chart.flipped.is_empty() || uvs[v] != before(v));
         moved.extend(changed.map(|v| (chart.vertices[v], uvs[v])));
         edited.charts.push(EditedChart {
             chart: number,
             untangled: chart.flipped.len(),
             faces: chart.faces,
-            report,
+            summary,
+            vertices: uvs,
+            triangles: chart.triangles,
         });
     }
     let corners = edited.uvs.as_flattened_mut().iter_mut();
@@ -160,7 +168,7 @@ fn edit_chart(
     held: &[Held],
     options: &UvEditOptions,
     watch: &dyn Watch,
-) -> Result<(Vec<[f64; 2]>, PullReport), EditError> {
+) -> Result<(Vec<[f64; 2]>, PullSummary), EditError> {
     PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
     let (body, start, unit) = body(chart, options.rest);
     let mut holds = Holds::new(options.boundary.held(chart.uvs.len(), &chart.triangles));
@@ -184,7 +192,7 @@ fn edit_chart(
             uvs[v as usize] = *to;
         }
     }
-    Ok((uvs, result.report))
+    Ok((uvs, result.summary))
 }
 
 /// Adds an anchor; the target of the vertex that it pulls, if it pulls one.

@@ -9,7 +9,7 @@ use crate::deform::locate::locate;
 use crate::deform::numbers;
 use crate::deform::problem::Model;
 use crate::deform::problem_error::ProblemError;
-use crate::deform::pull::{Grip, Holds, PullReport, pull};
+use crate::deform::pull::{Grip, Holds, PullSummary, pull};
 use crate::mesh::PlanarMesh;
 use crate::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
 use crate::solver::Watch;
@@ -120,8 +120,8 @@ pub struct PictureWarp {
     pub grid: PlanarMesh,
     /// Its vertices afterwards.
     pub deformed: Vec<[f64; 2]>,
-    /// What the map is worth.
-    pub report: PullReport,
+    /// How it was pulled.
+    pub summary: PullSummary,
 }
 
 /// Warps a picture: a grid over it is deformed without inverting a triangle, the handles going to their targets.
@@ -137,7 +137,7 @@ pub fn warp_picture(
     watch: &dyn Watch,
 ) -> Result<PictureWarp, WarpError> {
     let grid = picture_grid(image.width, image.height, options.grid)?;
-    let (deformed, report) = warp_grid(&grid, handles, options, watch)?;
+    let (deformed, summary) = warp_grid(&grid, handles, options, watch)?;
     let deformation = Deformation {
         rest: grid.vertices(),
         deformed: &deformed,
@@ -151,7 +151,7 @@ pub fn warp_picture(
         picture: warped(image, &deformation, extent)?,
         grid,
         deformed,
-        report,
+        summary,
     })
 }
 
@@ -161,7 +161,7 @@ fn warp_grid(
     handles: &[PictureHandle],
     options: &WarpOptions,
     watch: &dyn Watch,
-) -> Result<(Vec<[f64; 2]>, PullReport), WarpError> {
+) -> Result<(Vec<[f64; 2]>, PullSummary), WarpError> {
     if !(1..=MOST_HANDLES).contains(&handles.len()) {
         return Err(WarpError::HandleCount(handles.len()));
     }
@@ -188,7 +188,7 @@ fn warp_grid(
     }
     let pulled = pull(body, &scaled, &holds, (&options.model, unit), watch)?;
     let deformed = pulled.vertices.iter().map(|p| p.map(|x| x * unit));
-    Ok((deformed.collect(), pulled.report))
+    Ok((deformed.collect(), pulled.summary))
 }
 
 fn mean_area(grid: &PlanarMesh) -> f64 {

@@ -16,7 +16,7 @@ use crate::document::{
     BakedTextures, DocumentError, Layout, NewUvs, Warning, WriteNotes, WriteOptions, Written,
     warning,
 };
-use crate::measure::VAxis;
+use crate::mesh::VAxis;
 use serde_json::Value;
 use std::collections::BTreeSet;
 

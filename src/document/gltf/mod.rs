@@ -52,7 +52,7 @@ use super::{
     BakePlan, BakedTextures, CornerTangents, DocumentError, Group, Mark, NewUvs, Primitive,
     SpaceMap, Subdivision, Upload, Warning, WriteOptions, Written,
 };
-use crate::certificate::CornerUvs;
+use crate::mesh::CornerUvs;
 pub use references::references;
 pub use tangents::tangents;
 pub(in crate::document) use uri::{encoded, normalized};

@@ -14,7 +14,7 @@ use crate::document::{
     BakedTextures, DocumentError, Layout, Mark, NewUvs, OutputFormat, Warning, WriteNotes,
     WriteOptions, Written,
 };
-use crate::measure::VAxis;
+use crate::mesh::VAxis;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};

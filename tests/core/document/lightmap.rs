@@ -1,8 +1,9 @@
 //! UVs for the light of a scene: a part of one atlas for whatever a node shows.
 
 use serde_json::json;
-use unwrapd::certificate::{Overlap, Resolution};
+use unwrapd::certificate::Overlap;
 use unwrapd::document::{Document, Upload};
+use unwrapd::mesh::Resolution;
 use unwrapd::pipeline::{
     MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified, unwrap_document,
     verify_document,

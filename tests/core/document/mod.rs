@@ -15,7 +15,7 @@ mod weights;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use unwrapd::document::{Document, Layout, NewUvs, OutputFormat, Upload, WriteOptions, Written};
-use unwrapd::measure::VAxis;
+use unwrapd::mesh::VAxis;
 
 /// Every glTF file below a folder, sorted.
 pub fn gltf_files(folder: &Path) -> Vec<PathBuf> {
