@@ -1,5 +1,4 @@
-//! Plane geometry of makers, against brute force and against the judge, which shares no code with
-//! it.
+//! Plane geometry of makers, against brute force and against the judge, which shares no code with it.
 
 use unwrapd::certificate::{Claims, Padding, boundary_crossings, certify_planar};
 use unwrapd::mesh::Resolution;
@@ -56,18 +55,23 @@ fn boxes_that_meet_one_are_found_once_each() {
 
 #[test]
 fn the_closest_pair_is_of_two_groups() {
-    let boxes: Vec<Bounds> = boxes(300).iter().map(|[low, _]| [*low, *low]).collect();
-    for n_groups in [1, 2, 7, 300] {
-        let groups: Vec<u32> = (0..300).map(|i| i * n_groups / 300).collect();
+    for seed in 0..40 {
+        let mut random = Random::new(seed);
+        let points: Vec<[f64; 2]> = (0..120).map(|_| [random.unit(), random.unit()]).collect();
+        let boxes: Vec<Bounds> = points.iter().map(|p| [*p, *p]).collect();
+        let n_groups = [1, 2, 7, 120][seed as usize % 4];
+        let groups: Vec<u32> = points
+            .iter()
+            .map(|p| (p[0] * f64::from(n_groups)) as u32)
+            .collect();
         let distance = |i: u32, j: u32| {
-            let [p, q] = [i, j].map(|k| boxes[k as usize][0]);
+            let [p, q] = [i, j].map(|k| points[k as usize]);
             (p[0] - q[0]).hypot(p[1] - q[1])
         };
-        let pairs = (0..300).flat_map(|i| (0..i).map(move |j| [i, j]));
+        let pairs = (0..120).flat_map(|i| (0..i).map(move |j| [i, j]));
         let apart = pairs.filter(|&[i, j]| groups[i as usize] != groups[j as usize]);
-        let expected = apart
-            .map(|[i, j]| distance(i, j))
-            .fold(f64::INFINITY, f64::min);
+        let distances = apart.map(|[i, j]| distance(i, j));
+        let expected = distances.fold(f64::INFINITY, f64::min);
         let found = BoxIndex::new(&boxes).closest(&groups, 1_000_000, distance);
         assert_eq!(found, (expected, Visit::Complete));
     }

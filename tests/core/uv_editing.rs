@@ -1,6 +1,7 @@
 //! UVs pulled by anchors: no flip, untouched charts bit by bit, bijective where boundaries stay.
 
-use unwrapd::certificate::{Overlap, boundary_crossings, certify, certify_planar};
+use crate::uv_meshes;
+use unwrapd::certificate::{Overlap, boundary_crossings, certify, certify_planar, chart_ids};
 use unwrapd::deform::Boundary;
 #[cfg(feature = "files")]
 use unwrapd::deform::uv::parse_anchors;
@@ -153,6 +154,46 @@ fn a_chart_that_shall_stay_bijective_does() {
     let kept = sheets.edit(&anchors, &options);
     sheets.assert_valid(&kept);
     assert_eq!(judged(&kept), (true, 0));
+}
+
+/// Pieces of which some faces are wound the other way, and one falls apart along a seam.
+#[test]
+fn charts_are_those_of_the_certificate() {
+    let mut mesh = uv_meshes::UvMesh::grid(2);
+    for k in 1..4 {
+        let mut piece = uv_meshes::UvMesh::grid(2).map_uvs(|[u, v]| [u + 2.0 * f64::from(k), v]);
+        piece.reverse(k as usize);
+        mesh.add(&piece);
+    }
+    for uv in mesh.uvs[12..16].as_flattened_mut() {
+        uv[1] += 2.0;
+    }
+    let numbers = chart_ids(&mesh.positions, &mesh.triangles, &mesh.uvs);
+    assert_eq!(numbers.iter().max(), Some(&4));
+    let arrays = UvMesh {
+        positions: &mesh.positions,
+        triangles: &mesh.triangles,
+        uvs: &mesh.uvs,
+    };
+    for (face, number) in mesh.uvs.iter().zip(numbers) {
+        let middle = [0, 1].map(|k| (face[0][k] + face[1][k] + face[2][k]) / 3.0);
+        let [at, to] = [middle, [middle[0] + 0.01, middle[1]]];
+        let edited = edit_uvs(
+            &arrays,
+            &[Anchor::Place { at, to }],
+            &UvEditOptions::edit(),
+            &go_on,
+        )
+        .expect("a chart that can be pulled");
+        assert_eq!(edited.charts[0].chart, number);
+        let judged = certify(
+            &mesh.positions,
+            &mesh.triangles,
+            &edited.uvs,
+            &Overlap::Test.into(),
+        );
+        assert!(judged.is_valid() && judged.charts == 5);
+    }
 }
 
 #[test]

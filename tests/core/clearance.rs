@@ -1,0 +1,98 @@
+//! Charts opened by the packer until the judge finds them safe to be rounded.
+
+use unwrapd::atlas::{ChartMap, cleared};
+use unwrapd::certificate::{Certificate, Claims, certify};
+use unwrapd::pipeline::{Settings, Unobserved, unwrap};
+
+use crate::uv_meshes::UvMesh;
+use crate::zoo;
+
+const BITS: u32 = 12;
+
+/// Two prongs on a base, a quarter of a unit wide, whose faces are all fat: the tip of one comes
+/// near the other's side.
+fn fork(gap: f64, is_mirrored: bool) -> (Vec<[f64; 2]>, Vec<[u32; 3]>) {
+    let (left, right) = (1.0 - gap / 2.0, 1.0 + gap / 2.0);
+    let corners = [
+        [0.0, -1.0],
+        [2.0, -1.0],
+        [0.0, 0.0],
+        [0.4, 0.0],
+        [right, 0.0],
+        [2.0, 0.0],
+        [0.0, 1.0],
+        [left, 0.5],
+        [right, 1.0],
+        [2.0, 1.0],
+    ];
+    let mut triangles = vec![
+        [0, 3, 2],
+        [0, 1, 3],
+        [1, 4, 3],
+        [1, 5, 4],
+        [2, 3, 7],
+        [2, 7, 6],
+        [4, 5, 9],
+        [4, 9, 8],
+    ];
+    let side = if is_mirrored { -0.25 } else { 0.25 };
+    if is_mirrored {
+        triangles
+            .iter_mut()
+            .for_each(|t: &mut [u32; 3]| t.swap(1, 2));
+    }
+    let places = corners.map(|[x, y]| [0.5 + side * (x - 1.0), 0.5 + 0.25 * y]);
+    (places.to_vec(), triangles)
+}
+
+fn judged(places: &[[f64; 2]], triangles: &[[u32; 3]]) -> Certificate {
+    let mesh = UvMesh::planar(places, triangles);
+    at_bits(&mesh.positions, &mesh.triangles, &mesh.uvs)
+}
+
+fn at_bits(positions: &[[f64; 3]], triangles: &[[u32; 3]], uvs: &[[[f64; 2]; 3]]) -> Certificate {
+    let claims = Claims {
+        bits: Some(BITS),
+        ..Claims::default()
+    };
+    certify(positions, triangles, uvs, &claims)
+}
+
+#[test]
+fn narrow_gaps_are_opened_on_either_side() {
+    // What the certificate lets each coordinate move by, at both sides of a gap.
+    let clearance = 8.0_f64.sqrt() * (0.5 / 4095.0 + 1.0 / 65_536.0);
+    for is_mirrored in [false, true] {
+        for gap in [1e-5, 4e-4] {
+            let (uv, triangles) = fork(gap, is_mirrored);
+            let before = judged(&uv, &triangles).bits.expect("asked for");
+            assert!(!before.hold && before.faces_in_doubt == 0, "{before:?}");
+            let map = ChartMap {
+                uv: &uv,
+                triangles: &triangles,
+            };
+            let opened = cleared(&map, clearance).expect("a gap to be opened");
+            let after = judged(&opened, &triangles).bits.expect("asked for");
+            assert!(after.hold, "{gap}: {after:?}");
+        }
+    }
+}
+
+#[test]
+fn charts_without_padding_stay_apart_when_they_are_rounded() {
+    let sphere = || zoo::sphere(8, 6);
+    let others = [4.0, 8.0].map(|x| sphere().moved([x, 0.0, 0.0]));
+    let mesh = others.iter().fold(sphere(), |mesh, other| mesh.with(other));
+    let settings = Settings {
+        padding: 0,
+        resolution: unwrapd::mesh::Resolution::square(4096),
+        quantization_safe: Some(BITS),
+        ..Settings::default()
+    };
+    let made = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved);
+    let uvs = made.expect("it unwraps").corner_uvs();
+    let positions: Vec<[f64; 3]> = (mesh.positions.iter()).map(|p| p.map(f64::from)).collect();
+    let certificate = at_bits(&positions, &mesh.triangles, &uvs);
+    assert!(certificate.charts > 1, "the mesh is no test");
+    assert!(certificate.bits.expect("asked for").hold);
+}
