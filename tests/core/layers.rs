@@ -7,8 +7,10 @@ use std::path::PathBuf;
 use crate::places;
 
 /// Module, the modules it builds on directly (what those may use it may use too), and the outside crates it may name.
-/// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
+/// Derives of `serde`, `utoipa`, `clap` and `thiserror` are allowed anywhere: the words of an option
+/// are the variants of an enum, which is declared where it is used.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
+    ("options", &[], &["serde_json"]),
     ("numerics", &[], &["faer", "feral_metis", "robust", "rayon"]),
     ("mesh", &["numerics"], &["robust", "spade"]),
     ("cut", &["mesh"], &[]),
@@ -37,7 +39,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("bake", &["document", "picture"], &["rayon"]),
     (
         "deform",
-        &["embed", "picture"],
+        &["embed", "picture", "options"],
         &["spade", "kurbo", "roxmltree", "serde_json"],
     ),
     (

@@ -4,8 +4,8 @@ use serde_json::json;
 use unwrapd::certificate::{Overlap, Resolution};
 use unwrapd::document::{Document, Upload};
 use unwrapd::pipeline::{
-    MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified, unwrap_document,
-    verify_document,
+    Layout, MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified,
+    unwrap_document, verify_document,
 };
 
 use super::build::{Builder, parts};
@@ -102,12 +102,18 @@ fn what_cannot_be_a_lightmap_is_refused() {
         lightmap(builder, options).unwrap_err().code().to_owned()
     };
     let uneven = Options {
-        resolution: Resolution::square(1000),
+        layout: Layout {
+            resolution: Resolution::square(1000),
+            ..Layout::default()
+        },
         ..Options::default()
     };
     assert_eq!(code(&scene(), uneven), "invalid_options");
     let crowded = Options {
-        padding: 40,
+        layout: Layout {
+            padding: 40,
+            ..Layout::default()
+        },
         ..Options::default()
     };
     assert_eq!(code(&scene(), crowded), "invalid_options");
