@@ -2,7 +2,7 @@
 
 use base64::Engine as _;
 use serde_json::{Value, json};
-use unwrapd::document::{OutputFormat, Upload};
+use unwrapd::document::{GroupBy, OutputFormat, Upload};
 use unwrapd::picture::Image;
 use unwrapd::pipeline::{Baking, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 
@@ -50,8 +50,10 @@ fn push(array: &mut Value, object: Value) {
     array.as_array_mut().unwrap().push(object);
 }
 
+/// Every mesh by itself, so that several share a material but no texture.
 fn options() -> Options {
     Options {
+        group_by: Some(GroupBy::Mesh),
         baking: Baking {
             rebake: true,
             bake_size: Some(32),
