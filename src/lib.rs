@@ -52,6 +52,7 @@
 //!
 //! | module | what lives there |
 //! |---|---|
+//! | [`options`] | what an option is, for code, JSON and the command line: written once |
 //! | [`numerics`] | multifrontal sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices, boxes, convex hulls |
 //! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; triangles inside polygons; readers and writers; UVs as files have them |
 //! | [`plane`] | plane geometry of many pieces, for those who make maps: a spatial index, segments, polygons, triangles that overlap |
@@ -167,6 +168,8 @@
 //! 3. Everything in a document that a job was not asked to change is still there.
 //! 4. An accepted job is never lost: it ends succeeded, failed with a cause, or cancelled, over any crash or restart.
 //! 5. No input makes the process panic, hang, read a file or open a connection it was not given, or exceed its memory.
+
+pub mod options;
 
 pub mod numerics;
 

@@ -5,19 +5,19 @@ use crate::energy::Guard;
 
 /// Which barrier is added to the energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum BarrierKind {
-    /// [`InverseSpline`]: no element inverts, and ordinary elements do not feel it.
+    /// The inverse spline of the paper: no element inverts, and ordinary elements do not feel it.
     #[default]
     #[serde(alias = "spline")]
     InverseSpline,
-    /// [`AugmentedLog`].
+    /// The augmented logarithm.
     #[serde(alias = "auglog")]
     AugmentedLog,
-    /// [`Log`].
+    /// The logarithm.
     Log,
-    /// [`NeoHookean`].
+    /// The volume part of a neo-Hookean material.
     #[serde(alias = "neohookean")]
     NeoHookean,
     /// None, for comparison: an energy that is finite everywhere may invert elements.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// Where a surface is cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum Cut {
     /// Into few charts under a bound on their distortion.
     #[default]

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// isometry, is 4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum Quality {
     /// At most 4.05.
     Smooth,

@@ -1,11 +1,13 @@
 //! The commands as clap knows them.
 
+use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
     completions, deform, edit_uv, health, man, measure, repack, serve, solve, unwrap_args, verify,
     warp,
 };
+use crate::options::as_typed;
 
 /// Unwraps meshes: glTF in, certified flip-free UVs and a distortion report out.
 #[derive(Parser)]
@@ -21,7 +23,8 @@ pub(super) enum Command {
     Unwrap(Box<unwrap_args::Args>),
     /// Measure the UVs of a file: distortion, seams, packing, overlaps
     Measure(measure::Args),
-    /// Check exactly that no face of a file's UVs is flipped or degenerate, and what else is asked for: exit 0 if so, 4 if not
+    /// Check exactly that no face of a file's UVs is flipped or degenerate, and what else is asked
+    /// for: exit 0 if so, 4 if not
     Verify(verify::Args),
     /// Pack the UV islands of all meshes into one atlas, each as it is
     Repack(repack::Args),
@@ -29,7 +32,8 @@ pub(super) enum Command {
     EditUv(edit_uv::EditArgs),
     /// Align points of a surface with points of a texture, no face flipped
     TextureMap(edit_uv::TextureArgs),
-    /// Pull a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted
+    /// Pull a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element
+    /// inverted
     Deform(Box<deform::Args>),
     /// Solve a problem file: handles pulled to targets, no element inverted
     Solve(solve::Args),
@@ -54,9 +58,25 @@ pub(super) fn typed() -> Command {
     cli.unwrap_or_else(|error| error.exit()).command
 }
 
-/// The program: options take negative numbers, which are then refused by name.
+/// The program: options take negative numbers, which are then refused by name, and help names
+/// options as they are typed.
 pub(super) fn command() -> clap::Command {
-    Cli::command().mut_subcommands(|command| command.mut_args(with_negative_numbers))
+    Cli::command().mut_subcommands(|command| {
+        let ids = command.get_arguments().map(|option| option.get_id());
+        let ids: Vec<String> = ids.map(ToString::to_string).collect();
+        let is_option = |name: &str| ids.iter().any(|id| id == name);
+        command.mut_args(|option| with_typed_names(with_negative_numbers(option), is_option))
+    })
+}
+
+fn with_typed_names(option: clap::Arg, is_option: impl Fn(&str) -> bool) -> clap::Arg {
+    let typed = |help: &StyledStr| as_typed(&help.to_string(), &is_option);
+    let (short, long) = (
+        option.get_help().map(typed),
+        option.get_long_help().map(typed),
+    );
+    let option = short.into_iter().fold(option, clap::Arg::help);
+    long.into_iter().fold(option, clap::Arg::long_help)
 }
 
 fn with_negative_numbers(option: clap::Arg) -> clap::Arg {

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use crate::deform::ProblemError;
 use crate::deform::uv::EditError;
 use crate::deform::warp::WarpError;
+use crate::options::as_typed;
 use crate::pipeline::PipelineError;
 
 /// Why a command ended, in one line, and its exit status.
@@ -57,7 +58,7 @@ impl Failure {
 impl From<PipelineError> for Failure {
     fn from(error: PipelineError) -> Self {
         let text = match &error {
-            PipelineError::InvalidOptions(text) => as_typed(text),
+            PipelineError::InvalidOptions(text) => typed(text),
             _ => error.to_string(),
         };
         Self {
@@ -72,20 +73,15 @@ impl Failure {
     pub(super) fn of_options(error: PipelineError) -> Self {
         let code = error.code();
         Self {
-            message: format!("{} ({code})", as_typed(&error.to_string())),
+            message: format!("{} ({code})", typed(&error.to_string())),
             ..error.into()
         }
     }
 }
 
-/// What the library says of options, with their names as they are typed: `seam_weight` becomes --seam-weight.
-fn as_typed(text: &str) -> String {
-    let parts = text.split('`').enumerate();
-    let typed = parts.map(|(i, part)| match i % 2 {
-        0 => part.to_owned(),
-        _ => format!("--{}", part.replace('_', "-")),
-    });
-    typed.collect()
+/// What the library says of options, with their names as they are typed.
+fn typed(text: &str) -> String {
+    as_typed(text, |_| true)
 }
 
 /// Handles or a problem file that cannot be read.

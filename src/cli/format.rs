@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use clap::ValueEnum;
+
 use super::failure::Failure;
 use super::output::is_stream;
-use super::words::{BODY_FORMATS, FORMATS};
 use crate::document::OutputFormat;
 use crate::pipeline::BodyFormat;
 
@@ -13,12 +14,7 @@ pub(super) fn output_format(
     path: &Path,
     given: Option<OutputFormat>,
 ) -> Result<OutputFormat, Failure> {
-    let format = agreed(path, given, FORMATS, |extension| match extension {
-        "glb" => Some(OutputFormat::Glb),
-        "gltf" => Some(OutputFormat::Gltf),
-        "obj" => Some(OutputFormat::Obj),
-        _ => None,
-    })?;
+    let format = agreed(path, given)?;
     if format == OutputFormat::Gltf && is_stream(path) {
         return Err(several_files(path));
     }
@@ -27,7 +23,7 @@ pub(super) fn output_format(
 
 /// The format of a body to write.
 pub(super) fn body_format(path: &Path, given: Option<BodyFormat>) -> Result<BodyFormat, Failure> {
-    let format = agreed(path, given, BODY_FORMATS, BodyFormat::of_extension)?;
+    let format = agreed(path, given)?;
     if format == BodyFormat::Gltf && is_stream(path) {
         return Err(several_files(path));
     }
@@ -44,23 +40,24 @@ pub(super) fn check_png(path: &Path) -> Result<(), Failure> {
     Err(Failure::usage(format!("{name}: OUT must end in .png")))
 }
 
-fn agreed<T: PartialEq>(
-    path: &Path,
-    given: Option<T>,
-    words: &[&str],
-    of_extension: impl Fn(&str) -> Option<T>,
-) -> Result<T, Failure> {
+fn agreed<F: ValueEnum + PartialEq>(path: &Path, given: Option<F>) -> Result<F, Failure> {
     let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let (name, words) = (path.display(), words.join(", "));
-    match (of_extension(&extension.to_string_lossy()), given) {
+    let name = path.display();
+    match (F::from_str(&extension.to_string_lossy(), false).ok(), given) {
         (Some(named), Some(given)) if named != given => Err(Failure::usage(format!(
             "{name}: --format and the extension are at odds"
         ))),
         (_, Some(format)) | (Some(format), None) => Ok(format),
-        (None, None) => Err(Failure::usage(format!(
-            "{name}: the format is not known: OUT ends in one of .{}, or --format is one of {words}",
-            words.replace(", ", ", .")
-        ))),
+        (None, None) => {
+            let values = F::value_variants().iter();
+            let values = values.filter_map(ValueEnum::to_possible_value);
+            let words: Vec<String> = values.map(|value| value.get_name().to_owned()).collect();
+            Err(Failure::usage(format!(
+                "{name}: the format is not known: OUT ends in one of .{}, or --format is one of {}",
+                words.join(", ."),
+                words.join(", ")
+            )))
+        }
     }
 }
 

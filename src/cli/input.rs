@@ -8,6 +8,14 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use crate::document::Upload;
 
+/// A file that has UVs.
+#[derive(clap::Args)]
+pub(super) struct Mapped {
+    /// Mesh with UVs: .glb, .gltf or .obj; `-` is standard input
+    #[arg(value_name = "IN")]
+    pub(super) input: PathBuf,
+}
+
 /// Whether a name stands for standard input or output.
 pub(super) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
@@ -29,8 +37,8 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
     read.map_err(|error| Failure::input(format!("{name}: {error}")))
 }
 
-/// Reads a file and the files that it references by relative URI. A missing one is left to the document, which knows whether it is
-/// needed.
+/// Reads a file and the files that it references by relative URI. A missing one is left to the
+/// document, which knows whether it is needed.
 pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
     let mut upload = upload(path, read_file(path)?, []);
     let folder = folder(path);

@@ -18,7 +18,6 @@ mod input;
 mod listen;
 mod man;
 mod measure;
-mod model;
 mod output;
 mod progress;
 mod records;
@@ -30,7 +29,6 @@ mod unwrap;
 mod unwrap_args;
 mod verify;
 mod warp;
-mod words;
 
 use std::path::Path;
 use std::process::ExitCode;

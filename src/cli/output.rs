@@ -5,10 +5,35 @@ use std::io::{self, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
+
 use super::console::{self, Lines};
 use super::failure::Failure;
 use super::input::{folder, is_standard};
 use crate::document::Upload;
+use crate::pipeline::Caller;
+
+/// Where a document is written.
+#[derive(clap::Args)]
+pub(super) struct Target {
+    /// Where to write: .glb, .gltf or .obj decides the format; `-` is standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+}
+
+/// In which format a result is written, and what beside it.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Files and messages")]
+pub(super) struct Files<F: ValueEnum + Clone + Send + Sync + 'static> {
+    /// Format of OUT where its name does not tell
+    #[arg(long)]
+    pub(super) format: Option<F>,
+    /// Write the report as JSON: what was done, what it is worth, what is proven
+    #[arg(long, value_name = "R.json")]
+    pub(super) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
+}
 
 /// What is written where, and what is said.
 #[derive(clap::Args)]
@@ -42,8 +67,8 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    /// Checks that results can be written to all of these places, that no two are one, and that none is a file that is read. From
-    /// now on lines about the result go where no result does.
+    /// Checks that results can be written to all of these places, that no two are one, and that
+    /// none is a file that is read. From now on lines about the result go where no result does.
     pub(super) fn check(
         main: &Path,
         others: &[&Option<PathBuf>],
@@ -94,8 +119,9 @@ impl Outputs {
         self
     }
 
-    /// Writes the files of a result, the main one where it was asked for and what belongs to it beside it, and what else was asked
-    /// for. Each is written whole under another name; once all are they are moved into place, the main one last.
+    /// Writes the files of a result, the main one where it was asked for and what belongs to it
+    /// beside it, and what else was asked for. Each is written whole under another name; once all
+    /// are they are moved into place, the main one last.
     pub(super) fn write(
         &self,
         files: &[(String, Vec<u8>)],
@@ -148,10 +174,14 @@ pub(super) fn is_stream(path: &Path) -> bool {
     is_standard(path) || fs::metadata(path).is_ok_and(|of| !of.is_file() && !of.is_dir())
 }
 
-/// The name of a file without its extension; none of a stream.
-pub(super) fn stem(path: &Path) -> Option<String> {
-    let stem = path.file_stem().filter(|_| !is_stream(path))?;
-    Some(stem.to_string_lossy().into_owned())
+/// What the command says beside the options of its user: that files are named like the one at
+/// `path`, if it is one.
+pub(super) fn caller(path: &Path) -> Caller {
+    let stem = path.file_stem().filter(|_| !is_stream(path));
+    Caller {
+        stem: stem.map(|stem| stem.to_string_lossy().into_owned()),
+        ..Caller::default()
+    }
 }
 
 /// Whether two paths are one file, through whatever links.
@@ -177,7 +207,8 @@ fn parent(path: &Path) -> &Path {
     }
 }
 
-/// Refuses what cannot be written: tried with an empty file under another name, which is removed at once.
+/// Refuses what cannot be written: tried with an empty file under another name, which is removed at
+/// once.
 fn check_writable(path: &Path) -> Result<(), Failure> {
     let refused = |cause: &dyn std::fmt::Display| {
         Failure::other(format!("cannot write {}: {cause}", path.display()))

@@ -4,66 +4,37 @@ use std::path::{Path, PathBuf};
 
 use super::console::{json, print_json, say, warn};
 use super::failure::Failure;
-use super::output::{OutputArgs, Outputs, check_folder};
+use super::output::{Files, Outputs, check_folder};
 use super::progress::Display;
-use super::words::{BODY_FORMATS, word};
 use crate::pipeline::{BodyFormat, Deformed};
 
-/// Files beside the map, and what is done beside minimizing once.
-#[derive(clap::Args)]
-pub(super) struct Records {
-    /// End with the current valid map after this many seconds
-    #[arg(long, value_name = "SECONDS")]
-    pub(super) time_budget: Option<f64>,
-    #[command(flatten)]
-    pub(super) files: RecordFiles,
-    #[command(flatten)]
-    pub(super) course: Course,
-}
-
+/// Files beside the map.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
-pub(super) struct RecordFiles {
-    /// Format of OUT where its name does not tell
-    #[arg(long, value_parser = word::<BodyFormat>(BODY_FORMATS))]
-    pub(super) format: Option<BodyFormat>,
-    /// Write a JSON report: status, iterations, energies, residual, seconds
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
+pub(super) struct Records {
+    #[command(flatten)]
+    pub(super) files: Files<BodyFormat>,
     /// Write a line per iteration as CSV
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
     /// Folder for the map of every iteration, numbered, in the format of the result; made if it does not exist
     #[arg(long, value_name = "DIR")]
     pub(super) frames: Option<PathBuf>,
-    #[command(flatten)]
-    output: OutputArgs,
-}
-
-#[derive(clap::Args)]
-#[command(next_help_heading = "Course of the solver")]
-pub(super) struct Course {
-    /// Lower the barrier's strength while the energy without it falls
-    #[arg(long)]
-    pub(super) barrier_continuation: bool,
-    /// Also minimize without a barrier and report that energy beside the solution's: the barrier's bias
-    #[arg(long)]
-    pub(super) bias: bool,
 }
 
 impl Records {
     /// Checks where everything goes.
     pub(super) fn outputs(&self, main: &Path, inputs: &[&Path]) -> Result<Outputs, Failure> {
-        let RecordFiles { report, trace, .. } = &self.files;
-        let outputs = Outputs::check(main, &[report, trace], inputs, &self.files.output)?;
-        self.files.frames.as_deref().map_or(Ok(()), check_folder)?;
+        let Files { report, output, .. } = &self.files;
+        let outputs = Outputs::check(main, &[report, &self.trace], inputs, output)?;
+        self.frames.as_deref().map_or(Ok(()), check_folder)?;
         Ok(outputs)
     }
 
     /// Shows progress, and writes frames of a format if they are wanted.
     pub(super) fn display(&self, format: BodyFormat) -> Display {
         let talk = &self.files.output.talk;
-        match &self.files.frames {
+        match &self.frames {
             Some(folder) => {
                 Display::with_frames(talk, folder.clone(), format.extension().to_owned())
             }
@@ -73,10 +44,9 @@ impl Records {
 
     /// Writes everything.
     pub(super) fn write(&self, outputs: &Outputs, deformed: &Deformed) -> Result<(), Failure> {
-        let RecordFiles { report, trace, .. } = &self.files;
         let others = [
-            (report, json(&deformed.report)?),
-            (trace, deformed.trace.clone().into_bytes()),
+            (&self.files.report, json(&deformed.report)?),
+            (&self.trace, deformed.trace.clone().into_bytes()),
         ];
         let others = others
             .each_ref()

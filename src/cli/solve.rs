@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use super::failure::Failure;
 use super::format::body_format;
 use super::input::{read_file, upload};
-use super::output::stem;
+use super::output::caller;
 use super::records::Records;
-use super::words::{METHODS, word};
-use crate::deform::{Method, ProblemFile};
-use crate::pipeline::{Limits, SolveOptions, solve_file};
+use crate::deform::ProblemFile;
+use crate::pipeline::{CommandOptions, SolveOptions, solve_file};
 
 /// Solves a problem file: handles pulled to targets, no element inverted.
 #[derive(clap::Args)]
@@ -19,11 +18,10 @@ pub(super) struct Args {
     /// Where the map goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; `-` is standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// How: projected Newton with advancing targets, or the paper's iteration
-    #[arg(long, default_value = "projected", value_parser = word::<Method>(METHODS))]
-    method: Method,
     #[command(flatten)]
     records: Records,
+    #[command(flatten)]
+    options: SolveOptions,
 }
 
 /// Runs `solve`.
@@ -31,14 +29,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let records = &args.records;
     let format = body_format(&args.output, records.files.format)?;
     let options = SolveOptions {
-        method: args.method,
-        barrier_continuation: records.course.barrier_continuation,
-        bias: records.course.bias,
-        frames: records.files.frames.is_some(),
-        time_budget: records.time_budget,
+        frames: records.frames.is_some(),
         format,
-        stem: stem(&args.output),
-        limits: Limits::default(),
+        caller: caller(&args.output),
+        ..args.options.clone()
     };
     options.check().map_err(Failure::of_options)?;
     let outputs = records.outputs(&args.output, &[&args.problem])?;

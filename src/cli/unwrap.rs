@@ -6,7 +6,7 @@ use super::input::read_upload;
 use super::progress::Display;
 use super::unwrap_args::Args;
 use crate::certificate::Overlap;
-use crate::pipeline::{self, Mirrored, Outcome};
+use crate::pipeline::{self, CommandOptions, Mirrored, Outcome};
 
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -22,14 +22,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let outcome = outcome?;
     let report = json(&outcome.report)?;
     let mut others = vec![(&files.report, report.as_slice())];
-    let drawn = if files.layout.is_some() || files.heatmap.is_some() {
+    let pictures = &args.pictures;
+    let drawn = if pictures.layout.is_some() || pictures.heatmap.is_some() {
         Some(outcome.pictures.draw()?)
     } else {
         None
     };
     if let Some(drawn) = &drawn {
-        others.push((&files.layout, &drawn.layout_png));
-        others.push((&files.heatmap, &drawn.heatmap_png));
+        others.push((&pictures.layout, &drawn.layout_png));
+        others.push((&pictures.heatmap, &drawn.heatmap_png));
     }
     outputs.write(&outcome.files, &others)?;
     if files.output.talk.json {

@@ -35,14 +35,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         console::direct(Lines::None);
     }
-    let upload = read_upload(&args.which.input)?;
-    let options = args.which.options();
+    let upload = read_upload(&args.which.mapped.input)?;
     let overlap = if args.bijective {
         Overlap::Test
     } else {
         Overlap::Skip
     };
-    let verified = verify_document(&upload, &options, overlap)?;
+    let verified = verify_document(&upload, &args.which.options, overlap)?;
     if args.json {
         print_json(&verified)?;
     } else {

@@ -6,7 +6,7 @@ use crate::mesh::boundary_edges;
 
 /// What becomes of the boundary of a map of the plane that is pulled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum Boundary {
     /// It follows what is pulled.

@@ -12,7 +12,7 @@ use crate::energy::{
 
 /// Which deformation energy is minimized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum DeformationEnergy {
     /// As rigid as possible.

@@ -2,8 +2,6 @@
 
 use std::cmp::Ordering;
 
-use serde::{Deserialize, Serialize};
-
 use super::body::{Body, BodyElements};
 use super::boundary_barrier::BoundaryBarrier;
 use super::handles::{Handle, bind};
@@ -12,6 +10,7 @@ use super::problem_error::ProblemError;
 use super::untangle::{bad_elements, untangled};
 use crate::barrier::{Barrier, BarrierKind};
 use crate::energy::{Row, Term};
+use crate::options::options;
 use crate::plane::are_disjoint;
 use crate::solver::{Handles, LevenbergSettings};
 
@@ -38,36 +37,26 @@ pub struct Problem {
     pub levenberg: LevenbergSettings,
 }
 
-/// What a deformation costs, as a user says it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-#[serde(default)]
-pub struct Model {
-    /// The energy.
-    pub energy: DeformationEnergy,
-    /// The barrier.
-    pub barrier: BarrierKind,
-    /// β; the paper's for the energy if absent.
-    pub beta: Option<f64>,
-    /// s of the inverse spline: the share of its rest size below which an element feels the barrier.
-    pub s: f64,
-    /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything; more than 1, in the plane only.
-    #[serde(rename = "max_conformal")]
-    pub bound: Option<f64>,
-    /// Whether, beside the elements, the boundary is kept from crossing itself, so that the map stays bijective; in the plane only.
-    pub bijective: bool,
-}
-
-impl Default for Model {
-    fn default() -> Self {
-        Self {
-            energy: DeformationEnergy::default(),
-            barrier: BarrierKind::default(),
-            beta: None,
-            s: 1.0,
-            bound: None,
-            bijective: false,
-        }
+options! {
+    /// What a deformation costs, as a user says it.
+    #[derive(Copy)]
+    pub struct Model under "Energy and barrier" {
+        /// The deformation energy.
+        pub energy: DeformationEnergy = DeformationEnergy::Arap;
+        /// The barrier against inversion; none is for comparison.
+        pub barrier: BarrierKind = BarrierKind::InverseSpline;
+        /// β, the strength of the barrier; the paper's for the energy if absent: 100 for green and
+        /// 0.01 for the others.
+        pub beta: Option<f64>, value "X";
+        /// s of the inverse spline: the share of its rest size below which an element feels the
+        /// barrier.
+        pub s: f64 = 1.0, value "X";
+        /// What the conformal distortion σ₁/σ₂ of every triangle, its longest over its shortest
+        /// stretch, must stay below, if anything; more than 1, in the plane only.
+        pub max_conformal: Option<f64>, value "K";
+        /// Keep the boundary, beside the elements, from crossing itself, so that the map stays
+        /// bijective; in the plane only.
+        pub bijective: bool;
     }
 }
 
@@ -81,7 +70,10 @@ impl Model {
                 return Err(ProblemError::BadParameter { name, range });
             }
         }
-        if !self.bound.is_none_or(|bound| is_positive(bound - 1.0)) {
+        if !self
+            .max_conformal
+            .is_none_or(|bound| is_positive(bound - 1.0))
+        {
             let (name, range) = ("max_conformal", "a number greater than 1");
             return Err(ProblemError::BadParameter { name, range });
         }
@@ -124,7 +116,7 @@ impl Problem {
             untangled: 0,
             energy: model.energy,
             barrier: model.barrier(&body, None)?,
-            bound: model.bound,
+            bound: model.max_conformal,
             boundary_barrier: None,
             stations: vec![bind(&body, handles)?],
             levenberg: LevenbergSettings::default(),

@@ -108,7 +108,7 @@ impl ProblemFile {
             barrier: self.barrier,
             beta: self.beta,
             s: self.gamma,
-            bound: None,
+            max_conformal: None,
             bijective: self.bijective,
         };
         let barrier = model.barrier(&body, self.eps)?;

@@ -124,7 +124,7 @@ pub(super) fn pull(
         start: start.as_flattened().to_vec(),
         untangled: 0,
         energy: model.energy,
-        bound: model.bound,
+        bound: model.max_conformal,
         boundary_barrier: None,
         barrier: model.barrier(&body, Some(epsilon))?,
         stations: vec![holds.handles(&body, start)?],

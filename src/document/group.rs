@@ -37,7 +37,7 @@ impl Primitive {
 
 /// Which primitives share one atlas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum GroupBy {
     /// One atlas per mesh.
@@ -45,7 +45,7 @@ pub enum GroupBy {
     Mesh,
     /// One atlas for the whole file.
     Scene,
-    /// One atlas per material.
+    /// One atlas per material; a mesh without one by itself.
     Material,
     /// One atlas per primitive.
     Primitive,
@@ -54,7 +54,7 @@ pub enum GroupBy {
 /// Primitives that share one UV space.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
-    /// `scene`, `mesh0`, `mesh0/prim0` or `material0` (`material-1` for no material).
+    /// `scene`, `mesh0`, `mesh0/prim0` or `material0`.
     pub name: String,
     /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
     pub label: String,
@@ -101,15 +101,22 @@ pub(super) fn groups(primitives: &[Primitive], by: GroupBy, names: &impl Names) 
     groups
 }
 
+impl GroupBy {
+    /// How a primitive is grouped: one without a material shares nothing with other meshes.
+    fn of(self, primitive: &Primitive) -> Self {
+        match self {
+            Self::Material if primitive.material.is_none() => Self::Mesh,
+            by => by,
+        }
+    }
+}
+
 fn group_name(primitive: &Primitive, by: GroupBy) -> String {
-    match by {
-        GroupBy::Scene => "scene".to_owned(),
-        GroupBy::Mesh => format!("mesh{}", primitive.mesh),
-        GroupBy::Primitive => format!("mesh{}/prim{}", primitive.mesh, primitive.primitive),
-        GroupBy::Material => match primitive.material {
-            Some(material) => format!("material{material}"),
-            None => "material-1".to_owned(),
-        },
+    match (by.of(primitive), primitive.material) {
+        (GroupBy::Scene, _) => "scene".to_owned(),
+        (GroupBy::Material, Some(material)) => format!("material{material}"),
+        (GroupBy::Primitive, _) => format!("mesh{}/prim{}", primitive.mesh, primitive.primitive),
+        (GroupBy::Mesh | GroupBy::Material, _) => format!("mesh{}", primitive.mesh),
     }
 }
 
@@ -118,15 +125,12 @@ fn group_label(primitive: &Primitive, by: GroupBy, names: &impl Names) -> String
         let name = names.mesh(primitive.mesh);
         name.unwrap_or_else(|| format!("mesh {}", primitive.mesh))
     };
-    match by {
-        GroupBy::Scene => "scene".to_owned(),
-        GroupBy::Mesh => mesh(),
-        GroupBy::Primitive => format!("{}, primitive {}", mesh(), primitive.primitive),
-        GroupBy::Material => match primitive.material {
-            Some(material) => {
-                (names.material(material)).unwrap_or_else(|| format!("material {material}"))
-            }
-            None => "no material".to_owned(),
-        },
+    match (by.of(primitive), primitive.material) {
+        (GroupBy::Scene, _) => "scene".to_owned(),
+        (GroupBy::Material, Some(material)) => {
+            (names.material(material)).unwrap_or_else(|| format!("material {material}"))
+        }
+        (GroupBy::Primitive, _) => format!("{}, primitive {}", mesh(), primitive.primitive),
+        (GroupBy::Mesh | GroupBy::Material, _) => mesh(),
     }
 }

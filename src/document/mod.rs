@@ -95,10 +95,11 @@ impl Document {
         }
     }
 
-    /// What shares one UV space unless something else is asked for: a mesh of glTF, else all of a file, as that has one UV space.
+    /// What shares one UV space unless something else is asked for: the meshes of one material of
+    /// glTF, else all of a file, as that has one UV space.
     pub fn grouping(&self) -> GroupBy {
         match self {
-            Self::Gltf(_) => GroupBy::Mesh,
+            Self::Gltf(_) => GroupBy::Material,
             Self::Obj(_) | Self::Soup(_) => GroupBy::Scene,
         }
     }

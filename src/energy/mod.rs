@@ -48,14 +48,14 @@ pub use zero::Zero;
 
 /// Which density is minimized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum EnergyKind {
-    /// [`Arap`]: as rigid as possible.
+    /// As rigid as possible.
     #[default]
     Arap,
-    /// [`Lscm`]: least-squares conformal.
+    /// Least-squares conformal.
     Lscm,
-    /// [`SymmetricDirichlet`]: as isometric as possible, stretching and shrinking punished alike.
+    /// As isometric as possible, stretching and shrinking punished alike.
     SymmetricDirichlet,
 }

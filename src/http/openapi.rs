@@ -39,7 +39,7 @@ pub(super) fn document(mut api: OpenApi) -> String {
         .extend(schemas::schemas());
     let mut document = serde_json::to_value(api).unwrap_or_default();
     document["x-problems"] = problems();
-    schemas::merge_parts(&mut document["components"]["schemas"]);
+    schemas::merge_groups(&mut document["components"]["schemas"]);
 
     let all = Kind::ALL.map(schemas::options);
     let all: BTreeSet<&str> = all.into_iter().collect();

@@ -1,5 +1,7 @@
 //! Schemas of options and reports, as the OpenAPI document has them.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Map, Value, json};
 use utoipa::ToSchema;
 use utoipa::openapi::{RefOr, Schema};
@@ -62,31 +64,39 @@ pub(super) fn bytes() -> Value {
     json!({ "type": "string", "format": "binary" })
 }
 
-/// Options that consist of parts become one object: of parts that each refuse what they do not know, none knows all.
-pub(super) fn merge_parts(schemas: &mut Value) {
-    let names: Vec<String> = ["DeformOptions", "WarpOptions", "EditOptions"]
-        .map(str::to_owned)
-        .into();
-    for name in names {
-        let Some(parts) = schemas[&name]["allOf"].as_array().cloned() else {
-            continue;
-        };
-        let mut properties = Map::new();
-        for part in parts {
-            let part = match part["$ref"].as_str().and_then(|r| r.rsplit('/').next()) {
-                Some(target) => schemas[target].clone(),
-                None => part,
-            };
-            properties.extend(part["properties"].as_object().cloned().unwrap_or_default());
+/// Options become one object each, and their groups are no schemas: of parts that each refuse what
+/// they do not know, none knows all.
+pub(super) fn merge_groups(schemas: &mut Value) {
+    let mut groups = BTreeSet::new();
+    for name in Kind::ALL.map(options) {
+        let merged = merged(&schemas[name], schemas, &mut groups);
+        schemas[name]["properties"] = Value::Object(merged);
+        schemas[name]["type"] = json!("object");
+        schemas[name]["additionalProperties"] = json!(false);
+        if let Some(schema) = schemas[name].as_object_mut() {
+            schema.remove("allOf");
         }
-        let description = schemas[&name]["description"].clone();
-        schemas[&name] = json!({
-            "type": "object",
-            "description": description,
-            "properties": properties,
-            "additionalProperties": false,
-        });
     }
+    if let Some(schemas) = schemas.as_object_mut() {
+        schemas.retain(|name, _| !groups.contains(name));
+    }
+}
+
+/// The members of a schema and of the groups that it consists of, whose names are collected.
+fn merged(schema: &Value, schemas: &Value, groups: &mut BTreeSet<String>) -> Map<String, Value> {
+    let mut members = schema["properties"]
+        .as_object()
+        .cloned()
+        .unwrap_or_default();
+    for part in schema["allOf"].as_array().into_iter().flatten() {
+        let group = part["$ref"]
+            .as_str()
+            .and_then(|path| path.rsplit('/').next());
+        let part = group.map_or(part, |group| &schemas[group]);
+        members.extend(merged(part, schemas, groups));
+        groups.extend(group.map(str::to_owned));
+    }
+    members
 }
 
 /// The members of options as query parameters. Kinds may mean different things by one name.

@@ -7,8 +7,8 @@ use serde_json::Value;
 use super::job::{Kind, Verdict};
 use crate::document::{Upload, Warning};
 use crate::pipeline::{
-    self, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions, Observer, Options,
-    PipelineError, RepackOptions, SolveOptions, WarpOptions,
+    self, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions,
+    Observer, Options, PipelineError, RepackOptions, SolveOptions, WarpOptions,
 };
 
 /// What a job leaves.
@@ -32,28 +32,33 @@ impl Work {
     /// Reads and checks the options of a kind; what is absent has its default.
     pub fn new(kind: Kind, options: Value) -> Result<Self, PipelineError> {
         match kind {
-            Kind::Unwrap => Self::of(options, Options::check, unwrap),
-            Kind::Measure => Self::of(options, MeasureOptions::check, measure),
-            Kind::Solve => Self::of(options, SolveOptions::check, solve),
-            Kind::Deform => Self::of(options, DeformOptions::check, deform),
-            Kind::Warp => Self::of(options, WarpOptions::check, warp),
-            Kind::EditUv => Self::of(options, EditOptions::check, edit_uv),
-            Kind::TextureMap => Self::of(options, EditOptions::check, texture_map),
-            Kind::Repack => Self::of(options, RepackOptions::check, repack),
+            Kind::Unwrap => Self::of(options, unwrap),
+            Kind::Measure => Self::of(options, measure),
+            Kind::Solve => Self::of(options, solve),
+            Kind::Deform => Self::of(options, deform),
+            Kind::Warp => Self::of(options, warp),
+            Kind::EditUv => Self::of(options, edit_uv),
+            Kind::TextureMap => Self::of(options, texture_map),
+            Kind::Repack => Self::of(options, repack),
         }
     }
 
-    fn of<O: DeserializeOwned + Serialize + Send + 'static>(
+    fn of<O>(
         options: Value,
-        check: fn(&O) -> Result<(), PipelineError>,
-        run: fn(&Upload, O, Limits, &dyn Observer) -> Ended,
-    ) -> Result<Self, PipelineError> {
+        run: fn(&Upload, &O, &dyn Observer) -> Ended,
+    ) -> Result<Self, PipelineError>
+    where
+        O: CommandOptions + DeserializeOwned + Serialize + Send + 'static,
+    {
         let refused = |error: serde_json::Error| PipelineError::InvalidOptions(error.to_string());
-        let options: O = serde_json::from_value(options).map_err(refused)?;
-        check(&options)?;
+        let mut options: O = serde_json::from_value(options).map_err(refused)?;
+        options.check()?;
         Ok(Self {
             options: serde_json::to_value(&options).map_err(refused)?,
-            run: Box::new(move |upload, limits, observer| run(upload, options, limits, observer)),
+            run: Box::new(move |upload, limits, observer| {
+                options.caller_mut().limits = limits;
+                run(upload, &options, observer)
+            }),
         })
     }
 
@@ -68,19 +73,12 @@ impl Work {
     }
 }
 
-fn unwrap(upload: &Upload, mut options: Options, limits: Limits, observer: &dyn Observer) -> Ended {
-    options.limits = limits;
-    drawn(pipeline::unwrap_document(upload, &options, observer)?)
+fn unwrap(upload: &Upload, options: &Options, observer: &dyn Observer) -> Ended {
+    drawn(pipeline::unwrap_document(upload, options, observer)?)
 }
 
-fn repack(
-    upload: &Upload,
-    mut options: RepackOptions,
-    limits: Limits,
-    observer: &dyn Observer,
-) -> Ended {
-    options.limits = limits;
-    drawn(pipeline::repack_document(upload, &options, observer)?)
+fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> Ended {
+    drawn(pipeline::repack_document(upload, options, observer)?)
 }
 
 /// An atlas with its pictures and its report.
@@ -93,35 +91,17 @@ fn drawn(outcome: pipeline::Outcome) -> Ended {
     Ok(made.reported(report, Some(report.certified), &report.warnings))
 }
 
-fn measure(
-    upload: &Upload,
-    mut options: MeasureOptions,
-    limits: Limits,
-    _: &dyn Observer,
-) -> Ended {
-    options.limits = limits;
-    let report = pipeline::measure_document(upload, &options)?;
+fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended {
+    let report = pipeline::measure_document(upload, options)?;
     Ok(Made::new(Vec::new()).reported(&report, None, &report.warnings))
 }
 
-fn solve(
-    upload: &Upload,
-    mut options: SolveOptions,
-    limits: Limits,
-    observer: &dyn Observer,
-) -> Ended {
-    options.limits = limits;
-    pipeline::solve_file(upload, &options, observer).map(body)
+fn solve(upload: &Upload, options: &SolveOptions, observer: &dyn Observer) -> Ended {
+    pipeline::solve_file(upload, options, observer).map(body)
 }
 
-fn deform(
-    upload: &Upload,
-    mut options: DeformOptions,
-    limits: Limits,
-    observer: &dyn Observer,
-) -> Ended {
-    options.limits = limits;
-    pipeline::deform_file(upload, &options, observer).map(body)
+fn deform(upload: &Upload, options: &DeformOptions, observer: &dyn Observer) -> Ended {
+    pipeline::deform_file(upload, options, observer).map(body)
 }
 
 fn body(deformed: Deformed) -> Made {
@@ -131,36 +111,18 @@ fn body(deformed: Deformed) -> Made {
     made
 }
 
-fn warp(
-    upload: &Upload,
-    mut options: WarpOptions,
-    limits: Limits,
-    observer: &dyn Observer,
-) -> Ended {
-    options.limits = limits;
-    let warped = pipeline::warp_file(upload, &options, observer)?;
+fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> Ended {
+    let warped = pipeline::warp_file(upload, options, observer)?;
     let report = &warped.report;
     Ok(Made::new(warped.files).reported(report, Some(report.certified), &report.warnings))
 }
 
-fn edit_uv(
-    upload: &Upload,
-    mut options: EditOptions,
-    limits: Limits,
-    observer: &dyn Observer,
-) -> Ended {
-    options.limits = limits;
-    edit(upload, Editing::Map, &options, observer)
+fn edit_uv(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> Ended {
+    edit(upload, Editing::Map, options, observer)
 }
 
-fn texture_map(
-    upload: &Upload,
-    mut options: EditOptions,
-    limits: Limits,
-    observer: &dyn Observer,
-) -> Ended {
-    options.limits = limits;
-    edit(upload, Editing::Texture, &options, observer)
+fn texture_map(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> Ended {
+    edit(upload, Editing::Texture, options, observer)
 }
 
 fn edit(

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// What a heat map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum HeatmapMeasure {
     /// σ₁/σ₂, ideal 1.

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::divided::Divided;
 use super::observer::{Observer, Stage, Tracker};
+use super::options::Workers;
 use super::packed::packed;
 use super::packing::{atlas_options, expected_words, search_words};
 use super::portion::Portion;
@@ -79,24 +80,24 @@ pub fn unwrap_along(
     observer: &dyn Observer,
 ) -> Result<Unwrapped, PipelineError> {
     settings.validate().map_err(PipelineError::InvalidOptions)?;
-    let tracker = Tracker::new(observer, settings.time_budget);
+    let tracker = Tracker::new(observer, settings.budget);
     let mesh = Soup {
         positions,
         triangles,
         seams,
         parts: &[],
     };
-    let mut atlases = in_pool(settings.threads, || unwrap_all(&[mesh], settings, &tracker))??;
+    let mut atlases = in_pool(settings.workers, || unwrap_all(&[mesh], settings, &tracker))??;
     atlases.pop().ok_or(PipelineError::NoTriangles)
 }
 
-/// Runs `work` with the given number of threads; nothing of it touches rayon's global pool.
+/// Runs `work` with so many threads; nothing of it touches rayon's global pool.
 pub(super) fn in_pool<T: Send>(
-    threads: Option<usize>,
+    workers: Workers,
     work: impl FnOnce() -> T + Send,
 ) -> Result<T, PipelineError> {
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
+        .num_threads(workers.threads.unwrap_or(0))
         .build()
         .map_err(|error| PipelineError::Threads(error.to_string()))?;
     Ok(pool.install(work))

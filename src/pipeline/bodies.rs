@@ -8,7 +8,7 @@ use crate::mesh::io::{ElementFormat, Elements, text_positions};
 
 /// What a deformed body is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum BodyFormat {
     /// Positions, one per line, 17 digits.

@@ -3,11 +3,11 @@
 use super::PipelineError;
 use super::bodies::BodyFormat;
 use super::cage_map::{CageMap, subdivision, widened};
-use super::deform::DeformOptions;
 use super::limits::Limits;
 use super::merged::Merged;
 use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::observer::{Stage, Tracker};
+use super::options::DeformOptions;
 use super::solution::{Deformed, WriteMap, solve};
 use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, Caged, CagedSurface};
@@ -107,8 +107,8 @@ pub(super) fn deform(
             },
             model: options.model,
             format,
-            stem: options.stem(upload),
-            limits: options.limits,
+            stem: options.caller.stem(upload),
+            limits: options.caller.limits,
         },
     )?;
     caged.start_coarse(tracker);

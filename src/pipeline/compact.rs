@@ -56,12 +56,12 @@ pub(super) fn compacted(
     };
     let words = options.search_words / 4 * 3;
     let (n_charts, pages) = (charts.len() as u64, u64::from(options.texture.pages));
-    let wanted = settings.max_charts.map_or(u64::MAX, u64::from);
+    let wanted = settings.cutting.max_charts.map_or(u64::MAX, u64::from);
     let most_cuts = (wanted.saturating_sub(n_charts))
         .min(MOST_CUTS * pages)
         .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
-    let seam_weight = settings.seam_weight * settings.quality.seam_price();
+    let seam_weight = settings.cutting.seam_weight * settings.cutting.quality.seam_price();
     let candidates = candidates(
         charts,
         draft,

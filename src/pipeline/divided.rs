@@ -29,7 +29,7 @@ pub(super) struct Divided<'a> {
 impl<'a> Divided<'a> {
     pub(super) fn new(meshes: &[Soup<'a>], settings: &Settings) -> Result<Self, PipelineError> {
         // So many charts are allowed for an atlas, not for a piece.
-        let is_one = settings.max_charts.is_some();
+        let is_one = settings.cutting.max_charts.is_some();
         let pieces: Vec<Vec<Piece>> = meshes
             .par_iter()
             .map(|mesh| if is_one { mesh.whole() } else { mesh.pieces() })
@@ -154,7 +154,7 @@ impl<'a> Divided<'a> {
         };
         let Alike { first, size } = self.shapes[whole(mesh)?];
         let other = self.of_mesh.partition_point(|pieces| pieces.end <= first);
-        let is_sized = settings.texels_per_unit.is_none() || (size - 1.0).abs() <= SAME_SIZE;
+        let is_sized = settings.layout.texels_per_unit.is_none() || (size - 1.0).abs() <= SAME_SIZE;
         let is_same = other != mesh && whole(other).is_some() && is_sized;
         is_same.then_some((other, size))
     }

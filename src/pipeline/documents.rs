@@ -6,7 +6,7 @@ use super::bound_report::BoundReport;
 use super::judge::WrittenUvs;
 use super::merged::Merged;
 use super::observer::{Observer, Stage, Tracker};
-use super::options::Options;
+use super::options::{CommandOptions, Options};
 use super::pictures::Pictures;
 use super::prepared::Prepared;
 use super::rebake::{self, rebaked};
@@ -40,8 +40,8 @@ pub fn unwrap_document(
     let options = &options.resolved();
     options.check()?;
     let settings = options.settings();
-    let tracker = Tracker::new(observer, settings.time_budget);
-    in_pool(settings.threads, || {
+    let tracker = Tracker::new(observer, settings.budget);
+    in_pool(settings.workers, || {
         unwrap_in_pool(upload, options, &tracker)
     })?
 }
@@ -73,9 +73,9 @@ fn unwrap_in_pool(
     let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
     seconds.unwrap = watch.lap();
 
-    let uvs = new_uvs(&document, &groups, &atlases, options.pages);
+    let uvs = new_uvs(&document, &groups, &atlases, options.layout.pages);
     let mut baked = None;
-    if options.rebake {
+    if options.baking.rebake {
         tracker.stage(Stage::Bake);
         baked = Some(rebaked(&document, &groups, &uvs, options)?);
     }
@@ -94,7 +94,7 @@ fn unwrap_in_pool(
     for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
         group.weights = mesh.seams.weights;
     }
-    let mut groups = uvs.judge(&options.claims(), options.resolution);
+    let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
     add_history(&mut groups, &atlases, &uvs, options);
     seconds.judge = watch.lap();
 
@@ -111,7 +111,7 @@ fn unwrap_in_pool(
         group_by: Some(group_by),
         ..options.clone()
     });
-    report.limits = Some(options.limits);
+    report.limits = Some(options.caller.limits);
     report.written = Some(written.notes);
     report.seconds = Some(seconds);
     Ok(Outcome {
@@ -119,9 +119,9 @@ fn unwrap_in_pool(
         report,
         pictures: Pictures {
             uvs,
-            texture: options.resolution,
+            texture: options.layout.resolution,
             shown: options.heatmap_measure,
-            threads: options.settings().threads,
+            workers: options.settings().workers,
         },
     })
 }
@@ -135,9 +135,9 @@ fn write(
 ) -> Result<Written, PipelineError> {
     let write_options = WriteOptions {
         format: options.format,
-        stem: options.stem.clone().unwrap_or_else(|| stem(&upload.name)),
-        texcoord: options.texcoord,
-        overwrite: options.overwrite,
+        stem: options.caller.stem(upload),
+        texcoord: options.sets.texcoord,
+        overwrite: options.sets.overwrite,
         terms: Some(options.terms(group_by)),
     };
     let mut written = document.write_baked(uvs, &write_options, baked)?;
@@ -173,17 +173,6 @@ fn from_grid(corners: &GridCorners) -> Corners {
     corners.map(|uv| uv.map(|i| i as f32 / (1_u32 << GRID_BITS) as f32))
 }
 
-/// The file name without folders and extension.
-pub(super) fn stem(name: &str) -> String {
-    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
-    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    if stem.is_empty() {
-        "mesh".into()
-    } else {
-        stem.into()
-    }
-}
-
 /// Adds to each group what only unwrapping knows.
 fn add_history(
     groups: &mut [GroupReport],
@@ -191,8 +180,8 @@ fn add_history(
     uvs: &WrittenUvs,
     options: &Options,
 ) {
-    let aspect = options.resolution.aspect();
-    let bound = (options.cut == Cut::Auto).then(|| options.settings().bound());
+    let aspect = options.layout.resolution.aspect();
+    let bound = (options.cutting.cut == Cut::Auto).then(|| options.cutting.bound());
     let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
     for ((group, atlas), uvs) in groups.iter_mut().zip(atlases).zip(&uvs.groups) {
         group.defects = Some(atlas.defects);

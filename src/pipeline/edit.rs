@@ -4,10 +4,9 @@ use serde::Serialize;
 
 use super::PipelineError;
 use super::arrays::in_pool;
-use super::documents::stem;
-use super::edit_options::{EditOptions, Editing};
 use super::edit_terms::{edited_terms, holds};
 use super::observer::{Observer, Stage, Tracker};
+use super::options::{CommandOptions, EditOptions, Editing};
 use super::pull_report::PullReport;
 use crate::barrier::BarrierKind;
 use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar, chart_ids};
@@ -64,16 +63,16 @@ pub fn edit_document(
     observer: &dyn Observer,
 ) -> Result<EditedDocument, PipelineError> {
     options.check()?;
-    let tracker = Tracker::new(observer, options.limits.time_budget(options.time_budget));
-    in_pool(options.limits.threads, || {
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
         tracker.stage(Stage::Read);
         let document = Document::read(upload)?;
-        options.limits.check(&document)?;
+        options.caller.limits.check(&document)?;
         let whole = Whole::gather(&document, options.texcoord)?;
         let how = options.of_map(editing);
         let edited = edit_uvs(&whole.mesh(), &options.anchors, &how, &tracker)?;
         tracker.stage(Stage::Write);
-        let stem = options.stem.clone().unwrap_or_else(|| stem(&upload.name));
+        let stem = options.caller.stem(upload);
         let mut write_options = WriteOptions {
             format: options.format,
             stem,

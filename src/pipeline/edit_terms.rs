@@ -1,9 +1,8 @@
 //! What a document with edited UVs promises.
 
 use super::PipelineError;
-use super::edit_options::EditOptions;
 use super::judge::WrittenUvs;
-use super::measure_options::MeasureOptions;
+use super::options::{EditOptions, MeasureOptions};
 use crate::certificate::Overlap;
 use crate::document::{Document, DocumentError, GroupBy, Marked, OutputFormat, Sets, Terms};
 

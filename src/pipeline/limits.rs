@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
-use super::settings::within;
 use crate::document::Document;
 
 /// Limits set by who runs the work, beside the options of who wants it. What is absent is not limited.
@@ -39,19 +38,4 @@ impl Limits {
             _ => Ok(()),
         }
     }
-
-    /// The threads asked for, as far as they are allowed.
-    pub(super) fn threads(&self, asked: Option<usize>) -> Option<usize> {
-        asked.into_iter().chain(self.threads).min()
-    }
-
-    /// The time budget asked for, as far as it is allowed.
-    pub(super) fn time_budget(&self, asked: Option<f64>) -> Option<f64> {
-        asked.into_iter().chain(self.seconds).reduce(f64::min)
-    }
-}
-
-/// Checks the seconds that a caller gives.
-pub(super) fn check_time_budget(seconds: Option<f64>) -> Result<(), PipelineError> {
-    within("time_budget", seconds.unwrap_or(0.0), 0.0, 1e6).map_err(PipelineError::InvalidOptions)
 }

@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 use super::observer::Tracker;
 use super::portion::Portion;
 use super::seams::Seams;
-use super::settings::{KeptMaps, Settings};
+use super::settings::Settings;
 use crate::barrier::BarrierKind;
 use crate::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
@@ -24,8 +24,8 @@ pub(super) fn mapped_charts(
     settings: &Settings,
     tracker: &Tracker,
 ) -> Vec<Vec<MappedChart>> {
-    let is_promised = settings.barrier != BarrierKind::None;
-    if settings.cut == Cut::Auto && is_promised {
+    let is_promised = settings.mapping.barrier != BarrierKind::None;
+    if settings.cutting.cut == Cut::Auto && is_promised {
         tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
         let options = options(settings);
         let charts = surfaces
@@ -42,17 +42,17 @@ pub(super) fn mapped_charts(
     }
     let charts: Vec<Vec<Chart>> = surfaces
         .par_iter()
-        .map(|surface| charts(surface, settings.cut))
+        .map(|surface| charts(surface, settings.cutting.cut))
         .collect();
     let kept = |mesh: usize, chart: &Chart| {
-        let uvs = (settings.cut == Cut::Keep).then_some(seams[mesh].uvs.as_ref());
+        let uvs = (settings.cutting.cut == Cut::Keep).then_some(seams[mesh].uvs.as_ref());
         Some(uvs_of(chart, surfaces[mesh], uvs.flatten()?))
     };
     let maps = map_charts(charts, kept, settings, tracker);
     if !gives_back(settings) {
         return maps;
     }
-    let (bound, options) = (settings.bound(), options(settings));
+    let (bound, options) = (settings.cutting.bound(), options(settings));
     (surfaces.par_iter().zip(maps))
         .map(|(surface, maps)| {
             let portion = Portion::of_chart(tracker, surface.triangles.len());
@@ -63,7 +63,7 @@ pub(super) fn mapped_charts(
 
 /// Whether charts are given back once all are mapped.
 fn gives_back(settings: &Settings) -> bool {
-    settings.cut != Cut::Fast && folds(settings) == Folds::Cut
+    settings.cutting.cut != Cut::Fast && folds(settings) == Folds::Cut
 }
 
 /// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
@@ -74,8 +74,11 @@ fn under_bound(
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
-    let most = settings.max_charts.map_or(usize::MAX, |n| n as usize);
-    let mut bound = settings.bound();
+    let most = settings
+        .cutting
+        .max_charts
+        .map_or(usize::MAX, |n| n as usize);
+    let mut bound = settings.cutting.bound();
     let mut fewest = charts_under_bound(surface, &bound, options, observer);
     while fewest.len() > most {
         let next = Quality::looser_than(bound.mean);
@@ -140,7 +143,9 @@ fn map_charts(
         .map(|(id, chart)| {
             let portion = Portion::of_chart(tracker, chart.disk.triangles.len());
             let parts = match kept(id.0, &chart) {
-                Some(uv) if are_given(settings) => vec![MappedChart::given(chart, uv)],
+                Some(uv) if settings.cutting.are_maps_given() => {
+                    vec![MappedChart::given(chart, uv)]
+                }
                 Some(uv) => map_chart_from(chart, uv, &options, &portion),
                 None => map_chart(chart, &options, folds, &portion),
             };
@@ -155,14 +160,12 @@ fn map_charts(
     maps
 }
 
-/// Whether maps stay as they are given.
-pub(super) fn are_given(settings: &Settings) -> bool {
-    settings.cut == Cut::Keep && settings.kept_maps == KeptMaps::AsGiven
-}
-
 /// Whoever asks for one chart per component wants no other seams, and without a barrier nothing is promised.
 pub(super) fn folds(settings: &Settings) -> Folds {
-    if settings.cut == Cut::Disk || are_given(settings) || settings.barrier == BarrierKind::None {
+    if settings.cutting.cut == Cut::Disk
+        || settings.cutting.are_maps_given()
+        || settings.mapping.barrier == BarrierKind::None
+    {
         Folds::Keep
     } else {
         Folds::Cut
@@ -171,11 +174,11 @@ pub(super) fn folds(settings: &Settings) -> Folds {
 
 fn options(settings: &Settings) -> embed::Options {
     embed::Options {
-        energy: settings.energy,
-        barrier: settings.barrier,
-        beta: settings.barrier_strength,
-        s: settings.barrier_support,
-        pins: if settings.pin == 0 {
+        energy: settings.mapping.energy,
+        barrier: settings.mapping.barrier,
+        beta: settings.mapping.barrier_strength,
+        s: settings.mapping.barrier_support,
+        pins: if settings.mapping.pin == 0 {
             Pins::None
         } else {
             Pins::Two

@@ -61,8 +61,8 @@ impl Merged {
         options: &Options,
     ) -> Result<Self, PipelineError> {
         let mut merged = Self::new(primitives, group);
-        if options.cut == Cut::Keep {
-            let set = options.source_texcoord.unwrap_or(0);
+        if options.cutting.cut == Cut::Keep {
+            let set = options.sets.source_texcoord.unwrap_or(0);
             merged.seams.uvs = Some(corner_uvs(document, group, set)?);
         }
         if options.material_borders {
@@ -73,8 +73,8 @@ impl Merged {
             });
             merged.seams.labels = Some(labels.collect());
         }
-        if !options.texel_weights.is_empty() {
-            let weights = face_weights(document, primitives, group, &options.texel_weights);
+        if !options.texel_weight.is_empty() {
+            let weights = face_weights(document, primitives, group, &options.texel_weight);
             merged.seams.weights = Some(weights?);
         }
         match &options.seams {

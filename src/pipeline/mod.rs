@@ -24,6 +24,7 @@ mod divided;
 mod error;
 mod map;
 mod observer;
+mod options;
 mod portion;
 mod repeated;
 mod seams;
@@ -45,27 +46,19 @@ mod documents;
 #[cfg(feature = "files")]
 mod edit;
 #[cfg(feature = "files")]
-mod edit_options;
-#[cfg(feature = "files")]
 mod edit_terms;
 #[cfg(feature = "files")]
 mod group_uvs;
 #[cfg(feature = "files")]
-mod idle;
-#[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]
 mod limits;
-#[cfg(feature = "files")]
-mod measure_options;
 #[cfg(feature = "files")]
 mod merged;
 #[cfg(feature = "files")]
 mod moved;
 #[cfg(feature = "files")]
 mod nodes;
-#[cfg(feature = "files")]
-mod options;
 mod packed;
 mod packing;
 #[cfg(feature = "files")]
@@ -74,8 +67,6 @@ mod pictures;
 mod planar_map;
 #[cfg(feature = "files")]
 mod prepared;
-#[cfg(feature = "files")]
-mod preset;
 #[cfg(feature = "files")]
 mod proven;
 #[cfg(feature = "files")]
@@ -106,8 +97,9 @@ mod warp;
 pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
+pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
 pub use seams::Seams;
-pub use settings::{KeptMaps, PackingMode, Settings};
+pub use settings::Settings;
 
 #[cfg(feature = "files")]
 pub use bodies::BodyFormat;
@@ -116,23 +108,20 @@ pub use bound_report::{BoundReport, WorstChart, stretch_percent};
 #[cfg(feature = "files")]
 pub use caged::{CageOptions, CageReport, CagedDocument, Surfaces};
 #[cfg(feature = "files")]
-pub use deform::{DeformOptions, deform_file};
+pub use deform::deform_file;
 #[cfg(feature = "files")]
 pub use documents::{Outcome, unwrap_document};
 #[cfg(feature = "files")]
 pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document};
 #[cfg(feature = "files")]
-pub use edit_options::{EditOptions, Editing};
-#[cfg(feature = "files")]
 pub use limits::Limits;
 #[cfg(feature = "files")]
-pub use measure_options::MeasureOptions;
-#[cfg(feature = "files")]
-pub use options::{GivenSeams, NamedSeams, Options};
+pub use options::{
+    Baking, Caller, CommandOptions, Course, DeformOptions, EditOptions, Editing, GivenSeams,
+    MeasureOptions, NamedSeams, Options, Preset, RepackOptions, Sets, SolveOptions, WarpOptions,
+};
 #[cfg(feature = "files")]
 pub use pictures::{Drawn, Pictures};
-#[cfg(feature = "files")]
-pub use preset::Preset;
 #[cfg(feature = "files")]
 pub use proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
 #[cfg(feature = "files")]
@@ -140,16 +129,16 @@ pub use pull_report::PullReport;
 #[cfg(feature = "files")]
 pub use rebake::ImageFormat;
 #[cfg(feature = "files")]
-pub use repack::{RepackOptions, repack_document};
+pub use repack::repack_document;
 #[cfg(feature = "files")]
 pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
 #[cfg(feature = "files")]
 pub use solution::{DeformReport, Deformed};
 #[cfg(feature = "files")]
-pub use solve::{SolveOptions, solve_file};
+pub use solve::solve_file;
 #[cfg(feature = "files")]
 pub use texel_weight::TexelWeight;
 #[cfg(feature = "files")]
 pub use verify::{Verified, VerifiedGroup, measure_document, verify_document};
 #[cfg(feature = "files")]
-pub use warp::{WarpOptions, WarpReport, WarpedPicture, warp_file};
+pub use warp::{WarpReport, WarpedPicture, warp_file};

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use super::options::Budget;
 use crate::solver::{Control, Iterate, Watch};
 
 /// The stages of a job, in order.
@@ -129,7 +130,7 @@ impl State {
 }
 
 impl<'a> Tracker<'a> {
-    pub(super) fn new(observer: &'a dyn Observer, time_budget: Option<f64>) -> Self {
+    pub(super) fn new(observer: &'a dyn Observer, budget: Budget) -> Self {
         let progress = Progress {
             stage: Stage::Read,
             fraction: 0.0,
@@ -141,7 +142,7 @@ impl<'a> Tracker<'a> {
         };
         Self {
             observer,
-            time_budget: time_budget.and_then(|s| Duration::try_from_secs_f64(s).ok()),
+            time_budget: (budget.time_budget).and_then(|s| Duration::try_from_secs_f64(s).ok()),
             state: Mutex::new(State {
                 progress,
                 ends: 0.0,

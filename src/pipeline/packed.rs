@@ -83,7 +83,7 @@ fn drafted(
     settings: &Settings,
     on_read: &OnRead,
 ) -> Result<Drafted, AtlasError> {
-    match settings.cut {
+    match settings.cutting.cut {
         Cut::Auto if folds(settings) == Folds::Cut => compacted(charts, options, settings, on_read),
         _ => Drafted::new(charts, options),
     }
@@ -104,7 +104,7 @@ fn settled(
     let (mut rounds, mut openings) = (0, 0);
     loop {
         let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options, on_read)?;
-        let safe = settings.quantization_safe;
+        let safe = settings.mapping.quantization_safe;
         if openings < OPENINGS
             && safe.is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))
         {

@@ -2,7 +2,6 @@
 
 use super::clearance::texels_apart;
 use super::compact::MOST_CHARTS;
-use super::map::are_given;
 use super::settings::Settings;
 use crate::atlas::{AtlasOptions, Scale, Texture, Turns};
 use crate::charts::{Cut, MappedChart};
@@ -30,14 +29,17 @@ pub(super) fn atlas_options(
     let cells = (of_each / WORDS_PER_CELL).isqrt() as u32;
     AtlasOptions {
         texture: Texture {
-            resolution: settings.resolution,
-            pages: settings.pages,
+            resolution: settings.layout.resolution,
+            pages: settings.layout.pages,
         },
-        scale: settings.texels_per_unit.map_or(Scale::Largest, |texels| {
-            Scale::TexelsPerUnit(texels / density(charts))
-        }),
+        scale: settings
+            .layout
+            .texels_per_unit
+            .map_or(Scale::Largest, |texels| {
+                Scale::TexelsPerUnit(texels / density(charts))
+            }),
         padding_texels: padding_texels(settings),
-        turns: if are_given(settings) {
+        turns: if settings.cutting.are_maps_given() {
             Turns::Quarters
         } else {
             Turns::Any
@@ -52,17 +54,17 @@ pub(super) fn atlas_options(
 pub(super) fn search_words(settings: &Settings, n_meshes: usize, n_faces: usize) -> u64 {
     let [least, most] = SEARCH_WORDS_OF_MESH;
     let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
-    let words = match settings.cut {
+    let words = match settings.cutting.cut {
         Cut::Fast => SEARCH_WORDS_IF_FAST,
         _ => words.clamp(least, most),
     };
-    settings.packing.passes() * words.min(SEARCH_WORDS_OF_ALL / n_meshes as u64)
+    settings.layout.packing.passes() * words.min(SEARCH_WORDS_OF_ALL / n_meshes as u64)
 }
 
 /// About how many words packing reads: looking for cuts takes most, and where charts are not cut the rest is all.
 pub(super) fn expected_words(settings: &Settings, options: &AtlasOptions, n_charts: usize) -> u64 {
     let words = options.search_words;
-    if settings.cut == Cut::Auto && n_charts <= MOST_CHARTS {
+    if settings.cutting.cut == Cut::Auto && n_charts <= MOST_CHARTS {
         words + words / 8
     } else {
         words / 4 + words / 16
@@ -71,9 +73,11 @@ pub(super) fn expected_words(settings: &Settings, options: &AtlasOptions, n_char
 
 /// The padding asked for, or what keeps charts apart when UVs are rounded.
 fn padding_texels(settings: &Settings) -> u32 {
-    let safe = settings.quantization_safe;
-    let least = safe.map_or(0, |bits| texels_apart(bits, settings.resolution.longer()));
-    settings.padding.max(least)
+    let safe = settings.mapping.quantization_safe;
+    let least = safe.map_or(0, |bits| {
+        texels_apart(bits, settings.layout.resolution.longer())
+    });
+    settings.layout.padding.max(least)
 }
 
 /// Length in the maps over length on the surface: the root of the ratio of the areas.

@@ -6,6 +6,7 @@ use super::PipelineError;
 use super::arrays::in_pool;
 use super::group_uvs::GroupUvs;
 use super::judge::WrittenUvs;
+use super::options::Workers;
 use crate::certificate::chart_ids;
 use crate::measure::{FaceDistortion, face_distortion};
 use crate::mesh::{CornerUvs, Resolution};
@@ -20,7 +21,7 @@ pub struct Pictures {
     pub(super) uvs: WrittenUvs,
     pub(super) texture: Resolution,
     pub(super) shown: HeatmapMeasure,
-    pub(super) threads: Option<usize>,
+    pub(super) workers: Workers,
 }
 
 /// The pictures of a result, as the texture lies.
@@ -38,7 +39,7 @@ impl Pictures {
     /// # Errors
     /// If no thread can be started.
     pub fn draw(&self) -> Result<Drawn, PipelineError> {
-        in_pool(self.threads, || {
+        in_pool(self.workers, || {
             let texture = self.texture;
             let width = f64::from(texture.width) / f64::from(texture.longer());
             let groups = self.uvs.groups.iter();

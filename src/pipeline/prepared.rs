@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::PipelineError;
 use super::merged::check_edges;
-use super::options::{GivenSeams, Options};
+use super::options::{GivenSeams, Options, check_grouping};
 use crate::charts::Cut;
 use crate::document::{Document, DocumentError, GroupBy, OldUvs, OutputFormat, Primitive, Upload};
 
@@ -21,7 +21,7 @@ impl Prepared {
     /// Reads a document, and refuses what cannot be written of it before anything is done.
     pub fn read(upload: &Upload, options: &Options) -> Result<Self, PipelineError> {
         let document = Document::read(upload)?;
-        options.limits.check(&document)?;
+        options.caller.limits.check(&document)?;
         let group_by = match options.format {
             // An OBJ file has one UV space, whatever was asked for.
             OutputFormat::Obj => GroupBy::Scene,
@@ -29,12 +29,13 @@ impl Prepared {
                 options.group_by.unwrap_or(document.grouping())
             }
         };
-        if options.rebake && !can_rebake(&document, options.format) {
+        check_grouping(options, Some(group_by)).map_err(PipelineError::InvalidOptions)?;
+        if options.baking.rebake && !can_rebake(&document, options.format) {
             let what =
                 "new textures for an OBJ file from another format than glTF: write .glb or .gltf";
             return Err(DocumentError::UnsupportedOutput(what.to_owned()).into());
         }
-        let old_uvs = match options.cut {
+        let old_uvs = match options.cutting.cut {
             Cut::Keep => OldUvs::Kept,
             _ => OldUvs::Sampled,
         };

@@ -1,7 +1,7 @@
 //! What is asked of a document's UVs, by its caller and by its own mark.
 
 use super::PipelineError;
-use super::measure_options::MeasureOptions;
+use super::options::{CommandOptions, MeasureOptions};
 use crate::certificate::Overlap;
 use crate::document::{Document, Mark, Marked, Warning};
 

@@ -1,66 +1,14 @@
 //! Problem files solved.
 
-use serde::{Deserialize, Serialize};
-
 use super::PipelineError;
 use super::arrays::in_pool;
-use super::bodies::BodyFormat;
-use super::documents::stem;
-use super::limits::{Limits, check_time_budget};
+use super::limits::Limits;
 use super::observer::{Observer, Stage, Tracker};
-use super::solution::{Deformed, Plan, WriteMap, solve};
-use crate::deform::{Method, Problem, ProblemError, ProblemFile};
+use super::options::{CommandOptions, SolveOptions};
+use super::solution::{Deformed, WriteMap, solve};
+use crate::deform::{Problem, ProblemError, ProblemFile};
 use crate::document::{DocumentError, Upload};
 use crate::mesh::io::{ElementFormat, Elements};
-
-/// How a problem file is solved. The command line's long names in snake case.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-#[serde(deny_unknown_fields, default)]
-pub struct SolveOptions {
-    /// How: projected Newton with advancing targets, or the paper's iteration.
-    pub method: Method,
-    /// Lower the barrier's strength while the energy without it falls.
-    pub barrier_continuation: bool,
-    /// Also minimize without a barrier and report that energy beside the solution's: the barrier's bias.
-    pub bias: bool,
-    /// Show the observer the map of every iteration; over HTTP they become files beside the result, 256 MiB of them at most.
-    pub frames: bool,
-    /// Seconds after which the current valid map is taken as it is.
-    #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
-    pub time_budget: Option<f64>,
-    /// Format of the result: positions as text if absent.
-    pub format: BodyFormat,
-    /// Name of the written file without extension; the problem's if absent. Not an option over HTTP.
-    #[serde(skip)]
-    pub stem: Option<String>,
-    /// What may be used of all this. Not an option over HTTP.
-    #[serde(skip)]
-    pub limits: Limits,
-}
-
-impl Default for SolveOptions {
-    fn default() -> Self {
-        Self {
-            method: Method::Projected,
-            barrier_continuation: false,
-            bias: false,
-            frames: false,
-            time_budget: None,
-            format: BodyFormat::Txt,
-            stem: None,
-            limits: Limits::default(),
-        }
-    }
-}
-
-impl SolveOptions {
-    /// Checks what can be checked without the file.
-    pub fn check(&self) -> Result<(), PipelineError> {
-        check_time_budget(self.time_budget)?;
-        self.format.check_for_mesh()
-    }
-}
 
 /// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in any iterate.
 pub fn solve_file(
@@ -69,20 +17,15 @@ pub fn solve_file(
     observer: &dyn Observer,
 ) -> Result<Deformed, PipelineError> {
     options.check()?;
-    let tracker = Tracker::new(observer, options.limits.time_budget(options.time_budget));
-    in_pool(options.limits.threads, || {
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
         tracker.stage(Stage::Read);
-        let (problem, elements) = read(upload, &options.limits)?;
-        let plan = Plan {
-            method: options.method,
-            barrier_continuation: options.barrier_continuation,
-            bias: options.bias,
-        };
+        let (problem, elements) = read(upload, &options.caller.limits)?;
         let file = |x: &[f64]| options.format.write(&elements, problem.body.dim(), x);
         let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
-        let solved = solve(&problem, plan, &tracker, frames)?;
+        let solved = solve(&problem, options.plan(), &tracker, frames)?;
         tracker.stage(Stage::Write);
-        let stem = options.stem.clone().unwrap_or_else(|| stem(&upload.name));
+        let stem = options.caller.stem(upload);
         Ok(Deformed {
             files: vec![(
                 format!("{stem}.{}", options.format.extension()),

@@ -7,8 +7,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
-use super::settings::within;
 use crate::document::{Document, Group, Primitive};
+use crate::options::within;
 
 /// How many times as many texels along a line a material gets as one without a weight; written `MATERIAL=W`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

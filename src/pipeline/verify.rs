@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::PipelineError;
 use super::arrays::in_pool;
 use super::judge::WrittenUvs;
-use super::measure_options::MeasureOptions;
+use super::options::{CommandOptions, MeasureOptions};
 use super::proven::Proven;
 use super::question::Question;
 use super::report::Report;
@@ -97,13 +97,13 @@ fn with_uvs<T: Send>(
     answer: impl FnOnce(&Document, &Question) -> Result<T, PipelineError> + Send,
 ) -> Result<T, PipelineError> {
     options.check()?;
-    in_pool(options.limits.threads, || {
+    in_pool(options.caller.workers(options.workers), || {
         let document = Document::read(upload)?;
-        options.limits.check(&document)?;
+        options.caller.limits.check(&document)?;
         let question = Question::new(options, &document)?;
         let (_, nodes) = question.options.spaces();
         let document = nodes.prepared(document)?;
-        options.limits.check(&document)?;
+        options.caller.limits.check(&document)?;
         answer(&document, &question)
     })?
 }

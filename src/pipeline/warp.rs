@@ -1,78 +1,18 @@
 //! Pictures pulled by handles.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::PipelineError;
 use super::arrays::in_pool;
-use super::documents::stem;
-use super::idle;
-use super::limits::{Limits, check_time_budget};
 use super::observer::{Observer, Stage, Tracker};
+use super::options::{CommandOptions, WarpOptions};
 use super::pull_report::PullReport;
 use crate::barrier::BarrierKind;
 use crate::certificate::{boundary_crossings, certify_planar};
-use crate::deform::warp::{self, PictureHandle, warp_picture};
-use crate::deform::{Boundary, Model};
+use crate::deform::Boundary;
+use crate::deform::warp::warp_picture;
 use crate::document::{Upload, Warning};
 use crate::picture::Image;
-
-/// How a picture is warped. The command line's long names in snake case; a file of handles is one with the handles only.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-#[serde(deny_unknown_fields, default)]
-pub struct WarpOptions {
-    /// Places of the picture and where they go, in pixels, y down. Each takes hold of its own point; next to
-    /// a fixed border of the nearest inner vertex of the grid, whose target is shifted by the same offset.
-    pub handles: Vec<PictureHandle>,
-    /// Cells of the grid along the longer side.
-    #[cfg_attr(feature = "service", schema(minimum = 1, maximum = 512))]
-    pub grid: usize,
-    /// Hold the border, so that the map is bijective; handles next to it take hold of inner vertices.
-    pub fix_border: bool,
-    /// What the deformation costs, for a mean triangle of an area from ½ to 2.
-    #[serde(flatten)]
-    pub model: Model,
-    /// Seconds after which the current valid map is taken as it is.
-    #[cfg_attr(feature = "service", schema(minimum = 0, maximum = 1e6))]
-    pub time_budget: Option<f64>,
-    /// Name of the written file without extension; the input's if absent. Not an option over HTTP.
-    #[serde(skip)]
-    pub stem: Option<String>,
-    /// What may be used of all this. Not an option over HTTP.
-    #[serde(skip)]
-    pub limits: Limits,
-}
-
-impl Default for WarpOptions {
-    fn default() -> Self {
-        Self {
-            handles: Vec::new(),
-            grid: warp::WarpOptions::default().grid,
-            fix_border: false,
-            model: Model::default(),
-            time_budget: None,
-            stem: None,
-            limits: Limits::default(),
-        }
-    }
-}
-
-impl WarpOptions {
-    /// Checks what can be checked without the file.
-    pub fn check(&self) -> Result<(), PipelineError> {
-        self.model.check()?;
-        idle::check_model(&self.model).map_err(PipelineError::InvalidOptions)?;
-        check_time_budget(self.time_budget)
-    }
-
-    fn boundary(&self) -> Boundary {
-        if self.fix_border {
-            Boundary::Fixed
-        } else {
-            Boundary::Free
-        }
-    }
-}
 
 /// A warped picture.
 #[derive(Clone, Debug)]
@@ -105,15 +45,11 @@ pub fn warp_file(
     observer: &dyn Observer,
 ) -> Result<WarpedPicture, PipelineError> {
     options.check()?;
-    let tracker = Tracker::new(observer, options.limits.time_budget(options.time_budget));
-    in_pool(options.limits.threads, || {
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
         tracker.stage(Stage::Read);
         let image = Image::decode(&upload.bytes)?;
-        let how = warp::WarpOptions {
-            grid: options.grid,
-            boundary: options.boundary(),
-            model: options.model,
-        };
+        let how = options.of_grid();
         let warped = warp_picture(&image, &options.handles, &how, &tracker)?;
         let (vertices, triangles) = (&warped.deformed, warped.grid.triangles());
         let map = PullReport::new(
@@ -130,7 +66,7 @@ pub fn warp_file(
             return Err(PipelineError::Inverted);
         }
         tracker.stage(Stage::Write);
-        let stem = options.stem.clone().unwrap_or_else(|| stem(&upload.name));
+        let stem = options.caller.stem(upload);
         Ok(WarpedPicture {
             files: vec![(format!("{stem}.png"), warped.picture.image.png())],
             report: WarpReport {

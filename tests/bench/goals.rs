@@ -166,8 +166,11 @@ fn assets() {
             .map(|p| p.map(|x| x as f32))
             .collect();
         let settings = pipeline::Settings {
-            cut,
-            threads: Some(1),
+            cutting: pipeline::Cutting {
+                cut,
+                ..pipeline::Cutting::default()
+            },
+            workers: pipeline::Workers { threads: Some(1) },
             ..pipeline::Settings::default()
         };
         let clock = Clock::start();

@@ -40,7 +40,7 @@ fn options(n_voxels: u32, format: OutputFormat) -> CageOptions {
             barrier: BarrierKind::InverseSpline,
             beta: None,
             s: 1.0,
-            bound: None,
+            max_conformal: None,
             bijective: false,
         },
         format,

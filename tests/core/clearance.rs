@@ -2,7 +2,8 @@
 
 use unwrapd::atlas::{ChartMap, cleared};
 use unwrapd::certificate::{Certificate, Claims, certify};
-use unwrapd::pipeline::{Settings, Unobserved, unwrap};
+use unwrapd::mesh::Resolution;
+use unwrapd::pipeline::{Layout, Mapping, Settings, Unobserved, unwrap};
 
 use crate::uv_meshes::UvMesh;
 use crate::zoo;
@@ -84,9 +85,15 @@ fn charts_without_padding_stay_apart_when_they_are_rounded() {
     let others = [4.0, 8.0].map(|x| sphere().moved([x, 0.0, 0.0]));
     let mesh = others.iter().fold(sphere(), |mesh, other| mesh.with(other));
     let settings = Settings {
-        padding: 0,
-        resolution: unwrapd::mesh::Resolution::square(4096),
-        quantization_safe: Some(BITS),
+        layout: Layout {
+            padding: 0,
+            resolution: Resolution::square(4096),
+            ..Layout::default()
+        },
+        mapping: Mapping {
+            quantization_safe: Some(BITS),
+            ..Mapping::default()
+        },
         ..Settings::default()
     };
     let made = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved);

@@ -444,7 +444,7 @@ const ARAP: Model = Model {
     barrier: BarrierKind::InverseSpline,
     beta: None,
     s: 1.0,
-    bound: None,
+    max_conformal: None,
     bijective: false,
 };
 

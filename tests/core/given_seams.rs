@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use unwrapd::certificate::{Claims, certify, chart_ids};
 use unwrapd::charts::{Cut, Quality};
 use unwrapd::pipeline::{
-    KeptMaps, PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along,
+    Cutting, KeptMaps, Mapping, PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along,
 };
 
 use crate::zoo::{self, Mesh};
@@ -13,8 +13,11 @@ use crate::zoo::{self, Mesh};
 /// Without cuts that only make the atlas fuller: whether one pays turns on the last digits of a map.
 fn unwrapped(mesh: &Mesh, cut: Cut, seams: &Seams) -> Unwrapped {
     let settings = Settings {
-        cut,
-        seam_weight: 1e6,
+        cutting: Cutting {
+            cut,
+            seam_weight: 1e6,
+            ..Cutting::default()
+        },
         ..Settings::default()
     };
     let made = unwrap_along(
@@ -104,8 +107,11 @@ fn islands_are_repacked_as_they_are() {
         ..Seams::default()
     };
     let settings = Settings {
-        cut: Cut::Keep,
-        kept_maps: KeptMaps::AsGiven,
+        cutting: Cutting {
+            cut: Cut::Keep,
+            kept_maps: KeptMaps::AsGiven,
+            ..Cutting::default()
+        },
         ..Settings::default()
     };
     let made = unwrap_along(
@@ -218,8 +224,11 @@ fn a_number_of_charts_loosens_the_bound() {
     let mesh = zoo::torus(24, 16);
     let made = |max_charts| {
         let settings = Settings {
-            max_charts,
-            quality: Quality::Smooth,
+            cutting: Cutting {
+                max_charts,
+                quality: Quality::Smooth,
+                ..Cutting::default()
+            },
             ..Settings::default()
         };
         let seams = Seams::default();
@@ -324,7 +333,10 @@ fn what_shall_be_safe_at_twelve_bits_is() {
     let mesh = graded_strip();
     let holds = |quantization_safe| {
         let settings = Settings {
-            quantization_safe,
+            mapping: Mapping {
+                quantization_safe,
+                ..Mapping::default()
+            },
             ..Settings::default()
         };
         let seams = Seams::default();

@@ -8,8 +8,10 @@ use std::rc::Rc;
 use crate::places;
 
 /// Module, the modules it builds on directly (what those may use it may use too), and the outside crates it may name.
-/// Derives of `serde`, `utoipa` and `thiserror` are allowed anywhere.
+/// Derives of `serde`, `utoipa`, `clap` and `thiserror` are allowed anywhere: the words of an option
+/// are the variants of an enum, which is declared where it is used.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
+    ("options", &[], &["serde_json"]),
     ("numerics", &[], &["faer", "feral_metis", "robust", "rayon"]),
     ("mesh", &["numerics"], &["spade"]),
     ("plane", &["numerics"], &["static_aabb2d_index"]),
@@ -39,7 +41,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("bake", &["document", "picture"], &["rayon"]),
     (
         "deform",
-        &["plane", "embed", "picture"],
+        &["plane", "embed", "picture", "options"],
         &["spade", "kurbo", "roxmltree", "serde_json"],
     ),
     (

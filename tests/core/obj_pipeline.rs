@@ -5,8 +5,8 @@ use unwrapd::charts::Cut;
 use unwrapd::deform::uv::parse_anchors;
 use unwrapd::document::{Document, GroupBy, OutputFormat, Upload};
 use unwrapd::pipeline::{
-    EditOptions, Editing, GivenSeams, Observer, Options, Progress, Stage, Unobserved,
-    edit_document, unwrap_document,
+    Baking, Cutting, EditOptions, Editing, GivenSeams, Observer, Options, Progress, Stage,
+    Unobserved, edit_document, unwrap_document,
 };
 use unwrapd::solver::Control;
 
@@ -70,9 +70,12 @@ fn seams_keep_the_numbers_of_the_file() {
     let edges = [[2, 3], [6, 7], [4, 6], [5, 7], [4, 5], [1, 5], [0, 4]];
     let charts = |format, seams: &[[u32; 2]]| {
         let options = Options {
-            cut: Cut::Seams,
             seams: Some(GivenSeams::Edges(seams.to_vec())),
             format,
+            cutting: Cutting {
+                cut: Cut::Seams,
+                ..Cutting::default()
+            },
             ..Options::default()
         };
         let outcome = unwrap_document(&cube(), &options, &Unobserved).unwrap();
@@ -89,8 +92,11 @@ fn seams_keep_the_numbers_of_the_file() {
         );
     }
     let beyond = Options {
-        cut: Cut::Seams,
         seams: Some(GivenSeams::Edges(vec![[0, 8]])),
+        cutting: Cutting {
+            cut: Cut::Seams,
+            ..Cutting::default()
+        },
         ..Options::default()
     };
     let error = unwrap_document(&cube(), &beyond, &Unobserved).unwrap_err();
@@ -147,8 +153,11 @@ fn textures_for_an_obj_are_refused_before_any_work() {
         }
     }
     let options = Options {
-        rebake: true,
         format: OutputFormat::Obj,
+        baking: Baking {
+            rebake: true,
+            ..Baking::default()
+        },
         ..Options::default()
     };
     let error = unwrap_document(&cube(), &options, &Refused).unwrap_err();

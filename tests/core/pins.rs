@@ -7,7 +7,7 @@ use unwrapd::charts::Cut;
 use unwrapd::embed::{Embedding, Options, Pins, is_positive, parameterize};
 use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::Disk;
-use unwrapd::pipeline::{Settings, Unobserved, unwrap};
+use unwrapd::pipeline::{Cutting, Mapping, Settings, Unobserved, unwrap};
 use unwrapd::solver::{Control, Iterate, Watch};
 
 use crate::zoo;
@@ -107,9 +107,15 @@ fn pins_are_two_and_need_one_chart_per_component() {
     let mesh = zoo::sphere(12, 8);
     let run = |pin: u32, cut: Cut| {
         let settings = Settings {
-            energy: EnergyKind::Lscm,
-            pin,
-            cut,
+            mapping: Mapping {
+                energy: EnergyKind::Lscm,
+                pin,
+                ..Mapping::default()
+            },
+            cutting: Cutting {
+                cut,
+                ..Cutting::default()
+            },
             ..Settings::default()
         };
         unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved)

@@ -9,7 +9,8 @@ use unwrapd::energy::EnergyKind;
 use unwrapd::measure::{MeasureOptions, Measures, measure};
 use unwrapd::mesh::VAxis;
 use unwrapd::pipeline::{
-    Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped, unwrap,
+    Cutting, Mapping, Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped,
+    Workers, unwrap,
 };
 use unwrapd::solver::Control;
 
@@ -17,7 +18,10 @@ use crate::zoo::{self, Mesh};
 
 fn settings(cut: Cut) -> Settings {
     Settings {
-        cut,
+        cutting: Cutting {
+            cut,
+            ..Cutting::default()
+        },
         ..Settings::default()
     }
 }
@@ -85,12 +89,15 @@ fn every_energy_is_certified_on_a_torus() {
         EnergyKind::SymmetricDirichlet,
     ] {
         let settings = Settings {
-            energy,
+            mapping: Mapping {
+                energy,
+                ..settings(Cut::Disk).mapping
+            },
             ..settings(Cut::Disk)
         };
         let unwrapped = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved)
             .expect("a torus is a mesh");
-        assert_certified(&mesh, settings.cut, &unwrapped);
+        assert_certified(&mesh, settings.cutting.cut, &unwrapped);
     }
 }
 
@@ -99,7 +106,9 @@ fn the_number_of_threads_does_not_show() {
     let mesh = zoo::sphere(24, 16).with(&zoo::torus(16, 12).moved([3.0, 0.0, 0.0]));
     let with_threads = |threads| {
         let settings = Settings {
-            threads: Some(threads),
+            workers: Workers {
+                threads: Some(threads),
+            },
             ..Settings::default()
         };
         unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved)
@@ -157,12 +166,12 @@ fn work_ended_early_is_valid_and_its_progress_never_falls() {
         ticks: AtomicUsize::new(0),
     };
     let settings = Settings {
-        threads: Some(1),
+        workers: Workers { threads: Some(1) },
         ..settings(Cut::Disk)
     };
     let unwrapped = unwrap(&mesh.positions, &mesh.triangles, &settings, &observer)
         .expect("an early end is not an error");
-    assert_certified(&mesh, settings.cut, &unwrapped);
+    assert_certified(&mesh, settings.cutting.cut, &unwrapped);
     assert!(
         unwrapped
             .charts
@@ -178,7 +187,10 @@ fn work_ended_early_is_valid_and_its_progress_never_falls() {
 fn charts_are_counted_once_they_are_known_and_none_is_slit_when_the_time_is_up() {
     let mesh = zoo::torus(24, 16);
     let smooth = Settings {
-        quality: Quality::Smooth,
+        cutting: Cutting {
+            quality: Quality::Smooth,
+            ..settings(Cut::Auto).cutting
+        },
         ..settings(Cut::Auto)
     };
     let observer = Impatient {
@@ -187,7 +199,7 @@ fn charts_are_counted_once_they_are_known_and_none_is_slit_when_the_time_is_up()
     };
     let hasty = unwrap(&mesh.positions, &mesh.triangles, &smooth, &observer);
     let hasty = hasty.expect("an early end is not an error");
-    assert_certified(&mesh, smooth.cut, &hasty);
+    assert_certified(&mesh, smooth.cutting.cut, &hasty);
     let reports = observer.reports.into_inner().expect("no reporter panics");
     let packing = reports.iter().find(|report| report.stage == Stage::Pack);
     let packing = packing.expect("it was packed");
@@ -248,12 +260,15 @@ fn repeated_faces_lie_on_an_edge_of_a_neighbour() {
 /// Without cuts for a fuller atlas, which are another matter; with what the UVs measure.
 fn measured(settings: &Settings, mesh: &Mesh) -> Measures {
     let settings = Settings {
-        seam_weight: 1e6,
+        cutting: Cutting {
+            seam_weight: 1e6,
+            ..settings.cutting
+        },
         ..settings.clone()
     };
     let unwrapped =
         unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved).expect("a mesh");
-    assert_certified(mesh, settings.cut, &unwrapped);
+    assert_certified(mesh, settings.cutting.cut, &unwrapped);
     let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
     let uvs = unwrapped.corner_uvs();
     let options = MeasureOptions::default();
@@ -262,7 +277,10 @@ fn measured(settings: &Settings, mesh: &Mesh) -> Measures {
 
 fn unwrapped_under(quality: Quality, mesh: &Mesh) -> Measures {
     let settings = Settings {
-        quality,
+        cutting: Cutting {
+            quality,
+            ..Cutting::default()
+        },
         ..Settings::default()
     };
     let measures = measured(&settings, mesh);
@@ -276,8 +294,11 @@ fn bounds_of_ones_own_are_kept() {
     let mesh = zoo::sphere(48, 31);
     let under = |max_distortion, max_stretch| {
         let settings = Settings {
-            max_distortion,
-            max_stretch,
+            cutting: Cutting {
+                max_distortion,
+                max_stretch,
+                ..Cutting::default()
+            },
             ..Settings::default()
         };
         let Measures {
@@ -300,8 +321,11 @@ fn bounds_without_sense_are_refused() {
     let mesh = zoo::sphere(8, 5);
     let refused = |cut, max_distortion, max_stretch| {
         let settings = Settings {
-            max_distortion,
-            max_stretch,
+            cutting: Cutting {
+                max_distortion,
+                max_stretch,
+                ..settings(cut).cutting
+            },
             ..settings(cut)
         };
         let made = unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved);
@@ -367,7 +391,10 @@ fn charts_are_cut_for_a_fuller_atlas_unless_seams_are_dear() {
     };
     let with = |seam_weight| {
         let settings = Settings {
-            seam_weight,
+            cutting: Cutting {
+                seam_weight,
+                ..Cutting::default()
+            },
             ..Settings::default()
         };
         let unwrapped = unwrap(&cross.positions, &cross.triangles, &settings, &Unobserved).unwrap();

@@ -4,7 +4,9 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use unwrapd::charts::Cut;
-use unwrapd::pipeline::{Observer, Progress, Settings, Stage, Unobserved, unwrap};
+use unwrapd::pipeline::{
+    Cutting, Observer, Progress, Settings, Stage, Unobserved, Workers, unwrap,
+};
 use unwrapd::solver::Control;
 
 use crate::zoo::{self, Mesh};
@@ -26,9 +28,12 @@ impl Observer for Recorder {
 
 fn reports(mesh: &Mesh, cut: Cut) -> Vec<Progress> {
     let settings = Settings {
-        cut,
+        cutting: Cutting {
+            cut,
+            ..Cutting::default()
+        },
         // Reports of several threads may pass each other on their way.
-        threads: Some(1),
+        workers: Workers { threads: Some(1) },
         ..Settings::default()
     };
     let recorder = Recorder::default();

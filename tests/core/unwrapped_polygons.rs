@@ -6,7 +6,7 @@ use unwrapd::charts::Cut;
 use unwrapd::document::{Document, OutputFormat, Upload};
 use unwrapd::mesh::io::obj;
 use unwrapd::numerics::random::Random;
-use unwrapd::pipeline::{Options, Outcome, Unobserved, unwrap_document};
+use unwrapd::pipeline::{Cutting, Options, Outcome, Unobserved, unwrap_document};
 
 /// All polygons in one file, none with a vertex of another.
 fn file_of(polygons: &[SimplePolygon]) -> Upload {
@@ -28,7 +28,10 @@ fn file_of(polygons: &[SimplePolygon]) -> Upload {
 fn unwrapped(upload: &Upload, format: OutputFormat) -> Outcome {
     let options = Options {
         format,
-        cut: Cut::Disk,
+        cutting: Cutting {
+            cut: Cut::Disk,
+            ..Cutting::default()
+        },
         ..Options::default()
     };
     unwrap_document(upload, &options, &Unobserved).expect("a result")

@@ -261,6 +261,43 @@ fn help_is_in_groups_and_knows_no_child_process() {
 }
 
 #[test]
+fn every_option_says_what_it_is_in_the_words_that_are_typed() {
+    let commands = [
+        "unwrap",
+        "repack",
+        "measure",
+        "verify",
+        "edit-uv",
+        "texture-map",
+        "deform",
+        "solve",
+        "warp",
+    ];
+    for command in commands {
+        let output = unwrapd(&["man", command]);
+        assert_status(&output, 0);
+        let page = String::from_utf8(output.stdout)
+            .expect("text")
+            .replace("\\-", "-");
+        assert!(page.contains("--threads"), "{command}: {page}");
+        let silent = page
+            .split(".TP\n")
+            .skip(1)
+            .find(|part| part.trim().lines().count() < 2);
+        assert_eq!(silent, None, "{command}");
+        for name in [
+            "texel_weight",
+            "seam_weight",
+            "group_by",
+            "time_budget",
+            "source_texcoord",
+        ] {
+            assert!(!page.contains(name), "{command} names {name}");
+        }
+    }
+}
+
+#[test]
 fn shells_and_manuals_know_every_command() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let output = unwrapd(&["completions", shell]);

@@ -34,7 +34,7 @@ pub use error::EditError;
 
 /// Which shape of a triangle is without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum UvRest {
     /// The one it has: where nothing pulls, nothing moves.

@@ -5,7 +5,7 @@ import { short, summary } from "./report.js";
 
 const byId = (id) => document.getElementById(id);
 const MESHES = ["glb", "gltf", "obj", "off", "ply", "stl"];
-const SHOWN = ["energy", "cut", "quality", "group_by", "resolution", "pages", "texels_per_unit", "padding", "mips", "preset", "packing", "texcoord", "overwrite", "rebake", "bake_size", "image_format", "heatmap_measure", "format", "time_budget"];
+const FIRST = ["cut", "quality", "resolution", "padding", "rebake"];
 
 let job = null;
 
@@ -60,15 +60,19 @@ function input(schema, schemas) {
 
 async function buildOptions() {
   const description = await call("/openapi.json");
-  const parameters = description.paths["/v1/unwrap"].post.parameters;
-  for (const name of SHOWN) {
-    const parameter = parameters.find((one) => one.name === name);
-    if (!parameter) continue;
-    const field = input(parameter.schema, description.components.schemas);
-    field.name = name;
-    const label = element("label", { title: parameter.description ?? "" }, name.replaceAll("_", " "), field);
-    byId("options").append(label);
+  const { schemas } = description.components;
+  // Lists and unions with them are for programs.
+  const isTyped = (one) => one.name in schemas.Options.properties && one.schema && !variants(one.schema, schemas).some((part) => part.type === "array" || part.anyOf);
+  const parameters = description.paths["/v1/unwrap"].post.parameters.filter(isTyped);
+  const rank = ({ name }) => (FIRST.indexOf(name) + FIRST.length + 1) % (FIRST.length + 1);
+  const others = element("div");
+  for (const parameter of parameters.toSorted((one, other) => rank(one) - rank(other))) {
+    const field = input(parameter.schema, schemas);
+    field.name = parameter.name;
+    const label = element("label", { title: parameter.description ?? "" }, parameter.name.replaceAll("_", " "), field);
+    (FIRST.includes(parameter.name) ? byId("options") : others).append(label);
   }
+  byId("options").append(element("details", {}, element("summary", { textContent: "More" }), others));
 }
 
 // ---- upload

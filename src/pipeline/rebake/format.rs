@@ -10,7 +10,7 @@ use crate::picture::Image;
 /// The format of the files of resampled textures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum ImageFormat {
     /// JPEG where all the images that a texture is made of are, else PNG.
     #[default]

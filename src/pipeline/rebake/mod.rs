@@ -63,8 +63,9 @@ fn files(
     options: &Options,
 ) -> Result<Vec<(u32, Vec<u8>)>, DocumentError> {
     let least = options
+        .baking
         .bake_size
-        .unwrap_or(options.resolution.longer().min(MOST_SIDE));
+        .unwrap_or(options.layout.resolution.longer().min(MOST_SIDE));
     check_texels(u64::from(least).pow(2) * plan.planes.len() as u64)?;
     let mut files = Vec::new();
     let mut texels = 0;
@@ -74,6 +75,7 @@ fn files(
         let members = &groups[wanted.group].primitives;
         let (plane, faces) = (bake.plane(wanted, members)?, bake.faces(members));
         let side = options
+            .baking
             .bake_size
             .unwrap_or_else(|| least.max(side_for(&plane, &faces)));
         texels += u64::from(side).pow(2);
@@ -83,7 +85,10 @@ fn files(
         let new = || (key, Coverage::new(&faces, side as usize));
         let (_, coverage) = last.insert(known.unwrap_or_else(new));
         let image = baked(&plane, coverage);
-        let file = options.image_format.file(bake.document, wanted, &image)?;
+        let file = options
+            .baking
+            .image_format
+            .file(bake.document, wanted, &image)?;
         files.push((side, file));
     }
     Ok(files)
@@ -94,7 +99,8 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();
     sides.dedup();
-    let texels = f64::from(options.settings().padding) / f64::from(options.resolution.longer());
+    let texels = f64::from(options.settings().layout.padding)
+        / f64::from(options.layout.resolution.longer());
     let gap = |side: u32| texels * f64::from(side);
     let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
     near.map(|side| {

@@ -4,7 +4,9 @@ use crate::places;
 use serde_json::{Value, json};
 use unwrapd::document::{Document, OutputFormat, Upload};
 use unwrapd::picture::Image;
-use unwrapd::pipeline::{ImageFormat, Options, Preset, Unobserved, unwrap_document};
+use unwrapd::pipeline::{
+    Baking, CommandOptions, ImageFormat, Options, Preset, Sets, Unobserved, unwrap_document,
+};
 
 use super::build::{Builder, parts};
 use super::{grid_uvs, new_uvs, options, reread};
@@ -34,7 +36,10 @@ fn unwrapping_again_adds_nothing() {
         ..Options::default()
     };
     let asked = Options {
-        texcoord: Some(2),
+        sets: Sets {
+            texcoord: Some(2),
+            ..Sets::default()
+        },
         ..Options::default()
     };
     let asset = |name: &str| Upload::single(name, std::fs::read(places::asset(name)).unwrap());
@@ -186,9 +191,11 @@ fn resampled_textures_replace_the_old_ones_in_their_format() {
         (&glass.png(), "image/png", ImageFormat::Jpeg, "image/png"),
     ] {
         let options = Options {
-            rebake: true,
-            bake_size: Some(32),
-            image_format: wanted,
+            baking: Baking {
+                rebake: true,
+                bake_size: Some(32),
+                image_format: wanted,
+            },
             ..Options::default()
         };
         let first = unwrapped(&textured(file, mime), &options);
@@ -200,7 +207,10 @@ fn resampled_textures_replace_the_old_ones_in_their_format() {
         assert_eq!(size(&first).1, size(&second).1);
     }
     let error = Options {
-        image_format: ImageFormat::Png,
+        baking: Baking {
+            image_format: ImageFormat::Png,
+            ..Baking::default()
+        },
         ..Options::default()
     };
     assert_eq!(error.check().unwrap_err().code(), "invalid_options");

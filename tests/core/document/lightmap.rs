@@ -5,8 +5,8 @@ use unwrapd::certificate::Overlap;
 use unwrapd::document::{Document, Upload};
 use unwrapd::mesh::Resolution;
 use unwrapd::pipeline::{
-    MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified, unwrap_document,
-    verify_document,
+    Cutting, Layout, MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified,
+    unwrap_document, verify_document,
 };
 
 use super::build::{Builder, parts};
@@ -53,7 +53,10 @@ fn every_node_has_its_part() {
     let builder = scene();
     // A seam through the square would split its vertices, and the old set with them.
     let whole = Options {
-        seam_weight: 1e6,
+        cutting: Cutting {
+            seam_weight: 1e6,
+            ..Cutting::default()
+        },
         ..Options::default()
     };
     let outcome = lightmap(&builder, whole).unwrap();
@@ -108,12 +111,18 @@ fn what_cannot_be_a_lightmap_is_refused() {
         lightmap(builder, options).unwrap_err().code().to_owned()
     };
     let uneven = Options {
-        resolution: Resolution::square(1000),
+        layout: Layout {
+            resolution: Resolution::square(1000),
+            ..Layout::default()
+        },
         ..Options::default()
     };
     assert_eq!(code(&scene(), uneven), "invalid_options");
     let crowded = Options {
-        padding: 40,
+        layout: Layout {
+            padding: 40,
+            ..Layout::default()
+        },
         ..Options::default()
     };
     assert_eq!(code(&scene(), crowded), "invalid_options");

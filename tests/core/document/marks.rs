@@ -5,8 +5,8 @@ use unwrapd::certificate::Overlap;
 use unwrapd::deform::uv::parse_anchors;
 use unwrapd::document::{Document, GroupBy, Marked, OutputFormat, Sets, Upload};
 use unwrapd::pipeline::{
-    EditOptions, Editing, MeasureOptions, Options, Preset, Unobserved, Verified, edit_document,
-    measure_document, unwrap_document, verify_document,
+    EditOptions, Editing, Layout, MeasureOptions, Options, Preset, Unobserved, Verified,
+    edit_document, measure_document, unwrap_document, verify_document,
 };
 
 use super::build::{Builder, glb, parts};
@@ -94,7 +94,10 @@ fn what_was_asked_for_is_what_is_judged() {
     };
     let by_scene = Options {
         group_by: Some(GroupBy::Scene),
-        padding: 5,
+        layout: Layout {
+            padding: 5,
+            ..Layout::default()
+        },
         ..Options::default()
     };
     for (options, padding, aligned, groups) in [
@@ -155,14 +158,20 @@ fn extras_that_are_no_object_stay_as_they_are() {
 fn an_obj_file_is_marked_in_its_first_line() {
     let options = Options {
         format: OutputFormat::Obj,
-        padding: 3,
+        layout: Layout {
+            padding: 3,
+            ..Layout::default()
+        },
         ..Options::default()
     };
     let first = unwrapped(&Builder::rich().upload(), &options);
     let again = unwrapped(
         &upload(&first),
         &Options {
-            padding: 4,
+            layout: Layout {
+                padding: 4,
+                ..options.layout
+            },
             ..options
         },
     );

@@ -1,6 +1,7 @@
 //! glTF read and written.
 mod again;
 mod build;
+mod grouping;
 mod invalid;
 mod lightmap;
 mod marks;

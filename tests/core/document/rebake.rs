@@ -2,9 +2,9 @@
 
 use base64::Engine as _;
 use serde_json::{Value, json};
-use unwrapd::document::{OutputFormat, Upload};
+use unwrapd::document::{GroupBy, OutputFormat, Upload};
 use unwrapd::picture::Image;
-use unwrapd::pipeline::{Options, Outcome, PipelineError, Unobserved, unwrap_document};
+use unwrapd::pipeline::{Baking, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 
 use super::build::{Builder, parts};
 
@@ -50,10 +50,15 @@ fn push(array: &mut Value, object: Value) {
     array.as_array_mut().unwrap().push(object);
 }
 
+/// Every mesh by itself, so that several share a material but no texture.
 fn options() -> Options {
     Options {
-        rebake: true,
-        bake_size: Some(32),
+        group_by: Some(GroupBy::Mesh),
+        baking: Baking {
+            rebake: true,
+            bake_size: Some(32),
+            ..Baking::default()
+        },
         ..Options::default()
     }
 }
@@ -281,7 +286,10 @@ fn what_cannot_be_done_is_refused() {
     };
     assert_eq!(code(&obj, &as_obj), "unsupported_output");
     let too_large = Options {
-        bake_size: Some(8193),
+        baking: Baking {
+            bake_size: Some(8193),
+            ..options().baking
+        },
         ..options()
     };
     assert_eq!(code(&square().upload(), &too_large), "invalid_options");
@@ -292,7 +300,10 @@ fn what_cannot_be_done_is_refused() {
     }
     let many = twice(twice(many, "mesh"), "mesh");
     let large = Options {
-        bake_size: Some(8192),
+        baking: Baking {
+            bake_size: Some(8192),
+            ..options().baking
+        },
         ..options()
     };
     assert_eq!(code(&many.upload(), &large), "limit_exceeded");

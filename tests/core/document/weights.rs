@@ -1,8 +1,8 @@
 //! Materials with more or fewer texels than others.
 
 use serde_json::json;
-use unwrapd::document::{Document, Upload};
-use unwrapd::pipeline::{Options, Outcome, PipelineError, Unobserved, unwrap_document};
+use unwrapd::document::{Document, GroupBy, Upload};
+use unwrapd::pipeline::{Layout, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 
 use super::build::Builder;
 
@@ -25,8 +25,12 @@ fn two_materials() -> Builder {
 fn unwrapped(weights: &[&str], density: Option<f64>) -> Result<Outcome, PipelineError> {
     let weights = weights.iter().map(|text| text.parse().expect("a weight"));
     let options = Options {
-        texel_weights: weights.collect(),
-        texels_per_unit: density,
+        group_by: Some(GroupBy::Mesh),
+        texel_weight: weights.collect(),
+        layout: Layout {
+            texels_per_unit: density,
+            ..Layout::default()
+        },
         ..Options::default()
     };
     unwrap_document(&two_materials().upload(), &options, &Unobserved)
@@ -81,4 +85,23 @@ fn materials_and_weights_that_are_not_are_refused() {
     assert_eq!(code(&["2=2"]), "unknown_material");
     assert_eq!(code(&["skin=0"]), "invalid_options");
     assert_eq!(code(&["skin=NaN"]), "invalid_options");
+}
+
+#[test]
+fn a_weight_needs_others_in_its_atlas_or_a_density() {
+    let weighted = |density: Option<f64>| {
+        let options = Options {
+            texel_weight: vec!["skin=2".parse().expect("a weight")],
+            layout: Layout {
+                texels_per_unit: density,
+                ..Layout::default()
+            },
+            ..Options::default()
+        };
+        unwrap_document(&two_materials().upload(), &options, &Unobserved)
+    };
+    let error = weighted(None).expect_err("each material has its own atlas");
+    assert_eq!(error.code(), "invalid_options");
+    assert!(error.to_string().contains("`texel_weight` goes with"));
+    assert!(weighted(Some(100.0)).is_ok());
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// What UVs are for, and what follows from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum Preset {
     /// Textures of materials.
     #[default]

@@ -1,9 +1,7 @@
 //! Options that would do nothing are refused: who gives one expects something of it.
 
-use super::options::Options;
-use super::preset::Preset;
-use super::rebake::ImageFormat;
-use super::settings::KeptMaps;
+use super::super::rebake::ImageFormat;
+use super::{KeptMaps, Options, Preset};
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 use crate::deform::Model;
@@ -21,85 +19,78 @@ fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
 
 /// Refuses options of unwrapping that the others leave without effect. One that has its default value cannot be told from one that
 /// is absent.
-pub(super) fn check(options: &Options) -> Result<(), String> {
+pub(in crate::pipeline) fn check(options: &Options) -> Result<(), String> {
     let default = Options::default();
-    let is_auto = options.cut == Cut::Auto && options.barrier != BarrierKind::None;
-    let is_kept = options.cut == Cut::Keep;
+    let is_auto = options.cutting.cut == Cut::Auto && options.mapping.barrier != BarrierKind::None;
+    let is_kept = options.cutting.cut == Cut::Keep;
     let is_obj = options.format == OutputFormat::Obj;
-    let is_of_one_material = matches!(
-        options.group_by,
-        Some(GroupBy::Material | GroupBy::Primitive)
-    );
     check_barrier(
-        options.barrier,
+        options.mapping.barrier,
         ["barrier_strength", "barrier_support"],
         [
-            options.barrier_strength != default.barrier_strength,
-            options.barrier_support != default.barrier_support,
+            options.mapping.barrier_strength != default.mapping.barrier_strength,
+            options.mapping.barrier_support != default.mapping.barrier_support,
         ],
     )?;
     refused([
         (
             "max_charts",
             "`cut` auto and a `barrier`",
-            options.max_charts.is_some() && !is_auto,
+            options.cutting.max_charts.is_some() && !is_auto,
         ),
         (
             "max_distortion",
             "`cut` auto and a `barrier`",
-            options.max_distortion.is_some() && !is_auto,
+            options.cutting.max_distortion.is_some() && !is_auto,
         ),
         (
             "max_stretch",
             "`cut` auto and a `barrier`",
-            options.max_stretch.is_some() && !is_auto,
+            options.cutting.max_stretch.is_some() && !is_auto,
         ),
         (
             "seam_weight",
             "`cut` auto and a `barrier`",
-            options.seam_weight != default.seam_weight && !is_auto,
+            options.cutting.seam_weight != default.cutting.seam_weight && !is_auto,
         ),
         (
             "quality",
             "`cut` auto, keep or seams",
-            options.quality != default.quality && matches!(options.cut, Cut::Fast | Cut::Disk),
+            options.cutting.quality != default.cutting.quality
+                && matches!(options.cutting.cut, Cut::Fast | Cut::Disk),
         ),
         (
             "source_texcoord",
             "`cut` keep",
-            options.source_texcoord.is_some() && !is_kept,
+            options.sets.source_texcoord.is_some() && !is_kept,
         ),
         (
             "kept_maps",
             "`cut` keep",
-            options.kept_maps != KeptMaps::Optimized && !is_kept,
+            options.cutting.kept_maps != KeptMaps::Optimized && !is_kept,
         ),
         (
             "bake_size",
             "`rebake`",
-            options.bake_size.is_some() && !options.rebake,
+            options.baking.bake_size.is_some() && !options.baking.rebake,
         ),
         (
             "image_format",
             "`rebake`",
-            options.image_format != ImageFormat::Source && !options.rebake,
-        ),
-        (
-            "material_borders",
-            "atlases of several materials: `group_by` mesh or scene",
-            options.material_borders && is_of_one_material,
+            options.baking.image_format != ImageFormat::Source && !options.baking.rebake,
         ),
         (
             "texcoord",
             "glTF: an OBJ file has one set of UVs",
-            options.texcoord.is_some_and(|set| set > 0) && is_obj,
+            options.sets.texcoord.is_some_and(|set| set > 0) && is_obj,
         ),
         (
             "overwrite",
             "glTF: an OBJ file has one set of UVs",
-            options.overwrite && is_obj,
+            options.sets.overwrite && is_obj,
         ),
     ])?;
+    check_grouping(options, options.group_by)?;
     let is_one_atlas = options.preset == Preset::Lightmap || is_obj;
     match options.group_by {
         Some(by) if by != GroupBy::Scene && is_one_atlas => Err(format!(
@@ -110,10 +101,31 @@ pub(super) fn check(options: &Options) -> Result<(), String> {
     }
 }
 
+/// Refuses what tells materials of one atlas apart where each has its own. What shares an atlas may
+/// not be known before the file is read.
+pub(in crate::pipeline) fn check_grouping(
+    options: &Options,
+    group_by: Option<GroupBy>,
+) -> Result<(), String> {
+    const WITH: &str = "atlases of several materials: `group_by` mesh or scene";
+    if !matches!(group_by, Some(GroupBy::Material | GroupBy::Primitive)) {
+        return Ok(());
+    }
+    let is_density_given = options.layout.texels_per_unit.is_some();
+    refused([
+        ("material_borders", WITH, options.material_borders),
+        (
+            "texel_weight",
+            WITH,
+            !options.texel_weight.is_empty() && !is_density_given,
+        ),
+    ])
+}
+
 /// The same of what a deformation costs.
-pub(super) fn check_model(model: &Model) -> Result<(), String> {
+pub(in crate::pipeline) fn check_model(model: &Model) -> Result<(), String> {
     // A bound of the conformal distortion and the boundary have barriers of their own, as strong.
-    let has_others = model.bound.is_some() || model.bijective;
+    let has_others = model.max_conformal.is_some() || model.bijective;
     check_barrier(
         model.barrier,
         ["beta", "s"],

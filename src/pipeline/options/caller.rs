@@ -1,0 +1,58 @@
+//! What code that calls the pipeline says beside the options of a user.
+
+use super::super::PipelineError;
+use super::super::limits::Limits;
+use super::{Budget, Workers};
+use crate::document::Upload;
+
+/// What code that calls the pipeline says beside the options of a user: it is no option, neither in
+/// JSON nor in the command line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Caller {
+    /// Name of the written files without extension; the input's if absent.
+    pub stem: Option<String>,
+    /// What may be used, whatever the options ask for.
+    pub limits: Limits,
+}
+
+impl Caller {
+    /// The name of the files that are written, without extension.
+    pub(in crate::pipeline) fn stem(&self, upload: &Upload) -> String {
+        self.stem.clone().unwrap_or_else(|| stem(&upload.name))
+    }
+
+    /// The workers asked for, as far as they are allowed.
+    pub(in crate::pipeline) fn workers(&self, asked: Workers) -> Workers {
+        Workers {
+            threads: asked.threads.into_iter().chain(self.limits.threads).min(),
+        }
+    }
+
+    /// The time asked for, as far as it is allowed.
+    pub(in crate::pipeline) fn budget(&self, asked: Budget) -> Budget {
+        let seconds = asked.time_budget.into_iter().chain(self.limits.seconds);
+        Budget {
+            time_budget: seconds.reduce(f64::min),
+        }
+    }
+}
+
+/// The file name without folders and extension.
+fn stem(name: &str) -> String {
+    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    if stem.is_empty() {
+        "mesh".into()
+    } else {
+        stem.into()
+    }
+}
+
+/// The options of a command.
+pub trait CommandOptions {
+    /// Checks what can be checked without the file; the error names the option.
+    fn check(&self) -> Result<(), PipelineError>;
+
+    /// What its caller says.
+    fn caller_mut(&mut self) -> &mut Caller;
+}

@@ -1,0 +1,94 @@
+//! How charts are laid out on a texture.
+
+use serde::{Deserialize, Serialize};
+
+use crate::atlas::Texture;
+use crate::mesh::Resolution;
+use crate::options::{options, within};
+
+/// How long the fullest layout of an atlas is searched for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+pub enum PackingMode {
+    /// Two to three seconds of the processor.
+    #[default]
+    Fast,
+    /// Ten times as long.
+    Tight,
+}
+
+impl PackingMode {
+    /// How often the words that a fast search reads.
+    pub(in crate::pipeline) fn passes(self) -> u64 {
+        match self {
+            Self::Fast => 1,
+            Self::Tight => 10,
+        }
+    }
+}
+
+options! {
+    /// How charts are laid out on a texture.
+    #[derive(Copy)]
+    pub struct Layout under "Atlas" {
+        /// The texture that `padding` is counted in: texels along its side, or along both. One side
+        /// is the other times a power of two; texels are square on the surface.
+        pub resolution: Resolution = Resolution::square(1024), value "N|WxH", arg(help_heading = None::<&'static str>);
+        /// Least distance of two charts in texels; half of it is kept to the borders of pages. At
+        /// most an eighth of the texture's shorter side.
+        pub padding: u32 = 2, in 0..=8192, value "TEXELS", arg(help_heading = None::<&'static str>);
+        /// Pages of that texture that charts may lie on: page k covers u from k to k + 1, the tile
+        /// 1001 + k of UDIM. All have one density.
+        pub pages: u32 = 1, in 1..=10, value "N";
+        /// Texels along one unit of length of the mesh, at the mean; as many as fit if absent. A
+        /// texture that is too small is an error.
+        pub texels_per_unit: Option<f64>, in 1e-9..=1e9, value "T";
+        /// How long the fullest layout is searched for.
+        pub packing: PackingMode = PackingMode::Fast;
+    }
+}
+
+const _: () = assert!(Texture::MOST_PAGES == 10);
+
+impl Layout {
+    /// Checks what goes with what; the text names the option.
+    pub(in crate::pipeline) fn check(&self) -> Result<(), String> {
+        check_texels(self.resolution, self.padding)
+    }
+}
+
+/// Checks a resolution, and a padding in its texels.
+fn check_texels(resolution: Resolution, padding: u32) -> Result<(), String> {
+    for side in [resolution.width, resolution.height] {
+        within("resolution", f64::from(side), 16.0, 65_536.0)?;
+    }
+    if !resolution.is_regular() {
+        let most = Resolution::MOST_ELONGATED;
+        return Err(format!(
+            "`resolution` must have one side that is the other times a power of two up to {most}, not {resolution}"
+        ));
+    }
+    let most = f64::from(most_padding(resolution));
+    within("padding", f64::from(padding), 0.0, most)
+}
+
+/// The largest padding, in texels.
+fn most_padding(resolution: Resolution) -> u32 {
+    resolution.shorter() / 8
+}
+
+/// Checks a padding that holds for so many mip levels.
+#[cfg(feature = "files")]
+pub(super) fn check_mips(padding: u32, mips: u32, resolution: Resolution) -> Result<(), String> {
+    check_texels(resolution, padding)?;
+    let (texels, most) = (u64::from(padding) << mips, most_padding(resolution));
+    if texels <= u64::from(most) {
+        return Ok(());
+    }
+    Err(format!(
+        "`mips` {mips} makes of `padding` {padding} {texels} texels of `resolution` {resolution}, which allows {most}: take `mips` \
+         up to {}, less `padding` or more `resolution`",
+        (most / padding).ilog2()
+    ))
+}

@@ -1,0 +1,56 @@
+//! How a problem file is solved.
+
+use super::super::PipelineError;
+use super::super::bodies::BodyFormat;
+use super::super::solution::Plan;
+use super::{Budget, Caller, CommandOptions, Course, Workers};
+use crate::deform::Method;
+use crate::options::{OptionSet, options};
+
+options! {
+    /// How a problem file is solved. The command line's long names in snake case.
+    pub struct SolveOptions {
+        /// How: projected Newton with advancing targets, or the paper's iteration.
+        pub method: Method = Method::Projected;
+    }
+    files {
+        /// Show the observer the map of every iteration; over HTTP they become files beside the
+        /// result, 256 MiB of them at most.
+        pub frames: bool;
+        /// Format of the result: positions as text if absent.
+        pub format: BodyFormat = BodyFormat::Txt;
+    }
+    groups {
+        /// What is done beside minimizing once.
+        pub course: Course;
+        /// What works.
+        pub workers: Workers;
+        /// How long it may take.
+        pub budget: Budget;
+    }
+    untold {
+        /// What the code that solves says.
+        pub caller: Caller;
+    }
+}
+
+impl SolveOptions {
+    pub(in crate::pipeline) fn plan(&self) -> Plan {
+        Plan {
+            method: self.method,
+            barrier_continuation: self.course.barrier_continuation,
+            bias: self.course.bias,
+        }
+    }
+}
+
+impl CommandOptions for SolveOptions {
+    fn check(&self) -> Result<(), PipelineError> {
+        self.check_ranges().map_err(PipelineError::InvalidOptions)?;
+        self.format.check_for_mesh()
+    }
+
+    fn caller_mut(&mut self) -> &mut Caller {
+        &mut self.caller
+    }
+}

@@ -1,0 +1,64 @@
+//! How a picture is warped.
+
+use super::super::PipelineError;
+use super::{Budget, Caller, CommandOptions, Workers, idle};
+use crate::deform::warp::{self, PictureHandle};
+use crate::deform::{Boundary, Model};
+use crate::options::{OptionSet, options};
+
+options! {
+    /// How a picture is warped. The command line's long names in snake case; a file of handles is
+    /// one with the handles only.
+    pub struct WarpOptions {
+        /// Cells of the grid along the longer side.
+        pub grid: usize = warp::WarpOptions::default().grid, value "N", schema(minimum = 1, maximum = 512);
+        /// Hold the border, so that the map is bijective; handles next to it take hold of inner
+        /// vertices.
+        pub fix_border: bool;
+    }
+    files {
+        /// Places of the picture and where they go, in pixels, y down: {"handles": [{"at": [x, y],
+        /// "to": [x, y]}, …]}. Each takes hold of its own point; next to a fixed border of the
+        /// nearest inner vertex of the grid, whose target is shifted by the same offset.
+        pub handles: Vec<PictureHandle>;
+    }
+    groups {
+        /// What the deformation costs, for a mean triangle of an area from ½ to 2.
+        pub model: Model;
+        /// What works.
+        pub workers: Workers;
+        /// How long it may take.
+        pub budget: Budget;
+    }
+    untold {
+        /// What the code that warps says.
+        pub caller: Caller;
+    }
+}
+
+impl WarpOptions {
+    pub(in crate::pipeline) fn of_grid(&self) -> warp::WarpOptions {
+        warp::WarpOptions {
+            grid: self.grid,
+            boundary: if self.fix_border {
+                Boundary::Fixed
+            } else {
+                Boundary::Free
+            },
+            model: self.model,
+        }
+    }
+}
+
+impl CommandOptions for WarpOptions {
+    fn check(&self) -> Result<(), PipelineError> {
+        self.model.check()?;
+        (self.check_ranges())
+            .and_then(|()| idle::check_model(&self.model))
+            .map_err(PipelineError::InvalidOptions)
+    }
+
+    fn caller_mut(&mut self) -> &mut Caller {
+        &mut self.caller
+    }
+}
