@@ -1,6 +1,6 @@
 //! Charts: parts of a surface opened to disks.
 
-use super::regions::regions;
+use super::regions::within_cones::regions;
 use crate::cut::{Branches, Sheet, isolate_doubled_edges, join_disks, open_to_disk};
 use crate::mesh::{CUT, Disk, Surface, UnionFind};
 use crate::numerics::vec3::{area_vector, norm};

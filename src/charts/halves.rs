@@ -1,7 +1,7 @@
 //! A chart cut in two.
 
 use super::Chart;
-use super::part::{parted, parts, twins};
+use super::parts::{parted, parts, twins};
 use crate::mesh::CUT;
 
 /// The parts into which a cut across the middle divides a chart: two, or more where the cut meets the boundary again.

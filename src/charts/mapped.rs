@@ -1,8 +1,8 @@
 //! Charts with their maps.
 
-use super::apart::pushed_apart;
-use super::fold::{lengths, one_side, overlaps};
-use super::part::{parted, parts, twins};
+use super::parts::{parted, parts, twins};
+use super::unfold::overlaps::{lengths, one_side, overlaps};
+use super::unfold::push_apart::pushed_apart;
 use super::{Chart, halves};
 use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};

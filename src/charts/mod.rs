@@ -22,46 +22,26 @@
 //! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
 //! their neighbors wherever they find room along a common border ([`given_back()`]).
 
-mod apart;
-mod border;
 mod bound;
 mod chart;
-mod chord;
-mod clusters;
 mod compact;
-mod cone;
-mod contact;
 mod crease;
-mod distortion;
-mod facets;
-mod fold;
 mod give_back;
-mod ground;
 mod halves;
-mod lay;
-mod local;
 mod mapped;
-mod merge;
 mod min_cut;
-mod part;
-mod piece;
-mod predicted;
-mod predictor;
-mod quality;
+mod parts;
 mod regions;
-mod simplified;
-mod slits;
-mod smooth;
-mod surroundings;
+mod unfold;
 
-pub use bound::charts_under_bound;
+pub use bound::few_charts::charts_under_bound;
+pub use bound::quality::{Bound, Quality};
 pub use chart::{Chart, Cut, charts};
-pub use compact::{Split, seam_length};
-pub use give_back::given_back;
+pub use compact::best_split::{Split, seam_length};
+pub use give_back::given_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, Observer, map_chart, map_chart_from};
 pub use min_cut::min_cut;
-pub use quality::{Bound, Quality};
 
 #[cfg(doc)]
 use crate::mesh::Disk;

@@ -16,29 +16,12 @@
 //! **Certified** means that everything that was asked for is proven on the written bytes ([`Report::certified`] has the list). What is
 //! not proven stands among the warnings; only flips where none were promised are an error, and leave no file.
 
-mod alike;
 mod arrays;
-mod clearance;
-mod compact;
-mod divided;
 mod error;
-mod map;
 mod observer;
 mod options;
 mod portion;
-mod repeated;
-mod seams;
-mod settings;
-mod soup;
 
-#[cfg(feature = "files")]
-mod bodies;
-#[cfg(feature = "files")]
-mod bound_report;
-#[cfg(feature = "files")]
-mod cage_map;
-#[cfg(feature = "files")]
-mod caged;
 #[cfg(feature = "files")]
 mod deform;
 #[cfg(feature = "files")]
@@ -46,73 +29,51 @@ mod documents;
 #[cfg(feature = "files")]
 mod edit;
 #[cfg(feature = "files")]
-mod edit_terms;
-#[cfg(feature = "files")]
-mod group_uvs;
-#[cfg(feature = "files")]
 mod judge;
 #[cfg(feature = "files")]
 mod limits;
 #[cfg(feature = "files")]
-mod merged;
-#[cfg(feature = "files")]
-mod moved;
-#[cfg(feature = "files")]
-mod nodes;
-mod packed;
-mod packing;
-#[cfg(feature = "files")]
-mod pictures;
-#[cfg(feature = "files")]
-mod planar_map;
-#[cfg(feature = "files")]
-mod prepared;
-#[cfg(feature = "files")]
-mod proven;
-#[cfg(feature = "files")]
-mod pull_report;
-#[cfg(feature = "files")]
-mod question;
-#[cfg(feature = "files")]
 mod rebake;
-#[cfg(feature = "files")]
-mod repack;
-#[cfg(feature = "files")]
-mod report;
-#[cfg(feature = "files")]
-mod shortfalls;
-#[cfg(feature = "files")]
-mod solution;
-#[cfg(feature = "files")]
-mod solve;
-#[cfg(feature = "files")]
-mod source;
-#[cfg(feature = "files")]
-mod texel_weight;
-#[cfg(feature = "files")]
-mod verify;
-#[cfg(feature = "files")]
-mod warp;
 
-pub use arrays::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
+pub use arrays::seams::Seams;
+pub use arrays::settings::Settings;
+pub use arrays::unwrap::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
-pub use seams::Seams;
-pub use settings::Settings;
 
 #[cfg(feature = "files")]
-pub use bodies::BodyFormat;
+pub use deform::caged::{CageOptions, CageReport, CagedDocument, Surfaces};
 #[cfg(feature = "files")]
-pub use bound_report::{BoundReport, WorstChart, stretch_percent};
+pub use deform::file::deform_file;
 #[cfg(feature = "files")]
-pub use caged::{CageOptions, CageReport, CagedDocument, Surfaces};
+pub use deform::formats::BodyFormat;
 #[cfg(feature = "files")]
-pub use deform::deform_file;
+pub use deform::pull_report::PullReport;
 #[cfg(feature = "files")]
-pub use documents::{Outcome, unwrap_document};
+pub use deform::solution::{DeformReport, Deformed};
 #[cfg(feature = "files")]
-pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document};
+pub use deform::solve::solve_file;
+#[cfg(feature = "files")]
+pub use deform::warp::{WarpReport, WarpedPicture, warp_file};
+#[cfg(feature = "files")]
+pub use documents::pictures::{Drawn, Pictures};
+#[cfg(feature = "files")]
+pub use documents::repack::repack_document;
+#[cfg(feature = "files")]
+pub use documents::texel_weight::TexelWeight;
+#[cfg(feature = "files")]
+pub use documents::unwrap::{Outcome, unwrap_document};
+#[cfg(feature = "files")]
+pub use edit::uvs::{ChartEditReport, EditReport, EditedDocument, edit_document};
+#[cfg(feature = "files")]
+pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
+#[cfg(feature = "files")]
+pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
+#[cfg(feature = "files")]
+pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
+#[cfg(feature = "files")]
+pub use judge::verify::{Verified, VerifiedGroup, measure_document, verify_document};
 #[cfg(feature = "files")]
 pub use limits::Limits;
 #[cfg(feature = "files")]
@@ -121,24 +82,4 @@ pub use options::{
     MeasureOptions, NamedSeams, Options, Preset, RepackOptions, Sets, SolveOptions, WarpOptions,
 };
 #[cfg(feature = "files")]
-pub use pictures::{Drawn, Pictures};
-#[cfg(feature = "files")]
-pub use proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
-#[cfg(feature = "files")]
-pub use pull_report::PullReport;
-#[cfg(feature = "files")]
 pub use rebake::ImageFormat;
-#[cfg(feature = "files")]
-pub use repack::repack_document;
-#[cfg(feature = "files")]
-pub use report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
-#[cfg(feature = "files")]
-pub use solution::{DeformReport, Deformed};
-#[cfg(feature = "files")]
-pub use solve::solve_file;
-#[cfg(feature = "files")]
-pub use texel_weight::TexelWeight;
-#[cfg(feature = "files")]
-pub use verify::{Verified, VerifiedGroup, measure_document, verify_document};
-#[cfg(feature = "files")]
-pub use warp::{WarpReport, WarpedPicture, warp_file};

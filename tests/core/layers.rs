@@ -116,7 +116,7 @@ const JUDGES: &str = "measure";
 const SHARED: (&str, &str) = ("numerics", "predicates");
 
 /// Crates whose derives may stand anywhere.
-const ANYWHERE: &[&str] = &["serde", "utoipa", "thiserror"];
+const ANYWHERE: &[&str] = &["clap", "serde", "utoipa", "thiserror"];
 
 #[test]
 fn nothing_is_imported_upwards() {

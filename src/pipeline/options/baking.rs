@@ -1,7 +1,7 @@
 //! Whether textures are resampled, and into what.
 
-use super::super::rebake::{ImageFormat, MOST_SIDE};
 use crate::options::options;
+use crate::pipeline::rebake::{ImageFormat, MOST_SIDE};
 
 options! {
     /// Whether textures are resampled, and into what.

@@ -1,9 +1,9 @@
 //! What code that calls the pipeline says beside the options of a user.
 
-use super::super::PipelineError;
-use super::super::limits::Limits;
 use super::{Budget, Workers};
 use crate::document::Upload;
+use crate::pipeline::PipelineError;
+use crate::pipeline::limits::Limits;
 
 /// What code that calls the pipeline says beside the options of a user: it is no option, neither in
 /// JSON nor in the command line.

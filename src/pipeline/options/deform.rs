@@ -1,13 +1,13 @@
 //! What is deformed and how.
 
-use super::super::PipelineError;
-use super::super::bodies::BodyFormat;
-use super::super::solution::Plan;
-use super::super::source::TRIANGLES;
 use super::{Budget, Caller, CommandOptions, Course, Workers, idle};
 use crate::barrier::BarrierKind;
 use crate::deform::{Handle, Method, Model};
 use crate::options::{OptionSet, options};
+use crate::pipeline::PipelineError;
+use crate::pipeline::deform::formats::BodyFormat;
+use crate::pipeline::deform::solution::Plan;
+use crate::pipeline::deform::source::TRIANGLES;
 
 options! {
     /// What is deformed and how. The command line's long names in snake case; a file of handles is

@@ -1,11 +1,11 @@
 //! How UVs are edited.
 
-use super::super::PipelineError;
 use super::{Budget, Caller, CommandOptions, Workers, idle};
 use crate::deform::uv::{Anchor, UvEditOptions, UvRest};
 use crate::deform::{Boundary, Model};
 use crate::document::OutputFormat;
 use crate::options::{OptionSet, options};
+use crate::pipeline::PipelineError;
 
 /// What UVs are edited for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 //! Options that would do nothing are refused: who gives one expects something of it.
 
-use super::super::rebake::ImageFormat;
 use super::{KeptMaps, Options, Preset};
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 use crate::deform::Model;
 use crate::document::{GroupBy, OutputFormat};
+use crate::pipeline::rebake::ImageFormat;
 
 /// An option, what it goes with, and whether it is given in vain.
 type Idle = (&'static str, &'static str, bool);

@@ -1,13 +1,13 @@
 //! What of a document is measured.
 
-use super::super::PipelineError;
-use super::super::nodes::Nodes;
 use super::layout::check_mips;
 use super::{Caller, CommandOptions, Layout, Workers};
 use crate::certificate::{Claims, Overlap, Padding};
 use crate::document::{GroupBy, Terms};
 use crate::mesh::Resolution;
 use crate::options::{OptionSet, options};
+use crate::pipeline::PipelineError;
+use crate::pipeline::documents::nodes::Nodes;
 
 options! {
     /// Which UVs of a document are measured or verified. What is absent is what the file says that

@@ -1,7 +1,7 @@
 //! The options of the applications: groups that several have, and what each alone has.
 //!
 //! Every option is written [once](crate::options). Arrays are unwrapped with
-//! [`Settings`](super::Settings), which consists of the groups that concern the geometry.
+//! [`Settings`](crate::pipeline::Settings), which consists of the groups that concern the geometry.
 
 mod cutting;
 mod layout;

@@ -1,10 +1,10 @@
 //! How the UVs of a document are packed.
 
-use super::super::PipelineError;
 use super::{Caller, CommandOptions, Cutting, KeptMaps, Layout, Options, Sets, Workers};
 use crate::charts::Cut;
 use crate::document::{GroupBy, OutputFormat};
 use crate::options::options;
+use crate::pipeline::PipelineError;
 
 options! {
     /// How the UVs of a document are packed. The command line's long names in snake case.

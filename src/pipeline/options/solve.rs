@@ -1,11 +1,11 @@
 //! How a problem file is solved.
 
-use super::super::PipelineError;
-use super::super::bodies::BodyFormat;
-use super::super::solution::Plan;
 use super::{Budget, Caller, CommandOptions, Course, Workers};
 use crate::deform::Method;
 use crate::options::{OptionSet, options};
+use crate::pipeline::PipelineError;
+use crate::pipeline::deform::formats::BodyFormat;
+use crate::pipeline::deform::solution::Plan;
 
 options! {
     /// How a problem file is solved. The command line's long names in snake case.

@@ -2,9 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::nodes::Nodes;
-use super::super::settings::Settings;
-use super::super::texel_weight::TexelWeight;
 use super::layout::check_mips;
 use super::{
     Baking, Budget, Caller, CommandOptions, Cutting, Layout, Mapping, Preset, Sets, Workers, idle,
@@ -17,6 +14,9 @@ use crate::document::{GroupBy, OutputFormat, Terms};
 use crate::options::{OptionSet, options};
 use crate::picture::HeatmapMeasure;
 use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::settings::Settings;
+use crate::pipeline::documents::nodes::Nodes;
+use crate::pipeline::documents::texel_weight::TexelWeight;
 
 /// Edges of a document that are cut in any case.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -8,10 +8,10 @@ mod surface;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-use super::PipelineError;
-use super::options::Options;
 use crate::bake::{Coverage, MOST_TEXELS, baked, side_for};
 use crate::document::{BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning};
+use crate::pipeline::PipelineError;
+use crate::pipeline::options::Options;
 pub use format::ImageFormat;
 use images::read_images;
 use planes::Bake;

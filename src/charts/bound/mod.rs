@@ -1,0 +1,11 @@
+//! Few charts under a bound on their distortion: disks are slit where one sparse solve predicts most of
+//! it, until a map keeps the bound.
+
+pub(super) mod distortion;
+pub(super) mod few_charts;
+mod pending_chart;
+mod predicted_slits;
+mod predictor;
+pub(super) mod quality;
+mod simplified;
+mod slits;

@@ -1,0 +1,5 @@
+//! Charts cut into pieces that fill their convex hulls better, so that an atlas becomes fuller.
+
+pub(super) mod best_split;
+mod chord;
+mod clusters;

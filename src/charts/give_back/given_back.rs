@@ -1,0 +1,252 @@
+//! Small charts given back to their neighbors.
+
+use super::border::{Borders, Run};
+use super::laid::Laid;
+use super::occupied::Ground;
+use crate::charts::bound::distortion::{excess_and_area, stretched_area};
+use crate::charts::bound::quality::Bound;
+use crate::charts::mapped::{MappedChart, Observer};
+use crate::charts::unfold::local_minimum::Local;
+use crate::charts::unfold::overlaps::overlaps;
+use crate::charts::unfold::push_apart::pushed_apart;
+use crate::embed;
+use crate::mesh::Surface;
+use crate::plane::keep_apart;
+use crate::solver::{Control, Iterate};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Pairs of faces that overlap, at most, where a chart is laid that might be pushed apart from its neighbor.
+const MOST_PAIRS: usize = 100;
+
+/// Places at most from which a chart is pushed apart.
+const MOST_PUSHED: usize = 4;
+
+/// The least distance that the border of a joint keeps from itself, as a part of its extent: rounding would close what is narrower.
+const APART: f64 = 1e-6;
+
+/// Faces that are glued at most, as a multiple of all: gluing costs as much as looking at both charts.
+const MOST_GLUED: usize = 100;
+
+/// Charts laid back on neighbors, along edges that both have, where that leaves no overlap and keeps the bound.
+///
+/// From the smallest on, each is moved rigidly to where a part of its border fits best to a neighbor's, long parts first, and glued
+/// there if it covers nothing. Where it covers nothing but slivers it is pushed apart. The map is minimized around the new seam.
+pub fn given_back(
+    surface: &Surface,
+    charts: Vec<MappedChart>,
+    bound: &Bound,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    if charts.len() < 2 {
+        return charts;
+    }
+    let mut giving = Giving::new(surface, charts, bound, options, observer);
+    // What covers nothing costs nothing of the bound: it comes first.
+    while giving.pass(0) || giving.pass(MOST_PUSHED) {}
+    giving.charts.into_values().collect()
+}
+
+struct Giving<'a> {
+    borders: Borders<'a>,
+    charts: BTreeMap<u32, MappedChart>,
+    costs: BTreeMap<u32, Cost>,
+    /// What all may cost.
+    most: Cost,
+    bound: &'a Bound,
+    /// The faces of charts on which others were laid.
+    grounds: BTreeMap<u32, Ground>,
+    /// Those that were pushed in vain, once for each.
+    in_vain: BTreeSet<u32>,
+    /// Faces that may still be glued.
+    left: usize,
+    options: &'a embed::Options,
+    observer: &'a dyn Observer,
+}
+
+/// What a chart takes of the bound.
+#[derive(Clone, Copy, Default)]
+struct Cost {
+    area: f64,
+    excess: f64,
+    stretched: f64,
+}
+
+impl Cost {
+    fn of(map: &MappedChart, bound: &Bound) -> Self {
+        let [excess, area] = excess_and_area(map);
+        let stretched = |most| stretched_area(map, most);
+        Self {
+            area,
+            excess,
+            stretched: bound.stretch.map_or(0.0, stretched),
+        }
+    }
+}
+
+impl<'a> Giving<'a> {
+    fn new(
+        surface: &'a Surface,
+        charts: Vec<MappedChart>,
+        bound: &'a Bound,
+        options: &'a embed::Options,
+        observer: &'a dyn Observer,
+    ) -> Self {
+        let charts: BTreeMap<u32, MappedChart> = (0..).zip(charts).collect();
+        let costs = charts.iter().map(|(&n, map)| (n, Cost::of(map, bound)));
+        let costs: BTreeMap<u32, Cost> = costs.collect();
+        let sum = |of: fn(&Cost) -> f64| costs.values().map(of).sum::<f64>();
+        let area = sum(|cost| cost.area);
+        Self {
+            borders: Borders::new(surface, charts.iter().map(|(&n, map)| (n, &map.chart))),
+            most: Cost {
+                area,
+                excess: sum(|cost| cost.excess).max(bound.budget() * area),
+                stretched: sum(|cost| cost.stretched).max(Bound::stretched_budget() * area),
+            },
+            charts,
+            costs,
+            bound,
+            grounds: BTreeMap::new(),
+            in_vain: BTreeSet::new(),
+            left: MOST_GLUED * surface.triangles.len(),
+            options,
+            observer,
+        }
+    }
+
+    /// Tries to give back each chart but the largest, the smallest first, from so many places at most with a push; false if none was.
+    fn pass(&mut self, most_pushed: usize) -> bool {
+        let size = |(&number, cost): (&u32, &Cost)| (cost.area.to_bits(), number);
+        let mut queue: BTreeSet<(u64, u32)> = self.costs.iter().map(size).collect();
+        let n = queue.len();
+        while queue.len() > 1
+            && self.observer.control() == Control::Continue
+            && let Some((_, number)) = queue.pop_first()
+        {
+            if let Some(neighbor) = self.give_back(number, most_pushed) {
+                queue.retain(|&(_, other)| other != neighbor);
+                queue.insert(size((&neighbor, &self.costs[&neighbor])));
+            }
+        }
+        self.charts.len() < n
+    }
+
+    /// Gives a chart back to a neighbor, which is returned.
+    fn give_back(&mut self, number: u32, most_pushed: usize) -> Option<u32> {
+        let runs = self.borders.runs(number, &self.charts);
+        let map = &self.charts[&number];
+        let mut pushed: Vec<(usize, Run)> = Vec::new();
+        for run in parts_of_runs(&runs, &map.embedding.uv) {
+            let neighbor = &self.charts[&run.neighbor];
+            let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run) else {
+                continue;
+            };
+            let ground = self.grounds.entry(run.neighbor);
+            let ground = ground.or_insert_with(|| Ground::new(neighbor));
+            match laid.n_overlaps(ground, MOST_PAIRS) {
+                0 if self.join(number, laid, &run) => return Some(run.neighbor),
+                0 => {}
+                n if n <= MOST_PAIRS => pushed.push((n, run)),
+                _ => {}
+            }
+        }
+        if most_pushed == 0 || !self.in_vain.insert(number) {
+            return None;
+        }
+        pushed.sort_by_key(|(n, _)| *n);
+        pushed.truncate(most_pushed);
+        for (_, run) in pushed {
+            let neighbor = &self.charts[&run.neighbor];
+            if let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run)
+                && self.join(number, laid, &run)
+            {
+                return Some(run.neighbor);
+            }
+        }
+        None
+    }
+
+    /// Glues a chart to a neighbor, if they can be kept from overlapping within the bound.
+    fn join(&mut self, number: u32, laid: Laid, run: &Run) -> bool {
+        let neighbor = &self.charts[&run.neighbor];
+        let n_faces = |map: &MappedChart| map.chart.disk.triangles.len();
+        let n_glued = n_faces(neighbor) + n_faces(&self.charts[&number]);
+        if n_glued > self.left {
+            return false;
+        }
+        self.left -= n_glued;
+        self.observer.worked(n_glued);
+        let Some(joint) = laid.glued(neighbor) else {
+            return false;
+        };
+        let Some(joint) = self.pushed_apart(joint) else {
+            return false;
+        };
+        let joint = self.settled(joint, run).facing_front();
+        let cost = Cost::of(&joint, self.bound);
+        if !self.allows(&cost, [number, run.neighbor])
+            || !keep_apart(&joint.chart.disk.boundary_in(&joint.embedding.uv), APART)
+        {
+            return false;
+        }
+        self.charts.remove(&number);
+        self.costs.remove(&number);
+        self.grounds.remove(&number);
+        self.grounds.remove(&run.neighbor);
+        self.borders.place(run.neighbor, &joint.chart);
+        self.costs.insert(run.neighbor, cost);
+        self.charts.insert(run.neighbor, joint);
+        true
+    }
+
+    fn allows(&self, cost: &Cost, instead_of: [u32; 2]) -> bool {
+        let others = self.costs.iter().filter(|(n, _)| !instead_of.contains(n));
+        let (excess, stretched) = others.fold((cost.excess, cost.stretched), |sum, (_, cost)| {
+            (sum.0 + cost.excess, sum.1 + cost.stretched)
+        });
+        excess <= self.most.excess && stretched <= self.most.stretched
+    }
+
+    fn pushed_apart(&self, mut map: MappedChart) -> Option<MappedChart> {
+        let pairs = overlaps(&map.chart.disk, &map.embedding.uv);
+        let uv = &map.embedding.uv;
+        let watch = |_: &Iterate| self.observer.control();
+        let (uv, left) = pushed_apart(&map.chart, uv, pairs, self.options, &watch);
+        map.embedding.uv = uv;
+        left.is_empty().then_some(map)
+    }
+
+    /// Minimized around the seam, if that leaves no overlap.
+    fn settled(&self, map: MappedChart, run: &Run) -> MappedChart {
+        let watch = |_: &Iterate| self.observer.control();
+        let local = Local::new(&map.chart, self.options, &watch);
+        let mut uv = local.in_unit(&map.embedding.uv);
+        let seam = run.vertices.iter().map(|&[_, v]| v);
+        local.minimize(&mut uv, seam, &[]);
+        let mut settled = map.clone();
+        settled.embedding.uv = local.in_mesh_unit(&uv);
+        if !embed::is_positive(&map.chart.disk.triangles, &settled.embedding.uv) {
+            return map;
+        }
+        self.pushed_apart(settled).unwrap_or(map)
+    }
+}
+
+/// Runs of a half, a quarter and so on of the edges of some, besides these, the longest first.
+fn parts_of_runs(runs: &[Run], uv: &[[f64; 2]]) -> Vec<Run> {
+    let mut parts = Vec::new();
+    for run in runs {
+        let mut n_edges = run.vertices.len() - 1;
+        while n_edges > 0 {
+            let starts = (0..run.vertices.len() - n_edges).step_by(n_edges.div_ceil(2));
+            parts.extend(starts.map(|start| Run {
+                vertices: run.vertices[start..=start + n_edges].to_vec(),
+                ..*run
+            }));
+            n_edges /= 2;
+        }
+    }
+    parts.sort_by(|a, b| b.length(uv).total_cmp(&a.length(uv)));
+    parts
+}

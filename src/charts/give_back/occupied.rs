@@ -1,0 +1,44 @@
+//! The faces of a map, to be asked which of them others would cover.
+
+use crate::charts::MappedChart;
+use crate::mesh::CornerUvs;
+use crate::numerics::bounds::bounds_of;
+use crate::plane::{BoxIndex, interiors_intersect};
+
+/// The faces of a map.
+pub struct Ground {
+    corners: Vec<CornerUvs>,
+    index: BoxIndex,
+}
+
+impl Ground {
+    /// Of a map without flips. O(n log n).
+    pub fn new(map: &MappedChart) -> Self {
+        let corners = corners(&map.chart.disk.triangles, &map.embedding.uv);
+        let boxes: Vec<_> = corners.iter().map(|c| bounds_of(c)).collect();
+        Self {
+            index: BoxIndex::new(&boxes),
+            corners,
+        }
+    }
+
+    /// How many pairs of a face here and one of these overlap, decided exactly; counted no farther than a first face with which
+    /// they are more than `most`.
+    pub fn n_overlaps(&self, triangles: &[[u32; 3]], uv: &[[f64; 2]], most: usize) -> usize {
+        let mut n = 0;
+        for face in corners(triangles, uv) {
+            self.index.meeting(&bounds_of(&face), |f| {
+                n += usize::from(interiors_intersect(&face, &self.corners[f as usize]));
+            });
+            if n > most {
+                break;
+            }
+        }
+        n
+    }
+}
+
+fn corners(triangles: &[[u32; 3]], uv: &[[f64; 2]]) -> Vec<CornerUvs> {
+    let corners = triangles.iter().map(|t| t.map(|v| uv[v as usize]));
+    corners.collect()
+}

@@ -1,0 +1,188 @@
+//! All charts mapped, from one queue.
+
+use rayon::prelude::*;
+use std::cmp::Reverse;
+
+use super::seams::Seams;
+use super::settings::Settings;
+use crate::barrier::BarrierKind;
+use crate::charts::{
+    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
+    given_back, map_chart, map_chart_from,
+};
+use crate::embed::{self, Pins};
+use crate::mesh::{CornerUvs, Surface};
+use crate::pipeline::observer::Tracker;
+use crate::pipeline::portion::Portion;
+use crate::solver;
+
+/// The charts of every surface with their maps; with [`Cut::Keep`] they begin at the given UVs. What was cut off where a map
+/// overlapped itself is given back where it finds room; [`Cut::Fast`] leaves it.
+pub fn mapped_charts(
+    surfaces: &[&Surface],
+    seams: &[&Seams],
+    settings: &Settings,
+    tracker: &Tracker,
+) -> Vec<Vec<MappedChart>> {
+    let is_promised = settings.mapping.barrier != BarrierKind::None;
+    if settings.cutting.cut == Cut::Auto && is_promised {
+        tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
+        let options = options(settings);
+        let charts = surfaces
+            .par_iter()
+            .map(|surface| {
+                let portion = Portion::of_surface(tracker, surface.triangles.len());
+                let charts = under_bound(surface, settings, &options, &portion);
+                tracker.charts_done(charts.len());
+                charts
+            })
+            .collect();
+        tracker.all_mapped();
+        return charts;
+    }
+    let charts: Vec<Vec<Chart>> = surfaces
+        .par_iter()
+        .map(|surface| charts(surface, settings.cutting.cut))
+        .collect();
+    let kept = |mesh: usize, chart: &Chart| {
+        let uvs = (settings.cutting.cut == Cut::Keep).then_some(seams[mesh].uvs.as_ref());
+        Some(uvs_of(chart, surfaces[mesh], uvs.flatten()?))
+    };
+    let maps = map_charts(charts, kept, settings, tracker);
+    if !gives_back(settings) {
+        return maps;
+    }
+    let (bound, options) = (settings.cutting.bound(), options(settings));
+    (surfaces.par_iter().zip(maps))
+        .map(|(surface, maps)| {
+            let portion = Portion::of_chart(tracker, surface.triangles.len());
+            given_back(surface, maps, &bound, &options, &portion)
+        })
+        .collect()
+}
+
+/// Whether charts are given back once all are mapped.
+fn gives_back(settings: &Settings) -> bool {
+    settings.cutting.cut != Cut::Fast && folds(settings) == Folds::Cut
+}
+
+/// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
+/// component, should that be fewer.
+fn under_bound(
+    surface: &Surface,
+    settings: &Settings,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let most = settings
+        .cutting
+        .max_charts
+        .map_or(usize::MAX, |n| n as usize);
+    let mut bound = settings.cutting.bound();
+    let mut fewest = charts_under_bound(surface, &bound, options, observer);
+    while fewest.len() > most {
+        let next = Quality::looser_than(bound.mean);
+        let others = match next {
+            Some(mean) => {
+                bound = Bound {
+                    mean,
+                    stretch: None,
+                };
+                charts_under_bound(surface, &bound, options, observer)
+            }
+            None => charts(surface, Cut::Disk)
+                .into_iter()
+                .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
+                .collect(),
+        };
+        if others.len() < fewest.len() {
+            fewest = others;
+        }
+        if next.is_none() {
+            break;
+        }
+    }
+    fewest
+}
+
+/// The given UVs at the vertices of a chart.
+fn uvs_of(chart: &Chart, surface: &Surface, uvs: &[CornerUvs]) -> Vec<[f64; 2]> {
+    let mut of_vertex = vec![[0.0; 2]; chart.disk.n_vertices];
+    for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
+        for (&vertex, &corner) in triangle.iter().zip(corners) {
+            let face = surface.faces[corner as usize / 3] as usize;
+            of_vertex[vertex as usize] = uvs[face][corner as usize % 3];
+        }
+    }
+    of_vertex
+}
+
+/// Maps every chart of every mesh, the largest first.
+fn map_charts(
+    charts: Vec<Vec<Chart>>,
+    kept: impl Fn(usize, &Chart) -> Option<Vec<[f64; 2]>> + Sync,
+    settings: &Settings,
+    tracker: &Tracker,
+) -> Vec<Vec<MappedChart>> {
+    let mut maps: Vec<Vec<MappedChart>> = charts
+        .iter()
+        .map(|of_mesh| Vec::with_capacity(of_mesh.len()))
+        .collect();
+    let mut queue: Vec<((usize, usize), Chart)> = (charts.into_iter().enumerate())
+        .flat_map(|(mesh, of_mesh)| (0..).zip(of_mesh).map(move |(c, chart)| ((mesh, c), chart)))
+        .collect();
+    let n_faces = |(_, chart): &(_, Chart)| chart.disk.triangles.len();
+    let faces: usize = queue.iter().map(n_faces).sum();
+    let passes = 1 + usize::from(gives_back(settings));
+    tracker.charts(queue.len(), passes * faces);
+    queue.sort_by_key(|entry| (Reverse(n_faces(entry)), entry.0));
+    let (options, folds) = (options(settings), folds(settings));
+    let mut mapped: Vec<((usize, usize), Vec<MappedChart>)> = queue
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|(id, chart)| {
+            let portion = Portion::of_chart(tracker, chart.disk.triangles.len());
+            let parts = match kept(id.0, &chart) {
+                Some(uv) if settings.cutting.are_maps_given() => {
+                    vec![MappedChart::given(chart, uv)]
+                }
+                Some(uv) => map_chart_from(chart, uv, &options, &portion),
+                None => map_chart(chart, &options, folds, &portion),
+            };
+            tracker.charts_done(1);
+            (id, parts)
+        })
+        .collect();
+    mapped.sort_by_key(|(id, _)| *id);
+    for ((mesh, _), parts) in mapped {
+        maps[mesh].extend(parts);
+    }
+    maps
+}
+
+/// Whoever asks for one chart per component wants no other seams, and without a barrier nothing is promised.
+pub fn folds(settings: &Settings) -> Folds {
+    if settings.cutting.cut == Cut::Disk
+        || settings.cutting.are_maps_given()
+        || settings.mapping.barrier == BarrierKind::None
+    {
+        Folds::Keep
+    } else {
+        Folds::Cut
+    }
+}
+
+fn options(settings: &Settings) -> embed::Options {
+    embed::Options {
+        energy: settings.mapping.energy,
+        barrier: settings.mapping.barrier,
+        beta: settings.mapping.barrier_strength,
+        s: settings.mapping.barrier_support,
+        pins: if settings.mapping.pin == 0 {
+            Pins::None
+        } else {
+            Pins::Two
+        },
+        solver: solver::Settings::default(),
+    }
+}

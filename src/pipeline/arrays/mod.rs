@@ -1,0 +1,14 @@
+//! From plain arrays to an atlas: meshes are welded, cut, mapped and packed; each shape is mapped once.
+
+pub(super) mod alike;
+mod clearance;
+mod compact;
+mod divided;
+mod map;
+mod packed;
+mod packing;
+pub(super) mod repeated;
+pub(super) mod seams;
+pub(super) mod settings;
+pub(super) mod soup;
+pub(super) mod unwrap;

@@ -1,0 +1,72 @@
+//! Faces that name a position twice: they can have no area in the plane, so they lie on an edge of a neighbour.
+
+use std::collections::HashMap;
+
+use super::unwrap::GridCorners;
+
+/// A position by its bits, −0 = 0.
+pub fn key(position: [f32; 3]) -> [u32; 3] {
+    position.map(|x| (x + 0.0).to_bits())
+}
+
+/// Gives every face that is not in `placed` (ascending) corners at which its positions lie in some placed face:
+/// on one edge where a placed face has that edge, else all at one corner, else at the origin.
+pub fn place(
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    placed: &[u32],
+    grid: &mut [GridCorners],
+) {
+    let mut is_placed = vec![false; triangles.len()];
+    for &face in placed {
+        is_placed[face as usize] = true;
+    }
+    let keys = |face: usize| triangles[face].map(|v| key(positions[v as usize]));
+    let left_out: Vec<usize> = (0..triangles.len())
+        .filter(|&face| !is_placed[face])
+        .collect();
+    // Every position a left-out face names, with a placed corner there; every pair of them, with a placed edge.
+    let mut corner_at: HashMap<[u32; 3], Option<[i32; 2]>> = HashMap::new();
+    let mut edge_at: HashMap<[[u32; 3]; 2], Option<[[i32; 2]; 2]>> = HashMap::new();
+    for &face in &left_out {
+        let k = keys(face);
+        for c in 0..3 {
+            corner_at.insert(k[c], None);
+            edge_at.insert([k[c], k[(c + 1) % 3]], None);
+            edge_at.insert([k[(c + 1) % 3], k[c]], None);
+        }
+    }
+    if left_out.is_empty() {
+        return;
+    }
+    for &face in placed {
+        let (k, uv) = (keys(face as usize), grid[face as usize]);
+        for c in 0..3 {
+            let d = (c + 1) % 3;
+            corner_at
+                .entry(k[c])
+                .and_modify(|at| *at = at.or(Some(uv[c])));
+            edge_at
+                .entry([k[c], k[d]])
+                .and_modify(|at| *at = at.or(Some([uv[c], uv[d]])));
+            edge_at
+                .entry([k[d], k[c]])
+                .and_modify(|at| *at = at.or(Some([uv[d], uv[c]])));
+        }
+    }
+    for face in left_out {
+        let k = keys(face);
+        let edge = (0..3).find_map(|c| {
+            let [a, b] = [k[c], k[(c + 1) % 3]];
+            edge_at[&[a, b]].filter(|_| a != b).map(|uv| (a, uv))
+        });
+        grid[face] = match edge {
+            Some((first, uv)) => k.map(|position| uv[usize::from(position != first)]),
+            None => {
+                [k.iter()
+                    .find_map(|position| corner_at[position])
+                    .unwrap_or_default(); 3]
+            }
+        };
+    }
+}

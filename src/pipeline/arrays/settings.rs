@@ -1,0 +1,49 @@
+//! How a mesh given as arrays is unwrapped.
+
+use crate::atlas::Borders;
+use crate::options::OptionSet;
+use crate::pipeline::options::{Budget, Cutting, Layout, Mapping, Workers};
+
+/// How a mesh given as arrays is unwrapped.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Where to cut.
+    pub cutting: Cutting,
+    /// How charts are mapped.
+    pub mapping: Mapping,
+    /// How charts are laid out on a texture.
+    pub layout: Layout,
+    /// Where charts may end; on borders of texels only where the sides of the texture are powers of
+    /// two.
+    pub borders: Borders,
+    /// What works.
+    pub workers: Workers,
+    /// How long it may take.
+    pub budget: Budget,
+}
+
+impl Settings {
+    /// Checks every number against its range, and what goes with what; the text names the option.
+    pub fn validate(&self) -> Result<(), String> {
+        self.cutting.check_ranges()?;
+        self.mapping.check_ranges()?;
+        self.layout.check_ranges()?;
+        self.workers.check_ranges()?;
+        self.budget.check_ranges()?;
+        self.layout.check()?;
+        if self.layout.pages > 1 && self.mapping.quantization_safe.is_some() {
+            return Err(
+                "`quantization_safe` goes with one page: of several, tools round to fewer bits of each".to_owned(),
+            );
+        }
+        if self.borders == Borders::OnTexels && !self.layout.resolution.shorter().is_power_of_two()
+        {
+            let given = self.layout.resolution;
+            return Err(format!(
+                "charts of a lightmap end where texels end: its `resolution` is a power of two, not {given}"
+            ));
+        }
+        self.cutting.check()?;
+        self.mapping.check(self.cutting.cut)
+    }
+}

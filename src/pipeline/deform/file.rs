@@ -1,0 +1,56 @@
+//! Meshes, pictures, drawings and surfaces in a cage pulled by handles.
+
+use super::caged;
+use super::solution::{Deformed, WriteMap, solve};
+use super::source::Source;
+use crate::deform::Problem;
+use crate::document::Upload;
+use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::unwrap::in_pool;
+use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::options::{CommandOptions, DeformOptions};
+
+/// Pulls a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a barrier no
+/// element is inverted in any iterate.
+pub fn deform_file(
+    upload: &Upload,
+    options: &DeformOptions,
+    observer: &dyn Observer,
+) -> Result<Deformed, PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        match options.cage {
+            Some(n_voxels) => caged::deform(upload, options, n_voxels, &tracker),
+            None => deform_body(upload, options, &tracker),
+        }
+    })?
+}
+
+fn deform_body(
+    upload: &Upload,
+    options: &DeformOptions,
+    tracker: &Tracker,
+) -> Result<Deformed, PipelineError> {
+    tracker.stage(Stage::Read);
+    let source = Source::read(upload, options.triangles, &options.caller.limits)?;
+    let format = options.format.unwrap_or_else(|| source.format(upload));
+    source.check(format, options.frames)?;
+    let body = source.body()?;
+    let dim = body.dim();
+    let problem = Problem::new(body, &options.handles, &options.model)?;
+    let file = |x: &[f64]| source.frame(format, dim, x);
+    let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
+    let solved = solve(&problem, options.plan(), tracker, frames)?;
+    tracker.stage(Stage::Write);
+    Ok(Deformed {
+        files: source.files(
+            format,
+            &options.caller.stem(upload),
+            dim,
+            &solved.solution.x,
+        )?,
+        report: solved.report,
+        trace: solved.trace,
+    })
+}

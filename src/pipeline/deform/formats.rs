@@ -1,0 +1,96 @@
+//! Formats of deformed bodies.
+
+use serde::{Deserialize, Serialize};
+
+use crate::document::OutputFormat;
+use crate::mesh::io::{ElementFormat, Elements, text_positions};
+use crate::pipeline::PipelineError;
+
+/// What a deformed body is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum BodyFormat {
+    /// Positions, one per line, 17 digits.
+    Txt,
+    /// Wavefront OBJ: triangles only.
+    Obj,
+    /// Geomview OFF: triangles only.
+    Off,
+    /// Gmsh.
+    Msh,
+    /// Medit.
+    Mesh,
+    /// Counts, positions, corners.
+    Tet,
+    /// VTK XML.
+    Vtu,
+    /// Binary glTF: surfaces in a cage, and planar ones that came as glTF, PLY or STL.
+    Glb,
+    /// glTF with its files beside it: the same.
+    Gltf,
+}
+
+impl BodyFormat {
+    const ALL: [(Self, &'static str); 9] = [
+        (Self::Txt, "txt"),
+        (Self::Obj, "obj"),
+        (Self::Off, "off"),
+        (Self::Msh, "msh"),
+        (Self::Mesh, "mesh"),
+        (Self::Tet, "tet"),
+        (Self::Vtu, "vtu"),
+        (Self::Glb, "glb"),
+        (Self::Gltf, "gltf"),
+    ];
+
+    /// The format by a file's extension, in lower case and without the dot.
+    pub fn of_extension(extension: &str) -> Option<Self> {
+        let mut all = Self::ALL.into_iter();
+        all.find_map(|(format, word)| (word == extension).then_some(format))
+    }
+
+    /// The extension of its files.
+    pub fn extension(self) -> &'static str {
+        let mut all = Self::ALL.into_iter();
+        all.find_map(|(format, word)| (format == self).then_some(word))
+            .unwrap_or_default()
+    }
+
+    /// As the format of a document.
+    pub(in crate::pipeline) fn of_document(self) -> Option<OutputFormat> {
+        match self {
+            Self::Obj => Some(OutputFormat::Obj),
+            Self::Glb => Some(OutputFormat::Glb),
+            Self::Gltf => Some(OutputFormat::Gltf),
+            _ => None,
+        }
+    }
+
+    /// Refuses what a mesh that came without a document is not written as.
+    pub(in crate::pipeline) fn check_for_mesh(self) -> Result<(), PipelineError> {
+        match self {
+            Self::Glb | Self::Gltf => Err(PipelineError::InvalidOptions(
+                "`format`: of this input the result is txt, obj, off, msh, mesh, tet or vtu".into(),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// The file of a deformed body: `elements` with the positions `x`, `dim` coordinates each.
+    pub(in crate::pipeline) fn write(self, elements: &Elements, dim: usize, x: &[f64]) -> Vec<u8> {
+        let format = ElementFormat::of_name(&format!(".{}", self.extension()));
+        let text = match (format, dim) {
+            (None, 2) => text_positions::<2>(x.as_chunks().0),
+            (None, _) => text_positions::<3>(x.as_chunks().0),
+            (Some(format), _) => {
+                let place = |p: &[f64]| [p[0], p[1], p.get(2).copied().unwrap_or(0.0)];
+                format.write(&Elements {
+                    vertices: x.chunks_exact(dim).map(place).collect(),
+                    ..elements.clone()
+                })
+            }
+        };
+        text.into_bytes()
+    }
+}

@@ -1,0 +1,206 @@
+//! Problems solved under observation: the map, a report, a line per iteration.
+
+use std::cell::RefCell;
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::caged::CageReport;
+use crate::certificate::boundary_crossings;
+use crate::deform::{BodyElements, Method, Problem, Solution, Worth};
+use crate::document::Warning;
+use crate::pipeline::PipelineError;
+use crate::pipeline::observer::Tracker;
+use crate::solver::{Control, Iterate, Settings, Summary, Watch};
+
+/// What a body became.
+#[derive(Clone, Debug)]
+pub struct Deformed {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What the map is worth.
+    pub report: DeformReport,
+    /// A line per iteration as CSV: energy without the barrier, the barrier's and the constraints' share, smallest element, μ, σ,
+    /// α and the residual, as in [`Iterate`].
+    pub trace: String,
+}
+
+/// What a deformation is worth and how it was found.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct DeformReport {
+    /// How it was solved.
+    pub method: Method,
+    /// What the solver did.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// What the map is worth.
+    #[serde(flatten)]
+    pub worth: Worth,
+    /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossings: Option<u64>,
+    /// Elements of the supplied start that were inverted and had to be untangled.
+    pub untangled: usize,
+    /// The energy that minimizing without a barrier leads to from the solution, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_without_barrier: Option<f64>,
+    /// The smallest size of an element over its rest size, over all iterates.
+    pub smallest_ever: f64,
+    /// Seconds of reading and checking, of a large cage with those of the coarser ones it starts from.
+    pub setup_seconds: f64,
+    /// Seconds of everything after that, but for writing.
+    pub solve_seconds: f64,
+    /// What users should know of the files.
+    pub warnings: Vec<Warning>,
+    /// The cage and the surfaces in it, if that is what was deformed.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub cage: Option<CageReport>,
+}
+
+/// What is done beside minimizing once.
+#[derive(Clone, Copy)]
+pub struct Plan {
+    pub method: Method,
+    /// Lower the barrier's strength while the energy without it falls.
+    pub barrier_continuation: bool,
+    /// Also minimize without a barrier.
+    pub bias: bool,
+}
+
+/// Writes a map as the result will be.
+pub type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
+
+/// A solution, its report, its trace.
+pub struct Solved {
+    pub solution: Solution,
+    pub report: DeformReport,
+    pub trace: String,
+}
+
+/// Solves a problem; `file` serves those who look at every iteration.
+pub fn solve(
+    problem: &Problem,
+    plan: Plan,
+    tracker: &Tracker,
+    file: Option<&WriteMap>,
+) -> Result<Solved, PipelineError> {
+    let setup_seconds = tracker.elapsed().as_secs_f64();
+    let trace = Trace {
+        tracker,
+        file,
+        x: RefCell::default(),
+        iterates: RefCell::default(),
+    };
+    let settings = Settings::follow();
+    let mut solution = match plan.method {
+        Method::Projected => problem.solve(&settings, &trace)?,
+        Method::Levenberg => problem.solve_by_levenberg(&problem.levenberg, &trace)?,
+    };
+    if plan.barrier_continuation {
+        solution = problem.with_weaker_barrier(solution, &settings, tracker)?;
+    }
+    let energy_without_barrier = if plan.bias {
+        Some(problem.energy_without_barrier(&solution, &settings, tracker)?)
+    } else {
+        None
+    };
+    if solution.worth.inverted > 0 && problem.forbids_inversion() {
+        return Err(PipelineError::Inverted);
+    }
+    let crossings = crossings(problem, &solution.x);
+    if problem.boundary_barrier.is_some() && crossings > Some(0) {
+        return Err(PipelineError::Crossed);
+    }
+    let report = DeformReport {
+        method: plan.method,
+        summary: solution.summary,
+        worth: solution.worth,
+        crossings,
+        untangled: problem.untangled,
+        energy_without_barrier,
+        smallest_ever: trace.smallest().min(solution.worth.smallest),
+        setup_seconds,
+        solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
+        warnings: Vec::new(),
+        cage: None,
+    };
+    Ok(Solved {
+        solution,
+        report,
+        trace: trace.csv(),
+    })
+}
+
+/// How often the boundary of a body of the plane meets itself.
+fn crossings(problem: &Problem, x: &[f64]) -> Option<u64> {
+    match &problem.body.elements {
+        BodyElements::Triangles { corners, .. } => {
+            Some(boundary_crossings(x.as_chunks().0, corners))
+        }
+        BodyElements::Tetrahedra { .. } => None,
+    }
+}
+
+/// What happened in every iteration.
+struct Trace<'a> {
+    tracker: &'a Tracker<'a>,
+    file: Option<&'a WriteMap<'a>>,
+    /// The positions of the iterate that comes next.
+    x: RefCell<Vec<f64>>,
+    iterates: RefCell<Vec<Iterate>>,
+}
+
+impl Watch for Trace<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        // Where one stage follows another the last iterate is shown again.
+        let mut iterates = self.iterates.borrow_mut();
+        if iterates
+            .last()
+            .is_none_or(|last| last.iteration < iterate.iteration)
+        {
+            iterates.push(*iterate);
+            if let Some(file) = self.file {
+                let x = self.x.borrow();
+                self.tracker.frame(iterate.iteration, &|| file(&x));
+            }
+        }
+        Watch::iterate(self.tracker, iterate)
+    }
+
+    fn positions(&self, x: &[f64]) {
+        if self.file.is_some() {
+            self.x.replace(x.to_vec());
+        }
+    }
+}
+
+impl Trace<'_> {
+    /// The smallest size of an element over its rest size, over all iterates.
+    fn smallest(&self) -> f64 {
+        let iterates = self.iterates.borrow();
+        let sizes = iterates.iter().map(|i| i.smallest);
+        sizes.fold(f64::INFINITY, f64::min)
+    }
+
+    fn csv(&self) -> String {
+        let mut text =
+            String::from("iteration,energy,barrier,constraint,smallest,mu,sigma,alpha,residual\n");
+        for i in self.iterates.borrow().iter() {
+            let numbers = [
+                i.energy - i.barrier,
+                i.barrier,
+                i.constraint,
+                i.smallest,
+                i.mu,
+                i.sigma,
+                i.alpha,
+                i.residual,
+            ];
+            let numbers = numbers.map(|x| format!("{x:e}")).join(",");
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{},{numbers}", i.iteration);
+        }
+        text
+    }
+}

@@ -1,0 +1,166 @@
+//! What is deformed, from files and back.
+
+use super::formats::BodyFormat;
+use super::moved::{check_format, check_frames, moved, moved_frame};
+use super::planar_map::PlanarMap;
+use crate::deform::Body;
+use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
+use crate::document::{Document, GroupBy, OutputFormat, Upload};
+use crate::mesh::Surface;
+use crate::mesh::io::{ElementFormat, Elements};
+use crate::picture::Image;
+use crate::pipeline::PipelineError;
+use crate::pipeline::documents::merged::Merged;
+use crate::pipeline::limits::Limits;
+
+/// About how many triangles an outline is filled with, unless an option says otherwise.
+pub const TRIANGLES: usize = 5000;
+
+/// The mesh of a file.
+pub struct Source {
+    elements: Elements,
+    /// What the triangles belong to, where that is more than triangles.
+    document: Option<Document>,
+}
+
+impl Source {
+    /// The mesh of a file, or of the outline in a picture or drawing, that is filled with about so many triangles. Its kind is known
+    /// by the extension of its name, of a file without one by its first bytes.
+    pub fn read(upload: &Upload, triangles: usize, limits: &Limits) -> Result<Self, PipelineError> {
+        let extension = match upload.extension() {
+            none if none.is_empty() => extension_by_content(&upload.bytes).to_owned(),
+            extension => extension,
+        };
+        let drawn = drawn(&upload.bytes, &extension, triangles, limits)?;
+        if drawn.is_none() && triangles != TRIANGLES {
+            let text = "`triangles` fill an outline, and this input is a mesh";
+            return Err(PipelineError::InvalidOptions(text.to_owned()));
+        }
+        let (elements, document) = if let Some(elements) = drawn {
+            (elements, None)
+        } else if let Some(format) = ElementFormat::of_name(&format!(".{extension}")) {
+            (format.read(&upload.bytes)?, None)
+        } else {
+            let document = Document::read(upload)?;
+            (surface(&document)?, Some(document))
+        };
+        limits.check_count(elements.triangles.len() + elements.tets.len())?;
+        Ok(Self { elements, document })
+    }
+
+    /// Its tetrahedra, or else its triangles, which must lie in a plane.
+    pub fn body(&self) -> Result<Body, PipelineError> {
+        let elements = self.elements.clone();
+        Ok(if elements.tets.is_empty() {
+            Body::from(&elements.into_planar_mesh()?)
+        } else {
+            Body::from(&elements.into_tet_mesh()?)
+        })
+    }
+
+    /// The format of the result where none was asked for: the input's if possible.
+    pub fn format(&self, upload: &Upload) -> BodyFormat {
+        BodyFormat::of_extension(&upload.extension())
+            .filter(|&format| self.check(format, false).is_ok())
+            .unwrap_or(BodyFormat::Obj)
+    }
+
+    /// Can the result be written like this?
+    pub fn check(&self, format: BodyFormat, with_frames: bool) -> Result<(), PipelineError> {
+        match self.whole(format) {
+            Some((_, format)) if with_frames => check_frames(format),
+            Some((document, format)) => Ok(check_format(document, format)?),
+            None => format.check_for_mesh(),
+        }
+    }
+
+    /// The document and its format, if the result is one.
+    fn whole(&self, format: BodyFormat) -> Option<(&Document, OutputFormat)> {
+        let is_mesh = format.check_for_mesh().is_ok();
+        let format = format.of_document().filter(|_| !is_mesh)?;
+        self.document.as_ref().map(|document| (document, format))
+    }
+
+    /// The files of the result under the name `stem`, the main file first, at the positions `x`, `dim` coordinates each.
+    pub fn files(
+        &self,
+        format: BodyFormat,
+        stem: &str,
+        dim: usize,
+        x: &[f64],
+    ) -> Result<Vec<(String, Vec<u8>)>, PipelineError> {
+        if let Some((document, format)) = self.whole(format) {
+            let map = PlanarMap::new(&self.elements, x.as_chunks().0);
+            return Ok(moved(document, &map, format, stem)?.1.files);
+        }
+        let name = format!("{stem}.{}", format.extension());
+        Ok(vec![(name, format.write(&self.elements, dim, x))])
+    }
+
+    /// The main file alone.
+    pub fn frame(&self, format: BodyFormat, dim: usize, x: &[f64]) -> Vec<u8> {
+        match self.whole(format) {
+            Some((document, format)) => {
+                let map = PlanarMap::new(&self.elements, x.as_chunks().0);
+                moved_frame(document, &map, format)
+            }
+            None => format.write(&self.elements, dim, x),
+        }
+    }
+}
+
+/// What the first bytes say of files that are no documents; empty where they are of another kind.
+fn extension_by_content(bytes: &[u8]) -> &'static str {
+    let start = bytes.trim_ascii_start();
+    let kinds: [(&[u8], _); 5] = [
+        (b"\x89PNG", "png"),
+        (b"<svg", "svg"),
+        (b"<?xml", "svg"),
+        (b"$MeshFormat", "msh"),
+        (b"MeshVersionFormatted", "mesh"),
+    ];
+    let known = kinds.iter().find(|(first, _)| start.starts_with(first));
+    known.map_or("", |(_, extension)| extension)
+}
+
+/// The mesh of the outline in a picture or drawing, if it is one.
+fn drawn(
+    bytes: &[u8],
+    extension: &str,
+    triangles: usize,
+    limits: &Limits,
+) -> Result<Option<Elements>, PipelineError> {
+    if !matches!(extension, "svg" | "png") {
+        return Ok(None);
+    }
+    limits.check_count(triangles)?;
+    let outline = if extension == "svg" {
+        let text = String::from_utf8_lossy(bytes);
+        outline::of_svg(&text, &SvgSettings::default())?
+    } else {
+        let image = Image::decode(bytes)?;
+        outline::of_image(&image, &ImageSettings::default())?
+    };
+    Ok(Some(filled(&outline, triangles)?))
+}
+
+fn filled(outline: &outline::Outline, triangles: usize) -> Result<Elements, PipelineError> {
+    let settings = MeshSettings {
+        resolution: Resolution::Triangles(triangles),
+        ..MeshSettings::default()
+    };
+    Ok(Elements::from(&outline::triangulate(outline, &settings)?))
+}
+
+/// All triangles of a document, welded by position.
+fn surface(document: &Document) -> Result<Elements, PipelineError> {
+    let groups = document.groups(GroupBy::Scene);
+    let merged = groups.first().ok_or(PipelineError::NoTriangles)?;
+    let merged = Merged::new(document.primitives(), merged);
+    let surface = Surface::new(&merged.positions, &merged.triangles)?;
+    Ok(Elements {
+        vertices: surface.positions,
+        triangles: surface.triangles,
+        tets: Vec::new(),
+    })
+}

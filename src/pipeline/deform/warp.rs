@@ -1,0 +1,80 @@
+//! Pictures pulled by handles.
+
+use serde::Serialize;
+
+use super::pull_report::PullReport;
+use crate::barrier::BarrierKind;
+use crate::certificate::{boundary_crossings, certify_planar};
+use crate::deform::Boundary;
+use crate::deform::warp::warp_picture;
+use crate::document::{Upload, Warning};
+use crate::picture::Image;
+use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::unwrap::in_pool;
+use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::options::{CommandOptions, WarpOptions};
+
+/// A warped picture.
+#[derive(Clone, Debug)]
+pub struct WarpedPicture {
+    /// The PNG file by its name.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What the map is worth.
+    pub report: WarpReport,
+}
+
+/// What a warp of a picture is worth.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct WarpReport {
+    /// Whether the map is proven to have no inverted triangle and, with a fixed border or if asked for, to be bijective.
+    pub certified: bool,
+    /// What users should know of the picture and of the map.
+    pub warnings: Vec<Warning>,
+    /// Where the upper left corner of the result lies, in pixels of the original.
+    pub origin: [i64; 2],
+    /// The map.
+    #[serde(flatten)]
+    pub map: PullReport,
+}
+
+/// Warps a picture without folding it, and proves that on the map of its grid.
+pub fn warp_file(
+    upload: &Upload,
+    options: &WarpOptions,
+    observer: &dyn Observer,
+) -> Result<WarpedPicture, PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        tracker.stage(Stage::Read);
+        let image = Image::decode(&upload.bytes)?;
+        let how = options.of_grid();
+        let warped = warp_picture(&image, &options.handles, &how, &tracker)?;
+        let (vertices, triangles) = (&warped.deformed, warped.grid.triangles());
+        let map = PullReport::new(
+            warped.summary,
+            boundary_crossings(vertices, triangles),
+            certify_planar(vertices, triangles),
+        );
+        let certified = if how.boundary == Boundary::Fixed || options.model.bijective {
+            map.bijective
+        } else {
+            map.certificate.is_valid()
+        };
+        if !certified && options.model.barrier != BarrierKind::None {
+            return Err(PipelineError::Inverted);
+        }
+        tracker.stage(Stage::Write);
+        let stem = options.caller.stem(upload);
+        Ok(WarpedPicture {
+            files: vec![(format!("{stem}.png"), warped.picture.image.png())],
+            report: WarpReport {
+                certified,
+                warnings: Vec::new(),
+                origin: warped.picture.origin,
+                map,
+            },
+        })
+    })?
+}

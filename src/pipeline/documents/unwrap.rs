@@ -1,0 +1,215 @@
+//! From a file's bytes to a file's bytes: read, unwrap, write, read again, judge.
+
+use super::merged::Merged;
+use super::pictures::Pictures;
+use super::prepared::Prepared;
+use crate::atlas::GRID_BITS;
+use crate::charts::Cut;
+use crate::document::{
+    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, Upload, WriteOptions, Written,
+};
+use crate::mesh::VAxis;
+use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::soup::Soup;
+use crate::pipeline::arrays::unwrap::{GridCorners, Unwrapped, in_pool, unwrap_all};
+use crate::pipeline::judge::bound_report::BoundReport;
+use crate::pipeline::judge::groups::WrittenUvs;
+use crate::pipeline::judge::report::{AtlasReport, GroupReport, Report, Seconds};
+use crate::pipeline::judge::shortfalls::shortfalls;
+use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::options::{CommandOptions, Options};
+use crate::pipeline::rebake::{self, rebaked};
+
+/// Everything that comes out of unwrapping a document.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What they are worth.
+    pub report: Report,
+    /// Draws the UV layout and the distortion.
+    pub pictures: Pictures,
+}
+
+/// Unwraps every mesh of a document and judges the bytes it writes.
+pub fn unwrap_document(
+    upload: &Upload,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Outcome, PipelineError> {
+    let options = &options.resolved();
+    options.check()?;
+    let settings = options.settings();
+    let tracker = Tracker::new(observer, settings.budget);
+    in_pool(settings.workers, || {
+        unwrap_in_pool(upload, options, &tracker)
+    })?
+}
+
+fn unwrap_in_pool(
+    upload: &Upload,
+    options: &Options,
+    tracker: &Tracker,
+) -> Result<Outcome, PipelineError> {
+    let mut seconds = Seconds::default();
+    let mut watch = StopWatch::start(tracker);
+
+    tracker.stage(Stage::Read);
+    let nodes = options.nodes();
+    let Prepared {
+        document,
+        group_by,
+        seams,
+    } = Prepared::read(upload, options)?;
+    let groups = document.groups(group_by);
+    let primitives = nodes.primitives(&document)?;
+    let meshes: Vec<Merged> = groups
+        .iter()
+        .map(|group| Merged::with_seams(&document, &primitives, group, &seams))
+        .collect::<Result<_, _>>()?;
+    seconds.read = watch.lap();
+
+    let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
+    let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    seconds.unwrap = watch.lap();
+
+    let uvs = new_uvs(&document, &groups, &atlases, options.layout.pages);
+    let mut baked = None;
+    if options.baking.rebake {
+        tracker.stage(Stage::Bake);
+        baked = Some(rebaked(&document, &groups, &uvs, options)?);
+    }
+    seconds.bake = watch.lap();
+
+    tracker.stage(Stage::Write);
+    let written = write(&document, (&uvs, group_by), baked.as_ref(), upload, options)?;
+    seconds.write = watch.lap();
+    let noticed = document.warnings().to_vec();
+    // What was written is read next: both would take twice the memory.
+    drop(primitives);
+    drop(document);
+
+    tracker.stage(Stage::Judge);
+    let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
+    for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
+        group.weights = mesh.seams.weights;
+    }
+    let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
+    add_history(&mut groups, &atlases, &uvs, options);
+    seconds.judge = watch.lap();
+
+    let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
+    let missing = shortfalls(&judged);
+    let is_valid = groups.iter().all(|group| group.certificate.is_valid());
+    if options.is_promised() && !is_valid {
+        let messages: Vec<&str> = missing.iter().map(|w| w.message.as_str()).collect();
+        return Err(PipelineError::NotValid(messages.join("; ")));
+    }
+    let warnings = [noticed, written.notes.warnings.clone(), missing].concat();
+    let mut report = Report::new(groups, warnings);
+    report.options = Some(Options {
+        group_by: Some(group_by),
+        ..options.clone()
+    });
+    report.limits = Some(options.caller.limits);
+    report.written = Some(written.notes);
+    report.seconds = Some(seconds);
+    Ok(Outcome {
+        files: written.files,
+        report,
+        pictures: Pictures {
+            uvs,
+            texture: options.layout.resolution,
+            shown: options.heatmap_measure,
+            workers: options.settings().workers,
+        },
+    })
+}
+
+fn write(
+    document: &Document,
+    (uvs, group_by): (&NewUvs, GroupBy),
+    baked: Option<&BakedTextures>,
+    upload: &Upload,
+    options: &Options,
+) -> Result<Written, PipelineError> {
+    let write_options = WriteOptions {
+        format: options.format,
+        stem: options.caller.stem(upload),
+        texcoord: options.sets.texcoord,
+        overwrite: options.sets.overwrite,
+        terms: Some(options.terms(group_by)),
+    };
+    let mut written = document.write_baked(uvs, &write_options, baked)?;
+    if let Some(baked) = baked {
+        let warnings = rebake::warnings(baked, options);
+        written.notes.warnings.extend(warnings);
+    }
+    Ok(written)
+}
+
+/// The atlases as UVs of the document.
+fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped], pages: u32) -> NewUvs {
+    let primitives = document.primitives();
+    let mut corners = vec![None; primitives.len()];
+    for (group, atlas) in groups.iter().zip(atlases) {
+        let mut rest = atlas.grid.as_slice();
+        for &index in &group.primitives {
+            let (own, others) = rest.split_at(primitives[index].triangles.len());
+            corners[index] = Some(own.iter().map(from_grid).collect());
+            rest = others;
+        }
+    }
+    NewUvs {
+        layout: Layout::New,
+        pages,
+        v_axis: VAxis::Up,
+        corners,
+    }
+}
+
+/// Exact in f32.
+fn from_grid(corners: &GridCorners) -> Corners {
+    corners.map(|uv| uv.map(|i| i as f32 / (1_u32 << GRID_BITS) as f32))
+}
+
+/// Adds to each group what only unwrapping knows.
+fn add_history(
+    groups: &mut [GroupReport],
+    atlases: &[Unwrapped],
+    uvs: &WrittenUvs,
+    options: &Options,
+) {
+    let aspect = options.layout.resolution.aspect();
+    let bound = (options.cutting.cut == Cut::Auto).then(|| options.cutting.bound());
+    let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
+    for ((group, atlas), uvs) in groups.iter_mut().zip(atlases).zip(&uvs.groups) {
+        group.defects = Some(atlas.defects);
+        group.atlas = Some(AtlasReport {
+            bound: bound
+                .map(|bound| BoundReport::new(&bound, &group.measures.distortion, (uvs, aspect))),
+            same_as: atlas.same_as.map(|group| names[group].clone()),
+            ..AtlasReport::new(atlas)
+        });
+    }
+}
+
+/// Seconds of the observer's clock from lap to lap.
+struct StopWatch<'a> {
+    tracker: &'a Tracker<'a>,
+    last: f64,
+}
+
+impl<'a> StopWatch<'a> {
+    fn start(tracker: &'a Tracker<'a>) -> Self {
+        Self {
+            tracker,
+            last: tracker.elapsed().as_secs_f64(),
+        }
+    }
+
+    fn lap(&mut self) -> f64 {
+        let now = self.tracker.elapsed().as_secs_f64();
+        now - std::mem::replace(&mut self.last, now)
+    }
+}

@@ -1,0 +1,4 @@
+//! UVs of a document edited by anchors.
+
+pub(super) mod terms;
+pub(super) mod uvs;

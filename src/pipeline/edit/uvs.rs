@@ -1,0 +1,250 @@
+//! UVs of a document edited by anchors, and judged in the bytes that are written.
+
+use serde::Serialize;
+
+use super::terms::{edited_terms, holds};
+use crate::barrier::BarrierKind;
+use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar, chart_ids};
+use crate::deform::uv::{ChartFaces, EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs};
+use crate::document::{
+    Corners, Document, DocumentError, Layout, NewUvs, Upload, Warning, WriteOptions, Written,
+};
+use crate::mesh::CornerUvs;
+use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::unwrap::in_pool;
+use crate::pipeline::deform::pull_report::PullReport;
+use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::options::{CommandOptions, EditOptions, Editing};
+
+/// A document with edited UVs.
+#[derive(Clone, Debug)]
+pub struct EditedDocument {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What was done.
+    pub report: EditReport,
+}
+
+/// What was done to the UVs of a document.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct EditReport {
+    /// Whether every chart with an anchor is proven to be without flips in the bytes written.
+    pub certified: bool,
+    /// Whether, beyond that, none of them overlaps itself.
+    pub bijective: bool,
+    /// What users should know of the file that was read, of the work and of the file that was written.
+    pub warnings: Vec<Warning>,
+    /// The shapes that were kept.
+    pub rest: UvRest,
+    /// The charts with anchors.
+    pub charts: Vec<ChartEditReport>,
+}
+
+/// What was done to a chart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct ChartEditReport {
+    /// Its number among the charts of the document, in the order of their first faces.
+    pub chart: u32,
+    /// How many of its faces were flipped or empty and had to be untangled first.
+    pub untangled: usize,
+    /// What the map is worth; the certificate is about the bytes written.
+    #[serde(flatten)]
+    pub map: PullReport,
+}
+
+/// Pulls anchors of a document's UVs to their targets and judges the bytes it writes. UVs are in the numbers of the file, in
+/// glTF with v down; vertices count through all triangle primitives in file order.
+pub fn edit_document(
+    upload: &Upload,
+    editing: Editing,
+    options: &EditOptions,
+    observer: &dyn Observer,
+) -> Result<EditedDocument, PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        tracker.stage(Stage::Read);
+        let document = Document::read(upload)?;
+        options.caller.limits.check(&document)?;
+        let whole = Whole::gather(&document, options.texcoord)?;
+        let how = options.of_map(editing);
+        let edited = edit_uvs(&whole.mesh(), &options.anchors, &how, &tracker)?;
+        tracker.stage(Stage::Write);
+        let stem = options.caller.stem(upload);
+        let mut write_options = WriteOptions {
+            format: options.format,
+            stem,
+            texcoord: Some(options.texcoord),
+            overwrite: false,
+            terms: Some(edited_terms(&document, options)?),
+        };
+        let uvs = new_uvs(&document, &whole, &edited);
+        let mut written = document.write(&uvs, &write_options)?;
+        tracker.stage(Stage::Judge);
+        let again = written.read_again()?;
+        let found = Whole::gather(&again, options.texcoord)?;
+        let places = places(&written, edited.uvs.len());
+        let warnings = [document.warnings(), &written.notes.warnings].concat();
+        let report = judge(
+            &edited,
+            (&document, &again),
+            (&found, &places),
+            (how.rest, warnings),
+        )?;
+        let is_kept = report.certified || options.model.barrier == BarrierKind::None;
+        if !is_kept || options.model.bijective && !report.bijective {
+            let what = if report.certified {
+                "a chart overlaps itself"
+            } else {
+                "a triangle is flipped or without area"
+            };
+            return Err(PipelineError::NotValid(what.to_owned()));
+        }
+        if let Some(terms) = &mut write_options.terms
+            && !holds(&again, terms, options.texcoord)?
+        {
+            terms.charts = Some(found.numbers_of(&edited, &places));
+            written = document.write(&uvs, &write_options)?;
+        }
+        Ok(EditedDocument {
+            files: written.files,
+            report,
+        })
+    })?
+}
+
+/// All primitives of a document as one mesh; those without UVs have vertices only.
+struct Whole {
+    positions: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    uvs: Vec<CornerUvs>,
+    /// The number of faces of each primitive that has UVs.
+    n_faces: Vec<Option<usize>>,
+}
+
+impl Whole {
+    fn gather(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
+        let mut whole = Self {
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            uvs: Vec::new(),
+            n_faces: Vec::new(),
+        };
+        for (index, primitive) in document.primitives().iter().enumerate() {
+            let uvs = document.corner_uvs(index, texcoord)?;
+            whole.n_faces.push(uvs.as_ref().map(Vec::len));
+            let first = whole.positions.len() as u32;
+            let positions = primitive.positions.iter().map(|p| p.map(f64::from));
+            whole.positions.extend(positions);
+            if let Some(uvs) = uvs {
+                let triangles = primitive.triangles.iter().map(|t| t.map(|v| v + first));
+                whole.triangles.extend(triangles);
+                whole.uvs.extend(uvs);
+            }
+        }
+        if whole.triangles.is_empty() {
+            let group = "the file".to_owned();
+            return Err(PipelineError::NoUvs { group, texcoord });
+        }
+        Ok(whole)
+    }
+
+    /// The numbers that edited charts have here; `places` are those of their faces.
+    fn numbers_of(&self, edited: &EditedUvs, places: &[usize]) -> Vec<u32> {
+        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
+        let first = |chart: &EditedChart| {
+            chart
+                .faces
+                .first()
+                .map(|face| of_face[places[face as usize]])
+        };
+        let mut numbers: Vec<u32> = edited.charts.iter().filter_map(first).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+
+    fn mesh(&self) -> UvMesh<'_> {
+        UvMesh {
+            positions: &self.positions,
+            triangles: &self.triangles,
+            uvs: &self.uvs,
+        }
+    }
+}
+
+fn new_uvs(document: &Document, whole: &Whole, edited: &EditedUvs) -> NewUvs {
+    let mut rest = edited.uvs.as_slice();
+    let mut next = |n: usize| -> Vec<Corners> {
+        let (own, others) = rest.split_at(n);
+        rest = others;
+        own.iter()
+            .map(|face| face.map(|uv| uv.map(|x| x as f32)))
+            .collect()
+    };
+    NewUvs {
+        layout: Layout::Edited,
+        pages: 1,
+        v_axis: document.v_axis(),
+        corners: whole.n_faces.iter().map(|n| n.map(&mut next)).collect(),
+    }
+}
+
+/// Where each face is among those of the file written.
+fn places(written: &Written, n_faces: usize) -> Vec<usize> {
+    let Some(faces) = &written.notes.faces else {
+        return (0..n_faces).collect();
+    };
+    let mut places = vec![0; n_faces];
+    for (place, &face) in faces.iter().enumerate() {
+        if let Some(slot) = places.get_mut(face as usize) {
+            *slot = place;
+        }
+    }
+    places
+}
+
+/// Judges the charts in the written bytes, where each face has its place.
+fn judge(
+    edited: &EditedUvs,
+    (document, again): (&Document, &Document),
+    (found, places): (&Whole, &[usize]),
+    (rest, warnings): (UvRest, Vec<Warning>),
+) -> Result<EditReport, PipelineError> {
+    if found.uvs.len() != edited.uvs.len() {
+        return Err(DocumentError::InvalidUvs.into());
+    }
+    let found: Vec<CornerUvs> = places.iter().map(|&place| found.uvs[place]).collect();
+    let flip_v = again.v_axis() != document.v_axis();
+    let charts = edited.charts.iter().map(|chart| {
+        let crossings = boundary_crossings(&chart.vertices, &chart.triangles);
+        let certificate = certified(&chart.faces, &found, flip_v);
+        ChartEditReport {
+            chart: chart.chart,
+            untangled: chart.untangled,
+            map: PullReport::new(chart.summary.clone(), crossings, certificate),
+        }
+    });
+    let charts: Vec<ChartEditReport> = charts.collect();
+    Ok(EditReport {
+        certified: charts.iter().all(|c| c.map.certificate.is_valid()),
+        bijective: charts.iter().all(|c| c.map.bijective),
+        warnings,
+        rest,
+        charts,
+    })
+}
+
+/// Judges a chart by the numbers that the file has for its faces; `flip_v` says whether v points
+/// the other way in them than it did.
+fn certified(faces: &ChartFaces, uvs: &[CornerUvs], flip_v: bool) -> PlanarCertificate {
+    let place = |corner: u32| {
+        let [u, v] = uvs[corner as usize / 3][corner as usize % 3];
+        [u, if flip_v { -v } else { v }]
+    };
+    let places: Vec<[f64; 2]> = faces.corners().flatten().map(place).collect();
+    let triangles = (0..faces.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
+    certify_planar(&places, &triangles.collect::<Vec<_>>())
+}

@@ -1,0 +1,145 @@
+//! Whether an atlas keeps the bound on its distortion, and which chart is worst where it does not.
+
+use serde::Serialize;
+
+use super::group_uvs::GroupUvs;
+use crate::certificate::chart_ids;
+use crate::charts::Bound;
+use crate::measure::{Distortion, FaceDistortion, face_distortion};
+use crate::mesh::CornerUvs;
+use crate::numerics::vec3::{area_vector, norm};
+
+/// A bound on the distortion of an atlas, and what was reached.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct BoundReport {
+    /// The largest mean symmetric Dirichlet energy that was asked for.
+    pub max_distortion: f64,
+    /// The largest stretch of all but a hundredth of the area that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_stretch: Option<f64>,
+    /// The mean symmetric Dirichlet energy of the written bytes, `sym_dirichlet_mean`.
+    pub distortion: Option<f64>,
+    /// The stretch of the written bytes, `stretch_p99`.
+    pub stretch: Option<f64>,
+    /// Whether both keep their bounds.
+    pub kept: bool,
+    /// The most distorted chart, where a bound is missed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub worst_chart: Option<WorstChart>,
+}
+
+/// The chart with the largest mean symmetric Dirichlet energy.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct WorstChart {
+    /// Its number, in the order of the first faces of charts.
+    pub chart: u32,
+    /// Its mean symmetric Dirichlet energy.
+    pub distortion: f64,
+    /// The greatest stretch of a triangle of it.
+    pub stretch: f64,
+}
+
+/// The uniform stretch of a map of this symmetric Dirichlet energy, in percent: the s > 0 with 2(1+s)² + 2(1+s)⁻² = E.
+pub fn stretch_percent(energy: f64) -> f64 {
+    let energy = energy.max(4.0);
+    let squared = (energy + (energy * energy - 16.0).sqrt()) / 4.0;
+    100.0 * (squared.sqrt() - 1.0)
+}
+
+impl BoundReport {
+    pub(in crate::pipeline) fn new(
+        bound: &Bound,
+        measured: &Distortion,
+        (uvs, aspect): (&GroupUvs, f64),
+    ) -> Self {
+        let keeps = |most: Option<f64>, measured: Option<f64>| {
+            most.zip(measured)
+                .is_none_or(|(most, measured)| measured <= most)
+        };
+        let kept = keeps(Some(bound.mean), measured.sym_dirichlet_mean)
+            && keeps(bound.stretch, measured.stretch_p99);
+        Self {
+            max_distortion: bound.mean,
+            max_stretch: bound.stretch,
+            distortion: measured.sym_dirichlet_mean,
+            stretch: measured.stretch_p99,
+            kept,
+            worst_chart: if kept {
+                None
+            } else {
+                WorstChart::of(uvs, aspect)
+            },
+        }
+    }
+
+    /// By how much which bound is missed, and where it is worst.
+    pub(in crate::pipeline) fn shortfall(&self) -> String {
+        let mut parts = Vec::new();
+        if let Some(reached) = self
+            .distortion
+            .filter(|&reached| reached > self.max_distortion)
+        {
+            let [percent, most] = [reached, self.max_distortion].map(stretch_percent);
+            parts.push(format!(
+                "stretched by {percent:.1} % on the mean where {most:.1} % were asked for (symmetric Dirichlet {reached:.4} of at most {})",
+                self.max_distortion
+            ));
+        }
+        if let (Some(most), Some(reached)) = (self.max_stretch, self.stretch)
+            && reached > most
+        {
+            let [percent, asked] = [reached, most].map(|stretch| 100.0 * (stretch - 1.0));
+            parts.push(format!(
+                "more than a hundredth of the area stretched by {percent:.1} % or more where {asked:.1} % were asked for"
+            ));
+        }
+        let worst = self.worst_chart.map(|worst| {
+            let percent = stretch_percent(worst.distortion);
+            let WorstChart {
+                chart, distortion, ..
+            } = worst;
+            format!("; chart {chart} is the worst, {percent:.1} % ({distortion:.4})")
+        });
+        format!("{}{}", parts.join(", "), worst.unwrap_or_default())
+    }
+}
+
+impl WorstChart {
+    fn of(group: &GroupUvs, aspect: f64) -> Option<Self> {
+        let (positions, triangles) = (&group.positions, &group.triangles);
+        let scaled = |face: &CornerUvs| face.map(|[u, v]| [u * aspect, v]);
+        let uvs: Vec<CornerUvs> = group.uvs.iter().map(scaled).collect();
+        let faces = face_distortion(positions, triangles, &uvs, group.weights.as_deref());
+        let mut charts: Vec<(f64, f64, f64)> = Vec::new();
+        for ((triangle, face), chart) in triangles
+            .iter()
+            .zip(&faces)
+            .zip(chart_ids(positions, triangles, &group.uvs))
+        {
+            let FaceDistortion {
+                symmetric_dirichlet,
+                stretch,
+                degenerate,
+                ..
+            } = *face;
+            charts.resize(charts.len().max(chart as usize + 1), (0.0, 0.0, 0.0));
+            if !degenerate {
+                let [a, b, c] = triangle.map(|v| positions[v as usize]);
+                let area = norm(area_vector(a, b, c));
+                let (total, sum, greatest) = &mut charts[chart as usize];
+                *total += area;
+                *sum += area * symmetric_dirichlet;
+                *greatest = greatest.max(stretch);
+            }
+        }
+        let means = (0..).zip(&charts).filter(|(_, (area, ..))| *area > 0.0);
+        let means = means.map(|(chart, &(area, sum, stretch))| Self {
+            chart,
+            distortion: sum / area,
+            stretch,
+        });
+        means.max_by(|a, b| a.distortion.total_cmp(&b.distortion))
+    }
+}

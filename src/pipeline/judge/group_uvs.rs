@@ -1,0 +1,150 @@
+//! The UVs of one group as its bytes have them.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use super::report::GroupReport;
+use crate::certificate::{Certificate, Claims, certify, chart_ids};
+use crate::document::{Document, Group, Primitive};
+use crate::measure::{self, Measures};
+use crate::mesh::{CornerUvs, Resolution, VAxis};
+use crate::numerics::vec3::{area_vector, norm};
+use crate::pipeline::PipelineError;
+
+/// The UVs of one group with its mesh.
+#[derive(Clone, Debug)]
+pub struct GroupUvs {
+    pub name: String,
+    pub label: String,
+    pub positions: Vec<[f64; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    pub uvs: Vec<CornerUvs>,
+    /// The texel density intended for each face; one for all if absent.
+    pub weights: Option<Vec<f64>>,
+}
+
+impl GroupUvs {
+    pub fn gather(
+        document: &Document,
+        primitives: &[Primitive],
+        group: &Group,
+        set: &impl Fn(usize) -> Option<u32>,
+    ) -> Result<Self, PipelineError> {
+        let mut gathered = Self {
+            name: group.name.clone(),
+            label: group.label.clone(),
+            positions: vec![],
+            triangles: vec![],
+            uvs: vec![],
+            weights: None,
+        };
+        for &index in &group.primitives {
+            let primitive = &primitives[index];
+            let Some(texcoord) = set(index) else {
+                continue;
+            };
+            let uvs =
+                document
+                    .corner_uvs(index, texcoord)?
+                    .ok_or_else(|| PipelineError::NoUvs {
+                        group: group.label.clone(),
+                        texcoord,
+                    })?;
+            let first = gathered.positions.len() as u32;
+            gathered
+                .positions
+                .extend(primitive.positions.iter().map(|p| p.map(f64::from)));
+            gathered
+                .triangles
+                .extend(primitive.triangles.iter().map(|t| t.map(|v| v + first)));
+            gathered.uvs.extend(uvs);
+        }
+        Ok(gathered)
+    }
+
+    /// Some of its charts, each as a group.
+    pub fn charts(&self, numbers: &[u32]) -> Vec<Self> {
+        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
+        let chart = |&number: &u32| {
+            let faces = || (0..of_face.len()).filter(|&face| of_face[face] == number);
+            Self {
+                name: format!("chart{number}"),
+                label: format!("chart {number}"),
+                positions: self.positions.clone(),
+                triangles: faces().map(|face| self.triangles[face]).collect(),
+                uvs: faces().map(|face| self.uvs[face]).collect(),
+                weights: None,
+            }
+        };
+        numbers.iter().map(chart).collect()
+    }
+
+    /// The area of the surface enlarged by its weights, if it has any.
+    fn intended_area(&self) -> Option<f64> {
+        let area = |(t, weight): (&[u32; 3], &f64)| {
+            let [a, b, c] = t.map(|v| self.positions[v as usize]);
+            norm(area_vector(a, b, c)) / 2.0 * weight * weight
+        };
+        let weights = self.weights.as_ref()?;
+        Some(self.triangles.iter().zip(weights).map(area).sum())
+    }
+
+    pub fn certify(&self, claims: &Claims) -> Certificate {
+        certify(&self.positions, &self.triangles, &self.uvs, claims)
+    }
+
+    /// `raster_texels` is the side of the raster on which coverage is counted.
+    pub fn measure(&self, v_axis: VAxis, texture: Resolution, raster_texels: u32) -> Measures {
+        let options = measure::MeasureOptions {
+            raster_texels,
+            aspect: texture.aspect(),
+            weights: self.weights.as_deref(),
+            ..measure::MeasureOptions::default()
+        };
+        measure::measure(
+            &self.positions,
+            &self.triangles,
+            &self.uvs,
+            v_axis,
+            &options,
+        )
+    }
+
+    /// Of what [`is_same`](Self::is_same) compares.
+    pub fn hash(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.triangles.hash(&mut hasher);
+        let uvs = self.uvs.as_flattened().as_flattened();
+        for x in uvs {
+            x.to_bits().hash(&mut hasher);
+        }
+        hasher.finish()
+    }
+
+    /// Whether all numbers are the same, whatever the names.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.triangles == other.triangles
+            && self.positions == other.positions
+            && self.uvs == other.uvs
+            && self.weights == other.weights
+    }
+
+    /// What it is worth.
+    pub fn report(
+        &self,
+        measures: Measures,
+        certificate: Certificate,
+        texture: Resolution,
+    ) -> GroupReport {
+        let area = self.intended_area().unwrap_or(measures.size.area_3d);
+        let squared = measures.size.area_uv / area;
+        GroupReport {
+            name: self.name.clone(),
+            label: self.label.clone(),
+            texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
+            measures,
+            certificate,
+            defects: None,
+            atlas: None,
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! What was asked for and is not proven of a group, in sentences: what, where and by how much.
+
+use super::group_uvs::GroupUvs;
+use super::report::GroupReport;
+use crate::certificate::{Certificate, PaddingVerdict, chart_ids};
+use crate::document::Warning;
+
+/// Warnings of one code at most; the last of them counts the rest.
+const MOST_OF_A_CODE: usize = 8;
+
+/// Everything that keeps a result from being certified, and bounds that it misses.
+pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
+    let found = groups.iter().flat_map(|(uvs, report)| {
+        let Places { name, charts } = &Places::new(uvs, report);
+        let certificate = &report.certificate;
+        let faces = faces(name, certificate, charts);
+        let whole = whole_charts(name, certificate);
+        let overlapping = overlapping(name, certificate, charts);
+        let distances = [padding(name, certificate, charts), bits(name, certificate)];
+        let bound = report.atlas.as_ref().and_then(|atlas| atlas.bound.as_ref());
+        let distorted = bound
+            .filter(|bound| !bound.kept)
+            .map(|bound| Warning::new("too_distorted", format!("{name}: {}", bound.shortfall())));
+        let all = faces.into_iter().chain(overlapping).chain(whole);
+        let all: Vec<Warning> = all
+            .chain(distances.into_iter().flatten())
+            .chain(distorted)
+            .collect();
+        all
+    });
+    limited(found)
+}
+
+/// The name of a group, and the chart of each of its faces where something has to be located.
+struct Places<'a> {
+    name: &'a str,
+    charts: Vec<u32>,
+}
+
+impl<'a> Places<'a> {
+    fn new(uvs: &'a GroupUvs, report: &GroupReport) -> Self {
+        let charts = if report.is_certified() {
+            Vec::new()
+        } else {
+            chart_ids(&uvs.positions, &uvs.triangles, &uvs.uvs)
+        };
+        Self {
+            name: &uvs.label,
+            charts,
+        }
+    }
+}
+
+/// Faces that are no part of a map without flips.
+fn faces(name: &str, certificate: &Certificate, charts: &[u32]) -> Vec<Warning> {
+    let place = (certificate.offending_faces.first())
+        .map(|&face| format!(", one of them triangle {face} in {}", chart(charts, face)))
+        .unwrap_or_default();
+    let counted = [
+        (
+            "flipped",
+            certificate.flipped,
+            "flipped (the map is not locally injective)",
+        ),
+        (
+            "zero_area",
+            certificate.degenerate,
+            "without area in UV (degenerate)",
+        ),
+        (
+            "not_finite",
+            certificate.nonfinite_faces,
+            "with UVs that are no numbers",
+        ),
+    ];
+    let warning = |(code, n, what): (&'static str, usize, &str)| {
+        (n > 0).then(|| {
+            Warning::new(
+                code,
+                format!("{name}: {} {what}{place}", count(n, "triangle")),
+            )
+        })
+    };
+    counted.into_iter().filter_map(warning).collect()
+}
+
+fn overlapping(name: &str, certificate: &Certificate, charts: &[u32]) -> Option<Warning> {
+    let pairs = certificate.overlapping_pairs.unwrap_or(0);
+    if certificate.overlap_truncated {
+        let text = format!("{name}: too many triangles may overlap to look at them all");
+        return Some(Warning::new("overlapping", text));
+    }
+    let place = (certificate.offending_pairs.first()).map(|&[a, b]| {
+        let (in_a, in_b) = (chart(charts, a), chart(charts, b));
+        if in_a == in_b {
+            format!(", one of them triangles {a} and {b} in {in_a}")
+        } else {
+            format!(", one of them triangle {a} in {in_a} and triangle {b} in {in_b}")
+        }
+    });
+    let place = place.unwrap_or_default();
+    let what = "overlapping in UV (the map is not bijective)";
+    let pairs = (pairs > 0).then(|| count(pairs as usize, "pair"))?;
+    Some(Warning::new(
+        "overlapping",
+        format!("{name}: {pairs} of triangles {what}{place}"),
+    ))
+}
+
+/// Charts that are seen from behind, have no side, or lie where they should not.
+fn whole_charts(name: &str, certificate: &Certificate) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut add = |code, n: usize, what: &str| {
+        if n > 0 {
+            let text = format!("{name}: {} {what}", count(n, "chart"));
+            warnings.push(Warning::new(code, text));
+        }
+    };
+    let first = certificate.mirrored.first();
+    let first = first.map_or(String::new(), |chart| {
+        format!(", one of them chart {chart}")
+    });
+    add(
+        "mirrored",
+        certificate.mirrored_charts,
+        &format!("mirrored (seen from behind){first}"),
+    );
+    add(
+        "one_sided",
+        certificate.nonorientable_charts,
+        "with one side only, as a Möbius strip (not orientable)",
+    );
+    add(
+        "not_aligned",
+        certificate.unaligned_charts.unwrap_or(0),
+        "not ending where texels end",
+    );
+    if let Some(pages) = &certificate.pages {
+        let asked = count(pages.asked as usize, "page");
+        add(
+            "outside_pages",
+            pages.charts_across,
+            &format!("not on one of {asked}"),
+        );
+    }
+    warnings
+}
+
+fn padding(name: &str, certificate: &Certificate, charts: &[u32]) -> Option<Warning> {
+    let verdict = certificate
+        .padding
+        .as_ref()
+        .filter(|verdict| !verdict.kept)?;
+    let PaddingVerdict {
+        asked_texels,
+        resolution,
+        pairs_too_close,
+        ..
+    } = verdict;
+    let nearest = (verdict.reached_texels)
+        .map(|reached| format!(", the nearest {reached:.3}"))
+        .unwrap_or_default();
+    let place = (verdict.offending_faces.first())
+        .map(|&[a, b]| {
+            format!(
+                ", one of them {} and {}",
+                chart(charts, a),
+                chart(charts, b)
+            )
+        })
+        .unwrap_or_default();
+    let pairs = count(*pairs_too_close, "pair");
+    Some(Warning::new(
+        "padding_missed",
+        format!(
+            "{name}: {pairs} of charts closer than the padding of {asked_texels} texels at {resolution}{nearest}{place}; a larger \
+             --resolution or a smaller --padding leaves room"
+        ),
+    ))
+}
+
+fn bits(name: &str, certificate: &Certificate) -> Option<Warning> {
+    let verdict = certificate.bits.as_ref().filter(|verdict| !verdict.hold)?;
+    let faces = count(verdict.faces_in_doubt, "triangle");
+    let pairs = count(verdict.pairs_in_doubt as usize, "pair");
+    let asked = verdict.asked;
+    Some(Warning::new(
+        "bits_missed",
+        format!("{name}: rounded to {asked} bits, {faces} may flip and {pairs} of edges may touch"),
+    ))
+}
+
+fn chart(charts: &[u32], face: u32) -> String {
+    charts
+        .get(face as usize)
+        .map_or("a chart".to_owned(), |chart| format!("chart {chart}"))
+}
+
+fn count(n: usize, thing: &str) -> String {
+    let plural = if n == 1 { "" } else { "s" };
+    format!("{n} {thing}{plural}")
+}
+
+/// The first of each code, and how many more there are.
+fn limited(found: impl Iterator<Item = Warning>) -> Vec<Warning> {
+    let mut all: Vec<Warning> = found.collect();
+    all.sort_by(|a, b| a.code.cmp(&b.code));
+    let mut kept = Vec::new();
+    for of_code in all.chunk_by(|a, b| a.code == b.code) {
+        if of_code.len() <= MOST_OF_A_CODE {
+            kept.extend_from_slice(of_code);
+            continue;
+        }
+        let (shown, rest) = of_code.split_at(MOST_OF_A_CODE - 1);
+        kept.extend_from_slice(shown);
+        let text = format!(
+            "{} more of these ({}); the report has them all",
+            rest.len(),
+            rest[0].code
+        );
+        kept.push(Warning {
+            code: rest[0].code.clone(),
+            message: text,
+        });
+    }
+    kept
+}

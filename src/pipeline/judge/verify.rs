@@ -1,0 +1,109 @@
+//! What the UVs of a document are worth, and what can be proven of them.
+
+use serde::Serialize;
+
+use super::groups::WrittenUvs;
+use super::proven::Proven;
+use super::question::Question;
+use super::report::Report;
+use crate::certificate::{Certificate, Overlap};
+use crate::document::{Document, Mark, Upload, Warning};
+use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::unwrap::in_pool;
+use crate::pipeline::options::{CommandOptions, MeasureOptions};
+
+/// The exact judgement of a document's UVs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verified {
+    /// What holds of all groups.
+    pub proven: Proven,
+    /// A certificate per group.
+    pub groups: Vec<VerifiedGroup>,
+    /// What the document says of its UVs, where it was judged by that.
+    pub mark: Option<Mark>,
+    /// What users should know of the file that was read.
+    pub warnings: Vec<Warning>,
+}
+
+/// The exact judgement of a group's UVs.
+#[derive(Clone, Debug, Serialize)]
+pub struct VerifiedGroup {
+    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`; `chart0` where charts alone are judged.
+    pub name: String,
+    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    pub label: String,
+    /// What is proven of it.
+    pub certificate: Certificate,
+}
+
+impl Verified {
+    /// Whether faces may not overlap because the document says so.
+    pub fn is_bijectivity_promised(&self) -> bool {
+        self.mark.as_ref().is_some_and(|mark| !mark.terms.overlaps)
+    }
+}
+
+/// Measures the UVs that a document has.
+pub fn measure_document(
+    upload: &Upload,
+    options: &MeasureOptions,
+) -> Result<Report, PipelineError> {
+    with_uvs(upload, options, |document, question| {
+        let options = &question.options;
+        let uvs = WrittenUvs::asked(document, question)?;
+        let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution());
+        Ok(Report::new(groups, warnings(document, question)))
+    })
+}
+
+/// Judges the UVs that a document has. Shares no code with the writer.
+pub fn verify_document(
+    upload: &Upload,
+    options: &MeasureOptions,
+    overlap: Overlap,
+) -> Result<Verified, PipelineError> {
+    with_uvs(upload, options, |document, question| {
+        let uvs = match question.charts() {
+            Some(charts) => WrittenUvs::of_charts(document, question, charts)?,
+            None => WrittenUvs::asked(document, question)?,
+        };
+        let certificates = uvs.certify(&question.options.claims(question.overlap(overlap)));
+        let groups: Vec<VerifiedGroup> = (uvs.groups.into_iter().zip(certificates))
+            .map(|(group, certificate)| VerifiedGroup {
+                name: group.name,
+                label: group.label,
+                certificate,
+            })
+            .collect();
+        Ok(Verified {
+            proven: Proven::of(groups.iter().map(|group| &group.certificate)),
+            groups,
+            mark: question.mark.clone(),
+            warnings: warnings(document, question),
+        })
+    })
+}
+
+/// What is to be said of the document and of its mark.
+fn warnings(document: &Document, question: &Question) -> Vec<Warning> {
+    let warnings = document.warnings().iter().chain(&question.warning);
+    warnings.cloned().collect()
+}
+
+/// Answers a question about a document, within the limits.
+fn with_uvs<T: Send>(
+    upload: &Upload,
+    options: &MeasureOptions,
+    answer: impl FnOnce(&Document, &Question) -> Result<T, PipelineError> + Send,
+) -> Result<T, PipelineError> {
+    options.check()?;
+    in_pool(options.caller.workers(options.workers), || {
+        let document = Document::read(upload)?;
+        options.caller.limits.check(&document)?;
+        let question = Question::new(options, &document)?;
+        let (_, nodes) = question.options.spaces();
+        let document = nodes.prepared(document)?;
+        options.caller.limits.check(&document)?;
+        answer(&document, &question)
+    })?
+}
