@@ -282,6 +282,7 @@ fn what_cannot_be_done_is_refused() {
     let obj = Upload::single("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec());
     let as_obj = Options {
         format: OutputFormat::Obj,
+        group_by: None,
         ..options()
     };
     assert_eq!(code(&obj, &as_obj), "unsupported_output");
