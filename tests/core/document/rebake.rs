@@ -283,7 +283,6 @@ fn what_cannot_be_done_is_refused() {
     let as_obj = Options {
         group_by: None,
         format: OutputFormat::Obj,
-        group_by: None,
         ..options()
     };
     assert_eq!(code(&obj, &as_obj), "unsupported_output");
