@@ -3,7 +3,6 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 
 use super::OnRead;
-use super::layout::SLACK;
 use super::mask::{Distances, Mask};
 use super::outline::Outline;
 use super::plan::{Near, Plan, QuarterTurns};
@@ -11,6 +10,9 @@ use super::sheet::Sheet;
 use super::spot::{Corner, Spot, Window};
 use super::texture::{Form, Texture};
 use super::turned::Turned;
+
+/// How far a vertex may end up from its exact position, in cells, without another layout.
+pub(super) const SLACK: f64 = 1.0 / 64.0;
 
 /// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
 /// A smaller chart, far below a texel, is enlarged to that: nothing smaller can be represented.

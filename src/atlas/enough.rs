@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use super::attempt::SLACK;
 use super::draft::Draft;
-use super::layout::{SLACK, layout};
+use super::layout::layout;
 use super::outline::outlines;
 use super::pack::{best, searched};
 use super::plan::Plan;

@@ -5,7 +5,7 @@
 //! prescribed has one attempt, which fills page after page.
 //! What an attempt costs is counted in words read, not in seconds, so the result is the same on
 //! every machine.
-use super::attempt::{Attempt, Extent, Packing};
+use super::attempt::{Attempt, Extent, Packing, SLACK};
 use super::plan::Plan;
 use super::spot::Spot;
 use super::{AtlasOptions, OnRead, Scale};
@@ -27,8 +27,6 @@ pub(super) struct Layout {
     pub charts: Vec<(Spot, f64)>,
 }
 
-/// How far a vertex may end up from its exact position, in cells, without another layout.
-pub(super) const SLACK: f64 = 1.0 / 64.0;
 /// Scales tried at most, and at most until one fits (each is then smaller by some per cent).
 const ATTEMPTS: [usize; 2] = [12, 400];
 /// The search ends when the best scale and one that failed are as near as this. With many charts the

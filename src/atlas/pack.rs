@@ -2,8 +2,9 @@
 use rayon::prelude::*;
 
 use super::align::aligned;
+use super::attempt::SLACK;
 use super::draft::Draft;
-use super::layout::{self, Layout, SLACK};
+use super::layout::{self, Layout};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
 use super::snap::{self, Snapped};

@@ -18,13 +18,15 @@ mod fill;
 mod frames;
 mod plane;
 mod reduced;
+mod resample;
 mod size;
 mod texture;
 mod triangle;
 
 pub use coverage::Coverage;
 pub use frames::Frames;
-pub use plane::{Plane, Sampled, baked};
+pub use plane::{Plane, Sampled};
+pub use resample::baked;
 pub use size::{MOST_TEXELS, side_for};
 pub use texture::Texture;
 

@@ -1,23 +1,7 @@
-//! A texture for a new UV map from textures on the old one.
+//! What a texture for a new UV map is made from.
 
-use rayon::prelude::*;
-
-use super::colour::encoded;
-use super::coverage::Coverage;
-use super::fill::filled;
-use super::reduced::Reduced;
-use super::triangle::{Triangle, blended};
 use super::{Corners, Frames, Texture};
 use crate::document::Encoding;
-use crate::picture::Image;
-
-/// Samples per texel along a side at most: where the source is finer still, it repeats more often than the new texture
-/// has texels to show.
-const MOST_SAMPLES: f64 = 8.0;
-/// Samples along a side where the source takes its nearest texel: its steps have edges that are smoothed so.
-const STEP_SAMPLES: f64 = 4.0;
-/// A texel of the source that is larger than one of the target by this much only does not need more samples.
-const SLACK: f64 = 0.01;
 
 /// What a face shows: a texture and, for each of its corners, the place in it, in texels.
 #[derive(Clone, Copy)]
@@ -38,85 +22,4 @@ pub struct Plane<'a> {
     pub faces: Vec<Option<Sampled>>,
     /// For directions, the frames they are relative to.
     pub frames: Option<Frames>,
-}
-
-/// The new texture.
-pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
-    let side = coverage.side();
-    let numbers = 0..plane.textures.len();
-    let reduced: Vec<Reduced> = numbers.map(|n| Reduced::new(plane, n, coverage)).collect();
-    let bake = Bake {
-        plane,
-        textures: &reduced,
-        coverage,
-    };
-    let mut texels: Vec<Option<[u8; 4]>> = vec![None; side * side];
-    texels
-        .par_chunks_mut(side)
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, texel) in row.iter_mut().enumerate() {
-                *texel = bake.texel([x, y]);
-            }
-        });
-    Image {
-        width: side,
-        height: side,
-        pixels: filled(texels, side),
-    }
-}
-
-/// What texels are made from.
-struct Bake<'a> {
-    plane: &'a Plane<'a>,
-    textures: &'a [Reduced<'a>],
-    coverage: &'a Coverage,
-}
-
-impl Bake<'_> {
-    /// The value of a texel: the mean over its square, which is cut off at the face where it lies at a border.
-    fn texel(&self, [x, y]: [usize; 2]) -> Option<[u8; 4]> {
-        let face = self.coverage.at(x, y)?;
-        let sampled = self.plane.faces[face as usize].as_ref()?;
-        let reduced = &self.textures[sampled.texture as usize];
-        let texture = reduced.texture();
-        let source = sampled
-            .corners
-            .map(|place| place.map(|x| x * reduced.scale));
-        let triangle = Triangle::new(*self.coverage.corners(face))?;
-        let is_interior = self.coverage.is_interior(x, y);
-        let centre = [x as f64 + 0.5, y as f64 + 0.5];
-        let n = samples(&triangle.jacobian(&source), texture.is_nearest);
-        let mut sum = [0.0; 4];
-        for k in 0..n * n {
-            let offset = |i: usize| (i as f64 + 0.5) / n as f64 - 0.5;
-            let place = [centre[0] + offset(k % n), centre[1] + offset(k / n)];
-            let weights = if is_interior {
-                triangle.weights(place)
-            } else {
-                triangle.nearest(place).0
-            };
-            let value = texture.sample(blended(weights, &source));
-            sum = [0, 1, 2, 3].map(|c| sum[c] + value[c]);
-        }
-        let mut value = sum.map(|c| c / (n * n) as f32);
-        if let Some(frames) = &self.plane.frames {
-            let [x, y, z, a] = value;
-            let (weights, _) = triangle.nearest(centre);
-            let [x, y, z] = frames.carried(face as usize, weights, [x, y, z]);
-            value = [x, y, z, a];
-        }
-        Some(encoded(value, self.plane.encoding))
-    }
-}
-
-/// How many samples along a side a texel takes: one for each texel of the source that it is long.
-fn samples(jacobian: &[[f64; 2]; 2], is_nearest: bool) -> usize {
-    let [[a, b], [c, d]] = *jacobian;
-    let squares = a * a + b * b + c * c + d * d;
-    let determinant = a * d - b * c;
-    let spread = (squares * squares - 4.0 * determinant * determinant).max(0.0);
-    let length = (0.5 * (squares + spread.sqrt())).sqrt();
-    let least = if is_nearest { STEP_SAMPLES } else { 1.0 };
-    (length - SLACK).ceil().max(least).min(MOST_SAMPLES) as usize
 }

@@ -1,8 +1,8 @@
 //! Whether a map holds at so many bits.
 
+use super::NAMED;
 use super::boundary::ChartBoundary;
 use super::box_tree::Visit;
-use super::judgement::NAMED;
 use super::rounding::{LEVELS, doubtful_faces};
 use super::separation::doubtful_pairs;
 use super::topology::UvTopology;

@@ -1,13 +1,11 @@
 //! Pairs of triangles in space that pass through each other.
 
+use super::NAMED;
 use super::overlap::interiors_intersect;
 use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use crate::numerics::predicates::orient2d_sign;
 use crate::numerics::predicates::orient3d_sign;
 use serde::Serialize;
-
-/// How many crossing pairs are named.
-const NAMED: usize = 8;
 
 type Triangle = [[f64; 3]; 3];
 

@@ -1,5 +1,6 @@
 //! The certificate and the rules by which it is given.
 
+use super::NAMED;
 use super::alignment::unaligned_charts;
 use super::bits::{BitsVerdict, coarsest_safe_bits, judge_bits};
 use super::boundary::ChartBoundary;
@@ -12,9 +13,6 @@ use super::rounding::coarsest_bits;
 use super::topology::UvTopology;
 use crate::mesh::CornerUvs;
 use serde::Serialize;
-
-/// How many offending faces and pairs a certificate names.
-pub(super) const NAMED: usize = 8;
 
 /// What is proven about the UVs of a mesh, by exact predicates on the numbers of the file.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]

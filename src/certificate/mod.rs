@@ -68,6 +68,9 @@ pub(crate) use topology::UvTopology;
 
 use crate::mesh::CornerUvs;
 
+/// How many offending faces and pairs a certificate names.
+const NAMED: usize = 8;
+
 /// The UV chart of every face: 0, 1, … in the order of their first faces, found as [`certify`] finds them.
 ///
 /// Charts without UV area are numbered too.

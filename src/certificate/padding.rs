@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use super::NAMED;
 use super::boundary::{ChartBoundary, Segment};
 use super::box_tree::Visit;
 use super::claims::Padding;
 use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, is_exact, product};
-use super::judgement::NAMED;
 use crate::mesh::Resolution;
 use serde::Serialize;
 

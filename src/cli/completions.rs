@@ -4,8 +4,6 @@ use std::io;
 
 use clap_complete::Shell;
 
-use super::command::command;
-
 /// Prints what makes a shell complete commands and options.
 #[derive(clap::Args)]
 pub(super) struct Args {
@@ -13,7 +11,7 @@ pub(super) struct Args {
     shell: Shell,
 }
 
-/// Runs `completions`.
-pub(super) fn run(args: &Args) {
-    clap_complete::generate(args.shell, &mut command(), "unwrapd", &mut io::stdout());
+/// Runs `completions` of a program.
+pub(super) fn run(args: &Args, mut program: clap::Command) {
+    clap_complete::generate(args.shell, &mut program, "unwrapd", &mut io::stdout());
 }

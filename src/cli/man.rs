@@ -4,7 +4,6 @@ use std::io::{self, Write};
 
 use clap_mangen::Man;
 
-use super::command::command;
 use super::failure::Failure;
 
 /// Prints the manual page of the program or of one of its commands.
@@ -14,9 +13,8 @@ pub(super) struct Args {
     command: Option<String>,
 }
 
-/// Runs `man`.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let mut program = command();
+/// Runs `man` of a program.
+pub(super) fn run(args: &Args, mut program: clap::Command) -> Result<(), Failure> {
     program.build();
     let page = match &args.command {
         None => &program,

@@ -70,9 +70,9 @@ fn run_typed(command: Command) -> Result<(), Failure> {
         }
         Command::Health(args) => health::run(&args).map_err(Failure::other),
         Command::Completions(args) => {
-            completions::run(&args);
+            completions::run(&args, command::command());
             Ok(())
         }
-        Command::Man(args) => man::run(&args),
+        Command::Man(args) => man::run(&args, command::command()),
     }
 }

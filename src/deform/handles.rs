@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::body::{Body, BodyElements};
 use super::locate::{locate, sole_vertex};
 use super::numbers;
-use super::problem::with_points;
+use super::paired::{handles as paired, with_points};
 use super::problem_error::ProblemError;
 use crate::energy::Row;
 use crate::numerics::square::{Matrix, Square};
@@ -102,7 +102,7 @@ where
             return Err(ProblemError::NoHandle);
         }
         let groups = self.body.groups(&self.vertices);
-        let bound = super::problem::handles(D, &self.vertices, &self.targets, &groups)?;
+        let bound = paired(D, &self.vertices, &self.targets, &groups)?;
         with_points(bound, self.points, self.point_targets)
     }
 

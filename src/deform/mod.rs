@@ -17,6 +17,7 @@ mod model;
 mod numbers;
 #[cfg(feature = "files")]
 pub mod outline;
+mod paired;
 mod problem;
 mod problem_error;
 #[cfg(feature = "files")]

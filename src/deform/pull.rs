@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::body::Body;
 use super::locate::sole_vertex;
-use super::problem::{Model, Problem, handles, with_points};
+use super::paired::{handles, with_points};
+use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
 use crate::barrier::epsilon;
 use crate::energy::Row;

@@ -1,6 +1,6 @@
 //! The map of a disk that lies in a plane.
 
-use super::start::is_positive;
+use super::positive::is_positive;
 use crate::mesh::Disk;
 use crate::numerics::vec3::{area_vector, cross, dot, norm, sub};
 use crate::plane::keep_apart;

@@ -11,11 +11,12 @@
 
 use super::closed::ClosedDisk;
 use super::decimate::{Care, Collapses, Decimation};
+use super::positive::first_bad_triangle;
 use super::reinsert::{Shape, reinsert};
 use super::rest::{Least, rest_shape};
 use super::star::Corners;
-use super::start::{first_bad_triangle, tutte};
 use super::sweep::sweep;
+use super::tutte::tutte;
 use crate::barrier::{Barrier, MapEnergy, map_energy};
 use crate::energy::{EnergyKind, RestShape, Term};
 use crate::mesh::Disk;

@@ -2,14 +2,15 @@
 
 use super::closed::outer_loop;
 use super::flat::flat_map;
+use super::options::{Embedding, Options};
 use super::pins::{Pins, distance, far_pair};
+use super::positive::first_bad_triangle;
 use super::problem::Problem;
 use super::rest::rest_shapes;
-use super::start::{first_bad_triangle, hierarchical_start_at, start};
-use crate::barrier::BarrierKind;
+use super::start::{hierarchical_start_at, start};
 use crate::energy::EnergyKind;
 use crate::mesh::Disk;
-use crate::solver::{Iterate, Objective, Settings, Status, Summary, Watch};
+use crate::solver::{Iterate, Objective, Status, Watch};
 
 /// From this many triangles on the start is found coarse to fine, which costs less than the Newton steps it saves.
 const LARGE: usize = 1_000;
@@ -17,47 +18,6 @@ const LARGE: usize = 1_000;
 /// Energy per triangle of a Tutte map that is too far from any optimum. Ordinary disks start at 1 to 40, those with long
 /// arms at 1e4 to 1e10: from there Newton's method takes hundreds of steps, or ends a millionfold above the optimum.
 const FAR: f64 = 100.0;
-
-/// What is minimized, and how far.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// The density.
-    pub energy: EnergyKind,
-    /// The barrier; without one [`EnergyKind::Arap`] and [`EnergyKind::Lscm`] may flip triangles.
-    pub barrier: BarrierKind,
-    /// β, the barrier's strength, when the mean rest area is 1.
-    pub beta: f64,
-    /// s, the share of its rest area below which a triangle feels the barrier.
-    pub s: f64,
-    /// What stays where the start has it.
-    pub pins: Pins,
-    /// When to stop.
-    pub solver: Settings,
-}
-
-impl Default for Options {
-    /// ARAP with the inverse-spline barrier, β = 0.01, s = 1.
-    fn default() -> Self {
-        Self {
-            energy: EnergyKind::default(),
-            barrier: BarrierKind::default(),
-            beta: 0.01,
-            s: 1.0,
-            pins: Pins::None,
-            solver: Settings::default(),
-        }
-    }
-}
-
-/// A map of a disk and how it came about.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Embedding {
-    /// One position per vertex, in the mesh's unit of length, counter-clockwise; the sum of the areas in the plane is
-    /// that of the triangles in space (of their rest shapes, if none has an area).
-    pub uv: Vec<[f64; 2]>,
-    /// Energies in it are for a mean rest area of 1.
-    pub summary: Summary,
-}
 
 /// A triangle of the start is flipped or empty, so there is no way from it that never flips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

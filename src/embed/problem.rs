@@ -1,8 +1,8 @@
 //! A disk, its rest shapes and the energy of its maps.
 
-use super::parameterize::{Embedding, Options};
+use super::options::{Embedding, Options};
+use super::positive::first_bad_triangle;
 use super::rest::RestShapes;
-use super::start::first_bad_triangle;
 use crate::barrier::{Barrier, BarrierKind, MapEnergy, epsilon, map_energy};
 use crate::energy::Term;
 use crate::mesh::Disk;

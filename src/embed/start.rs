@@ -3,15 +3,14 @@
 use super::closed::ClosedDisk;
 use super::hierarchy::coarse_to_fine;
 use super::rest::{RestShapes, rest_shapes};
-use super::tutte::{Boundary, tutte_embedding};
+use super::tutte::{Boundary, tutte, tutte_embedding};
 use crate::mesh::Disk;
-use crate::numerics::predicates::orient2d_sign;
 
 /// A locally injective map of the disk: counter-clockwise and positive in every triangle, exactly.
 ///
 /// Tutte's map if floating point allows, else by way of the hierarchy. Holes are closed first. Size and distortion are
 /// arbitrary. Should both fail, as for a few disks with hundreds of empty triangles, Tutte's map as floating point left it:
-/// whoever promises more than a map checks it again ([`is_positive`]) and cuts the disk.
+/// whoever promises more than a map checks it again ([`is_positive`](super::is_positive)) and cuts the disk.
 pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
     tutte_start(disk, positions)
         .or_else(|| hierarchical_start(disk, positions))
@@ -49,27 +48,4 @@ pub(super) fn hierarchical_start_at(
     let mut uv = coarse_to_fine(&closed, &relative, rest.least)?;
     uv.truncate(disk.n_vertices);
     Some(uv)
-}
-
-/// Tutte's map of the closed disk, if floating point left every triangle positive.
-///
-/// Equal angles are tried second: they spare what short boundary edges squeeze.
-pub(super) fn tutte(closed: &ClosedDisk) -> Option<Vec<[f64; 2]>> {
-    [Boundary::ArcLength, Boundary::EqualAngles]
-        .into_iter()
-        .map(|boundary| tutte_embedding(closed, boundary))
-        .find(|uv| first_bad_triangle(&closed.triangles, uv).is_none())
-}
-
-/// Whether every triangle is counter-clockwise and not empty, decided exactly.
-pub fn is_positive(triangles: &[[u32; 3]], uv: &[[f64; 2]]) -> bool {
-    first_bad_triangle(triangles, uv).is_none()
-}
-
-/// The first triangle that is not exactly positive.
-pub(super) fn first_bad_triangle(triangles: &[[u32; 3]], uv: &[[f64; 2]]) -> Option<usize> {
-    triangles.iter().position(|t| {
-        let [a, b, c] = t.map(|v| uv[v as usize]);
-        orient2d_sign(a, b, c) <= 0
-    })
 }

@@ -5,6 +5,7 @@
 //! inside). In floating point that is only hoped for, so the result is checked by whoever uses it.
 
 use super::closed::{ClosedDisk, edge_lengths};
+use super::positive::first_bad_triangle;
 use crate::numerics::cholesky::{Cholesky, SymmetricPattern};
 
 /// How the boundary is spread over the circle.
@@ -116,4 +117,14 @@ fn system(
         pattern.col_ptr[column + 1] += pattern.col_ptr[column];
     }
     (pattern, values, rhs)
+}
+
+/// Tutte's map of the closed disk, if floating point left every triangle positive.
+///
+/// Equal angles are tried second: they spare what short boundary edges squeeze.
+pub(super) fn tutte(closed: &ClosedDisk) -> Option<Vec<[f64; 2]>> {
+    [Boundary::ArcLength, Boundary::EqualAngles]
+        .into_iter()
+        .map(|boundary| tutte_embedding(closed, boundary))
+        .find(|uv| first_bad_triangle(&closed.triangles, uv).is_none())
 }

@@ -7,8 +7,11 @@ use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 
 use super::child::{Child, Exit};
-use super::job::{Failure, Job, State};
-use super::queue::{Control, Jobs, input_key, output_key};
+use super::control::Control;
+use super::job::{Failure, Job};
+use super::keys::{input_key, output_key};
+use super::queue::Jobs;
+use super::state::State;
 use super::storage::StoreResult;
 use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
 use super::timestamp::Timestamp;

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use uuid::Uuid;
 
 use super::progress::{Event, Progress};
+use super::state::State;
 use super::timestamp::Timestamp;
 use crate::document::Warning;
 
@@ -88,49 +89,6 @@ impl Kind {
             Self::EditUv => "edit_uv",
             Self::TextureMap => "texture_map",
             Self::Repack => "repack",
-        }
-    }
-}
-
-/// Where a job stands. The last three are final.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum State {
-    /// Stored and waiting for its turn.
-    Queued,
-    /// A compute child is working on it.
-    Running,
-    /// Done; result and report can be fetched.
-    Succeeded,
-    /// Ended with a cause, found in `error`.
-    Failed,
-    /// Ended by request.
-    Cancelled,
-}
-
-impl State {
-    /// All states, in the order of a job's life.
-    pub const ALL: [Self; 5] = [
-        Self::Queued,
-        Self::Running,
-        Self::Succeeded,
-        Self::Failed,
-        Self::Cancelled,
-    ];
-
-    /// Whether the job will never change again.
-    pub fn is_final(self) -> bool {
-        matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
-    }
-
-    /// The word used in JSON and in the store.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Queued => "queued",
-            Self::Running => "running",
-            Self::Succeeded => "succeeded",
-            Self::Failed => "failed",
-            Self::Cancelled => "cancelled",
         }
     }
 }

@@ -22,27 +22,34 @@
 mod attempt;
 mod child;
 pub mod compute;
+mod control;
 mod events;
 mod frames;
 mod job;
+mod keys;
 mod progress;
 mod queue;
 mod retention;
+mod runner;
 mod settings;
+mod state;
 mod storage;
 mod submit;
+mod subscription;
 mod task;
 mod timestamp;
 mod work;
 
-pub use events::{LocalEvents, Subscription};
-pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, State, Verdict};
+pub use events::LocalEvents;
+pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, Verdict};
 pub use progress::{Event, Progress, next_attempt_seq};
 pub use queue::{Ended, Jobs};
 pub use settings::Settings;
+pub use state::State;
 pub use storage::{
     Blobs, Enqueued, Events, IdempotencyKey, JobStore, Listing, StoreError, StoreResult, Wish,
 };
 pub use submit::{Submission, SubmitError, Submitted};
+pub use subscription::Subscription;
 pub use timestamp::Timestamp;
 pub use work::Work;

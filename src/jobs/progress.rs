@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::job::State;
+use super::state::State;
 use crate::pipeline::Stage;
 
 /// Progress within a job. Numbers that a stage does not have are left as they were.

@@ -4,21 +4,20 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use tokio::sync::{Notify, Semaphore};
-use tokio_util::sync::CancellationToken;
+use tokio::sync::Notify;
 use tokio_util::task::TaskTracker;
 
-use super::attempt;
-use super::events::Subscription;
-use super::job::{Failure, Job, JobId, OutputFile, State};
+use super::control::Control;
+use super::job::{Failure, Job, JobId, OutputFile};
+use super::keys::output_key;
 use super::settings::Settings;
+use super::state::State;
 use super::storage::{Blobs, Events, JobStore, Listing, StoreResult, Wish};
+use super::subscription::Subscription;
 use super::timestamp::Timestamp;
 
 /// After so many losses of the server while it ran, a job is taken for the cause.
 const MAX_LOST: u32 = 3;
-/// Between two tries of a store that fails.
-const STORE_RETRY: Duration = Duration::from_secs(1);
 /// For a job that nobody waits for to end.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
 
@@ -31,13 +30,6 @@ pub struct Jobs {
     pub(super) wake: Notify,
     controls: Mutex<HashMap<JobId, Control>>,
     pub(super) tasks: TaskTracker,
-}
-
-/// How a live job is told what clients want of it.
-#[derive(Clone, Default)]
-pub(super) struct Control {
-    pub cancel: CancellationToken,
-    pub finish: CancellationToken,
 }
 
 /// Whether a wait saw the end of the job.
@@ -97,53 +89,6 @@ impl Jobs {
             }
         }
         self.remove_orphaned_files().await
-    }
-
-    /// Starts attempts as jobs come and slots are free. When told to stop, ends the running attempts, puts their jobs
-    /// back in the queue and returns. Removes jobs whose time is over meanwhile.
-    pub async fn run(self: Arc<Self>, stop: CancellationToken) {
-        let (jobs, stopped) = (Arc::clone(&self), stop.clone());
-        self.tasks
-            .spawn(async move { jobs.remove_expired_until(&stopped).await });
-        let slots = Arc::new(Semaphore::new(self.settings.concurrency));
-        while let Some((slot, job)) = self.next(&slots, &stop).await {
-            let (jobs, stop) = (Arc::clone(&self), stop.clone());
-            self.tasks.spawn(async move {
-                let control = jobs.control(job.id).unwrap_or_default();
-                attempt::run(&jobs, job, &control, &stop).await;
-                drop(slot);
-            });
-        }
-        self.tasks.close();
-        self.tasks.wait().await;
-    }
-
-    async fn next(
-        &self,
-        slots: &Arc<Semaphore>,
-        stop: &CancellationToken,
-    ) -> Option<(tokio::sync::OwnedSemaphorePermit, Job)> {
-        let slot = tokio::select! {
-            slot = Arc::clone(slots).acquire_owned() => slot.ok()?,
-            () = stop.cancelled() => return None,
-        };
-        while !stop.is_cancelled() {
-            match self.store.claim().await {
-                Ok(Some(job)) => return Some((slot, job)),
-                Ok(None) => tokio::select! {
-                    () = self.wake.notified() => {}
-                    () = stop.cancelled() => return None,
-                },
-                Err(error) => {
-                    tracing::error!(%error, "no job could be claimed");
-                    tokio::select! {
-                        () = tokio::time::sleep(STORE_RETRY) => {}
-                        () = stop.cancelled() => return None,
-                    }
-                }
-            }
-        }
-        None
     }
 
     /// The job as it is now, its progress included.
@@ -260,19 +205,11 @@ impl Jobs {
         self.events.forget(id);
     }
 
-    fn control(&self, id: JobId) -> Option<Control> {
+    pub(super) fn control(&self, id: JobId) -> Option<Control> {
         self.controls().get(&id).cloned()
     }
 
     fn controls(&self) -> MutexGuard<'_, HashMap<JobId, Control>> {
         self.controls.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-pub(super) fn input_key(id: JobId, index: usize) -> String {
-    format!("{id}/input/{index}")
-}
-
-pub(super) fn output_key(id: JobId, index: usize) -> String {
-    format!("{id}/output/{index}")
 }

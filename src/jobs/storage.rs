@@ -4,9 +4,10 @@ use std::path::Path;
 
 use futures_util::future::BoxFuture;
 
-use super::events::Subscription;
-use super::job::{Job, JobId, State};
+use super::job::{Job, JobId};
 use super::progress::Event;
+use super::state::State;
+use super::subscription::Subscription;
 use super::timestamp::Timestamp;
 
 /// The store did not do what it was asked; one line.

@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
-use super::job::{InputFile, Job, JobId, Kind, State, Verdict};
+use super::job::{InputFile, Job, JobId, Kind, Verdict};
+use super::keys::input_key;
 use super::progress::Progress;
-use super::queue::{Jobs, input_key};
+use super::queue::Jobs;
+use super::state::State;
 use super::storage::{Enqueued, IdempotencyKey, StoreError};
 use super::timestamp::Timestamp;
 

@@ -2,11 +2,9 @@
 //!
 //! Everything else about elements is written once for both dimensions.
 
+pub use super::svd::Matrix;
 use super::svd::{Svd, svd2, svd3};
 use super::vec3;
-
-/// A D×D matrix, rows first.
-pub type Matrix<const D: usize> = [[f64; D]; D];
 
 /// What energies need of a matrix, in either dimension.
 pub trait Square<const D: usize>: Copy {

@@ -2,8 +2,10 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::square::Matrix;
 use super::vec3;
+
+/// A D×D matrix, rows first.
+pub type Matrix<const D: usize> = [[f64; D]; D];
 
 /// F = U diag(σ) Vᵀ with rotations U and V.
 ///

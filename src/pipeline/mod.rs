@@ -35,15 +35,17 @@ mod limits;
 #[cfg(feature = "files")]
 mod rebake;
 
+pub use arrays::repeated::GridCorners;
 pub use arrays::seams::Seams;
 pub use arrays::settings::Settings;
-pub use arrays::unwrap::{ChartRecord, GridCorners, Unwrapped, unwrap, unwrap_along};
+pub use arrays::unwrap::{ChartRecord, Unwrapped, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
 
 #[cfg(feature = "files")]
-pub use deform::caged::{CageOptions, CageReport, CagedDocument, Surfaces};
+pub use deform::cage_report::CageReport;
+pub use deform::caged::{CageOptions, CagedDocument, Surfaces};
 #[cfg(feature = "files")]
 pub use deform::file::deform_file;
 #[cfg(feature = "files")]

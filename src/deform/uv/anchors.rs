@@ -3,13 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::chart::UvVertices;
+use super::error::MOST_ANCHORS;
 use super::map::UvMap;
 use super::{EditError, UvMesh};
 use crate::deform::numbers;
 use crate::numerics::predicates::orient2d_sign;
 
-/// Anchors at most: each is compared with every face.
-pub(super) const MOST_ANCHORS: usize = 1000;
 /// UVs at most; no texture repeats that often.
 const FARTHEST: f64 = 1e6;
 

@@ -1,8 +1,10 @@
 //! Why UVs cannot be edited.
 
-use super::anchors::MOST_ANCHORS;
 use crate::deform::problem_error::ProblemError;
 use crate::mesh::ElementError;
+
+/// Anchors at most: each is compared with every face.
+pub(super) const MOST_ANCHORS: usize = 1000;
 
 /// Why UVs cannot be edited.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -21,6 +21,7 @@ mod json;
 mod links;
 mod marking;
 mod meshopt;
+mod mode;
 mod moved;
 mod names;
 mod obj_losses;

@@ -2,10 +2,13 @@
 use super::accessor::Accessor;
 use super::body::Body;
 use super::json::{invalid, items};
-use super::primitives::{check_backed, position_accessor};
+use super::mode::position_accessor;
 use crate::document::DocumentError;
 use std::collections::HashMap;
 use std::rc::Rc;
+
+/// Largest count of positions or indices that no bytes stand behind.
+const MAX_UNBACKED: usize = 1 << 20;
 
 /// Positions by accessor; those that several primitives share are read once.
 pub(super) struct Positions {
@@ -60,4 +63,15 @@ pub(super) fn compact(indices: &mut [u32], positions: &[[f32; 3]]) -> Option<Vec
         *index = used.partition_point(|vertex| vertex < index) as u32;
     }
     Some(used)
+}
+
+/// Refuses accessors without data that are long.
+pub(super) fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
+    if accessor.is_backed() || accessor.count <= MAX_UNBACKED {
+        return Ok(());
+    }
+    Err(DocumentError::LimitExceeded(format!(
+        "an accessor without data has {} elements",
+        accessor.count
+    )))
 }

@@ -3,7 +3,8 @@ use super::accessor::Accessor;
 use super::body::Body;
 use super::component::Component;
 use super::json::{invalid, items, unsigned};
-use super::positions::{Positions, compact};
+use super::mode::{Mode, mode, position_accessor};
+use super::positions::{Positions, check_backed, compact};
 use crate::document::{DocumentError, Primitive};
 use serde_json::Value;
 use std::rc::Rc;
@@ -11,28 +12,6 @@ use std::rc::Rc;
 /// Largest number of vertices, and of faces, over all primitives. Primitives may share accessors, so that the size of
 /// a file does not bound their sum.
 const MAX_ELEMENTS: usize = 1 << 26;
-
-/// Largest count of positions or indices that no bytes stand behind.
-const MAX_UNBACKED: usize = 1 << 20;
-
-/// How vertices make faces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mode {
-    Triangles,
-    Strip,
-    Fan,
-}
-
-/// The mode of a primitive; `None` for points and lines.
-pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
-    Ok(match unsigned(primitive, "mode")?.unwrap_or(4) {
-        4 => Some(Mode::Triangles),
-        5 => Some(Mode::Strip),
-        6 => Some(Mode::Fan),
-        0..=3 => None,
-        _ => return Err(invalid("unknown primitive `mode`")),
-    })
-}
 
 /// Primitives, and for each the vertices of its accessors that it uses; `None` is all.
 pub(super) type Collected = (Vec<Primitive>, Vec<Option<Vec<u32>>>);
@@ -83,18 +62,6 @@ pub(super) fn located(error: DocumentError, mesh: usize, primitive: usize) -> Do
     }
 }
 
-/// The POSITION of a primitive with faces.
-pub(super) fn position_accessor(primitive: &Value) -> Result<Option<usize>, DocumentError> {
-    if mode(primitive)?.is_none() {
-        return Ok(None);
-    }
-    match primitive.get("attributes") {
-        None => Ok(None),
-        Some(attributes) if attributes.is_object() => unsigned(attributes, "POSITION"),
-        Some(_) => Err(invalid("`attributes` is not an object")),
-    }
-}
-
 struct Read {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -134,16 +101,6 @@ fn read(
         triangles: faces(&indices, mode),
         used,
     }))
-}
-
-pub(super) fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
-    if accessor.is_backed() || accessor.count <= MAX_UNBACKED {
-        return Ok(());
-    }
-    Err(DocumentError::LimitExceeded(format!(
-        "an accessor without data has {} elements",
-        accessor.count
-    )))
 }
 
 /// Whether all attributes and morph targets have an element for each vertex, so that vertices can be split.

@@ -5,7 +5,8 @@ use super::body::{Body, Target};
 use super::bounds;
 use super::component::Component;
 use super::json::{as_unsigned, invalid, item, remove, required, unsigned};
-use super::primitives::{self, Mode};
+use super::mode::{Mode, mode};
+use super::primitives;
 use crate::document::{DocumentError, PrimitiveNote};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -102,7 +103,7 @@ pub(super) fn write_indices(
 ) -> Result<(), DocumentError> {
     let mut indices = old_indices(document, primitive, new)?;
     if new.is_split {
-        let is_list = primitives::mode(primitive)? == Some(Mode::Triangles);
+        let is_list = mode(primitive)? == Some(Mode::Triangles);
         // Lists keep the indices behind their last whole face.
         let rest = if is_list { indices.len() % 3 } else { 0 };
         indices.drain(..indices.len() - rest);

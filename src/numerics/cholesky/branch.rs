@@ -2,9 +2,10 @@
 
 use super::NotPositiveDefinite;
 use super::dense::{factor_panel, write_update};
+use super::extent::Extent;
 use super::fronts::{Front, Run};
 use super::plan::Plan;
-use super::solve::Vectors;
+use super::vectors::Vectors;
 
 /// Fronts, children before parents, their panels, and two stacks for their updates.
 ///
@@ -15,27 +16,6 @@ pub(super) struct Branch {
     pub panels: Vec<f64>,
     pub updates: [Vec<f64>; 2],
     pub vectors: Vectors,
-}
-
-/// How much memory a branch takes, in numbers.
-#[derive(Default)]
-pub(super) struct Extent {
-    pub fronts: Vec<u32>,
-    pub panels: usize,
-    pub updates: [usize; 2],
-    /// Of all its fronts.
-    pub pivots: usize,
-    pub below: usize,
-    /// Rows of the highest panel.
-    pub highest: usize,
-}
-
-impl Extent {
-    pub fn bytes(&self) -> usize {
-        let [even, odd] = self.updates;
-        let vectors = self.pivots + self.below + self.highest;
-        size_of::<f64>() * (self.panels + even + odd + vectors)
-    }
 }
 
 impl From<Extent> for Branch {

@@ -18,6 +18,7 @@
 
 mod branch;
 mod dense;
+mod extent;
 mod fronts;
 mod graph;
 mod kernels;
@@ -27,11 +28,13 @@ mod scatter;
 mod solve;
 mod supernodes;
 mod tree;
+mod vectors;
 
 use faer::traits::pulp::Arch;
 use rayon::prelude::*;
 
-use branch::{Branch, Extent};
+use branch::Branch;
+use extent::Extent;
 use fronts::Front;
 use plan::Plan;
 use solve::{Backward, Forward};

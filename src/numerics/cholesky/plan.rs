@@ -1,7 +1,7 @@
 //! What is known of the factorization before the values are.
 
 use super::SymmetricPattern;
-use super::branch::Extent;
+use super::extent::Extent;
 use super::fronts::{Front, Fronts};
 use super::graph::Graph;
 use super::order::fill_reducing_order;

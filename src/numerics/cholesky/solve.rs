@@ -10,26 +10,6 @@ use super::fronts::Front;
 use super::kernels::LANES;
 use super::plan::Plan;
 
-/// A right-hand side on its way through the fronts of a branch, and back as the solution.
-pub(super) struct Vectors {
-    /// Of front after front, the values at its pivots.
-    pub pivots: Vec<f64>,
-    /// Of front after front, what it adds below its pivots; on the way back the solution there.
-    pub below: Vec<f64>,
-    /// A front's unknowns as its panel has them: as long as the highest panel.
-    local: Vec<f64>,
-}
-
-impl Vectors {
-    pub fn new(pivots: usize, below: usize, highest: usize) -> Self {
-        Self {
-            pivots: vec![0.0; pivots],
-            below: vec![0.0; below],
-            local: vec![0.0; highest],
-        }
-    }
-}
-
 /// Solves Ly = b for the pivots of a branch; `others` are the branches that grow on it, which are done.
 pub(super) struct Forward<'a> {
     pub plan: &'a Plan,

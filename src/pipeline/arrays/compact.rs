@@ -1,6 +1,6 @@
 //! Charts cut where that makes their atlas fuller.
 
-use super::packed::chart_maps;
+use super::chart_maps::chart_maps;
 use super::settings::Settings;
 use crate::atlas::{AtlasError, AtlasOptions, Draft, OnRead, Scale, Texture};
 use crate::charts::{MappedChart, Split, seam_length};

@@ -1,12 +1,14 @@
 //! From plain arrays to an atlas: meshes are welded, cut, mapped and packed; each shape is mapped once.
 
 pub(super) mod alike;
+mod chart_maps;
 mod clearance;
 mod compact;
 mod divided;
 mod map;
 mod packed;
 mod packing;
+mod position_key;
 pub(super) mod repeated;
 pub(super) mod seams;
 pub(super) mod settings;

@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::chart_maps::chart_maps;
 use super::clearance::open_charts;
 use super::compact::{Drafted, compacted};
 use super::map::folds;
 use super::settings::Settings;
-use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, ChartMap, Draft, OnRead, Placed, Scale};
+use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale};
 use crate::charts::{Cut, Folds, MappedChart};
 use crate::pipeline::PipelineError;
 
@@ -129,13 +130,4 @@ fn settled(
         }
         draft = Draft::new(&chart_maps(&charts), options)?;
     }
-}
-
-/// Charts as the packer sees them.
-pub fn chart_maps<'a>(charts: impl IntoIterator<Item = &'a MappedChart>) -> Vec<ChartMap<'a>> {
-    let maps = charts.into_iter().map(|mapped| ChartMap {
-        uv: &mapped.embedding.uv,
-        triangles: &mapped.chart.disk.triangles,
-    });
-    maps.collect()
 }

@@ -2,12 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::unwrap::GridCorners;
+use super::position_key::position_key;
 
-/// A position by its bits, −0 = 0.
-pub fn key(position: [f32; 3]) -> [u32; 3] {
-    position.map(|x| (x + 0.0).to_bits())
-}
+/// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`]; on page n of several u is from n to n + 1.
+pub type GridCorners = [[i32; 2]; 3];
 
 /// Gives every face that is not in `placed` (ascending) corners at which its positions lie in some placed face:
 /// on one edge where a placed face has that edge, else all at one corner, else at the origin.
@@ -21,7 +19,7 @@ pub fn place(
     for &face in placed {
         is_placed[face as usize] = true;
     }
-    let keys = |face: usize| triangles[face].map(|v| key(positions[v as usize]));
+    let keys = |face: usize| triangles[face].map(|v| position_key(positions[v as usize]));
     let left_out: Vec<usize> = (0..triangles.len())
         .filter(|&face| !is_placed[face])
         .collect();

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::repeated::key as position_key;
+use super::position_key::position_key;
 use crate::cut::surface_fans;
 use crate::mesh::{CUT, CornerUvs, Surface, next};
 use crate::numerics::vec3::dot;

@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::alike::alike;
-use super::repeated::key;
+use super::position_key::position_key;
 use super::seams::Seams;
 use crate::mesh::Surface;
 use crate::pipeline::PipelineError;
@@ -157,7 +157,10 @@ impl<'a> Soup<'a> {
         let content = |part: &Part| {
             let positions =
                 &self.positions[part.vertices.start as usize..part.vertices.end as usize];
-            positions.iter().map(|&p| key(p)).collect::<Vec<_>>()
+            positions
+                .iter()
+                .map(|&p| position_key(p))
+                .collect::<Vec<_>>()
         };
         let mut first_with: HashMap<Vec<[u32; 3]>, u32> = HashMap::new();
         let same: Vec<u32> = (0..)

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::divided::Divided;
 use super::packed::packed;
 use super::packing::{atlas_options, expected_words, search_words};
-use super::repeated;
+use super::repeated::{self, GridCorners};
 use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::Soup;
@@ -17,9 +17,6 @@ use crate::pipeline::observer::{Observer, Stage, Tracker};
 use crate::pipeline::options::Workers;
 use crate::pipeline::portion::Portion;
 use crate::solver::Summary;
-
-/// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`]; on page n of several u is from n to n + 1.
-pub type GridCorners = [[i32; 2]; 3];
 
 /// An unwrapped mesh.
 #[derive(Clone, Debug)]

@@ -1,20 +1,20 @@
 //! Documents whose surfaces are deformed in a cage.
 
 use super::cage_map::{CageMap, subdivision, widened};
+use super::cage_report::CageReport;
 use super::formats::BodyFormat;
 use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::solution::{Deformed, WriteMap, solve};
 use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, Caged, CagedSurface};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
-use crate::document::{Document, GroupBy, OutputFormat, Upload, Warning, Written};
+use crate::document::{Document, GroupBy, OutputFormat, Upload, Written};
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::limits::Limits;
 use crate::pipeline::observer::{Stage, Tracker};
 use crate::pipeline::options::DeformOptions;
 use crate::solver::Watch;
-use serde::Serialize;
 
 /// A document with all its triangles in one cage.
 ///
@@ -54,29 +54,6 @@ pub enum Surfaces {
     Whole,
     /// They are cut, so that they follow the cage exactly.
     Split,
-}
-
-/// What a cage is and what deforming it did to the surfaces in it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub struct CageReport {
-    /// Cubes the cage consists of.
-    pub voxels: usize,
-    /// Tetrahedra, six for each.
-    pub tets: usize,
-    /// Connected parts of the cage that have no handle and stay at rest.
-    pub idle_parts: usize,
-    /// Vertices of all surfaces, those of cuts included.
-    pub surface_vertices: usize,
-    /// Triangles of all surfaces, pieces counted.
-    pub surface_triangles: usize,
-    /// Where the surfaces pass through themselves and each other at rest.
-    pub crossings_before: Crossings,
-    /// Where they do in the file written.
-    pub crossings_after: Crossings,
-    /// What users should know of the files; reports have it among their own warnings.
-    #[serde(skip)]
-    pub warnings: Vec<Warning>,
 }
 
 /// Deforms the surfaces of a file in a cage.

@@ -1,10 +1,12 @@
 //! Meshes, solids, pictures and surfaces in a cage pulled by handles, and problems solved.
 
 pub(super) mod cage_map;
+pub(super) mod cage_report;
 pub(super) mod caged;
 pub(super) mod file;
 pub(super) mod formats;
 pub(super) mod moved;
+pub(super) mod plan;
 pub(super) mod planar_map;
 pub(super) mod pull_report;
 pub(super) mod solution;

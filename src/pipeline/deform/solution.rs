@@ -5,7 +5,8 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::caged::CageReport;
+use super::cage_report::CageReport;
+use super::plan::Plan;
 use crate::certificate::boundary_crossings;
 use crate::deform::{BodyElements, Method, Problem, Solution, Worth};
 use crate::document::Warning;
@@ -56,16 +57,6 @@ pub struct DeformReport {
     /// The cage and the surfaces in it, if that is what was deformed.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub cage: Option<CageReport>,
-}
-
-/// What is done beside minimizing once.
-#[derive(Clone, Copy)]
-pub struct Plan {
-    pub method: Method,
-    /// Lower the barrier's strength while the energy without it falls.
-    pub barrier_continuation: bool,
-    /// Also minimize without a barrier.
-    pub bias: bool,
 }
 
 /// Writes a map as the result will be.

@@ -10,8 +10,9 @@ use crate::document::{
 };
 use crate::mesh::VAxis;
 use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::repeated::GridCorners;
 use crate::pipeline::arrays::soup::Soup;
-use crate::pipeline::arrays::unwrap::{GridCorners, Unwrapped, in_pool, unwrap_all};
+use crate::pipeline::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
 use crate::pipeline::judge::bound_report::BoundReport;
 use crate::pipeline::judge::groups::WrittenUvs;
 use crate::pipeline::judge::report::{AtlasReport, GroupReport, Report, Seconds};

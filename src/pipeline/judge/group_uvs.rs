@@ -2,7 +2,6 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use super::report::GroupReport;
 use crate::certificate::{Certificate, Claims, certify, chart_ids};
 use crate::document::{Document, Group, Primitive};
 use crate::measure::{self, Measures};
@@ -79,7 +78,7 @@ impl GroupUvs {
     }
 
     /// The area of the surface enlarged by its weights, if it has any.
-    fn intended_area(&self) -> Option<f64> {
+    pub fn intended_area(&self) -> Option<f64> {
         let area = |(t, weight): (&[u32; 3], &f64)| {
             let [a, b, c] = t.map(|v| self.positions[v as usize]);
             norm(area_vector(a, b, c)) / 2.0 * weight * weight
@@ -126,25 +125,5 @@ impl GroupUvs {
             && self.positions == other.positions
             && self.uvs == other.uvs
             && self.weights == other.weights
-    }
-
-    /// What it is worth.
-    pub fn report(
-        &self,
-        measures: Measures,
-        certificate: Certificate,
-        texture: Resolution,
-    ) -> GroupReport {
-        let area = self.intended_area().unwrap_or(measures.size.area_3d);
-        let squared = measures.size.area_uv / area;
-        GroupReport {
-            name: self.name.clone(),
-            label: self.label.clone(),
-            texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
-            measures,
-            certificate,
-            defects: None,
-            atlas: None,
-        }
     }
 }

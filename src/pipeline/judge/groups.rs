@@ -105,7 +105,12 @@ impl WrittenUvs {
         );
         (self.groups.iter().zip(&first).zip(certificates))
             .filter_map(|((group, &first), certificate)| {
-                Some(group.report(measured[first].clone()?, certificate, texture))
+                Some(GroupReport::new(
+                    group,
+                    measured[first].clone()?,
+                    certificate,
+                    texture,
+                ))
             })
             .collect()
     }

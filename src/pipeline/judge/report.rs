@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::bound_report::BoundReport;
+use super::group_uvs::GroupUvs;
 use super::proven::{Mirrored, Proven};
 use crate::certificate::{Certificate, Overlap};
 use crate::document::{Warning, WriteNotes};
 use crate::measure::Measures;
-use crate::mesh::Defects;
+use crate::mesh::{Defects, Resolution};
 use crate::pipeline::arrays::unwrap::{ChartRecord, Unwrapped};
 use crate::pipeline::limits::Limits;
 use crate::pipeline::options::Options;
@@ -145,6 +146,26 @@ impl Report {
 }
 
 impl GroupReport {
+    /// What UVs are worth.
+    pub(in crate::pipeline) fn new(
+        uvs: &GroupUvs,
+        measures: Measures,
+        certificate: Certificate,
+        texture: Resolution,
+    ) -> Self {
+        let area = uvs.intended_area().unwrap_or(measures.size.area_3d);
+        let squared = measures.size.area_uv / area;
+        Self {
+            name: uvs.name.clone(),
+            label: uvs.label.clone(),
+            texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
+            measures,
+            certificate,
+            defects: None,
+            atlas: None,
+        }
+    }
+
     /// Whether everything that was asked for is proven of it, as [`Report::certified`] says of all.
     pub fn is_certified(&self) -> bool {
         let proven = Proven::of(std::iter::once(&self.certificate));

@@ -6,7 +6,7 @@ use crate::deform::{Handle, Method, Model};
 use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
 use crate::pipeline::deform::formats::BodyFormat;
-use crate::pipeline::deform::solution::Plan;
+use crate::pipeline::deform::plan::Plan;
 use crate::pipeline::deform::source::TRIANGLES;
 
 options! {

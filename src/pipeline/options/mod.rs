@@ -33,6 +33,8 @@ mod solve;
 #[cfg(feature = "files")]
 mod unwrap;
 #[cfg(feature = "files")]
+mod unwrap_checks;
+#[cfg(feature = "files")]
 mod warp;
 
 pub use cutting::{Cutting, KeptMaps};

@@ -5,7 +5,7 @@ use crate::deform::Method;
 use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
 use crate::pipeline::deform::formats::BodyFormat;
-use crate::pipeline::deform::solution::Plan;
+use crate::pipeline::deform::plan::Plan;
 
 options! {
     /// How a problem file is solved. The command line's long names in snake case.

@@ -2,18 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::layout::check_mips;
-use super::{
-    Baking, Budget, Caller, CommandOptions, Cutting, Layout, Mapping, Preset, Sets, Workers, idle,
-};
+use super::{Baking, Budget, Caller, Cutting, Layout, Mapping, Preset, Sets, Workers};
 use crate::atlas::Borders;
 use crate::barrier::BarrierKind;
 use crate::certificate::{Claims, Overlap, Padding};
-use crate::charts::Cut;
 use crate::document::{GroupBy, OutputFormat, Terms};
-use crate::options::{OptionSet, options};
+use crate::options::options;
 use crate::picture::HeatmapMeasure;
-use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::settings::Settings;
 use crate::pipeline::documents::nodes::Nodes;
 use crate::pipeline::documents::texel_weight::TexelWeight;
@@ -116,7 +111,7 @@ impl Options {
     }
 
     /// Mip levels beyond the first in which charts keep the padding.
-    fn mips(&self) -> u32 {
+    pub(super) fn mips(&self) -> u32 {
         self.mips.unwrap_or(match self.preset {
             Preset::Material => 0,
             Preset::Lightmap => LIGHTMAP_MIPS,
@@ -179,35 +174,6 @@ impl Options {
             overlaps: false,
             charts: None,
         }
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        self.check_ranges()?;
-        check_mips(self.layout.padding, self.mips(), self.layout.resolution)?;
-        self.settings().validate()?;
-        idle::check(self)?;
-        self.texel_weight.iter().try_for_each(TexelWeight::check)?;
-        if self.cutting.cut == Cut::Seams && self.seams.is_none() {
-            return Err("`cut` seams needs `seams`".to_owned());
-        }
-        let is_one_square = self.layout.pages == 1 && self.layout.resolution.aspect() == 1.0;
-        if self.baking.rebake && !is_one_square {
-            return Err(
-                "`rebake` makes one square texture: it needs `pages` 1 and a square `resolution`"
-                    .to_owned(),
-            );
-        }
-        Ok(())
-    }
-}
-
-impl CommandOptions for Options {
-    fn check(&self) -> Result<(), PipelineError> {
-        self.validate().map_err(PipelineError::InvalidOptions)
-    }
-
-    fn caller_mut(&mut self) -> &mut Caller {
-        &mut self.caller
     }
 }
 

@@ -1,0 +1,28 @@
+//! What deforming in a cage did.
+
+use crate::certificate::Crossings;
+use crate::document::Warning;
+use serde::Serialize;
+
+/// What a cage is and what deforming it did to the surfaces in it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct CageReport {
+    /// Cubes the cage consists of.
+    pub voxels: usize,
+    /// Tetrahedra, six for each.
+    pub tets: usize,
+    /// Connected parts of the cage that have no handle and stay at rest.
+    pub idle_parts: usize,
+    /// Vertices of all surfaces, those of cuts included.
+    pub surface_vertices: usize,
+    /// Triangles of all surfaces, pieces counted.
+    pub surface_triangles: usize,
+    /// Where the surfaces pass through themselves and each other at rest.
+    pub crossings_before: Crossings,
+    /// Where they do in the file written.
+    pub crossings_after: Crossings,
+    /// What users should know of the files; reports have it among their own warnings.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
+}

@@ -1,0 +1,13 @@
+//! How a problem is solved.
+
+use crate::deform::Method;
+
+/// What is done beside minimizing once.
+#[derive(Clone, Copy)]
+pub struct Plan {
+    pub method: Method,
+    /// Lower the barrier's strength while the energy without it falls.
+    pub barrier_continuation: bool,
+    /// Also minimize without a barrier.
+    pub bias: bool,
+}
