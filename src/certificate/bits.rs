@@ -2,7 +2,7 @@
 
 use super::boundary::ChartBoundary;
 use super::box_tree::Visit;
-use super::judgement::NAMED;
+use super::judgment::NAMED;
 use super::rounding::{LEVELS, doubtful_faces};
 use super::separation::doubtful_pairs;
 use super::topology::UvTopology;

@@ -6,7 +6,7 @@ use super::boundary::{ChartBoundary, Segment};
 use super::box_tree::Visit;
 use super::claims::Padding;
 use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, is_exact, product};
-use super::judgement::NAMED;
+use super::judgment::NAMED;
 use crate::mesh::Resolution;
 use serde::Serialize;
 
@@ -86,7 +86,7 @@ struct Bound {
 
 impl Bound {
     /// Coordinates that had to be cut move by less than a unit each, two points by less than three against each other: the
-    /// bound is enlarged by that, so that a doubt is never resolved in favour of the map.
+    /// bound is enlarged by that, so that a doubt is never resolved in favor of the map.
     fn new(texels: u32, resolution: u32, is_exact: bool) -> Self {
         let resolution = u128::from(resolution);
         let doubt = if is_exact { 0 } else { 3 * resolution };

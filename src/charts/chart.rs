@@ -89,7 +89,7 @@ fn glued_within(twin: &[u32], region: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-/// The faces that hang together, labelled.
+/// The faces that hang together, labeled.
 pub(super) fn connected_faces(twin: &[u32]) -> (Vec<u32>, usize) {
     let mut faces = UnionFind::new(twin.len() / 3);
     for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {

@@ -260,7 +260,7 @@ impl MappedChart {
 
     /// Turned over if more of its area in the plane belongs to triangles that the surface winds the other way.
     ///
-    /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modelled from both sides, the
+    /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modeled from both sides, the
     /// map decides.
     pub(super) fn facing_front(mut self) -> Self {
         let area = |(t, triangle): (usize, &[u32; 3])| {

@@ -12,7 +12,7 @@ pub enum Boundary {
     /// It follows what is pulled.
     #[default]
     Free,
-    /// It stays; a map that does not overlap itself will not afterwards.
+    /// It stays; a map that does not overlap itself will not afterward.
     Fixed,
 }
 

@@ -1,4 +1,4 @@
-//! What an OBJ text says of its polygons and vertices beside their shape: objects, groups, materials, colours.
+//! What an OBJ text says of its polygons and vertices beside their shape: objects, groups, materials, colors.
 use super::Warning;
 use super::colors::{Color, WHITE, from_srgb};
 use crate::mesh::io::obj::{Statement, statements};
@@ -7,7 +7,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 /// Meshes and primitives that a file is divided into at most: each is an object in JSON and a draw call.
 const MOST_PARTS: usize = 8192;
 
-/// Names and colours of an OBJ file.
+/// Names and colors of an OBJ file.
 #[derive(Debug, Default)]
 pub(super) struct ObjParts {
     /// Names of objects, or of groups in a file without objects.
@@ -16,7 +16,7 @@ pub(super) struct ObjParts {
     pub materials: Vec<String>,
     /// For each polygon its object and its material.
     pub of_polygons: Vec<Part>,
-    /// For each vertex its colour, if any has one.
+    /// For each vertex its color, if any has one.
     pub colors: Option<Vec<Color>>,
     /// Groups that say more than the objects do.
     n_lost_groups: usize,

@@ -48,12 +48,12 @@ impl SoupDocument {
         &self.warnings
     }
 
-    /// The triangles and colours as glTF.
+    /// The triangles and colors as glTF.
     pub(super) fn to_gltf(&self) -> Result<Conversion, DocumentError> {
         of_triangles(&self.primitives[0], self.colors.as_deref(), &self.warnings)
     }
 
-    /// The colours of the vertices.
+    /// The colors of the vertices.
     pub(super) fn colors(&self) -> Option<&[Color]> {
         self.colors.as_deref()
     }

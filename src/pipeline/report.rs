@@ -61,7 +61,7 @@ pub struct GroupReport {
     pub texels_per_unit: Option<f64>,
     /// Distortion, seams, packing and overlaps, measured on the written bytes.
     pub measures: Measures,
-    /// Exact judgement of the written bytes.
+    /// Exact judgment of the written bytes.
     pub certificate: Certificate,
     /// What was found to be wrong with the mesh; absent where existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]

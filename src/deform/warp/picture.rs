@@ -87,7 +87,7 @@ pub enum WarpError {
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The picture cannot be read or is too large afterwards.
+    /// The picture cannot be read or is too large afterward.
     #[error(transparent)]
     Image(#[from] ImageError),
     /// The handles contradict each other, or a number is out of range.
@@ -118,7 +118,7 @@ pub struct PictureWarp {
     pub picture: Warped,
     /// The grid on the original, in pixels, y down.
     pub grid: PlanarMesh,
-    /// Its vertices afterwards.
+    /// Its vertices afterward.
     pub deformed: Vec<[f64; 2]>,
     /// How it was pulled.
     pub summary: PullSummary,

@@ -50,7 +50,7 @@ fn encoding(slot: &str) -> Option<Encoding> {
         | "specularColorTexture"
         | "diffuseTransmissionColorTexture"
         | "diffuseTexture"
-        | "specularGlossinessTexture" => Encoding::Colour,
+        | "specularGlossinessTexture" => Encoding::Color,
         "metallicRoughnessTexture"
         | "occlusionTexture"
         | "clearcoatTexture"

@@ -112,7 +112,7 @@ impl Reader<'_> {
         let color_map = self.map("map_kd");
         let mut color = self.color("kd").unwrap_or(new.color);
         if color == [0.0; 3] && color_map.is_some() {
-            // Written by tools that take a map for all of the colour.
+            // Written by tools that take a map for all of the color.
             color = [1.0; 3];
         }
         let opacity = self.number("d").or(self.number("tr").map(|tr| 1.0 - tr));

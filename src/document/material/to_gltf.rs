@@ -233,7 +233,7 @@ fn place_of(objects: &mut Vec<Value>, wanted: Value) -> usize {
 /// Whether a PNG or JPEG has one channel, by its header.
 fn is_gray(bytes: &[u8]) -> bool {
     if bytes.starts_with(&[0x89, b'P', b'N', b'G']) {
-        // The type of colour stands at the end of the first chunk; 4 is gray with alpha.
+        // The type of color stands at the end of the first chunk; 4 is gray with alpha.
         return matches!(bytes.get(25), Some(0 | 4));
     }
     let mut rest = bytes.strip_prefix(&[0xFF, 0xD8]).unwrap_or_default();

@@ -1,7 +1,7 @@
 //! OFF, the text format of Geomview: `OFF`, counts, one vertex a line, one polygon a line.
 //!
 //! Of the variants (`[ST][C][N]OFF`) the coordinates come first on a vertex line in every one; what follows them
-//! (normals, colours, texture coordinates) is passed over, and so are the colours of faces. Four-dimensional and
+//! (normals, colors, texture coordinates) is passed over, and so are the colors of faces. Four-dimensional and
 //! binary files are refused. The counts are read as `u64` and nothing is reserved by them.
 use super::{
     Coordinate, Elements, Faces, IndexedTriangles, ReadError, lines, number, position,

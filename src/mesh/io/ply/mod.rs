@@ -2,7 +2,7 @@
 //!
 //! A header declares elements and their properties, the data follow in that order. Used are `x y z` of `vertex`
 //! and the list `vertex_indices` (or `vertex_index`) of `face`; everything else is passed over by its declared
-//! size ([`extras`](fn@extras) has the colours). Read without a library: the kept one at hand refuses `nan` anywhere in a text file, numbers such as `1.`
+//! size ([`extras`](fn@extras) has the colors). Read without a library: the kept one at hand refuses `nan` anywhere in a text file, numbers such as `1.`
 //! and comments that are not UTF-8, and runs for ever on an element that has a count but no properties.
 mod data;
 mod extras;
