@@ -131,8 +131,9 @@
 //! - Placing charts one after the other leaves room between them. On square pages all of a page move and turn at once afterward,
 //!   pushed apart by Levenberg's method on rasters of their distances while the square shrinks, and end exactly as far from each
 //!   other as they must be; a raster decides only where that fails, on pages that are not square, and for crowds.
-//! - The default energy is the symmetric Dirichlet energy, in which the bound is stated: at the bound of 4.1 it needs
-//!   fewer charts than ARAP (1 against 3 on a closed surface with four handles), and folds over itself less often.
+//! - Unwrapping minimizes the symmetric Dirichlet energy by default ([`pipeline::Mapping`]), in which the bound is stated:
+//!   at the bound of 4.1 it needs fewer charts than ARAP (1 against 3 on a closed surface with four handles), and folds
+//!   over itself less often. [`embed::Options`] and the deformations of [`deform`] default to ARAP, as in the paper.
 //! - A large disk is slit as its simplification is, from the same tips: slits are what is decided there, maps and overlaps are not, so
 //!   nothing has to be carried over but vertices.
 //! - A lightmap needs a region for each instance, and glTF has no offset and scale of UVs per node: each node gets its own copy of

@@ -11,9 +11,9 @@
 //! [`plane`](crate::plane), and a fault in them is found here.
 //!
 //! **Charts.** Two faces on a common edge (of welded positions) belong to one chart when the UVs of both ends agree to 1e-7 of
-//! the UV extent. That is less than one step of the 2⁻²³ grid over the unit square, so for UVs this program writes it means
-//! exactly equal; in files of others it lets seams that differ by rounding alone count as one. The tolerance decides only what
-//! is compared with what: orientation and overlap have none.
+//! the UV extent. On one page that is less than a step of the 2⁻²³ grid, so for UVs this program writes it means exactly
+//! equal; on several pages it may span one step. In other files it lets seams that differ by rounding alone count as one.
+//! The tolerance decides only what is compared with what: orientation and overlap have none.
 //!
 //! **Winding.** A file may wind neighbors inconsistently. Winding is propagated over the chart, and a face is flipped
 //! when its orientation, so corrected, is not the one that carries most UV area in its chart. A mirrored chart is therefore

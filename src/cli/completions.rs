@@ -6,7 +6,7 @@ use clap_complete::Shell;
 
 use super::command::command;
 
-/// Prints what makes a shell complete commands and options.
+/// Prints a completion script for a shell.
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The shell

@@ -86,13 +86,13 @@ impl ObjParts {
         if self.n_joined_parts > 0 {
             let n = self.n_joined_parts;
             let message = format!(
-                "the {n} parts of the file are joined, as a glTF file gets {MOST_PARTS} at most"
+                "the {n} parts of the file are joined: a glTF file gets at most {MOST_PARTS}"
             );
             warnings.push(Warning::new("parts_joined", message));
         }
         if self.n_lost_groups > 0 {
             let n = self.n_lost_groups;
-            let message = format!("objects become meshes; the {n} groups within them are left out");
+            let message = format!("objects become meshes; the {n} groups in them are left out");
             warnings.push(Warning::new("groups_dropped", message));
         }
         if self.n_lost_elements > 0 {

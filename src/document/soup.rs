@@ -61,8 +61,7 @@ impl SoupDocument {
     fn add(&mut self, extras: io::ply::Extras) {
         if !extras.left_out.is_empty() {
             let names = listed(extras.left_out.iter().map(String::as_str));
-            let message =
-                format!("properties of the PLY file that are not read are left out: {names}");
+            let message = format!("unsupported PLY properties are left out: {names}");
             self.warnings
                 .push(Warning::new("properties_dropped", message));
         }

@@ -132,7 +132,7 @@ impl Reader<'_> {
             roughness: unit(roughness),
             metallic_roughness_map: self.metallic_roughness_map(),
             specular: self.color("ks").unwrap_or(new.specular),
-            // 1 and less is what is written by those who do not know better.
+            // Exporters that have no shininess write 1 or less.
             ior: self.number("ni").filter(|n| *n > 1.0).unwrap_or(new.ior),
             emission: if glows { emission } else { [1.0; 3] },
             emission_map,

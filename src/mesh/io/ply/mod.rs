@@ -113,7 +113,7 @@ fn read_records(
                 Kind::List { count, item } => {
                     let n_items = data.next(count)?;
                     if n_items < 0.0 || n_items.fract() != 0.0 {
-                        return Err(malformed(data.at, "a list of so many items is impossible"));
+                        return Err(malformed(data.at, "a list has an impossible length"));
                     }
                     data.list(
                         n_items as u64,
