@@ -62,7 +62,7 @@
 //! | [`embed`] | a valid start for every disk and the way from it to the optimum |
 //! | [`charts`] | where to cut: surfaces divided, mapped, and parted where the maps fold over themselves |
 //! | [`atlas`] | orientation, packing, pages, the integer grid |
-//! | [`certificate`] | exact judgement of UVs as a file has them |
+//! | [`certificate`] | exact judgment of UVs as a file has them |
 //! | [`measure`] | distortion, seams, packing, overlaps of any UV map |
 #![cfg_attr(
     feature = "files",
@@ -94,7 +94,7 @@
 //! [`numerics::predicates`] and the types and edges of [`mesh`]. Makers of maps search for overlaps
 //! too, with what is in [`plane`]; none of them imports [`certificate`], and it imports nothing of
 //! theirs, so that it finds their faults. Only [`measure`], which judges as well, and [`pipeline`],
-//! which asks for the judgement, build on it.
+//! which asks for the judgment, build on it.
 //!
 //! Pages of an atlas lie side by side along u. `f32` is coarser there, so the grid of three and more pages is too; along the shorter side of
 //! a texture it has as much larger steps as texels are larger, so that charts are rounded alike in both directions.
@@ -104,7 +104,7 @@
 //!
 //! # Units
 //!
-//! A chart's rest shapes are scaled to mean area 1 before they are optimized and back afterwards, so that β, ε and
+//! A chart's rest shapes are scaled to mean area 1 before they are optimized and back afterward, so that β, ε and
 //! tolerances mean the same for a ring and a city. Faces of zero area get a rest shape of bounded aspect. ε is
 //! min(10⁻⁵ · smallest rest area, 0.1 · smallest area of the start).
 //!
@@ -128,11 +128,12 @@
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as a draft of the
 //!   atlas gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
-//! - Placing charts one after the other leaves room between them. On square pages all of a page move and turn at once afterwards,
+//! - Placing charts one after the other leaves room between them. On square pages all of a page move and turn at once afterward,
 //!   pushed apart by Levenberg's method on rasters of their distances while the square shrinks, and end exactly as far from each
 //!   other as they must be; a raster decides only where that fails, on pages that are not square, and for crowds.
-//! - The default energy is the symmetric Dirichlet energy, in which the bound is stated: at the bound of 4.1 it needs
-//!   fewer charts than ARAP (1 against 3 on a closed surface with four handles), and folds over itself less often.
+//! - Unwrapping minimizes the symmetric Dirichlet energy by default ([`pipeline::Mapping`]), in which the bound is stated:
+//!   at the bound of 4.1 it needs fewer charts than ARAP (1 against 3 on a closed surface with four handles), and folds
+//!   over itself less often. [`embed::Options`] and the deformations of [`deform`] default to ARAP, as in the paper.
 //! - A large disk is slit as its simplification is, from the same tips: slits are what is decided there, maps and overlaps are not, so
 //!   nothing has to be carried over but vertices.
 //! - A lightmap needs a region for each instance, and glTF has no offset and scale of UVs per node: each node gets its own copy of

@@ -28,7 +28,7 @@ const BATCH: usize = 4096;
 /// What is to be packed, and the distances to be kept.
 pub(super) struct Packing<'a> {
     pub plan: &'a Plan,
-    /// For each chart, how far its vertices may be moved afterwards, in cells.
+    /// For each chart, how far its vertices may be moved afterward, in cells.
     pub slack: &'a [f64],
     pub texture: Texture,
     /// Cells along the longer side of a page.

@@ -2,17 +2,17 @@
 //!
 //! A triangle whose smallest height exceeds a *clearance* of 2r stays positive when its corners move by up to r, and edges that are
 //! farther apart stay apart. Where a chart has less, thin triangles and the gaps beside its boundary (slits above all, which
-//! begin with an angle of nearly nothing) are opened by [`relax`] in ever larger neighbourhoods, everything else moving as little as
+//! begin with an angle of nearly nothing) are opened by [`relax`] in ever larger neighborhoods, everything else moving as little as
 //! that allows.
 use super::ChartMap;
 use super::outline::boundary;
-use super::relax::{ENOUGH_CELLS, height, neighbourhood, relax};
+use super::relax::{ENOUGH_CELLS, height, neighborhood, relax};
 use crate::mesh::VertexFaces;
 use crate::numerics::bounds::{Bounds, bounds_of, widened};
 use crate::numerics::vec2::{dot, doubled_area, sub};
 use crate::plane::{BoxIndex, search_budget};
 
-/// Neighbourhoods tried; each has twice as many rings as the one before.
+/// Neighborhoods tried; each has twice as many rings as the one before.
 const ROUNDS: u32 = 10;
 
 /// Heights are opened to this multiple of the clearance, so that they keep it at a scale a little smaller.
@@ -43,7 +43,7 @@ pub fn cleared(map: &ChartMap, clearance: f64) -> Option<Vec<[f64; 2]>> {
         if seeds.is_empty() {
             break;
         }
-        let patch = neighbourhood(map.triangles, &rings, &seeds, 1 << round);
+        let patch = neighborhood(map.triangles, &rings, &seeds, 1 << round);
         let cell = MARGIN * clearance / ENOUGH_CELLS;
         relax(map.triangles, &rings, &patch, &gaps, cell, &mut plane);
         has_moved = true;

@@ -33,11 +33,11 @@ impl fmt::Display for Enough {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.resolution, self.pages) {
             (Some(resolution), Some(pages)) => {
-                write!(f, ": resolution {resolution}, or {pages} pages, would do")
+                write!(f, ": use resolution {resolution} or {pages} pages")
             }
-            (Some(resolution), None) => write!(f, ": resolution {resolution} would do"),
-            (None, Some(pages)) => write!(f, ": {pages} pages would do"),
-            (None, None) => write!(f, ", and so is the largest"),
+            (Some(resolution), None) => write!(f, ": use resolution {resolution}"),
+            (None, Some(pages)) => write!(f, ": use {pages} pages"),
+            (None, None) => write!(f, ", and so is the largest texture"),
         }
     }
 }

@@ -70,19 +70,19 @@ impl Mask {
     }
 }
 
-/// Sets the cells whose centres directed closed lines wind around.
+/// Sets the cells whose centers directed closed lines wind around.
 ///
 /// A cell that no line touches is inside or outside as a whole: with [`touch`] these are the cells of the area.
 fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) {
-    let first_centre = |x: f64, end: u32| ((x - 0.5).ceil().max(0.0) as u32).min(end);
+    let first_center = |x: f64, end: u32| ((x - 0.5).ceil().max(0.0) as u32).min(end);
     // Row, column from which on the winding is another, and by how much.
     let mut crossings: Vec<(u32, u32, i32)> = Vec::new();
     for [p, q] in segments {
         let (low, high, sign) = if p[1] <= q[1] { (p, q, 1) } else { (q, p, -1) };
-        for row in first_centre(low[1], bitmap.height)..first_centre(high[1], bitmap.height) {
+        for row in first_center(low[1], bitmap.height)..first_center(high[1], bitmap.height) {
             let share = (f64::from(row) + 0.5 - low[1]) / (high[1] - low[1]);
             let x = low[0] + share.clamp(0.0, 1.0) * (high[0] - low[0]);
-            crossings.push((row, first_centre(x, bitmap.width), sign));
+            crossings.push((row, first_center(x, bitmap.width), sign));
         }
     }
     crossings.sort_unstable();

@@ -190,7 +190,7 @@ pub enum AtlasError {
         chart: usize,
     },
     /// There are more charts than the finest raster can keep apart.
-    #[error("{charts} charts are too many for one atlas")]
+    #[error("one atlas cannot hold {charts} charts")]
     TooManyCharts {
         /// Their number.
         charts: usize,

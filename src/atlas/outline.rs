@@ -149,7 +149,7 @@ fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
 /// What remains of all triangles' edges when those that run in opposite directions cancel, in sorted order.
 ///
 /// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area too: their
-/// edges then run as those of their neighbours do, and stay, twice.
+/// edges then run as those of their neighbors do, and stay, twice.
 pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
     let counter_clockwise = |t: &[u32; 3]| {
         let [a, b, c] = *t;

@@ -13,7 +13,7 @@ use crate::mesh::VertexFaces;
 use crate::solver::{Control, Iterate, Objective, Settings, minimize};
 
 /// Smallest height of a rest shape, in grid cells. A triangle whose heights are √2 stays positive when
-/// its corners are rounded (each moves by √½ at most); the rest is for the neighbours' resistance.
+/// its corners are rounded (each moves by √½ at most); the rest is for the neighbors' resistance.
 const REST_HEIGHT: f64 = 4.0;
 /// Good enough when each triangle has this share of its rest area: heights of 2.4 cells.
 const ENOUGH: f64 = 0.6;
@@ -45,7 +45,7 @@ pub(super) fn relax(
     let (free, fixed): (Vec<u32>, Vec<u32>) = vertices
         .iter()
         .partition(|&&v| rings.of(v).iter().all(inside));
-    // Differences of neighbours stay exact if the origin is where the triangles are smallest.
+    // Differences of neighbors stay exact if the origin is where the triangles are smallest.
     let corners = |t: &[u32; 3]| t.map(|v| plane[v as usize]);
     let smallest = held
         .iter()
@@ -114,7 +114,7 @@ fn rest(triangle: [[f64; 2]; 3]) -> RestShape {
 }
 
 /// The triangles within so many rings of some triangles, sorted.
-pub(super) fn neighbourhood(
+pub(super) fn neighborhood(
     triangles: &[[u32; 3]],
     rings: &VertexFaces,
     of: &[u32],

@@ -2,11 +2,11 @@
 //!
 //! Rounding alone is right for all but a few triangles. Where it is not, the vertices of the
 //! triangle try the grid points around (the ring's kernel, searched exhaustively); what is left is
-//! too narrow for the grid and is opened by [`relax`] in ever larger neighbourhoods, then rounded
+//! too narrow for the grid and is opened by [`relax`] in ever larger neighborhoods, then rounded
 //! again. A chart that has flipped triangles as given, as maps without a barrier have, is rounded and nothing else.
 use rayon::prelude::*;
 
-use super::relax::{neighbourhood, relax};
+use super::relax::{neighborhood, relax};
 use super::{ChartMap, doubled_area, outline::Outline};
 use crate::mesh::VertexFaces;
 use crate::numerics::predicates::orient2d_sign;
@@ -23,7 +23,7 @@ pub(super) struct Snapped {
 
 /// Grid points tried around the exact position: this many columns and rows to each side.
 const REACH: i32 = 2;
-/// Neighbourhoods tried; each has twice as many rings as the one before.
+/// Neighborhoods tried; each has twice as many rings as the one before.
 const ROUNDS: u32 = 12;
 
 /// The chart at `unit` grid units per mesh unit, or none if a triangle stays without area.
@@ -92,7 +92,7 @@ impl Snap<'_> {
             if bad.is_empty() {
                 return Some(());
             }
-            let patch = neighbourhood(self.triangles, &self.rings, &bad, 1 << round_of);
+            let patch = neighborhood(self.triangles, &self.rings, &bad, 1 << round_of);
             let cell = 1.0 / unit;
             let free = relax(self.triangles, &self.rings, &patch, &[], cell, &mut plane);
             for v in free {

@@ -45,7 +45,7 @@ impl Turned {
     }
 }
 
-/// The longest run first, then runs far from each other before their neighbours: an occupied place
+/// The longest run first, then runs far from each other before their neighbors: an occupied place
 /// is found out early.
 fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
     let bits = usize::BITS - runs.len().leading_zeros();

@@ -8,14 +8,14 @@ use crate::picture::{spans, steps};
 
 /// Rows that one task covers.
 const BAND: usize = 64;
-/// Bilinear filtering at a point of a chart reads centres of texels less than √2 texels away.
+/// Bilinear filtering at a point of a chart reads centers of texels less than √2 texels away.
 const REACH: f64 = 1.5;
 /// A texel that belongs to no face.
 const EMPTY: u32 = u32::MAX;
-/// Marks a texel whose centre lies beside its face.
+/// Marks a texel whose center lies beside its face.
 const BESIDE: u32 = 1 << 31;
 
-/// For each texel of a square texture the face that its centre lies in, or beside which it lies within the reach of
+/// For each texel of a square texture the face that its center lies in, or beside which it lies within the reach of
 /// bilinear filtering.
 pub struct Coverage {
     side: usize,
@@ -25,7 +25,7 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// `faces`: UVs of the corners, v down, in the unit square; fewer than 2³¹. A centre on a common edge belongs to one
+    /// `faces`: UVs of the corners, v down, in the unit square; fewer than 2³¹. A center on a common edge belongs to one
     /// face; of overlapping faces the last wins.
     pub fn new(faces: &[Corners], side: usize) -> Self {
         let scale = side as f64;
@@ -113,12 +113,12 @@ impl Band<'_> {
     fn surround(&mut self, face: u32, corners: &Corners, distances: &mut [f64]) {
         let rows = self.texels.len() / self.side;
         let [low, high] = extent(corners.map(|p| p[1]));
-        for row in centres(low - REACH, high + REACH, rows) {
+        for row in centers(low - REACH, high + REACH, rows) {
             let y = row as f64 + 0.5;
             let Some([left, right]) = width_between(corners, y - REACH, y + REACH) else {
                 continue;
             };
-            for column in centres(left - REACH, right + REACH, self.side) {
+            for column in centers(left - REACH, right + REACH, self.side) {
                 let texel = row * self.side + column;
                 if self.texels[texel] & BESIDE == 0 {
                     continue;
@@ -133,8 +133,8 @@ impl Band<'_> {
     }
 }
 
-/// Texels of `n` with their centres from `low` to `high`.
-fn centres(low: f64, high: f64, n: usize) -> std::ops::Range<usize> {
+/// Texels of `n` with their centers from `low` to `high`.
+fn centers(low: f64, high: f64, n: usize) -> std::ops::Range<usize> {
     let first = (low - 0.5).ceil().max(0.0) as usize;
     let end = ((high + 0.5).floor().max(0.0) as usize).min(n);
     first.min(end)..end

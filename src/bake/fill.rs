@@ -1,6 +1,6 @@
 //! Texels between charts.
 
-/// Fills the texels without a value from those with one, ring by ring: each takes the mean of its neighbours of earlier
+/// Fills the texels without a value from those with one, ring by ring: each takes the mean of its neighbors of earlier
 /// rings. A texture without any value becomes black.
 pub(super) fn filled(texels: Vec<Option<[u8; 4]>>, side: usize) -> Vec<[u8; 4]> {
     let mut texels = texels;
@@ -25,10 +25,10 @@ pub(super) fn filled(texels: Vec<Option<[u8; 4]>>, side: usize) -> Vec<[u8; 4]> 
     texels.into_iter().map(|t| t.unwrap_or(black)).collect()
 }
 
-/// The mean of the neighbours that have a value.
+/// The mean of the neighbors that have a value.
 fn mean(texels: &[Option<[u8; 4]>], side: usize, texel: usize) -> Option<[u8; 4]> {
     let (mut sum, mut n) = ([0_u32; 4], 0);
-    for value in around(side, texel).filter_map(|neighbour| texels[neighbour]) {
+    for value in around(side, texel).filter_map(|neighbor| texels[neighbor]) {
         for (sum, channel) in sum.iter_mut().zip(value) {
             *sum += u32::from(channel);
         }
@@ -37,11 +37,11 @@ fn mean(texels: &[Option<[u8; 4]>], side: usize, texel: usize) -> Option<[u8; 4]
     (n > 0).then(|| sum.map(|s| ((s + n / 2) / n) as u8))
 }
 
-/// The up to eight neighbours of a texel.
+/// The up to eight neighbors of a texel.
 fn around(side: usize, texel: usize) -> impl Iterator<Item = usize> {
     let (x, y) = (texel % side, texel / side);
     let near = move |c: usize| c.saturating_sub(1)..=(c + 1).min(side - 1);
     near(y)
         .flat_map(move |y| near(x).map(move |x| y * side + x))
-        .filter(move |&neighbour| neighbour != texel)
+        .filter(move |&neighbor| neighbor != texel)
 }

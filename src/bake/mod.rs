@@ -1,18 +1,18 @@
 //! Textures resampled from one UV map of a surface to another.
 //!
 //! A texture lies on a surface by a UV map. After the surface got another map, the same look needs another texture: each
-//! texel of it takes the colour that the surface had at that place. [`Coverage`] tells once per atlas which face each
+//! texel of it takes the color that the surface had at that place. [`Coverage`] tells once per atlas which face each
 //! texel belongs to; [`baked`] evaluates every texel once, by as many bilinear samples as texels of the source fall on
 //! it, averaged in linear light. Bilinear filtering also reads texels beside a chart: those within reach take the
-//! colour of the chart's nearest point, so that nothing is read from across the borders of the source's charts. All
-//! others are filled from their neighbours, ring by ring, so that every mip level finds a chart's own colours around it.
+//! color of the chart's nearest point, so that nothing is read from across the borders of the source's charts. All
+//! others are filled from their neighbors, ring by ring, so that every mip level finds a chart's own colors around it.
 //!
 //! Normal maps hold directions relative to tangents, which turn with the UVs: [`Frames`] carries each direction from the
 //! old frame to the new one.
 //!
-//! Texel (x, y) of a texture of n × n is centred at ((x + ½)/n, (y + ½)/n) in UVs with v down, as glTF has it. Equal
+//! Texel (x, y) of a texture of n × n is centered at ((x + ½)/n, (y + ½)/n) in UVs with v down, as glTF has it. Equal
 //! input gives equal pictures, for any number of threads.
-mod colour;
+mod color;
 mod coverage;
 mod fill;
 mod frames;

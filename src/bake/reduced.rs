@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::colour::{decoded, encoded};
+use super::color::{decoded, encoded};
 use super::coverage::Coverage;
 use super::size::Areas;
 use super::{Plane, Texture};

@@ -2,13 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::colour::encoded;
+use super::color::encoded;
 use super::coverage::Coverage;
 use super::fill::filled;
 use super::plane::Plane;
 use super::reduced::Reduced;
 use super::triangle::{Triangle, blended};
-
 use crate::picture::Image;
 
 /// Samples per texel along a side at most: where the source is finer still, it repeats more often than the new texture
@@ -64,12 +63,12 @@ impl Bake<'_> {
             .map(|place| place.map(|x| x * reduced.scale));
         let triangle = Triangle::new(*self.coverage.corners(face))?;
         let is_interior = self.coverage.is_interior(x, y);
-        let centre = [x as f64 + 0.5, y as f64 + 0.5];
+        let center = [x as f64 + 0.5, y as f64 + 0.5];
         let n = samples(&triangle.jacobian(&source), texture.is_nearest);
         let mut sum = [0.0; 4];
         for k in 0..n * n {
             let offset = |i: usize| (i as f64 + 0.5) / n as f64 - 0.5;
-            let place = [centre[0] + offset(k % n), centre[1] + offset(k / n)];
+            let place = [center[0] + offset(k % n), center[1] + offset(k / n)];
             let weights = if is_interior {
                 triangle.weights(place)
             } else {
@@ -81,7 +80,7 @@ impl Bake<'_> {
         let mut value = sum.map(|c| c / (n * n) as f32);
         if let Some(frames) = &self.plane.frames {
             let [x, y, z, a] = value;
-            let (weights, _) = triangle.nearest(centre);
+            let (weights, _) = triangle.nearest(center);
             let [x, y, z] = frames.carried(face as usize, weights, [x, y, z]);
             value = [x, y, z, a];
         }

@@ -1,6 +1,6 @@
 //! A picture as materials sample it.
 
-use super::colour::decoded;
+use super::color::decoded;
 use crate::document::{Encoding, Wrap};
 use crate::picture::Image;
 
@@ -23,7 +23,7 @@ impl Texture<'_> {
         [self.image.width as f64, self.image.height as f64]
     }
 
-    /// The value at a place in texels, linear between their centres.
+    /// The value at a place in texels, linear between their centers.
     pub(super) fn sample(&self, [x, y]: [f64; 2]) -> [f32; 4] {
         let (width, height) = (self.image.width, self.image.height);
         if self.is_nearest {

@@ -8,7 +8,7 @@ use crate::energy::Guard;
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum BarrierKind {
-    /// The inverse spline of the paper: no element inverts, and ordinary elements do not feel it.
+    /// The inverse spline of the paper. No element inverts, and elements of ordinary size do not feel it.
     #[default]
     #[serde(alias = "spline")]
     InverseSpline,
@@ -17,10 +17,10 @@ pub enum BarrierKind {
     AugmentedLog,
     /// The logarithm.
     Log,
-    /// The volume part of a neo-Hookean material.
+    /// The volume term of a neo-Hookean material.
     #[serde(alias = "neohookean")]
     NeoHookean,
-    /// None, for comparison: an energy that is finite everywhere may invert elements.
+    /// No barrier, for comparison. An energy that is finite everywhere may invert elements.
     None,
 }
 

@@ -7,7 +7,7 @@ use crate::energy::Guard;
 /// ```text
 /// φ = β log²((λ − ε)/(λ⁰ − 2ε))
 /// ```
-/// λ is the element's size, λ⁰ at rest. Minimum 0, where λ = λ⁰ − ε (the authors take ε off twice). Grows so slowly towards
+/// λ is the element's size, λ⁰ at rest. Minimum 0, where λ = λ⁰ − ε (the authors take ε off twice). Grows so slowly toward
 /// ε that it often fails to hold. Not weighted; β and ε are absolute. Domain λ > ε, +∞ outside. From: Schüller et al. 2013,
 /// equation 8. Tests: `barrier::taylor_guards`.
 #[derive(Clone, Copy, Debug)]

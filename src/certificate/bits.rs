@@ -1,4 +1,4 @@
-//! Whether a map holds at so many bits.
+//! Whether a map holds when it is rounded to a number of bits.
 
 use super::NAMED;
 use super::boundary::ChartBoundary;
@@ -8,19 +8,20 @@ use super::separation::doubtful_pairs;
 use super::topology::UvTopology;
 use serde::Serialize;
 
-/// Whether a map stays bijective however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶, decided in integers.
+/// Whether a map stays bijective if each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶, decided in integers.
 ///
-/// That covers every quantizer that rounds to i/(2ᵇ−1) and stores the result in 16 bits, over the unit square or a smaller box.
+/// This covers every quantizer that rounds to i/(2ᵇ−1) and stores 16 bits, over the unit square or a
+/// smaller box.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct BitsVerdict {
-    /// The bits b asked for.
+    /// The requested bits b.
     pub asked: u32,
-    /// Whether it is proven: the map is bijective, every orientation is kept and every separation.
+    /// Whether that is proven: the map is bijective, and every orientation and separation is kept.
     pub hold: bool,
     /// Faces whose orientation is in doubt.
     pub faces_in_doubt: usize,
-    /// Pairs of edges of charts that may come to touch.
+    /// Pairs of chart edges that may touch.
     pub pairs_in_doubt: u64,
     /// The first few faces in doubt.
     pub offending_faces: Vec<u32>,

@@ -31,7 +31,7 @@ pub(crate) fn enlarged<const D: usize>([low, high]: Bounds<D>) -> Bounds<D> {
     [low.map(f64::next_down), high.map(f64::next_up)]
 }
 
-/// A complete binary tree over boxes in Morton order of their centres; the children of node `i` are `2i` and `2i + 1`, the
+/// A complete binary tree over boxes in Morton order of their centers; the children of node `i` are `2i` and `2i + 1`, the
 /// root is 1.
 pub(crate) struct BoxTree<const D: usize = 2> {
     items: Vec<u32>,
@@ -220,7 +220,7 @@ fn box_distance<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> f64 {
     (0..D).map(gap).fold(0.0, f64::hypot)
 }
 
-/// Place of a box's centre on the Z-order curve over `whole`, the sides cut into 2^(64/D) cells.
+/// Place of a box's center on the Z-order curve over `whole`, the sides cut into 2^(64/D) cells.
 fn morton<const D: usize>(b: &Bounds<D>, whole: &Bounds<D>) -> u64 {
     let bits = 64 / D;
     let cell: [u64; D] = std::array::from_fn(|axis| {

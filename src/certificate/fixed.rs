@@ -6,7 +6,7 @@ pub(super) const UNIT_BITS: u32 = 40;
 /// A point in these units.
 pub(super) type Fixed = [i128; 2];
 
-/// A point cut to multiples of the unit, towards zero. f32 numbers from 2⁻¹⁷ on are such multiples.
+/// A point cut to multiples of the unit, toward zero. f32 numbers from 2⁻¹⁷ on are such multiples.
 pub(super) fn fixed(point: [f64; 2]) -> Fixed {
     point.map(|x| (x * (1_u64 << UNIT_BITS) as f64) as i128)
 }

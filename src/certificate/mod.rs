@@ -1,4 +1,4 @@
-//! Exact judgement of UVs as they stand in a file.
+//! Exact judgment of UVs as they stand in a file.
 //!
 //! A map that is injective in the solver need not be after rounding, so nothing the solver or the
 //! packer believes counts here. [`certify`] takes positions, triangles and the UVs of every corner,
@@ -11,11 +11,11 @@
 //! [`plane`](crate::plane), and a fault in them is found here.
 //!
 //! **Charts.** Two faces on a common edge (of welded positions) belong to one chart when the UVs of both ends agree to 1e-7 of
-//! the UV extent. That is less than one step of the 2⁻²³ grid over the unit square, so for UVs this program writes it means
-//! exactly equal; in files of others it lets seams that differ by rounding alone count as one. The tolerance decides only what
-//! is compared with what: orientation and overlap have none.
+//! the UV extent. On one page that is less than a step of the 2⁻²³ grid, so for UVs this program writes it means exactly
+//! equal; on several pages it may span one step. In other files it lets seams that differ by rounding alone count as one.
+//! The tolerance decides only what is compared with what: orientation and overlap have none.
 //!
-//! **Winding.** A file may wind neighbours inconsistently. Winding is propagated over the chart, and a face is flipped
+//! **Winding.** A file may wind neighbors inconsistently. Winding is propagated over the chart, and a face is flipped
 //! when its orientation, so corrected, is not the one that carries most UV area in its chart. A mirrored chart is therefore
 //! valid, a Möbius strip in one piece is not.
 //!
@@ -39,7 +39,7 @@ mod claims;
 mod crossings;
 mod edges;
 mod fixed;
-mod judgement;
+mod judgment;
 mod once;
 mod overlap;
 mod padding;
@@ -58,7 +58,7 @@ use box_tree::{Bounds, BoxTree, bounds_of, enlarged, search_budget};
 pub use claims::{Claims, Overlap, Padding};
 pub use crossings::{Crossings, crossings};
 pub(crate) use edges::Start;
-pub use judgement::{Certificate, certify};
+pub use judgment::{Certificate, certify};
 pub(crate) use overlap::OrientedFaces;
 pub use padding::PaddingVerdict;
 pub use pages::PagesVerdict;

@@ -13,21 +13,22 @@ use serde::Serialize;
 /// Coordinates from here on are not judged: their products would not fit.
 const LIMIT: f64 = 1024.0;
 
-/// Whether any two charts are as far from each other as asked, decided in integers.
+/// Whether all charts keep the requested distance from each other, decided in integers.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct PaddingVerdict {
-    /// The distance asked for, in texels.
+    /// The requested distance, in texels.
     pub asked_texels: u32,
     /// The texture of the unit square.
     pub resolution: Resolution,
-    /// Whether it is proven that no two charts are nearer. Coordinates of 1024 or more are not judged.
+    /// Whether it is proven that no two charts are closer. Coordinates of 1024 or more are not judged.
     pub kept: bool,
-    /// The smallest distance of two charts in texels, rounded; null when there is one chart, or the search stopped at its limit.
+    /// The smallest distance between two charts in texels, rounded. Null if there is only one chart, or the
+    /// search stopped at its limit.
     pub reached_texels: Option<f64>,
-    /// Pairs of charts that are nearer.
+    /// Pairs of charts that are closer.
     pub pairs_too_close: usize,
-    /// Faces of two charts where they are too close, the first few.
+    /// The first few pairs of faces at which two charts are too close.
     pub offending_faces: Vec<[u32; 2]>,
 }
 
@@ -86,7 +87,7 @@ struct Bound {
 
 impl Bound {
     /// Coordinates that had to be cut move by less than a unit each, two points by less than three against each other: the
-    /// bound is enlarged by that, so that a doubt is never resolved in favour of the map.
+    /// bound is enlarged by that, so that a doubt is never resolved in favor of the map.
     fn new(texels: u32, resolution: u32, is_exact: bool) -> Self {
         let resolution = u128::from(resolution);
         let doubt = if is_exact { 0 } else { 3 * resolution };

@@ -4,18 +4,18 @@ use super::alignment::chart_bounds;
 use super::topology::UvTopology;
 use serde::Serialize;
 
-/// Whether every chart lies on one of so many pages side by side, decided exactly: page k holds u from k to k + 1 and v from 0 to 1,
-/// borders included.
+/// Whether every chart lies on one of the pages, decided exactly. Page k covers u from k to k + 1 and v
+/// from 0 to 1, borders included.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct PagesVerdict {
-    /// The pages asked for.
+    /// The requested number of pages.
     pub asked: u32,
     /// Whether every chart lies on one of them.
     pub kept: bool,
     /// Pages that hold a chart.
     pub used: usize,
-    /// Charts that cross the border of a page, or lie beyond all.
+    /// Charts that cross a page border or lie outside all pages.
     pub charts_across: usize,
 }
 

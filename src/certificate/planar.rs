@@ -1,4 +1,4 @@
-//! Judgement of a deformed mesh of the plane.
+//! Judgment of a deformed mesh of the plane.
 
 use super::box_tree::Visit;
 use super::overlap::OrientedFaces;

@@ -18,7 +18,7 @@ pub(super) const LEVELS: [u32; 3] = [12, 14, 16];
 ///   to i/(2ᵇ−1) and stores the result in 16 bits, over the unit square or over a smaller box.
 ///
 /// Decided in integers. Coordinates that are no multiples of 2⁻⁴⁰ are cut to it and the move is allowed for, so that
-/// a doubt is never resolved in favour of the map.
+/// a doubt is never resolved in favor of the map.
 pub(crate) fn coarsest_bits(topology: &UvTopology) -> Option<u32> {
     if topology.uvs.iter().any(is_far) {
         return None;

@@ -12,17 +12,17 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum Cut {
-    /// Into few charts under a bound on their distortion.
+    /// Few charts under a bound on their distortion.
     #[default]
     Auto,
-    /// Into charts whose normals lie within a cone: more of them, in less time.
+    /// Charts whose normals lie within a cone: more charts in less time.
     Fast,
-    /// Into one disk per component, by as few and short seams as that takes.
+    /// One disk per component, with few and short seams.
     Disk,
-    /// Where the surface has been cut, along the borders of present UV islands, and no more than it takes to open what is left to
-    /// disks. Maps begin where the islands lie.
+    /// The present UV islands, cut further only where they are not disks. Maps start where the islands
+    /// lie.
     Keep,
-    /// The same along seams that were given; maps begin anew.
+    /// The pieces between given seams, cut further only where they are not disks.
     Seams,
 }
 
@@ -89,7 +89,7 @@ fn glued_within(twin: &[u32], region: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-/// The faces that hang together, labelled.
+/// The faces that hang together, labeled.
 pub(super) fn connected_faces(twin: &[u32]) -> (Vec<u32>, usize) {
     let mut faces = UnionFind::new(twin.len() / 3);
     for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {

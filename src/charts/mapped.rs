@@ -11,14 +11,15 @@ use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::{Control, Iterate, Summary, Watch};
 use std::time::Duration;
 
-/// A chart, its map and the seconds of the observer's clock it took.
+/// A chart, its map and how long the map took.
 #[derive(Clone, Debug)]
 pub struct MappedChart {
     /// The chart.
     pub chart: Chart,
-    /// Its map: with a barrier without flips, and with [`Folds::Cut`] without overlaps.
+    /// Its map: without flips if the energy has a barrier, and with [`Folds::Cut`] without overlaps.
     pub embedding: Embedding,
-    /// From the chart's start to its end.
+    /// Seconds on the observer's clock for the map of the chart that this one was cut from, its
+    /// cutting included. Attempts that gave no valid map are not counted.
     pub seconds: f64,
 }
 
@@ -43,8 +44,8 @@ pub enum Folds {
     Keep,
 }
 
-/// A chart with its map, cut where it has to be: into halves while floating point finds no valid map, and where the map overlaps
-/// itself.
+/// A chart with its map, cut where it has to be: into halves while floating point finds no valid
+/// map, and with [`Folds::Cut`] where the map overlaps itself. Without a barrier a map may have flips.
 pub fn map_chart(
     chart: Chart,
     options: &embed::Options,
@@ -82,8 +83,9 @@ pub fn map_chart(
     mapped
 }
 
-/// A chart mapped from where it lies: `uv` may have any unit and be seen from behind. Mapped anew if it overlaps itself there or has a
-/// face that is not positive.
+/// A chart mapped from where it lies: `uv` may have any unit and be seen from behind. The chart is
+/// mapped anew if it has a flipped or degenerate face or overlaps itself there, or if the optimized
+/// map has such a face. It is cut where the map overlaps itself.
 pub fn map_chart_from(
     chart: Chart,
     mut uv: Vec<[f64; 2]>,
@@ -260,7 +262,7 @@ impl MappedChart {
 
     /// Turned over if more of its area in the plane belongs to triangles that the surface winds the other way.
     ///
-    /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modelled from both sides, the
+    /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modeled from both sides, the
     /// map decides.
     pub(super) fn facing_front(mut self) -> Self {
         let area = |(t, triangle): (usize, &[u32; 3])| {

@@ -50,7 +50,7 @@ struct Flow<'a> {
     /// For each halfedge how much more may flow over it out of its face.
     left: Vec<u64>,
     tree: Vec<Tree>,
-    /// For each face of a tree its halfedge towards its parent, [`ROOT`] or [`ORPHAN`].
+    /// For each face of a tree its halfedge toward its parent, [`ROOT`] or [`ORPHAN`].
     parent: Vec<u32>,
     /// Edges to the root, as of the round of adoption `known`.
     depth: Vec<u32>,

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::options::as_typed;
 
-/// Unwraps meshes: glTF in, certified flip-free UVs and a distortion report out.
+/// Unwraps meshes: glTF in, glTF with certified flip-free UVs and a distortion report out.
 #[derive(Parser)]
 #[command(name = "unwrapd", version, about, max_term_width = 100)]
 struct Cli {
@@ -19,53 +19,76 @@ struct Cli {
 
 #[derive(Subcommand)]
 pub(super) enum Command {
-    /// Give a mesh UVs in which no triangle is flipped or degenerate
+    /// Unwrap a mesh: UVs without flipped or degenerate triangles
+    ///
+    /// Exit status 0 means certified: it is proven that no triangle is flipped, degenerate or
+    /// overlapping, that no chart is mirrored, and that padding, pages and bits are as requested.
+    ///
+    /// Exit status 4 means not certified. OUT is still written, and a warning names what is
+    /// missing. Only if a triangle would be flipped against the promise, no file is written.
+    ///
+    /// Other statuses: 2 usage error, 3 unusable input, 1 any other error. Distortion above the
+    /// bound of `quality` is only a warning.
     Unwrap(Box<unwrap_args::Args>),
     /// Measure the UVs of a file: distortion, seams, packing, overlaps
     Measure(measure::Args),
-    /// Check exactly that no face of a file's UVs is flipped or degenerate, and what else is asked
-    /// for: exit 0 if so, 4 if not
+    /// Prove that the UVs of a file have no flipped or degenerate face: exit 0 if so, 4 if not
+    ///
+    /// The proof is in exact arithmetic and covers whatever the options request. A face is flipped
+    /// if its orientation differs from that of its chart. A file written by unwrapd records its
+    /// options; without `texcoord`, those are judged.
     Verify(verify::Args),
-    /// Pack the UV islands of all meshes into one atlas, each as it is
+    /// Pack the UV islands of all meshes into one atlas without changing their shapes
+    ///
+    /// Islands are only turned by quarters, shifted, and scaled by one common factor. Their defects
+    /// remain. The exit status is 4, not certified, if a triangle is flipped, degenerate or
+    /// overlapping, a chart is mirrored, or the padding is not kept. OUT is still written, and a
+    /// warning names the defects.
     Repack(repack::Args),
-    /// Move anchors of a file's UVs, no face flipped
+    /// Pull UVs by anchors without flipping a face
     EditUv(edit_uv::EditArgs),
-    /// Align points of a surface with points of a texture, no face flipped
+    /// Align points of a surface with points of a texture without flipping a face
     TextureMap(edit_uv::TextureArgs),
-    /// Pull a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element
-    /// inverted
+    /// Deform a mesh, an outline or surfaces in a cage by handles without inverting an element
     Deform(Box<deform::Args>),
-    /// Solve a problem file: handles pulled to targets, no element inverted
+    /// Solve a problem file: pull handles to targets without inverting an element
     Solve(solve::Args),
     /// Warp a picture by handles without folding it
     Warp(warp::Args),
     /// Run the HTTP service
+    ///
+    /// It ends on SIGTERM or SIGINT. Every option can also be set by the environment variable that
+    /// its help names. RUST_LOG sets the log level, for example `warn` or `unwrapd=debug`.
     Serve(Box<serve::Args>),
     /// Print the OpenAPI document of the service
     Openapi,
-    /// Ask a running service whether it is ready: exit 0 if so, 1 if not
+    /// Check whether a running service is ready: exit 0 if so, 1 if not
     Health(health::Args),
-    /// Print what makes a shell complete commands and options
+    /// Print a completion script for a shell
     Completions(completions::Args),
-    /// Print the manual page of the program or of one of its commands
+    /// Print the manual page of the program or of a command
     Man(man::Args),
 }
 
-/// What was typed; ends the process where that is wrong, or where help is asked for.
+/// The command that was typed. Ends the process on a usage error, or after printing help.
 pub(super) fn typed() -> Command {
     let short = command().mut_subcommands(|command| command.mut_args(hidden_if_special));
     let cli = Cli::from_arg_matches(&short.get_matches());
     cli.unwrap_or_else(|error| error.exit()).command
 }
 
-/// The program: options take negative numbers, which are then refused by name, and help names
-/// options as they are typed.
+/// The program. Options accept negative numbers, so that the range check can name the option. Help
+/// shows option names as they are typed.
 pub(super) fn command() -> clap::Command {
     Cli::command().mut_subcommands(|command| {
-        let ids = command.get_arguments().map(|option| option.get_id());
+        let ids = command.get_arguments().map(clap::Arg::get_id);
         let ids: Vec<String> = ids.map(ToString::to_string).collect();
         let is_option = |name: &str| ids.iter().any(|id| id == name);
-        command.mut_args(|option| with_typed_names(with_negative_numbers(option), is_option))
+        let about = |text: &StyledStr| as_typed(&text.to_string(), is_option);
+        let long = command.get_long_about().map(about);
+        let command =
+            command.mut_args(|option| with_typed_names(with_negative_numbers(option), is_option));
+        long.into_iter().fold(command, clap::Command::long_about)
     })
 }
 

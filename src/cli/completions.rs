@@ -4,7 +4,7 @@ use std::io;
 
 use clap_complete::Shell;
 
-/// Prints what makes a shell complete commands and options.
+/// Prints a completion script for a shell.
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The shell

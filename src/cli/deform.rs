@@ -11,17 +11,20 @@ use crate::deform::parse_body_handles;
 use crate::options::help_of;
 use crate::pipeline::{CommandOptions, DeformOptions, deform_file};
 
-/// Deforms a planar or tetrahedral mesh, or surfaces in a cage of tetrahedra, by handles, no element inverted.
+/// Deforms a planar or tetrahedral mesh, or surfaces in a cage of tetrahedra, by handles. No
+/// element is inverted.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Mesh (.obj, .off, .msh, .mesh, .tet; planar also .glb, .gltf, .ply, .stl), or an outline to be meshed: PNG with
-    /// transparency, SVG; with --cage surfaces: .glb, .gltf, .obj, .off, .ply, .stl; `-` is standard input
+    /// Mesh: .obj, .off, .msh, .mesh or .tet; planar also .glb, .gltf, .ply or .stl. Outline to
+    /// fill with triangles: PNG with transparency, or SVG. With --cage, surfaces: .glb, .gltf,
+    /// .obj, .off, .ply or .stl. `-` is standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     #[arg(long, value_name = "FILE", help = help_of::<DeformOptions>("handles"))]
     handles: PathBuf,
-    /// Where the deformed mesh goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; of glTF, PLY and STL also
-    /// .glb or .gltf, everything else in the file preserved; with --cage .glb, .gltf, .obj; `-` is standard output
+    /// Output file: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu. For glTF,
+    /// PLY and STL also .glb or .gltf, with everything else in the file preserved. With --cage:
+    /// .glb, .gltf or .obj. `-` is standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]

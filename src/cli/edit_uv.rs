@@ -14,7 +14,8 @@ use crate::document::OutputFormat;
 use crate::options::help_of;
 use crate::pipeline::{CommandOptions, EditOptions, Editing, edit_document};
 
-/// Moves anchors of a UV map, everything else as it is as far as possible and no triangle flipped.
+/// Moves anchors of a UV map. Everything else stays as close to its place as possible, and no
+/// triangle is flipped.
 #[derive(clap::Args)]
 pub(super) struct EditArgs {
     #[arg(long, value_name = "A.json", help = help_of::<EditOptions>("anchors"))]
@@ -23,10 +24,12 @@ pub(super) struct EditArgs {
     common: Common,
 }
 
-/// Aligns points of a surface with points of a texture: `edit-uv` with boundaries fixed and the surface's shapes kept.
+/// Aligns points of a surface with points of a texture. Like `edit-uv`, but with fixed boundaries,
+/// and preserving the surface's shapes.
 #[derive(clap::Args)]
 pub(super) struct TextureArgs {
-    /// Points, as the anchors of `edit-uv`: {"points": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": …}, …]}
+    /// Points, in the form of `edit-uv` anchors: {"points": [{"vertex": i, "to": [u, v]}, {"at":
+    /// [u, v], "to": …}, …]}
     #[arg(long, value_name = "P.json")]
     points: PathBuf,
     #[command(flatten)]
@@ -55,7 +58,7 @@ pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
     run(&args.common, &args.points, Editing::Texture)
 }
 
-/// Exit 4 if a chart with an anchor is not proven to be without flips.
+/// Exit status 4 if a chart with an anchor is not proven to be free of flips.
 fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     let (input, to) = (&args.mapped.input, &args.target.output);
     let mut options = EditOptions {

@@ -37,7 +37,9 @@ pub(super) fn check_png(path: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     let name = path.display();
-    Err(Failure::usage(format!("{name}: OUT must end in .png")))
+    Err(Failure::usage(format!(
+        "{name}: the name of OUT must end in .png"
+    )))
 }
 
 fn agreed<F: ValueEnum + PartialEq>(path: &Path, given: Option<F>) -> Result<F, Failure> {
@@ -45,7 +47,7 @@ fn agreed<F: ValueEnum + PartialEq>(path: &Path, given: Option<F>) -> Result<F, 
     let name = path.display();
     match (F::from_str(&extension.to_string_lossy(), false).ok(), given) {
         (Some(named), Some(given)) if named != given => Err(Failure::usage(format!(
-            "{name}: --format and the extension are at odds"
+            "{name}: --format contradicts the extension"
         ))),
         (_, Some(format)) | (Some(format), None) => Ok(format),
         (None, None) => {
@@ -53,7 +55,7 @@ fn agreed<F: ValueEnum + PartialEq>(path: &Path, given: Option<F>) -> Result<F, 
             let values = values.filter_map(ValueEnum::to_possible_value);
             let words: Vec<String> = values.map(|value| value.get_name().to_owned()).collect();
             Err(Failure::usage(format!(
-                "{name}: the format is not known: OUT ends in one of .{}, or --format is one of {}",
+                "{name}: unknown format: use one of the extensions .{}, or --format with one of {}",
                 words.join(", ."),
                 words.join(", ")
             )))
@@ -64,6 +66,6 @@ fn agreed<F: ValueEnum + PartialEq>(path: &Path, given: Option<F>) -> Result<F, 
 fn several_files(path: &Path) -> Failure {
     let name = path.display();
     Failure::usage(format!(
-        "{name}: gltf is several files, which do not go into a stream: glb does"
+        "{name}: gltf consists of several files, which a stream cannot carry: use glb"
     ))
 }

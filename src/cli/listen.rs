@@ -5,7 +5,8 @@ use std::net::SocketAddr;
 /// The address of the service.
 #[derive(clap::Args)]
 pub(super) struct Listen {
-    /// Address of the service; port 0 takes a free one, `0.0.0.0` and `[::]` are every address of this machine
+    /// Address to listen on. Port 0 selects a free port; `0.0.0.0` and `[::]` listen on all
+    /// interfaces
     #[arg(
         long = "listen",
         value_name = "ADDRESS",

@@ -6,10 +6,10 @@ use clap_mangen::Man;
 
 use super::failure::Failure;
 
-/// Prints the manual page of the program or of one of its commands.
+/// Prints the manual page of the program or of a command.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The command [default: the page of the program, which lists them]
+    /// The command [default: the manual page of the program, which lists all commands]
     command: Option<String>,
 }
 
@@ -18,9 +18,9 @@ pub(super) fn run(args: &Args, mut program: clap::Command) -> Result<(), Failure
     program.build();
     let page = match &args.command {
         None => &program,
-        Some(name) => program.find_subcommand(name).ok_or_else(|| {
-            Failure::usage(format!("there is no command {name}: see unwrapd --help"))
-        })?,
+        Some(name) => program
+            .find_subcommand(name)
+            .ok_or_else(|| Failure::usage(format!("unknown command {name}: see unwrapd --help")))?,
     };
     let mut text = Vec::new();
     let rendered = Man::new(page.clone()).render(&mut text);

@@ -1,4 +1,4 @@
-//! `unwrapd measure`: what existing UVs are worth.
+//! `unwrapd measure`: the quality of existing UVs.
 
 use super::console::{print_json, warn};
 use super::failure::Failure;
@@ -6,7 +6,7 @@ use super::input::{Mapped, read_upload};
 use crate::certificate::Certificate;
 use crate::pipeline::{self, MeasureOptions};
 
-/// Which UVs of a file, and what is judged of them.
+/// Which UVs of a file to judge, and by which options.
 #[derive(clap::Args)]
 pub(super) struct Which {
     #[command(flatten)]

@@ -1,10 +1,11 @@
-//! Commands: each subcommand is one file that fills settings structs and calls the library.
+//! The commands: each subcommand is one file that fills settings structs and calls the library.
 //!
-//! Exit codes: 0 done; 2 usage; 3 the input cannot be used; 4 not certified (with a file), or no valid result within the limits
-//! (without one); 1 anything else.
+//! Exit statuses: 0 success; 2 usage error; 3 unusable input; 4 not certified (with a file), or no
+//! valid result within the limits (without one); 1 any other error.
 //!
-//! Before the work a command checks its options, which the library does, and that what it will write can be written
-//! (`output`); what it reads it opens once (`input`).
+//! Before the work starts, the library checks the options, and `output` checks that every file can
+//! be written. Each input is opened once (`input`).
+#![doc = include_str!("guide.md")]
 
 mod command;
 mod completions;

@@ -16,7 +16,7 @@ use crate::pipeline::Caller;
 /// Where a document is written.
 #[derive(clap::Args)]
 pub(super) struct Target {
-    /// Where to write: .glb, .gltf or .obj decides the format; `-` is standard output
+    /// Output file. Its extension decides the format: .glb, .gltf or .obj. `-` is standard output
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
 }
@@ -25,10 +25,10 @@ pub(super) struct Target {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
 pub(super) struct Files<F: ValueEnum + Clone + Send + Sync + 'static> {
-    /// Format of OUT where its name does not tell
+    /// Format of OUT if its name does not tell
     #[arg(long)]
     pub(super) format: Option<F>,
-    /// Write the report as JSON: what was done, what it is worth, what is proven
+    /// Write the report as JSON: what was done, quality, proofs
     #[arg(long, value_name = "R.json")]
     pub(super) report: Option<PathBuf>,
     #[command(flatten)]
@@ -39,7 +39,7 @@ pub(super) struct Files<F: ValueEnum + Clone + Send + Sync + 'static> {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
 pub(super) struct OutputArgs {
-    /// Let OUT replace a file that is read
+    /// Allow OUT to replace an input file
     #[arg(long)]
     force: bool,
     #[command(flatten)]
@@ -50,10 +50,10 @@ pub(super) struct OutputArgs {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
 pub(super) struct Talk {
-    /// Say nothing but warnings and errors
+    /// Print only warnings and errors
     #[arg(short, long)]
     pub(super) quiet: bool,
-    /// Print the report as JSON on standard output in place of the summary
+    /// Print the report as JSON instead of the summary
     #[arg(long)]
     pub(super) json: bool,
 }
@@ -79,11 +79,13 @@ impl Outputs {
         let places: Vec<&Path> = [main].into_iter().chain(others).collect();
         let n_printed = count_standard(&places) + usize::from(args.talk.json);
         if n_printed > 1 {
-            let text = "standard output takes one result: `-` or --json, and that once";
+            let text = "only one result can go to standard output: give `-` or --json once";
             return Err(Failure::usage(text));
         }
         if count_standard(inputs) > 1 {
-            return Err(Failure::usage("standard input is one file: `-` goes once"));
+            return Err(Failure::usage(
+                "only one input can come from standard input: give `-` once",
+            ));
         }
         let outputs = Self {
             main: main.to_path_buf(),
@@ -96,7 +98,7 @@ impl Outputs {
             check_writable(path)?;
             let file = resolved(path);
             if files.contains(&file) {
-                let text = format!("{}: two results cannot be one file", path.display());
+                let text = format!("{}: two results would go to the same file", path.display());
                 return Err(Failure::usage(text));
             }
             files.push(file);
@@ -134,7 +136,7 @@ impl Outputs {
         for (name, bytes) in files.iter().skip(1) {
             if is_stream(&self.main) {
                 console::warn_of(format_args!(
-                    "{name} belongs to the result, but a stream takes one file: left out"
+                    "{name} is left out: a stream carries one file only"
                 ));
                 continue;
             }
@@ -156,7 +158,7 @@ impl Outputs {
         let is_read = |input: &&PathBuf| !is_standard(input) && is_same(input, path);
         match self.inputs.iter().find(is_read) {
             Some(input) if !self.is_forced => Err(Failure::usage(format!(
-                "{} would replace {}, which is read; --force allows it",
+                "{} would replace the input {}; use --force to allow that",
                 path.display(),
                 input.display()
             ))),
@@ -215,10 +217,10 @@ fn check_writable(path: &Path) -> Result<(), Failure> {
     };
     let folder = parent(path);
     if path.is_dir() {
-        return Err(refused(&"it is a folder"));
+        return Err(refused(&"it is a directory"));
     }
     if !folder.is_dir() {
-        let text = format!("there is no folder {}", folder.display());
+        let text = format!("the directory {} does not exist", folder.display());
         return Err(refused(&text));
     }
     let path = resolved(path);
@@ -237,7 +239,7 @@ pub(super) fn check_folder(path: &Path) -> Result<(), Failure> {
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
         made => made,
     };
-    made.map_err(|error| Failure::other(format!("cannot make {}: {error}", path.display())))?;
+    made.map_err(|error| Failure::other(format!("cannot create {}: {error}", path.display())))?;
     check_writable(&path.join("0"))
 }
 

@@ -14,10 +14,10 @@ use crate::pipeline::{BodyFormat, Deformed};
 pub(super) struct Records {
     #[command(flatten)]
     pub(super) files: Files<BodyFormat>,
-    /// Write a line per iteration as CSV
+    /// Write a CSV file with one line per iteration
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
-    /// Folder for the map of every iteration, numbered, in the format of the result; made if it does not exist
+    /// Directory for the map of every iteration, as numbered files in the format of the result; created if missing
     #[arg(long, value_name = "DIR")]
     pub(super) frames: Option<PathBuf>,
 }

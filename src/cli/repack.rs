@@ -10,10 +10,7 @@ use super::unwrap::summarize;
 use crate::document::OutputFormat;
 use crate::pipeline::{CommandOptions, RepackOptions, repack_document};
 
-/// Packs the UV islands of all meshes into one atlas; each stays as it is but for quarter turns, shifts and one scale.
-///
-/// What is wrong with an island stays wrong. Where a triangle is flipped, without area or overlapping another, a chart is mirrored, or
-/// the padding is not kept, OUT is written, a line says what is missing, and the exit status is 4: not certified.
+/// The arguments of `repack`.
 #[derive(clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]

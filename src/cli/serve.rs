@@ -15,15 +15,15 @@ use crate::http;
 use crate::jobs::{self, Jobs, LocalEvents};
 use crate::store::{FileBlobs, SqliteStore};
 
-/// For connections and computations to end once the service is told to stop.
+/// Time for connections and computations to end after the stop signal.
 const STOP_TIME: Duration = Duration::from_secs(10);
 
-/// Every setting has a flag and an environment variable.
+/// The arguments of `serve`. Each has an environment variable.
 #[derive(clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
     listen: Listen,
-    /// Folder for the records and files of jobs; made if it does not exist
+    /// Folder for job records and files; created if missing
     #[arg(
         long,
         value_name = "DIR",
@@ -31,10 +31,10 @@ pub(super) struct Args {
         default_value = "./data"
     )]
     data: PathBuf,
-    /// Jobs computed at the same time [default: half the cores, at least one]
+    /// Number of jobs computed at the same time [default: half the cores, at least one]
     #[arg(long, value_name = "N", env = "UNWRAPD_CONCURRENCY", value_parser = clap::value_parser!(u16).range(1..))]
     concurrency: Option<u16>,
-    /// Jobs that may wait
+    /// Maximum number of queued jobs
     #[arg(
         long,
         value_name = "N",
@@ -42,7 +42,7 @@ pub(super) struct Args {
         default_value_t = 1000
     )]
     queue_depth: u32,
-    /// Size of an upload, all its files together, in MiB
+    /// Maximum size of an upload with all its files, in MiB
     #[arg(
         long,
         value_name = "MIB",
@@ -50,7 +50,7 @@ pub(super) struct Args {
         default_value_t = 256
     )]
     max_upload_mib: u64,
-    /// Triangles of a mesh
+    /// Maximum number of triangles of a mesh
     #[arg(
         long,
         value_name = "N",
@@ -58,7 +58,8 @@ pub(super) struct Args {
         default_value_t = 5_000_000
     )]
     max_triangles: u64,
-    /// Wall-clock time of a job, in seconds
+    /// Wall-clock limit of a job, in seconds. After 80 % of it the job ends with its current valid
+    /// map
     #[arg(
         long,
         value_name = "S",
@@ -67,10 +68,10 @@ pub(super) struct Args {
         value_parser = seconds
     )]
     job_seconds: f64,
-    /// Memory of a job, in MiB [default: 8192, or what the machine has if that is less]
+    /// Memory limit of a job, in MiB [default: 8192, or the memory of the machine if less]
     #[arg(long, value_name = "MIB", env = "UNWRAPD_JOB_MEMORY_MIB")]
     job_memory_mib: Option<u64>,
-    /// Time of a synchronous call, in seconds
+    /// Wall-clock limit of a synchronous call, in seconds
     #[arg(
         long,
         value_name = "S",
@@ -79,7 +80,7 @@ pub(super) struct Args {
         value_parser = seconds
     )]
     synchronous_seconds: f64,
-    /// Days that a job is kept after its end, with its files
+    /// Days to keep a job and its files after it ended
     #[arg(
         long,
         value_name = "DAYS",
@@ -93,14 +94,14 @@ pub(super) struct Args {
 fn days(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(days) if (0.0..=1e6).contains(&days) => Ok(days),
-        _ => Err("a number of days between 0 and 1000000".to_owned()),
+        _ => Err("expected a number of days between 0 and 1000000".to_owned()),
     }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(seconds) if (0.001..=1e6).contains(&seconds) => Ok(seconds),
-        _ => Err("a number of seconds between 0.001 and 1000000".to_owned()),
+        _ => Err("expected a number of seconds between 0.001 and 1000000".to_owned()),
     }
 }
 
@@ -134,7 +135,7 @@ impl Args {
     }
 }
 
-/// Memory of the machine or of the container, in bytes; without bound where neither can be read.
+/// Memory of the machine or of the container, in bytes; `u64::MAX` if neither can be read.
 fn machine_memory() -> u64 {
     let read = |path| std::fs::read_to_string(path).unwrap_or_default();
     let total = read("/proc/meminfo")
@@ -166,7 +167,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
         .with_ansi(std::io::stderr().is_terminal())
         .init();
     std::fs::create_dir_all(&args.data)
-        .map_err(|error| format!("cannot make {}: {error}", args.data.display()))?;
+        .map_err(|error| format!("cannot create {}: {error}", args.data.display()))?;
     let _lock = lock(&args.data)?;
     tokio::runtime::Runtime::new()
         .map_err(|error| error.to_string())?
@@ -201,7 +202,7 @@ async fn serve(args: &Args) -> Result<(), String> {
         .await
         .map_err(|error| format!("cannot listen on {wished}: {error}"))?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
-    // Whoever does not want to read it may close the pipe.
+    // A reader may have closed the pipe.
     let _ = writeln!(std::io::stdout(), "listening on http://{address}");
 
     let stop = CancellationToken::new();

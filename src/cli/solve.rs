@@ -10,12 +10,14 @@ use super::records::Records;
 use crate::deform::ProblemFile;
 use crate::pipeline::{CommandOptions, SolveOptions, solve_file};
 
-/// Solves a problem file: handles pulled to targets, no element inverted.
+/// Solves a problem file: pulls handles to their targets. No element is inverted.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Problem: JSON naming a mesh, handles, targets, an energy and a barrier; paths in it are relative to it; `-` is standard input
+    /// Problem: JSON with a mesh, handles, targets, an energy and a barrier. Paths are relative to
+    /// this file. `-` is standard input
     problem: PathBuf,
-    /// Where the map goes: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; `-` is standard output
+    /// Output map: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu; `-` is
+    /// standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]

@@ -50,7 +50,7 @@ pub(super) fn summarize(outcome: &Outcome) -> Result<(), Failure> {
     }
     let missing = report.proven.lacks(Overlap::Test, Mirrored::Refused);
     Err(Failure::uncertified(format!(
-        "written, but not certified: {} (not_certified)",
+        "not certified, but written: {} (not_certified)",
         missing.join(", ")
     )))
 }

@@ -1,4 +1,4 @@
-//! What is typed after `unwrapd unwrap`: files, and the options of the library.
+//! The arguments of `unwrapd unwrap`: files, and the options of the library.
 
 use std::path::{Path, PathBuf};
 
@@ -10,12 +10,7 @@ use crate::document::OutputFormat;
 use crate::options::help_of;
 use crate::pipeline::{GivenSeams, NamedSeams, Options};
 
-/// Gives a mesh UVs in which no triangle is flipped or degenerate, proven on the bytes written.
-///
-/// Exit status 0 means certified: that no triangle is flipped, without area or overlapping another, that no chart is mirrored, and
-/// that padding, pages and bits are as asked, is proven on the bytes written. Otherwise it is 4, and a line says what is
-/// missing; OUT is written nevertheless, unless a triangle is flipped that should not be. More stretch than `--quality` allows
-/// is a warning.
+/// The arguments of `unwrap`.
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// Mesh: .glb, .gltf, .obj, .off, .ply or .stl; `-` is standard input
@@ -41,10 +36,10 @@ pub(super) struct Args {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
 pub(super) struct Pictures {
-    /// Draw the UV layout
+    /// Write a picture of the UV layout
     #[arg(long, value_name = "L.png")]
     pub(super) layout: Option<PathBuf>,
-    /// Draw the distortion
+    /// Write a heat map of the distortion
     #[arg(long, value_name = "H.png")]
     pub(super) heatmap: Option<PathBuf>,
 }

@@ -7,7 +7,7 @@ use super::measure::{Which, certificate_text};
 use crate::certificate::Overlap;
 use crate::pipeline::{Mirrored, verify_document};
 
-/// Checks exactly that every face of a file's UVs is positive relative to its chart, and what else is asked for.
+/// The arguments of `verify`.
 #[derive(clap::Args)]
 #[allow(
     clippy::struct_excessive_bools,
@@ -16,16 +16,16 @@ use crate::pipeline::{Mirrored, verify_document};
 pub(super) struct Args {
     #[command(flatten)]
     which: Which,
-    /// Also check that no face overlaps another
+    /// Also prove that no two faces overlap
     #[arg(long)]
     bijective: bool,
-    /// Also check that no chart is seen from behind
+    /// Also prove that no chart is mirrored
     #[arg(long)]
     unmirrored: bool,
     /// Print the certificates as JSON
     #[arg(long)]
     json: bool,
-    /// Say it with the exit status alone
+    /// Print nothing; the exit status tells the result
     #[arg(short, long, conflicts_with = "json")]
     quiet: bool,
 }
@@ -46,7 +46,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         print_json(&verified)?;
     } else {
         if let Some(mark) = &verified.mark {
-            say(format_args!("judged as the file says: {mark}"));
+            say(format_args!("judged by the record in the file: {mark}"));
         }
         for group in &verified.groups {
             let text = certificate_text(&group.certificate);

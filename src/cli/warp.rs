@@ -20,10 +20,10 @@ pub(super) struct Args {
     input: PathBuf,
     #[arg(long, value_name = "H.json", help = help_of::<WarpOptions>("handles"))]
     handles: PathBuf,
-    /// Where the warped picture goes, as PNG; `-` is standard output
+    /// Output picture, as PNG; `-` is standard output
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
-    /// Write a JSON report: status, iterations, energy, residual, what is proven
+    /// Write a report as JSON: status, iterations, energy, residual, proofs
     #[arg(long, value_name = "FILE", help_heading = "Files and messages")]
     report: Option<PathBuf>,
     #[command(flatten)]

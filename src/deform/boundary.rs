@@ -9,10 +9,10 @@ use crate::mesh::boundary_edges;
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum Boundary {
-    /// It follows what is pulled.
+    /// The boundary is free.
     #[default]
     Free,
-    /// It stays; a map that does not overlap itself will not afterwards.
+    /// The boundary stays fixed. A map without overlaps stays without overlaps.
     Fixed,
 }
 

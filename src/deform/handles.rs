@@ -26,15 +26,15 @@ pub enum Handle {
     },
     /// Every vertex in a ball around a point, moved as a rigid body.
     Disc {
-        /// The centre at rest.
+        /// The center at rest.
         #[serde(deserialize_with = "numbers::position")]
         center: Vec<f64>,
         /// The radius.
         radius: f64,
-        /// Where the centre goes.
+        /// Where the center goes.
         #[serde(deserialize_with = "numbers::position")]
         to: Vec<f64>,
-        /// A turn about the centre in degrees, counter-clockwise; in the plane only.
+        /// A turn about the center in degrees, counter-clockwise; in the plane only.
         #[serde(default)]
         turn: f64,
     },

@@ -4,6 +4,7 @@
 //! [`DeformationEnergy`] and a barrier; [`Problem::solve`] moves the handles to their targets over maps that are all valid.
 //! Bodies come from mesh files, from pictures and drawings (`outline`) and from surfaces put into a [`cage`], which carries
 //! them along. Maps of the plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
+#![doc = include_str!("guide.md")]
 
 mod body;
 mod boundary;

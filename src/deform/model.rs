@@ -32,9 +32,9 @@ pub enum DeformationEnergy {
     /// Symmetric Dirichlet.
     #[serde(alias = "symmetric_dirichlet")]
     SymmetricDirichlet,
-    /// Most isometric parameterizations: conformal distortion.
+    /// Most isometric parameterizations (MIPS): conformal distortion.
     Mips,
-    /// Advanced MIPS, its exponent's factor 1.
+    /// Advanced MIPS with exponent factor 1.
     Amips,
     /// St. Venant–Kirchhoff with Lamé parameters λ = 1, μ = ½.
     StVenantKirchhoff,

@@ -36,24 +36,24 @@ pub struct Problem {
 }
 
 options! {
-    /// What a deformation costs, as a user says it.
+    /// Energy and barrier of a deformation, as users specify them.
     #[derive(Copy)]
     pub struct Model under "Energy and barrier" {
-        /// The deformation energy.
+        /// Deformation energy.
         pub energy: DeformationEnergy = DeformationEnergy::Arap;
-        /// The barrier against inversion; none is for comparison.
+        /// Barrier that keeps elements from inverting; none is for comparison.
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
-        /// β, the strength of the barrier; the paper's for the energy if absent: 100 for green and
-        /// 0.01 for the others.
+        /// Barrier strength β. The default is the value of the paper: 100 for green, 0.01 for the
+        /// other energies.
         pub beta: Option<f64>, value "X";
-        /// s of the inverse spline: the share of its rest size below which an element feels the
-        /// barrier.
+        /// Support s of the inverse-spline barrier: the share of its rest size below which an
+        /// element feels the barrier.
         pub s: f64 = 1.0, value "X";
-        /// What the conformal distortion σ₁/σ₂ of every triangle, its longest over its shortest
-        /// stretch, must stay below, if anything; more than 1, in the plane only.
+        /// Upper bound on the conformal distortion σ₁/σ₂ of every triangle, greater than 1. Only in
+        /// the plane.
         pub max_conformal: Option<f64>, value "K";
-        /// Keep the boundary, beside the elements, from crossing itself, so that the map stays
-        /// bijective; in the plane only.
+        /// Also keep the boundary from crossing itself, so that the map stays bijective. Only in
+        /// the plane.
         pub bijective: bool;
     }
 }

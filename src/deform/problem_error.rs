@@ -8,10 +8,10 @@ use crate::mesh::io::ReadError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ProblemError {
     /// The file is not a problem.
-    #[error("the problem file: {0}")]
+    #[error("the problem file cannot be parsed: {0}")]
     Malformed(String),
     /// The file is not a list of handles.
-    #[error("the handles: {0}")]
+    #[error("the handles cannot be parsed: {0}")]
     MalformedHandles(String),
     /// The mesh cannot be read.
     #[cfg(feature = "files")]
@@ -21,7 +21,7 @@ pub enum ProblemError {
     #[error(transparent)]
     Element(#[from] ElementError),
     /// A handle names a vertex that there is not.
-    #[error("handle {handle} names vertex {vertex} of {n_vertices}")]
+    #[error("handle {handle} names vertex {vertex}, but there are only {n_vertices} vertices")]
     UnknownHandle {
         /// Index of the handle.
         handle: usize,
@@ -31,7 +31,7 @@ pub enum ProblemError {
         n_vertices: usize,
     },
     /// There is nothing to pull at.
-    #[error("no handle")]
+    #[error("there is no handle")]
     NoHandle,
     /// A handle names no place of the body.
     #[error("handle {handle} lies outside the mesh")]
@@ -39,14 +39,14 @@ pub enum ProblemError {
         /// Index of the handle.
         handle: usize,
     },
-    /// A handle names a vertex, but a cage's vertices have no meaning to who pulls at the surfaces in it.
-    #[error("handle {handle} names a vertex; in a cage handles are places, `at` or `center`")]
+    /// A handle names a vertex, but users do not know the vertices of a cage.
+    #[error("handle {handle} names a vertex; in a cage, handles must be places: `at` or `center`")]
     VertexOfCage {
         /// Index of the handle.
         handle: usize,
     },
     /// A target is not a position.
-    #[error("the target of handle {handle} is not {dim} finite numbers")]
+    #[error("the target of handle {handle} must be {dim} finite numbers")]
     BadTarget {
         /// Index of the handle.
         handle: usize,
@@ -54,7 +54,7 @@ pub enum ProblemError {
         dim: usize,
     },
     /// Handles and targets do not pair up.
-    #[error("{handles} handles but {targets} targets")]
+    #[error("there are {handles} handles but {targets} targets")]
     Unpaired {
         /// How many handles.
         handles: usize,
@@ -72,7 +72,7 @@ pub enum ProblemError {
     ContradictoryPoints,
     /// The start has an element at or below ε and cannot be untangled.
     #[error(
-        "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}, and no valid start was found near it"
+        "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}, and untangling failed"
     )]
     InfeasibleStart {
         /// The element.
@@ -91,18 +91,16 @@ pub enum ProblemError {
         range: &'static str,
     },
     /// The energy is not defined for the body.
-    #[error("this energy is defined in the plane only")]
+    #[error("this energy exists only in the plane")]
     PlanarEnergy,
     /// Only a map of the plane can be kept bijective.
-    #[error(
-        "bijective maps are those of the plane; the boundary of a solid is not kept from crossing itself"
-    )]
+    #[error("`bijective` applies only to maps of the plane")]
     PlanarBijectivity,
     /// The map should be kept bijective, which it is not at the start.
-    #[error("the start overlaps or touches itself, so that no way from it stays bijective")]
+    #[error("the start overlaps or touches itself, so no map from it can stay bijective")]
     OverlappingStart,
     /// The start does not belong to the mesh.
-    #[error("the start has {found} numbers, the mesh {expected}")]
+    #[error("the start has {found} coordinates, but the mesh has {expected}")]
     WrongStart {
         /// Numbers found.
         found: usize,

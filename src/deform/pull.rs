@@ -86,7 +86,7 @@ impl Holds {
         heaviest.map_or(Grip::Fixed, |&(vertex, _)| Grip::Vertex(vertex))
     }
 
-    /// All of them. Those that stay are a group of their own, so that no neighbour's travel moves them on the way.
+    /// All of them. Those that stay are a group of their own, so that no neighbor's travel moves them on the way.
     fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
         let pulled: Vec<u32> = self.pulled.iter().map(|hold| hold.0).collect();
         let mut groups = vec![0; self.fixed.len()];

@@ -18,7 +18,7 @@ use crate::solver::{
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// Projected Newton, the targets advancing as far as the map stays valid.
+    /// Projected Newton; targets advance as far as the map stays valid.
     #[default]
     Projected,
     /// The paper's iteration with soft constraints, for comparison.

@@ -1,4 +1,4 @@
-//! What a map is worth, whoever made it.
+//! The quality of a map, whatever made it.
 
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +24,7 @@ pub struct Worth {
 }
 
 impl Problem {
-    /// Judges a map, whoever made it.
+    /// Judges a map, whatever made it.
     pub fn worth(&self, x: &[f64]) -> Worth {
         let terms = |barrier| self.energy.terms(&self.body, barrier, None);
         let unmodified = terms(Barrier::NONE).unwrap_or_default();

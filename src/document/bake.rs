@@ -9,8 +9,8 @@ pub type CornerTangents = [[f32; 4]; 3];
 /// What the texels of a texture are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Encoding {
-    /// Colours in sRGB; alpha is data.
-    Colour,
+    /// Colors in sRGB; alpha is data.
+    Color,
     /// Numbers.
     Data,
     /// Directions relative to tangents.

@@ -1,4 +1,4 @@
-//! Colours of vertices: PLY and OBJ have them in sRGB, glTF linear.
+//! Colors of vertices: PLY and OBJ have them in sRGB, glTF linear.
 
 /// Red, green, blue and alpha, linear.
 pub(super) type Color = [f32; 4];
@@ -19,7 +19,7 @@ pub(super) fn from_srgb([r, g, b, a]: [f64; 4]) -> Color {
     [linear(r), linear(g), linear(b), a.clamp(0.0, 1.0)].map(|x| x as f32)
 }
 
-/// The colour without its alpha, in sRGB.
+/// The color without its alpha, in sRGB.
 pub(super) fn to_srgb([r, g, b, _]: Color) -> [f64; 3] {
     [r, g, b].map(|x| {
         let x = f64::from(x).clamp(0.0, 1.0);
@@ -31,7 +31,7 @@ pub(super) fn to_srgb([r, g, b, _]: Color) -> [f64; 3] {
     })
 }
 
-/// The colour of three or four linear numbers.
+/// The color of three or four linear numbers.
 pub(super) fn from_linear(channels: &[f64]) -> Color {
     std::array::from_fn(|k| channels.get(k).map_or(1.0, |x| x.clamp(0.0, 1.0) as f32))
 }

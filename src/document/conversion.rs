@@ -61,7 +61,7 @@ impl Conversion {
 
 impl Document {
     /// The document in the form in which it is written: for glTF triangles of any file become glTF, with objects as meshes and with
-    /// materials, pictures and colours; else it stays as it is.
+    /// materials, pictures and colors; else it stays as it is.
     pub fn for_output(
         self,
         format: OutputFormat,
@@ -75,7 +75,7 @@ impl Document {
     }
 }
 
-/// A document of triangles and colours without names.
+/// A document of triangles and colors without names.
 pub(super) fn of_triangles(
     primitive: &Primitive,
     colors: Option<&[Color]>,
@@ -107,7 +107,7 @@ pub(super) fn of_triangles(
     Ok(Conversion::new(new, warnings.to_vec()))
 }
 
-/// What colours of vertices are seen on: without a material glTF would show a metal.
+/// What colors of vertices are seen on: without a material glTF would show a metal.
 pub(super) fn colored() -> Material {
     Material::named("vertex colors")
 }

@@ -4,7 +4,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum DocumentError {
     /// The file is sound but has no triangle.
-    #[error("the file has no triangle")]
+    #[error("the file has no triangles")]
     NoTriangles,
     /// Neither the content nor the name tells a format that can be read.
     #[error("not a glTF, OBJ, OFF, PLY or STL file")]
@@ -22,7 +22,7 @@ pub enum DocumentError {
     #[error("the file requires the extension {0}, which is not supported")]
     UnsupportedExtension(String),
     /// A URI that is neither data nor a file of the upload.
-    #[error("the file refers to `{0}`, which was not supplied")]
+    #[error("the file references `{0}`, which was not supplied")]
     MissingResource(String),
     /// A face names a vertex that does not exist.
     #[error("vertex index out of range: {0}")]
@@ -37,13 +37,13 @@ pub enum DocumentError {
     #[error("cannot write {0}")]
     UnsupportedOutput(String),
     /// Triangles are to be cut where something has no value between vertices.
-    #[error("triangles cannot be cut: {0} cannot be interpolated")]
+    #[error("triangles cannot be split: {0} cannot be interpolated")]
     Indivisible(String),
     /// A texture samples the set that was asked for.
     #[error("textures sample UV set {0}; choose another, or overwrite it")]
     TexcoordInUse(u32),
     /// The UVs to write do not fit the document.
-    #[error("the UVs do not fit the primitives of the document")]
+    #[error("the UVs do not match the primitives of the document")]
     InvalidUvs,
 }
 

@@ -12,12 +12,12 @@ pub(super) fn warning(fanned: &Fanned, place: &str) -> Option<Warning> {
     let message = match n {
         0 => return None,
         1 => format!(
-            "1 polygon crosses itself or has no area ({place} {places}): it became triangles around its first corner, which may \
-             overlap. Mend it and unwrap again."
+            "1 polygon crosses itself or has no area ({place} {places}). It became a triangle fan, which may \
+             overlap. Repair it and unwrap again."
         ),
         _ => format!(
-            "{n} polygons cross themselves or have no area ({place}s {places}): they became triangles around their first corners, \
-             which may overlap. Mend them and unwrap again."
+            "{n} polygons cross themselves or have no area ({place}s {places}). They became triangle fans, \
+             which may overlap. Repair them and unwrap again."
         ),
     };
     Some(Warning::new("polygon_fanned", message))

@@ -45,7 +45,7 @@ pub enum GroupBy {
     Mesh,
     /// One atlas for the whole file.
     Scene,
-    /// One atlas per material; a mesh without one by itself.
+    /// One atlas per material; a mesh without a material has its own.
     Material,
     /// One atlas per primitive.
     Primitive,

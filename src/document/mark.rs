@@ -89,12 +89,12 @@ impl fmt::Display for Mark {
         let terms = &self.terms;
         match &self.sets {
             Sets::One(set) => write!(f, "UV set {set}")?,
-            Sets::Each(_) => write!(f, "UV sets of its own for each primitive")?,
+            Sets::Each(_) => write!(f, "a separate UV set for each primitive")?,
         }
         if let Some(charts) = &terms.charts {
             return write!(
                 f,
-                ", {} charts that were edited, each by itself",
+                ", {} edited charts, each judged separately",
                 charts.len()
             );
         }
@@ -104,9 +104,9 @@ impl fmt::Display for Mark {
             GroupBy::Material => "material",
             GroupBy::Primitive => "primitive",
         };
-        write!(f, ", one atlas for each {shared}")?;
+        write!(f, ", one atlas per {shared}")?;
         if terms.separate_nodes {
-            write!(f, ", each node by itself")?;
+            write!(f, ", each node separately")?;
         }
         if let Some(padding) = terms.padding {
             write!(f, ", {padding} texels at {}", terms.resolution)?;

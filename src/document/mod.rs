@@ -7,6 +7,7 @@
 //! This module does no input or output of its own. An [`Upload`] carries the main file and every file it may refer to;
 //! a URI that is neither data nor a member of the upload is an error, never an open file or a connection. Every input is
 //! taken to be hostile: counts are believed only as far as bytes back them, and every failure is a [`DocumentError`].
+#![doc = include_str!("formats.md")]
 mod bake;
 mod colors;
 mod conversion;

@@ -20,7 +20,7 @@ pub(super) struct Shape<'a> {
     pub uvs: Vec<Option<[[f32; 2]; 3]>>,
     /// Unit normals per face.
     pub normals: Vec<Option<[[f32; 3]; 3]>>,
-    /// Colours per vertex.
+    /// Colors per vertex.
     pub colors: Option<&'a [Color]>,
 }
 

@@ -21,7 +21,7 @@ pub(super) struct ObjPart<'a> {
     pub uvs: Option<Vec<Corners>>,
     /// Normals per face.
     pub normals: Option<Vec<[[f32; 3]; 3]>>,
-    /// Colours per vertex.
+    /// Colors per vertex.
     pub colors: Option<Vec<Color>>,
 }
 

@@ -123,7 +123,7 @@ impl ObjDocument {
                     let n = rewritten.split_polygons;
                     notes.warnings.push(Warning::new(
                         "polygons_split",
-                        format!("polygons split along a seam: {n}"),
+                        format!("{n} polygons are split along a seam"),
                     ));
                 }
                 rewritten.text

@@ -151,8 +151,7 @@ impl Materials<'_> {
         let mut warnings = self.found.warnings();
         if has_files && !self.unknown.is_empty() {
             let names = warning::listed(self.unknown.iter().map(String::as_str));
-            let message =
-                format!("materials that no material file describes become white: {names}");
+            let message = format!("materials without a description become white: {names}");
             warnings.push(Warning::new("materials_unknown", message));
         }
         if !self.dropped.is_empty() {
@@ -160,7 +159,7 @@ impl Materials<'_> {
             let counted: Vec<String> = counted.map(|(word, n)| format!("{word} ({n})")).collect();
             let words = warning::listed(counted.iter().map(String::as_str));
             let message =
-                format!("statements of materials have no place in glTF and are left out: {words}");
+                format!("glTF cannot hold these material statements, which are left out: {words}");
             warnings.push(Warning::new("material_statements_dropped", message));
         }
         warnings

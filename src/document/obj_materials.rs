@@ -77,13 +77,12 @@ impl ObjMaterials {
             return Vec::new();
         }
         let names = warning::listed(self.missing.iter().map(String::as_str));
-        let message = format!(
-            "material files were not supplied, so that of materials only names are known: {names}"
-        );
+        let message =
+            format!("material files were not supplied, so only material names are known: {names}");
         vec![Warning::new("material_files_missing", message)]
     }
 
-    /// What is to be said where the UVs are replaced that textures were made for.
+    /// The warning that textures no longer fit, where their UVs are replaced.
     pub fn warnings_of_new_uvs(&self) -> Option<Warning> {
         let is_textured = |name: &&str| self.files.maps_of(name).next().is_some();
         let textured: Vec<&str> = (self.used.iter().map(String::as_str))
@@ -92,13 +91,13 @@ impl ObjMaterials {
         if !textured.is_empty() {
             let names = warning::listed(textured.into_iter());
             let message = format!(
-                "textures were made for the UVs that are replaced, and sit wrongly now, of materials {names}; for new ones write \
+                "textures no longer fit because the UVs were replaced: materials {names}; to resample them, write \
                  glTF with --rebake"
             );
             return Some(Warning::new("textures_misplaced", message));
         }
         let is_unknown = self.supplied.is_empty() && !self.missing.is_empty();
-        let message = "the UVs of the file were replaced: textures made for them sit wrongly now";
+        let message = "the UVs of the file were replaced, so textures made for them no longer fit";
         is_unknown.then(|| Warning::new("uvs_replaced", message))
     }
 }

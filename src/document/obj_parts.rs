@@ -1,4 +1,4 @@
-//! What an OBJ text says of its polygons and vertices beside their shape: objects, groups, materials, colours.
+//! What an OBJ text says of its polygons and vertices beside their shape: objects, groups, materials, colors.
 use super::Warning;
 use super::colors::{Color, WHITE, from_srgb};
 use crate::mesh::io::obj::{Statement, statements};
@@ -7,7 +7,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 /// Meshes and primitives that a file is divided into at most: each is an object in JSON and a draw call.
 const MOST_PARTS: usize = 8192;
 
-/// Names and colours of an OBJ file.
+/// Names and colors of an OBJ file.
 #[derive(Debug, Default)]
 pub(super) struct ObjParts {
     /// Names of objects, or of groups in a file without objects.
@@ -16,7 +16,7 @@ pub(super) struct ObjParts {
     pub materials: Vec<String>,
     /// For each polygon its object and its material.
     pub of_polygons: Vec<Part>,
-    /// For each vertex its colour, if any has one.
+    /// For each vertex its color, if any has one.
     pub colors: Option<Vec<Color>>,
     /// Groups that say more than the objects do.
     n_lost_groups: usize,
@@ -86,13 +86,13 @@ impl ObjParts {
         if self.n_joined_parts > 0 {
             let n = self.n_joined_parts;
             let message = format!(
-                "the {n} parts of the file are joined, as a glTF file gets {MOST_PARTS} at most"
+                "the {n} parts of the file are joined: a glTF file gets at most {MOST_PARTS}"
             );
             warnings.push(Warning::new("parts_joined", message));
         }
         if self.n_lost_groups > 0 {
             let n = self.n_lost_groups;
-            let message = format!("objects become meshes; the {n} groups within them are left out");
+            let message = format!("objects become meshes; the {n} groups in them are left out");
             warnings.push(Warning::new("groups_dropped", message));
         }
         if self.n_lost_elements > 0 {

@@ -48,12 +48,12 @@ impl SoupDocument {
         &self.warnings
     }
 
-    /// The triangles and colours as glTF.
+    /// The triangles and colors as glTF.
     pub(super) fn to_gltf(&self) -> Result<Conversion, DocumentError> {
         of_triangles(&self.primitives[0], self.colors.as_deref(), &self.warnings)
     }
 
-    /// The colours of the vertices.
+    /// The colors of the vertices.
     pub(super) fn colors(&self) -> Option<&[Color]> {
         self.colors.as_deref()
     }
@@ -61,8 +61,7 @@ impl SoupDocument {
     fn add(&mut self, extras: io::ply::Extras) {
         if !extras.left_out.is_empty() {
             let names = listed(extras.left_out.iter().map(String::as_str));
-            let message =
-                format!("properties of the PLY file that are not read are left out: {names}");
+            let message = format!("unsupported PLY properties are left out: {names}");
             self.warnings
                 .push(Warning::new("properties_dropped", message));
         }

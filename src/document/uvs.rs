@@ -71,7 +71,7 @@ impl NewUvs {
 pub enum OutputFormat {
     /// One binary glTF file.
     Glb,
-    /// glTF as JSON, with its buffer and images beside it.
+    /// glTF as JSON, with separate files for its buffer and images.
     Gltf,
     /// Wavefront OBJ.
     Obj,

@@ -23,10 +23,10 @@ const FAR: f64 = 100.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidStart {
     /// The number of positions is not the number of vertices.
-    #[error("{0} positions for {1} vertices")]
+    #[error("there are {0} positions for {1} vertices")]
     Length(usize, usize),
     /// This triangle is not positive.
-    #[error("triangle {0} is flipped or empty in the start")]
+    #[error("triangle {0} of the start is flipped or degenerate")]
     NotPositive(usize),
 }
 

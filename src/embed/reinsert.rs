@@ -8,7 +8,7 @@ use crate::numerics::predicates::orient2d_sign;
 use crate::numerics::vec2::{cross, dot, sub};
 use crate::numerics::vec3;
 
-/// Steps of the walk towards the neighbor, each 0.6 of the one before: the last is 1e-33 of the first.
+/// Steps of the walk toward the neighbor, each 0.6 of the one before: the last is 1e-33 of the first.
 const WALK: usize = 150;
 
 /// A ring left no room that floating point can express.

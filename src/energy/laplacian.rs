@@ -36,7 +36,7 @@ pub fn biharmonic<const D: usize>(
     quadratic(D, &gram(&laplacian, |row| 1.0 / masses[row]), rest)
 }
 
-/// ½ ‖G(x − x⁰)‖² with the graph Laplacian G: a vertex's number of neighbours on the diagonal, −1 for each neighbour.
+/// ½ ‖G(x − x⁰)‖² with the graph Laplacian G: a vertex's number of neighbors on the diagonal, −1 for each neighbor.
 ///
 /// Tests: `energy::taylor_quadratic`.
 pub fn uniform_biharmonic(dim: usize, elements: &[&[u32]], rest: Vec<f64>) -> Quadratic {

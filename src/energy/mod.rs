@@ -51,11 +51,11 @@ pub use zero::Zero;
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum EnergyKind {
-    /// As rigid as possible.
+    /// As rigid as possible (ARAP).
     #[default]
     Arap,
-    /// Least-squares conformal.
+    /// Least-squares conformal (LSCM).
     Lscm,
-    /// As isometric as possible, stretching and shrinking punished alike.
+    /// Symmetric Dirichlet: penalizes stretching and shrinking alike.
     SymmetricDirichlet,
 }

@@ -25,7 +25,10 @@ impl IntoResponses for FileAnswers {
             Code::NoResult,
             Code::RangeNotSatisfiable,
         ]);
-        for (status, description) in [("206", "The asked range of it"), ("304", "Unchanged")] {
+        for (status, description) in [
+            ("206", "The requested range"),
+            ("304", "The file is unchanged"),
+        ] {
             let answer = ResponseBuilder::new().description(description);
             answers.insert(status.to_owned(), answer.into());
         }
@@ -49,7 +52,7 @@ impl IntoResponses for CallProblems {
             Code::WorkerLost,
             Code::TimedOut,
         ]);
-        let unusable = "The mesh cannot be used; the code says why";
+        let unusable = "The mesh cannot be used; the code names the cause";
         answers.insert("422".to_owned(), problem(unusable.to_owned()));
         answers
     }

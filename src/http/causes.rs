@@ -3,12 +3,12 @@
 /// Code and meaning.
 pub(super) const CAUSES: [(&str, &str); 53] = [
     // Handles.
-    ("malformed_handles", "The list of handles is not one"),
+    ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
     ("handle_count", "There is no handle, or there are too many"),
     (
         "unknown_handle",
-        "A handle names a vertex that is not there",
+        "A handle names a vertex that does not exist",
     ),
     (
         "handle_outside",
@@ -16,19 +16,19 @@ pub(super) const CAUSES: [(&str, &str); 53] = [
     ),
     (
         "bad_target",
-        "A target is not as many finite numbers as it needs, or out of range",
+        "A target has the wrong number of coordinates, or one is not finite or out of range",
     ),
     (
         "contradictory_handles",
-        "Two handles pull one vertex to different places",
+        "Two handles pull the same vertex to different targets",
     ),
     (
         "unpaired_handles",
-        "The problem has not as many targets as handles",
+        "The numbers of handles and targets differ",
     ),
     (
         "vertex_of_cage",
-        "A handle names a vertex; in a cage handles are places",
+        "A handle names a vertex; in a cage, handles must be places",
     ),
     (
         "ambiguous_vertex",
@@ -36,7 +36,7 @@ pub(super) const CAUSES: [(&str, &str); 53] = [
     ),
     (
         "anchor_on_boundary",
-        "An anchor pulls at a boundary that is fixed",
+        "An anchor moves a vertex of a fixed boundary",
     ),
     (
         "grid_too_coarse",
@@ -46,55 +46,43 @@ pub(super) const CAUSES: [(&str, &str); 53] = [
     ("invalid_mesh", "The mesh file does not follow its format"),
     ("no_triangles", "The mesh has no triangle"),
     ("no_elements", "There is nothing to deform"),
-    ("no_uvs", "The mesh has no such UV set"),
+    ("no_uvs", "The mesh does not have this UV set"),
     (
         "index_out_of_range",
-        "A face or element names a vertex that is not there",
+        "A face or element names a vertex that does not exist",
     ),
     ("non_finite_position", "A coordinate is not a finite number"),
-    (
-        "limit_exceeded",
-        "The input has more than is allowed of something",
-    ),
+    ("limit_exceeded", "The input exceeds a limit"),
     (
         "folded_mesh",
-        "An element is inverted at rest: two lie on the same side of their common side",
+        "The mesh is folded: two elements lie on the same side of their common face or edge",
     ),
-    (
-        "zero_size_element",
-        "An element has no area or volume at rest",
-    ),
+    ("zero_size_element", "An element has zero area or volume"),
     (
         "not_planar",
-        "The mesh has no tetrahedra, and its triangles do not lie in a plane of equal z",
+        "The mesh has no tetrahedra, and its vertices differ in z",
     ),
     (
         "flipped_uvs",
-        "A face of the chart to be edited is flipped or empty, and untangling did not help",
+        "The chart has a flipped or degenerate face, and untangling failed",
     ),
-    (
-        "nonorientable_chart",
-        "The chart to be edited has two sides that are one",
-    ),
+    ("nonorientable_chart", "The chart is not orientable"),
     (
         "missing_resource",
-        "The input refers to a file that was not sent",
+        "The input references a file that was not uploaded",
     ),
-    (
-        "unsupported_version",
-        "The glTF is of another version than 2",
-    ),
+    ("unsupported_version", "The glTF version is not 2.x"),
     (
         "unsupported_extension",
-        "The glTF requires an extension that is not known",
+        "The glTF requires an unsupported extension",
     ),
     (
         "unsupported_output",
-        "The format asked for cannot hold this document",
+        "The requested format cannot hold this document",
     ),
     (
         "indivisible",
-        "Triangles cannot be cut: something they have cannot be interpolated",
+        "The triangles cannot be split: an attribute cannot be interpolated",
     ),
     (
         "texcoord_in_use",
@@ -102,60 +90,63 @@ pub(super) const CAUSES: [(&str, &str); 53] = [
     ),
     (
         "texture_too_small",
-        "At the texels per unit asked for the charts do not fit; the detail names a resolution or number of pages that would do",
+        "The charts do not fit at this texel density; the detail names a resolution or page count that suffices",
     ),
     (
         "unknown_material",
-        "A weight names a material that the file does not have; only those of glTF are known",
+        "A weight names a material that does not exist; only glTF materials have weights",
     ),
-    ("invalid_seams", "The seams given do not fit the mesh"),
-    ("invalid_uvs", "The new UVs do not fit the document"),
+    ("invalid_seams", "The seams do not match the mesh"),
+    ("invalid_uvs", "The new UVs do not match the document"),
     (
         "planar_bijectivity",
         "Only maps of the plane can be kept bijective",
     ),
     (
         "overlapping_start",
-        "The map that should be kept bijective overlaps or touches itself at the start",
+        "The initial map overlaps or touches itself",
     ),
     // Pictures and drawings.
     ("invalid_image", "The picture is damaged"),
     (
         "image_too_large",
-        "The picture has more bytes or pixels than are read",
+        "The picture exceeds the limit of bytes or pixels",
     ),
     ("empty_image", "The picture has no pixels"),
     ("empty_outline", "There is nothing to outline"),
     ("invalid_svg", "The drawing cannot be read"),
-    ("open_path", "A filled path of the drawing does not close"),
-    ("self_intersecting_outline", "The outline meets itself"),
+    ("open_path", "A filled path of the drawing is open"),
+    (
+        "self_intersecting_outline",
+        "The outline crosses or touches itself",
+    ),
     (
         "outline_too_detailed",
         "The outline has too many vertices, pieces or holes",
     ),
     (
         "outline_too_fine",
-        "The outline is too fine for its coordinates",
+        "The details of the outline are too small for its coordinates",
     ),
     (
         "too_many_triangles",
-        "The resolution needs too many triangles",
+        "The mesh would have too many triangles",
     ),
     // Problems.
-    ("malformed_problem", "The problem file is not one"),
+    ("malformed_problem", "The problem file cannot be parsed"),
     (
         "wrong_start",
-        "The start has not as many numbers as the mesh",
+        "The numbers of coordinates of start and mesh differ",
     ),
     (
         "infeasible_start",
-        "An element of the start is inverted or too small, and untangling did not help",
+        "An element of the start is inverted or too small, and untangling failed",
     ),
     (
         "planar_energy",
-        "The energy or bound is defined in the plane only",
+        "The energy or bound exists only in the plane",
     ),
-    ("bad_parameter", "A number of the model is out of range"),
+    ("bad_parameter", "A model parameter is out of range"),
     ("invalid_setting", "A setting is out of range"),
     ("no_valid_result", "No valid result was found"),
 ];

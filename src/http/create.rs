@@ -15,34 +15,37 @@ use crate::jobs::{Ended, Job, SubmitError, Submitted};
 /// Longest Idempotency-Key.
 const MAX_KEY: usize = 255;
 
-/// Make a job of any kind.
+/// Create a job of any kind.
 ///
-/// The input comes as a form (`mesh`, `image` or `problem`, the files it references, `options` as JSON, `kind`) or as the body
-/// itself; options may also be query parameters, lists as their JSON text. Each kind has options of its own: the command line's
-/// long names in snake_case. A file of handles that the command line takes is the JSON of such options.
+/// The input is a form or the body itself. A form has the input as `mesh`, `image` or `problem`,
+/// the files it references as `resource`, `options` as JSON, and `kind`. Options can also be query
+/// parameters; a list is then its JSON text. Each kind has its own options, named like those of the
+/// command line in snake_case. The handles of a job have the JSON form of the command line's handle
+/// files.
 ///
-/// `unwrap`, `repack`, `measure`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and STL; `deform` these and Gmsh, Medit and
-/// TET meshes, PNG and SVG outlines; `warp` PNG and JPEG; `solve` a problem file, its mesh beside it.
+/// `unwrap`, `repack`, `measure`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and STL.
+/// `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads PNG and
+/// JPEG. `solve` reads a problem file with its mesh beside it.
 ///
-/// When the answer is sent, input and job are stored: the job will end succeeded, failed
-/// or cancelled, whatever happens to the service. What is of no format that the kind reads, has malformed JSON or unknown options
-/// is refused at once; everything else that is wrong with an input fails the job, with a code of `x-problems`.
+/// When the answer is sent, the input and the job are stored. The job will succeed, fail or be
+/// cancelled, even if the service crashes. Unknown formats, malformed JSON and unknown options are
+/// refused immediately. Any other defect of the input fails the job with a code of `x-problems`.
 ///
-/// With `Idempotency-Key`, a repetition within a day gets the same job instead of a second one. With `Prefer: wait=N`
-/// the answer waits up to N seconds (at most 60) and is 200 if the job has ended by then. Progress is found under
-/// `/events`, the result under `/result` and `/report`. Some time after its end, 30 days unless the service is set
-/// otherwise, a job is removed with its files.
+/// With `Idempotency-Key`, a repetition within a day returns the same job. With `Prefer: wait=N`,
+/// the answer waits up to N seconds, at most 60. It is 200 if the job has ended by then. Progress
+/// is under `/events`, the result under `/result` and `/report`. Ended jobs are removed with their
+/// files after 30 days, or after the configured time.
 #[utoipa::path(
     post, path = "/v1/jobs", operation_id = "createJob", tag = "jobs",
     params(
-        ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255, description = "At most 255 characters; the client's own name for this submission"),
-        ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but not later than in N seconds"),
-        ("kind" = Option<crate::jobs::Kind>, Query, description = "What to do; `unwrap` if absent"),
-        ("filename" = Option<String>, Query, description = "Name of the file in a raw body"),
+        ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255, description = "The client's own name for this submission, at most 255 characters"),
+        ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but after N seconds at the latest"),
+        ("kind" = Option<crate::jobs::Kind>, Query, description = "Kind of job; the default is `unwrap`"),
+        ("filename" = Option<String>, Query, description = "File name of a raw body"),
     ),
     responses(
-        (status = 202, description = "Accepted; the job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
-        (status = 200, description = "Ended while the request waited; the job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
+        (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
+        (status = 200, description = "The job, which ended while the request waited", body = JobView, headers(("Location" = String, description = "Path of the job"))),
         (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
@@ -81,7 +84,7 @@ impl From<SubmitError> for Problem {
             SubmitError::QueueFull => Self::new(Code::QueueFull, "try again later"),
             SubmitError::KeyReused => Self::new(
                 Code::IdempotencyKeyReused,
-                "mesh, kind or options differ from the first time",
+                "the mesh, kind or options differ from the first submission",
             ),
             SubmitError::Store(error) => error.into(),
         }
@@ -96,7 +99,7 @@ fn idempotency_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
         Ok(key) if (1..=MAX_KEY).contains(&key.len()) => Ok(Some(key.to_owned())),
         _ => Err(Problem::new(
             Code::InvalidRequest,
-            format!("Idempotency-Key has 1 to {MAX_KEY} visible characters"),
+            format!("Idempotency-Key must have 1 to {MAX_KEY} visible characters"),
         )),
     }
 }

@@ -38,22 +38,23 @@ pub(super) struct EventsQuery {
 
 /// Watch a job.
 ///
-/// A WebSocket gets one JSON object per text message, and is closed with 1000 after the final state or with 1001 when
-/// the service stops. With `Accept: text/event-stream` the same objects come as server-sent events named `progress`,
-/// their `seq` as id. Events are snapshots: `seq` rises and `fraction` never falls, but a slow client misses the ones
-/// between. The final event is always sent, also for a job that has ended.
+/// A WebSocket receives one JSON object per text message. It is closed with 1000 after the final
+/// state, or with 1001 when the service stops. With `Accept: text/event-stream`, the same objects
+/// arrive as server-sent events named `progress`, with `seq` as their id. Events are snapshots:
+/// `seq` rises and `fraction` never falls, but a slow client misses events in between. The final
+/// event is always sent, even if the job has already ended.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/events", operation_id = "watchJob", tag = "jobs",
     params(
         ("id" = String, Path, format = "uuid", description = "The job"), EventsQuery,
-        ("Last-Event-ID" = Option<String>, Header, description = "`seq` of the last event seen; anything else begins at the beginning"),
+        ("Last-Event-ID" = Option<String>, Header, description = "`seq` of the last event received; any other value starts from the first event"),
     ),
     responses(
         (status = 101, description = "The WebSocket; each text message is an Event"),
         (status = 200, description = "Server-sent events; the data of each is an Event", body = String, content_type = "text/event-stream"),
         (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
-        (status = 426, description = "`upgrade_required`: neither of the two was asked for", body = Problem, content_type = "application/problem+json"),
+        (status = 426, description = "`upgrade_required`: the request asks for neither", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn watch_job(
@@ -64,7 +65,7 @@ pub(super) async fn watch_job(
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Result<Response, Problem> {
     if query.after.is_some_and(|seq| MAX_SEQ < seq) {
-        let detail = format!("after is at most {MAX_SEQ}");
+        let detail = format!("`after` must be at most {MAX_SEQ}");
         return Err(Problem::new(Code::InvalidRequest, detail));
     }
     let resumed = headers

@@ -23,15 +23,15 @@ const MAX_PAGE: u32 = 200;
 pub(super) struct ListQuery {
     /// Only jobs in this state.
     state: Option<crate::jobs::State>,
-    /// At most so many; 50 if absent.
+    /// Maximum number of jobs; the default is 50.
     #[param(minimum = 1, maximum = 200)]
     limit: Option<u32>,
-    /// `next` of the page before.
+    /// `next` of the previous page.
     #[param(format = "uuid")]
     cursor: Option<String>,
 }
 
-/// List jobs, the newest first.
+/// List jobs, newest first.
 #[utoipa::path(
     get, path = "/v1/jobs", operation_id = "listJobs", tag = "jobs", params(ListQuery),
     responses(
@@ -46,12 +46,12 @@ pub(super) async fn list_jobs(
     let invalid = |detail: String| Problem::new(Code::InvalidRequest, detail);
     let limit = query.limit.unwrap_or(DEFAULT_PAGE);
     if !(1..=MAX_PAGE).contains(&limit) {
-        return Err(invalid(format!("limit is between 1 and {MAX_PAGE}")));
+        return Err(invalid(format!("`limit` must be between 1 and {MAX_PAGE}")));
     }
     let before = query.cursor.map(|cursor| cursor.parse());
     let before = before
         .transpose()
-        .map_err(|_| invalid("cursor is not one".to_owned()))?;
+        .map_err(|_| invalid("`cursor` is not the `next` of a page".to_owned()))?;
     let listing = Listing {
         state: query.state,
         before,
@@ -73,12 +73,12 @@ pub(super) async fn list_jobs(
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GetQuery {
-    /// Answer when the job has ended, but not later than in so many seconds.
+    /// Answer when the job has ended, but after this many seconds at the latest.
     #[param(minimum = 0, maximum = 60)]
     wait: Option<u64>,
 }
 
-/// Get a job: its state, its progress, and where its files are.
+/// Get a job: its state, its progress and the paths of its files.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}", operation_id = "getJob", tag = "jobs",
     params(("id" = String, Path, format = "uuid", description = "The job"), GetQuery),
@@ -95,7 +95,7 @@ pub(super) async fn get_job(
 ) -> Result<Response, Problem> {
     let wait = query.wait.unwrap_or(0);
     if MAX_WAIT_SECONDS < wait {
-        let detail = format!("wait is between 0 and {MAX_WAIT_SECONDS}");
+        let detail = format!("`wait` must be between 0 and {MAX_WAIT_SECONDS}");
         return Err(Problem::new(Code::InvalidRequest, detail));
     }
     let job = if wait == 0 {
@@ -110,14 +110,14 @@ pub(super) async fn get_job(
 
 /// Cancel a live job, or delete one that has ended.
 ///
-/// A live job is cancelled: its computation ends at once, its record stays, and nothing else is kept. A job that has
+/// Cancelling a live job ends its computation immediately and keeps only its record. A job that has
 /// ended is removed with all its files.
 #[utoipa::path(
     delete, path = "/v1/jobs/{id}", operation_id = "deleteJob", tag = "jobs",
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
-        (status = 202, description = "It was live and is being cancelled; the job", body = JobView),
-        (status = 204, description = "It had ended and is removed"),
+        (status = 202, description = "The live job, which is being cancelled", body = JobView),
+        (status = 204, description = "The job had ended and is removed"),
         (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
     )
 )]
@@ -140,13 +140,13 @@ pub(super) async fn delete_job(
 
 /// Finish a live job early.
 ///
-/// It stops improving the map and writes, judges and reports the present one, which is valid like every map on the
-/// way. A queued job will do so as soon as it starts.
+/// The job stops improving the map. It writes, judges and reports the current one, which is valid like
+/// every map on the way. A queued job does so as soon as it starts.
 #[utoipa::path(
     post, path = "/v1/jobs/{id}/finish", operation_id = "finishJob", tag = "jobs",
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
-        (status = 202, description = "It is finishing; the job", body = JobView),
+        (status = 202, description = "The job, which is finishing", body = JobView),
         (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "`already_finished`", body = Problem, content_type = "application/problem+json"),
     )
@@ -161,7 +161,7 @@ pub(super) async fn finish_job(
         .await?
         .ok_or_else(job_not_found)?;
     if job.state.is_final() {
-        let detail = format!("the job has {} already", job.state.word());
+        let detail = format!("the job has already {}", job.state.word());
         return Err(Problem::new(Code::AlreadyFinished, detail));
     }
     Ok(json(StatusCode::ACCEPTED, &JobView::from(&job)))

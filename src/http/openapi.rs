@@ -12,9 +12,9 @@ use super::upload::{MESH_TYPES, OTHER_TYPES};
 use crate::jobs::Kind;
 
 const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
-    distortion report out. Pulls meshes, pictures and UVs by handles, no element inverted. Errors are RFC 9457 problems with \
-    a stable `code`; `x-problems` lists them all. Those that come from the input have status 422 and are what a failed job \
-    has as its `error`; the command line prints the same codes.";
+    distortion report out. Also deforms meshes, pictures and UVs by handles without inverting an element. Errors are \
+    RFC 9457 problems with a stable `code`; `x-problems` lists all codes. Errors caused by the input have status 422. A \
+    failed job reports the same codes in `error`, and so does the command line.";
 
 /// What stands above the paths.
 pub(super) fn preamble() -> OpenApi {
@@ -88,7 +88,7 @@ fn complete(operation: &mut Value) {
         }
     }
     operation["responses"]["default"] = json!({
-        "description": "Any other problem",
+        "description": "Any other error",
         "content": { "application/problem+json": { "schema": reference("Problem") } },
     });
     let parameters = operation
@@ -181,7 +181,7 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
     }
     operation["requestBody"] = json!({
         "required": true,
-        "description": "The input as a form with the files it references, or the bytes of one file",
+        "description": "The input as a form, with the files it references, or the bytes of a single file",
         "content": content,
     });
 }

@@ -44,7 +44,7 @@ impl UploadQuery {
 pub(super) fn kind(text: &str) -> Result<Kind, Problem> {
     serde_json::from_value(text.into()).map_err(|_| {
         let words = Kind::ALL.map(Kind::word).join(", ");
-        let detail = format!("there is no kind {text:?}: one of {words}");
+        let detail = format!("unknown kind {text:?}: expected one of {words}");
         Problem::new(Code::InvalidRequest, detail)
     })
 }

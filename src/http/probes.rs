@@ -9,38 +9,41 @@ use axum::response::{IntoResponse, Response};
 use super::Shared;
 use super::problem::{Code, Problem};
 
-/// Whether the process answers.
+/// Check whether the process responds.
 #[utoipa::path(
     get, path = "/healthz", operation_id = "healthz", tag = "service",
-    responses((status = 200, description = "It does", body = String, content_type = "text/plain"))
+    responses((status = 200, description = "The process responds", body = String, content_type = "text/plain"))
 )]
 pub(super) async fn healthz() -> &'static str {
     "ok\n"
 }
 
-/// Whether new jobs are welcome.
+/// Check whether the service accepts jobs.
 #[utoipa::path(
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses(
-        (status = 200, description = "They are", body = String, content_type = "text/plain"),
-        (status = 500, description = "`internal_error`: the store does not answer", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The service accepts jobs", body = String, content_type = "text/plain"),
+        (status = 500, description = "`internal_error`: the job database failed", body = Problem, content_type = "application/problem+json"),
         (status = 503, description = "`stopping`", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn readyz(State(app): Shared) -> Result<&'static str, Problem> {
     app.jobs.counts().await?;
     if app.stop.is_cancelled() {
-        return Err(Problem::new(Code::Stopping, "no new jobs"));
+        return Err(Problem::new(
+            Code::Stopping,
+            "the service accepts no new jobs",
+        ));
     }
     Ok("ready\n")
 }
 
-/// Get metrics in the text format of Prometheus.
+/// Get metrics in the Prometheus text format.
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "service",
     responses(
         (status = 200, description = "Jobs by state", body = String, content_type = "text/plain"),
-        (status = 500, description = "`internal_error`: the store does not answer", body = Problem, content_type = "application/problem+json"),
+        (status = 500, description = "`internal_error`: the job database failed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn metrics(State(app): Shared) -> Result<Response, Problem> {

@@ -14,15 +14,15 @@ pub(super) struct Problem {
     #[serde(rename = "type")]
     #[schema(format = "uri-reference")]
     kind: String,
-    /// The code in words.
+    /// Summary of the code.
     title: String,
     /// The HTTP status.
     status: u16,
-    /// What it is in this case, in one line.
+    /// What went wrong in this case, in one line.
     detail: String,
-    /// Stable snake_case word.
+    /// Stable code in snake_case.
     code: String,
-    /// The limit that was exceeded, if one was.
+    /// The limit that was exceeded, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<u64>,
 }
@@ -97,43 +97,47 @@ impl Code {
             Self::InvalidOptions => (
                 "invalid_options",
                 400,
-                "An option is unknown or has no such value",
+                "An option is unknown or has an invalid value",
             ),
             Self::MissingMesh => ("missing_mesh", 400, "The upload has no input"),
-            Self::NeedsJob => ("needs_job", 400, "The result needs a job"),
-            Self::NotFound => ("not_found", 404, "No such path"),
-            Self::JobNotFound => ("job_not_found", 404, "No job has this id"),
-            Self::NoSuchFile => ("no_such_file", 404, "The job makes no such file"),
-            Self::MethodNotAllowed => ("method_not_allowed", 405, "The path has no such method"),
+            Self::NeedsJob => ("needs_job", 400, "This result is only available from a job"),
+            Self::NotFound => ("not_found", 404, "The path does not exist"),
+            Self::JobNotFound => ("job_not_found", 404, "The job does not exist"),
+            Self::NoSuchFile => ("no_such_file", 404, "The job does not produce this file"),
+            Self::MethodNotAllowed => (
+                "method_not_allowed",
+                405,
+                "The path does not support this method",
+            ),
             Self::NotFinished => ("not_finished", 409, "The job is not finished"),
-            Self::AlreadyFinished => ("already_finished", 409, "The job has ended already"),
+            Self::AlreadyFinished => ("already_finished", 409, "The job has already ended"),
             Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
-            Self::UploadTooLarge => ("upload_too_large", 413, "The upload has too many bytes"),
+            Self::UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),
             Self::UnsupportedMediaType => (
                 "unsupported_media_type",
                 415,
-                "The content type is not one of an input",
+                "The content type is not supported",
             ),
             Self::RangeNotSatisfiable => (
                 "range_not_satisfiable",
                 416,
-                "The file has no bytes in this range",
+                "The range lies outside the file",
             ),
             Self::UnknownFormat => (
                 "unknown_format",
                 422,
-                "The file is of no format that the kind of job reads",
+                "The job kind does not read this file format",
             ),
             Self::InvalidGltf => ("invalid_gltf", 422, "The file is not valid glTF 2.0"),
             Self::IdempotencyKeyReused => (
                 "idempotency_key_reused",
                 422,
-                "The Idempotency-Key was used for another submission",
+                "The Idempotency-Key belongs to a different submission",
             ),
             Self::UpgradeRequired => (
                 "upgrade_required",
                 426,
-                "Events need a WebSocket, or Accept: text/event-stream",
+                "Events require a WebSocket, or Accept: text/event-stream",
             ),
             Self::OutOfMemory => (
                 "out_of_memory",
@@ -141,15 +145,15 @@ impl Code {
                 "The input needs more memory than a job may use",
             ),
             Self::InternalError => ("internal_error", 500, "The service failed"),
-            Self::Crashed => (
-                "crashed",
-                500,
-                "The computation ended by a bug of the service",
+            Self::Crashed => ("crashed", 500, "A bug in the service ended the computation"),
+            Self::QueueFull => ("queue_full", 503, "The queue is full"),
+            Self::Stopping => ("stopping", 503, "The service is shutting down"),
+            Self::WorkerLost => (
+                "worker_lost",
+                503,
+                "The computation was terminated from outside",
             ),
-            Self::QueueFull => ("queue_full", 503, "As many jobs wait as may wait"),
-            Self::Stopping => ("stopping", 503, "The service is about to stop"),
-            Self::WorkerLost => ("worker_lost", 503, "The computation was ended from outside"),
-            Self::TimedOut => ("timed_out", 504, "The computation took too long"),
+            Self::TimedOut => ("timed_out", 504, "The computation exceeded its time limit"),
         }
     }
 }
@@ -177,7 +181,7 @@ impl Problem {
     /// Something that should not happen: clients get no details, the log does.
     pub fn internal(error: &dyn std::fmt::Display) -> Self {
         tracing::error!(%error, "internal error");
-        Self::new(Code::InternalError, "see the log of the service")
+        Self::new(Code::InternalError, "the log of the service has details")
     }
 
     /// Why a job failed. A code that is not in the table belongs to the input.

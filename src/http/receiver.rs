@@ -103,7 +103,7 @@ impl Receiver {
             match field.name().unwrap_or_default() {
                 part if INPUT_PARTS.contains(&part) => {
                     if self.input.is_some() {
-                        let detail = "there are two inputs: parts named mesh, image or problem";
+                        let detail = "there is more than one input: send one part named mesh, image or problem";
                         return Err(Problem::new(Code::InvalidRequest, detail));
                     }
                     let name = field.file_name().unwrap_or_default().to_owned();
@@ -126,11 +126,12 @@ impl Receiver {
     async fn resource(&mut self, field: Field<'_>) -> Result<(), Problem> {
         let Some(name) = field.file_name().map(str::to_owned) else {
             let part = field.name().unwrap_or_default();
-            let detail = format!("part {part:?} is neither input, options nor kind, nor a file");
+            let detail =
+                format!("unexpected part {part:?}: it is not an input, options, kind or a file");
             return Err(Problem::new(Code::InvalidRequest, detail));
         };
         if MAX_FILES <= self.resources.len() {
-            let detail = format!("an upload has at most {MAX_FILES} files");
+            let detail = format!("an upload can have at most {MAX_FILES} files");
             return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_FILES as u64));
         }
         let file = self.store(name, field, |e| malformed(&e)).await?;
@@ -146,7 +147,7 @@ impl Receiver {
         problem: impl Fn(E) -> Problem,
     ) -> Result<(InputFile, PathBuf, [u8; 32]), Problem> {
         if MAX_NAME < name.len() {
-            let detail = format!("a file name has at most {MAX_NAME} bytes");
+            let detail = format!("a file name can have at most {MAX_NAME} bytes");
             return Err(Problem::new(Code::InvalidRequest, detail));
         }
         let path = self.folder.0.join(format!(
@@ -160,7 +161,7 @@ impl Receiver {
             let chunk = chunk.map_err(&problem)?;
             let chunk = chunk.as_ref();
             self.left = self.left.checked_sub(chunk.len() as u64).ok_or_else(|| {
-                let detail = format!("an upload has at most {} bytes", self.limit);
+                let detail = format!("an upload can have at most {} bytes", self.limit);
                 Problem::new(Code::UploadTooLarge, detail).with_limit(self.limit)
             })?;
             bytes += chunk.len() as u64;
@@ -227,7 +228,7 @@ async fn text(mut field: Field<'_>) -> Result<String, Problem> {
     while let Some(chunk) = field.chunk().await.map_err(|e| malformed(&e))? {
         bytes.extend_from_slice(&chunk);
         if MAX_TEXT_BYTES < bytes.len() as u64 {
-            let detail = format!("a text part has at most {MAX_TEXT_BYTES} bytes");
+            let detail = format!("a text part can have at most {MAX_TEXT_BYTES} bytes");
             return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_TEXT_BYTES));
         }
     }
@@ -240,5 +241,8 @@ fn malformed(error: &MultipartError) -> Problem {
 }
 
 fn broken(error: &axum::Error) -> Problem {
-    Problem::new(Code::InvalidRequest, format!("the body broke off: {error}"))
+    Problem::new(
+        Code::InvalidRequest,
+        format!("the body is incomplete: {error}"),
+    )
 }

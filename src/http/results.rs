@@ -12,8 +12,8 @@ use crate::jobs::{JobId, State as JobState};
 
 /// Get the result: the mesh with its new UVs, the deformed body, the warped picture.
 ///
-/// In the format that the option `format` named. What belongs to it (the `.bin` of a `.gltf`) is listed in the job's
-/// `links.files`. Ranges and `If-None-Match` are understood.
+/// The option `format` sets its format. Files that belong to it, such as the `.bin` of a `.gltf`, are
+/// listed in `links.files` of the job. Ranges and `If-None-Match` are supported.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/result", operation_id = "getResult", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
@@ -30,7 +30,7 @@ pub(super) async fn get_result(
     file(&app, id, "result", &headers).await
 }
 
-/// Get the report: what was done, what the result is worth, what is proven about it.
+/// Get the report: what was done, the quality of the result, and what is proven.
 ///
 /// `Report` of `unwrap`, `repack` and `measure`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of
 /// `edit_uv` and `texture_map`.
@@ -50,7 +50,7 @@ pub(super) async fn get_report(
     file(&app, id, "report", &headers).await
 }
 
-/// Get a drawing of the UV layout, as the texture lies.
+/// Get a picture of the UV layout, oriented like the texture.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/layout.png", operation_id = "getLayout", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
@@ -67,9 +67,9 @@ pub(super) async fn get_layout(
     file(&app, id, "layout.png", &headers).await
 }
 
-/// Get a heat map of the distortion, as the texture lies.
+/// Get a heat map of the distortion, oriented like the texture.
 ///
-/// It shows what the option `heatmap_measure` named, with a legend; flipped faces are yellow.
+/// It shows the measure of the option `heatmap_measure`, with a legend. Flipped faces are yellow.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/heatmap.png", operation_id = "getHeatmap", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
@@ -91,7 +91,7 @@ pub(super) async fn get_heatmap(
     get, path = "/v1/jobs/{id}/files/{name}", operation_id = "getFile", tag = "results",
     params(
         ("id" = String, Path, format = "uuid", description = "The job"),
-        ("name" = String, Path, description = "Its name, as the result references it"),
+        ("name" = String, Path, description = "File name, as the result references it"),
     ),
     responses(
         (status = 200, description = "The file", content((Vec<u8> = "application/octet-stream"), (Vec<u8> = "text/csv"), (Vec<u8> = "text/plain"), (Vec<u8> = "model/obj"), (Vec<u8> = "image/png"))),

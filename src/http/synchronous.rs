@@ -18,16 +18,17 @@ const WARNINGS: HeaderName = HeaderName::from_static("unwrapd-warnings");
 
 /// Unwrap a mesh and get it back.
 ///
-/// For meshes that take seconds; it stands in the same queue as jobs do, and nothing is kept. The answer is the file in
-/// the format that `format` names, `glb` or `obj`; a `gltf` has files beside it, which one answer cannot hold: that needs
-/// a job (`needs_job`), and so do report and pictures. `unwrapd-certified` says whether everything asked for is proven of it, and
-/// `unwrapd-warnings` names the codes of what a job would warn of. Closing the connection cancels.
+/// For meshes that take seconds. The call waits in the same queue as jobs, and nothing is kept. The
+/// answer is one file, in the `format` `glb` or `obj`. The format `gltf`, the report and the
+/// pictures require a job (`needs_job`). The header `unwrapd-certified` says whether everything
+/// requested is proven. The header `unwrapd-warnings` lists the codes of the warnings. Closing the
+/// connection cancels the call.
 #[utoipa::path(
     post, path = "/v1/unwrap", operation_id = "unwrap", tag = "synchronous",
-    params(("filename" = Option<String>, Query, description = "Name of the file in a raw body")),
+    params(("filename" = Option<String>, Query, description = "File name of a raw body")),
     responses(
         (status = 200, description = "The mesh with its new UVs", headers(
-            ("unwrapd-certified" = bool, description = "Whether everything that was asked for is proven on its bytes"),
+            ("unwrapd-certified" = bool, description = "Whether everything requested is proven on these bytes"),
             ("unwrapd-warnings" = String, description = "Codes of the warnings; absent if there are none"),
         ), content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/obj"))),
         CallProblems,
@@ -37,12 +38,12 @@ pub(super) async fn unwrap(State(app): Shared, request: Request) -> Result<Respo
     run(&app, Kind::Unwrap, request).await
 }
 
-/// Measure the UVs that a mesh has and get the report.
+/// Measure the UVs of a mesh and get the report.
 ///
-/// For meshes that take seconds; nothing is kept. Closing the connection cancels.
+/// For meshes that take seconds. Nothing is kept. Closing the connection cancels the call.
 #[utoipa::path(
     post, path = "/v1/measure", operation_id = "measure", tag = "synchronous",
-    params(("filename" = Option<String>, Query, description = "Name of the file in a raw body")),
+    params(("filename" = Option<String>, Query, description = "File name of a raw body")),
     responses(
         (status = 200, description = "The report", body = crate::pipeline::Report),
         CallProblems,

@@ -80,7 +80,10 @@ pub(super) async fn receive(
 async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Received, Problem> {
     let query = UploadQuery::read(request.uri())?;
     if kind.is_some() && query.kind.is_some() {
-        return Err(Problem::new(Code::InvalidRequest, "the path says the kind"));
+        return Err(Problem::new(
+            Code::InvalidRequest,
+            "the path already sets the kind",
+        ));
     }
     let limit = app.settings.upload_bytes;
     let scratch = &app.jobs.settings().scratch;

@@ -7,48 +7,48 @@ use super::problem::Problem;
 use crate::document::Warning;
 use crate::jobs::{Event, Job, Kind, Timestamp};
 
-/// A job: what was asked, how far it is, what came of it.
+/// A job: request, state and outcome.
 #[derive(Serialize, utoipa::ToSchema)]
 #[schema(as = Job)]
 pub(super) struct JobView {
-    /// Names it.
+    /// Identifies the job.
     #[schema(format = "uuid")]
     id: String,
-    /// What it does.
+    /// Kind of job.
     kind: Kind,
     #[serde(flatten)]
     event: Event,
     /// Name of the uploaded mesh file.
     filename: String,
-    /// Bytes of all uploaded files.
+    /// Total size of the uploaded files, in bytes.
     input_bytes: u64,
     /// All options, with defaults filled in.
     #[schema(value_type = Object)]
     options: Value,
-    /// How often it was started.
+    /// Number of times the job was started.
     attempt: u32,
-    /// When it was accepted.
+    /// Time of acceptance.
     #[schema(value_type = String, format = DateTime)]
     created_at: Timestamp,
-    /// When its latest attempt started.
+    /// Start of the latest attempt.
     #[schema(value_type = Option<String>, format = DateTime)]
     started_at: Option<Timestamp>,
-    /// When it reached its final state.
+    /// Time of the final state.
     #[schema(value_type = Option<String>, format = DateTime)]
     finished_at: Option<Timestamp>,
-    /// Whether everything that was asked for is proven on the bytes written; null until it succeeded, and of kinds of jobs that prove
-    /// nothing of a result. If false there is a result, and `warnings` say what is missing.
+    /// Whether everything requested is proven on the bytes written. Null until the job succeeded, and
+    /// for kinds that prove nothing. If false there is a result, and `warnings` name what is missing.
     certified: Option<bool>,
-    /// What users should know of the input, of the work and of the result; empty until it succeeded.
+    /// Warnings about the input, the work and the result; empty until the job succeeded.
     warnings: Vec<Warning>,
-    /// Why it failed; absent unless it did.
+    /// Cause of the failure; absent unless the job failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Problem>,
-    /// Where to go from here.
+    /// Paths of related resources.
     links: Links,
 }
 
-/// Paths of what belongs to a job. Files are listed when they can be fetched.
+/// Paths of the resources of a job. Files are listed once they can be fetched.
 #[derive(Serialize, utoipa::ToSchema)]
 struct Links {
     /// The job.
@@ -56,16 +56,16 @@ struct Links {
     itself: String,
     /// Its events.
     events: String,
-    /// The files it made.
+    /// The files that the job produced.
     files: Vec<FileLink>,
 }
 
-/// A file that a job made.
+/// A file that a job produced.
 #[derive(Serialize, utoipa::ToSchema)]
 struct FileLink {
     /// Its path.
     href: String,
-    /// Name to save it under.
+    /// Suggested file name.
     name: String,
     /// Its size.
     bytes: u64,
@@ -110,7 +110,7 @@ impl From<&Job> for JobView {
     }
 }
 
-/// A page of jobs, the newest first.
+/// A page of jobs, newest first.
 #[derive(Serialize, utoipa::ToSchema)]
 pub(super) struct JobPage {
     /// The jobs of this page.

@@ -138,7 +138,7 @@ async fn watch(
             () = stop.cancelled() => return Some(Ending::ServerStops),
             () = tokio::time::sleep_until(deadline) => {
                 let seconds = limits.time.as_secs_f64();
-                let detail = format!("not done within {seconds} s");
+                let detail = format!("not finished within {seconds} s");
                 return Some(Ending::Failed(Failure::new("timed_out", detail)));
             }
             () = control.finish.cancelled(), if is_ready && !is_told => {
@@ -166,7 +166,10 @@ async fn watch(
 
 /// What a job is told that needs more than its share.
 pub(super) fn out_of_memory(limit: u64) -> Failure {
-    let detail = format!("needs more than the {} MiB a job may use", limit >> 20);
+    let detail = format!(
+        "needs more than {} MiB, the memory limit of a job",
+        limit >> 20
+    );
     Failure::new("out_of_memory", detail)
 }
 

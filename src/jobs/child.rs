@@ -148,10 +148,14 @@ impl Exit {
     /// Why a child ended that could not say so itself.
     pub fn cause(&self) -> Failure {
         match *self {
-            Self::OutOfMemory => Failure::new("out_of_memory", "needs more memory than allowed"),
+            Self::OutOfMemory => {
+                Failure::new("out_of_memory", "needs more memory than the limit allows")
+            }
             Self::Code(code) => Failure::new(
                 "crashed",
-                format!("the computation ended with exit code {code}: a bug of the service"),
+                format!(
+                    "the computation ended with exit code {code}, which is a bug in the service"
+                ),
             ),
             Self::Signal(number) => {
                 let signal = Signal::try_from(number).ok();
@@ -159,11 +163,13 @@ impl Exit {
                 match signal {
                     Some(Signal::SIGKILL | Signal::SIGTERM | Signal::SIGINT) => Failure::new(
                         "worker_lost",
-                        format!("the computation was ended from outside by {name}"),
+                        format!("the computation was terminated from outside by {name}"),
                     ),
                     _ => Failure::new(
                         "crashed",
-                        format!("the computation was ended by {name}: a bug of the service"),
+                        format!(
+                            "the computation was terminated by {name}, which is a bug in the service"
+                        ),
                     ),
                 }
             }

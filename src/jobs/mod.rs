@@ -1,7 +1,7 @@
 //! What a job is, its states, its queue, the compute child and progress events.
 //!
-//! A job is a recorded wish: input files, options, a state. It is queued when its record and its files are safely
-//! stored, and from then on it ends succeeded, failed with a cause, or cancelled, over any crash or restart:
+//! A job is a recorded request: input files, options, a state. It is queued when its record and its files are safely
+//! stored. From then on it ends succeeded, failed with a cause, or cancelled, despite any crash or restart:
 //!
 //! ```text
 //! queued ──claim──► running ──► succeeded | failed | cancelled

@@ -16,7 +16,7 @@ use super::storage::{Blobs, Events, JobStore, Listing, StoreResult, Wish};
 use super::subscription::Subscription;
 use super::timestamp::Timestamp;
 
-/// After so many losses of the server while it ran, a job is taken for the cause.
+/// After this many crashes of the server during its computation, a job is taken for the cause.
 const MAX_LOST: u32 = 3;
 /// For a job that nobody waits for to end.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
@@ -79,7 +79,7 @@ impl Jobs {
                 self.store.delete(job.id).await?;
                 self.blobs.remove(job.id).await?;
             } else if job.lost >= MAX_LOST {
-                let detail = format!("the server was lost {MAX_LOST} times while it ran");
+                let detail = format!("the server stopped {MAX_LOST} times during the computation");
                 job.state = State::Failed;
                 job.failure = Some(Failure::new("worker_lost", detail));
                 job.finished = Some(Timestamp::now());

@@ -8,20 +8,20 @@ use super::queue::Jobs;
 use super::storage::StoreResult;
 use super::timestamp::Timestamp;
 
-/// A job may outlive its time by this share of it,
-const LATENESS: u32 = 10;
-/// but not by more than an hour; a server that looks more often than every second does little else.
+/// Searches for expired jobs per retention time: a job outlives it by a tenth at most,
+const SEARCHES: u32 = 10;
+/// and by no more than an hour. More than one search per second would keep the server busy.
 const LONGEST_PAUSE: Duration = Duration::from_hours(1);
 const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
 
 impl Jobs {
-    /// Removes jobs whose time is over, now and then, until told to stop.
+    /// Removes expired jobs from time to time until told to stop.
     pub(super) async fn remove_expired_until(&self, stop: &CancellationToken) {
-        let pause = (self.settings.retention / LATENESS).clamp(SHORTEST_PAUSE, LONGEST_PAUSE);
+        let pause = (self.settings.retention / SEARCHES).clamp(SHORTEST_PAUSE, LONGEST_PAUSE);
         loop {
             match self.remove_expired().await {
                 Ok(0) => {}
-                Ok(removed) => tracing::info!(removed, "jobs whose time was over"),
+                Ok(removed) => tracing::info!(removed, "expired jobs removed"),
                 Err(error) => tracing::error!(%error, "expired jobs not removed"),
             }
             tokio::select! {

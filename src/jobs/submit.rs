@@ -37,10 +37,10 @@ pub enum Submitted {
 #[derive(Debug, thiserror::Error)]
 pub enum SubmitError {
     /// As many jobs wait as may wait.
-    #[error("as many jobs wait as may wait")]
+    #[error("the queue is full")]
     QueueFull,
     /// The key belongs to another submission.
-    #[error("the Idempotency-Key was used for another submission")]
+    #[error("the Idempotency-Key belongs to a different submission")]
     KeyReused,
     /// Files or record could not be stored.
     #[error(transparent)]

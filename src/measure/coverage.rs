@@ -1,4 +1,4 @@
-//! How often texel centres are covered by faces.
+//! How often texel centers are covered by faces.
 
 use crate::mesh::CornerUvs;
 
@@ -17,10 +17,10 @@ pub(super) struct Coverage {
     pub most_layers: u32,
 }
 
-/// Counts covered texel centres of a `texels`² raster over the square at `origin` with the given side.
+/// Counts covered texel centers of a `texels`² raster over the square at `origin` with the given side.
 ///
 /// Half-open scan conversion in fixed point, exact once corners are rounded to 2⁻¹⁶ texel: in a triangulation without overlaps
-/// every centre is counted exactly once, also on edges and vertices.
+/// every center is counted exactly once, also on edges and vertices.
 pub(super) fn coverage(uvs: &[CornerUvs], texels: u32, origin: [f64; 2], side: f64) -> Coverage {
     let scale = f64::from(texels) * ONE as f64;
     let fixed = |uv: [f64; 2]| {
@@ -61,7 +61,7 @@ impl Coverage {
     }
 }
 
-/// For each band of rows the faces that have texel centres' rows in it.
+/// For each band of rows the faces that have texel centers' rows in it.
 fn faces_by_band(faces: &[[[i64; 2]; 3]], texels: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); texels.div_ceil(BAND)];
     for (face, corners) in (0..).zip(faces) {
@@ -75,16 +75,16 @@ fn faces_by_band(faces: &[[[i64; 2]; 3]], texels: usize) -> Vec<Vec<u32>> {
     bands
 }
 
-/// Rows whose centre lies at or above the lowest corner and below the highest.
+/// Rows whose center lies at or above the lowest corner and below the highest.
 fn rows([a, b, c]: &[[i64; 2]; 3], texels: usize) -> std::ops::Range<usize> {
     let low = a[1].min(b[1]).min(c[1]);
     let high = a[1].max(b[1]).max(c[1]);
-    first_centre(low).clamp(0, texels as i64) as usize
-        ..first_centre(high).clamp(0, texels as i64) as usize
+    first_center(low).clamp(0, texels as i64) as usize
+        ..first_center(high).clamp(0, texels as i64) as usize
 }
 
-/// The first texel whose centre is at or beyond a coordinate.
-fn first_centre(x: i64) -> i64 {
+/// The first texel whose center is at or beyond a coordinate.
+fn first_center(x: i64) -> i64 {
     (x - HALF + ONE - 1).div_euclid(ONE)
 }
 
@@ -113,7 +113,7 @@ fn add_spans(
     }
 }
 
-/// The first column whose centre is at or right of where an edge crosses the line at `y`; an edge holds its lower end only.
+/// The first column whose center is at or right of where an edge crosses the line at `y`; an edge holds its lower end only.
 fn crossing(p: [i64; 2], q: [i64; 2], y: i64) -> Option<i64> {
     let ([x0, y0], [x1, y1]) = if p[1] <= q[1] { (p, q) } else { (q, p) };
     (y0 <= y && y < y1).then(|| {

@@ -4,7 +4,7 @@ use crate::certificate::{OrientedFaces, Overlap, UvTopology, Visit};
 use crate::mesh::CornerUvs;
 use serde::Serialize;
 
-/// Overlaps no deeper than this part of the UV extent (0.0004 texel at 4096) are put down to rounding.
+/// Overlaps no deeper than this part of the UV extent (0.0004 texel at 4096) are attributed to rounding.
 const TOLERANCE: f64 = 1e-7;
 
 /// Pairs of faces whose interiors intersect in UV; null when not searched.

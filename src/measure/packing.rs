@@ -5,8 +5,8 @@ use super::size::in_unit_square;
 use crate::certificate::UvTopology;
 use serde::Serialize;
 
-/// Coverage of the texture, counted at texel centres of a raster over the unit square (over the square that holds the UVs where they
-/// leave it). A centre on a common edge counts once.
+/// Coverage of the texture, counted at texel centers of a raster over the unit square (over the square that holds the UVs where they
+/// leave it). A center on a common edge counts once.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Packing {

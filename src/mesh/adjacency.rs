@@ -11,7 +11,7 @@ const MOST_FACES_COMPARED: usize = 64;
 ///
 /// Halfedge `3 f + c` runs from corner `c` of face `f` to the next one. An edge with two faces is glued, however they are
 /// wound. Where more meet, they are paired greedily: those wound consistently first, then the flattest pair, then copies of
-/// equal rank (so that a wall modelled twice falls into two sheets); whoever is left over is cut open there.
+/// equal rank (so that a wall modeled twice falls into two sheets); whoever is left over is cut open there.
 #[derive(Clone, Debug)]
 pub struct Adjacency {
     /// For each halfedge the one glued to it, or [`CUT`].
@@ -86,7 +86,7 @@ impl Adjacency {
     }
 }
 
-/// The faces that glued edges connect, labelled.
+/// The faces that glued edges connect, labeled.
 fn pieces(twin: &[u32]) -> (Vec<u32>, usize) {
     let mut pieces = UnionFind::new(twin.len() / 3);
     for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {

@@ -19,10 +19,10 @@ pub struct Disk {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum NotADisk {
     /// There is no triangle.
-    #[error("no triangle")]
+    #[error("the mesh has no triangles")]
     Empty,
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {0} names a vertex out of range")]
+    #[error("triangle {0} names a vertex that does not exist")]
     OutOfRange(usize),
     /// A triangle names a vertex twice.
     #[error("triangle {0} names a vertex twice")]
@@ -40,13 +40,13 @@ pub enum NotADisk {
     #[error("vertex {0} joins several fans of triangles")]
     NonManifoldVertex(u32),
     /// The triangles are not connected over edges.
-    #[error("not connected")]
+    #[error("the triangles are not connected")]
     Disconnected,
     /// The surface has no boundary.
-    #[error("closed: no boundary loop")]
+    #[error("the surface is closed: it has no boundary loop")]
     Closed,
     /// The surface has handles; this is its genus.
-    #[error("genus {0}, not 0")]
+    #[error("the surface has genus {0}, not 0")]
     Genus(usize),
 }
 

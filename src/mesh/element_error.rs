@@ -26,20 +26,22 @@ pub enum ElementError {
         vertex: usize,
     },
     /// The area or volume is exactly zero.
-    #[error("element {element} has no area or volume")]
+    #[error("element {element} has zero area or volume")]
     ZeroSize {
         /// The first such element, from 0.
         element: usize,
     },
     /// Two elements lie on the same side of a common edge or face.
-    #[error("elements {elements:?} lie on the same side of their common side: the mesh is folded")]
+    #[error(
+        "the mesh is folded: elements {elements:?} lie on the same side of their common face or edge"
+    )]
     Folded {
         /// The two, from 0.
         elements: [usize; 2],
     },
     /// A mesh of the plane leaves it.
     #[error(
-        "vertex {vertex} has z = {z}, not {plane} as the first: the mesh is not planar and has no tetrahedra"
+        "the mesh has no tetrahedra and is not planar: vertex {vertex} has z = {z}, the first one {plane}"
     )]
     NotPlanar {
         /// The first such vertex, from 0.

@@ -75,7 +75,7 @@ impl FromStr for Resolution {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let side = |text: &str| {
-            let wrong = |_| format!("{text:?} is no number of texels: 1024 or 2048x1024");
+            let wrong = |_| format!("{text:?} is not a texture size such as 1024 or 2048x1024");
             text.parse::<u32>().map_err(wrong)
         };
         match text.split_once('x') {

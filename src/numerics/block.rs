@@ -34,11 +34,11 @@ impl BlockPattern {
     /// If a stencil names a vertex that there is not.
     pub fn new(dim: usize, n_vertices: usize, terms: &[Stencils]) -> (Self, Vec<Slots>) {
         let pairs = || terms.iter().flat_map(Stencils::pairs);
-        let (starts, neighbours) = larger_neighbours(n_vertices, pairs);
-        let scalar = scalar_pattern(dim, &starts, &neighbours);
+        let (starts, neighbors) = larger_neighbors(n_vertices, pairs);
+        let scalar = scalar_pattern(dim, &starts, &neighbors);
         let slot = |(small, large): (u32, u32)| {
             let small = small as usize;
-            let list = &neighbours[starts[small]..starts[small + 1]];
+            let list = &neighbors[starts[small]..starts[small + 1]];
             let rank = list.partition_point(|&v| v < large);
             // The first column of a vertex starts with the rows of its own block.
             PairSlot {
@@ -156,8 +156,8 @@ impl Slots {
     }
 }
 
-/// For each vertex its neighbours with a larger index, sorted: `neighbours[starts[v]..starts[v + 1]]`.
-fn larger_neighbours<P: Iterator<Item = (u32, u32)>>(
+/// For each vertex its neighbors with a larger index, sorted: `neighbors[starts[v]..starts[v + 1]]`.
+fn larger_neighbors<P: Iterator<Item = (u32, u32)>>(
     n_vertices: usize,
     pairs: impl Fn() -> P,
 ) -> (Vec<usize>, Vec<u32>) {
@@ -179,29 +179,29 @@ fn larger_neighbours<P: Iterator<Item = (u32, u32)>>(
         next[small as usize] += 1;
     }
     let mut starts = vec![0];
-    let mut neighbours = Vec::with_capacity(buckets.len());
+    let mut neighbors = Vec::with_capacity(buckets.len());
     for v in 0..n_vertices {
         let bucket = &mut buckets[bucket_ends[v]..bucket_ends[v + 1]];
         bucket.sort_unstable();
         for &large in bucket.iter() {
-            if neighbours[starts[v]..].last() != Some(&large) {
-                neighbours.push(large);
+            if neighbors[starts[v]..].last() != Some(&large) {
+                neighbors.push(large);
             }
         }
-        starts.push(neighbours.len());
+        starts.push(neighbors.len());
     }
-    (starts, neighbours)
+    (starts, neighbors)
 }
 
-fn scalar_pattern(dim: usize, starts: &[usize], neighbours: &[u32]) -> SymmetricPattern {
+fn scalar_pattern(dim: usize, starts: &[usize], neighbors: &[u32]) -> SymmetricPattern {
     let n_vertices = starts.len() - 1;
     let mut col_ptr = Vec::with_capacity(dim * n_vertices + 1);
-    let mut row_idx = Vec::with_capacity(dim * dim * (n_vertices + neighbours.len()));
+    let mut row_idx = Vec::with_capacity(dim * dim * (n_vertices + neighbors.len()));
     col_ptr.push(0);
     for v in 0..n_vertices {
         for first_row in dim * v..dim * (v + 1) {
             row_idx.extend(first_row..dim * (v + 1));
-            for &large in &neighbours[starts[v]..starts[v + 1]] {
+            for &large in &neighbors[starts[v]..starts[v + 1]] {
                 let large = dim * large as usize;
                 row_idx.extend(large..large + dim);
             }

@@ -29,7 +29,7 @@ impl Support {
 
     /// The area of the polygon that the reaches bound; 0 of no points.
     ///
-    /// Each of its edges touches the hull. The edge between two neighbours is as long as they and its own reach say:
+    /// Each of its edges touches the hull. The edge between two neighbors is as long as they and its own reach say:
     /// (h₋ + h₊ − 2 h cos δ) / sin δ, with δ the angle between directions.
     pub fn area(&self) -> f64 {
         if self.0[0] == f64::NEG_INFINITY {

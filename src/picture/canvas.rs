@@ -1,6 +1,6 @@
 //! Pixels: blending, lines, copying, and the PNG they end in.
 
-use super::colour::{BACKGROUND, Rgb, mix};
+use super::color::{BACKGROUND, Rgb, mix};
 use super::png::png;
 use image::ExtendedColorType;
 
@@ -25,11 +25,11 @@ impl Canvas {
         &mut self,
         columns: std::ops::Range<usize>,
         rows: std::ops::Range<usize>,
-        colour: Rgb,
+        color: Rgb,
     ) {
         for row in rows.start..rows.end.min(self.height) {
             for column in columns.start..columns.end.min(self.width) {
-                self.pixels[row * self.width + column] = colour;
+                self.pixels[row * self.width + column] = color;
             }
         }
     }
@@ -43,10 +43,10 @@ impl Canvas {
     }
 
     /// Lays the lines of a mask on the picture.
-    pub fn ink(&mut self, lines: &Lines, colour: Rgb, opacity: f32) {
+    pub fn ink(&mut self, lines: &Lines, color: Rgb, opacity: f32) {
         for (pixel, &coverage) in self.pixels.iter_mut().zip(&lines.coverage) {
             if coverage > 0 {
-                *pixel = mix(*pixel, colour, f32::from(coverage) / 255.0 * opacity);
+                *pixel = mix(*pixel, color, f32::from(coverage) / 255.0 * opacity);
             }
         }
     }
@@ -74,7 +74,7 @@ impl Lines {
         }
     }
 
-    /// Draws a segment with round ends; coordinates in pixels, pixel (0, 0) has its centre at (0.5, 0.5).
+    /// Draws a segment with round ends; coordinates in pixels, pixel (0, 0) has its center at (0.5, 0.5).
     pub fn segment(&mut self, a: [f64; 2], b: [f64; 2], thickness: f64) {
         let reach = 0.5 * thickness + 0.5;
         let d = [b[0] - a[0], b[1] - a[1]];

@@ -1,5 +1,5 @@
 //! The heat map: how distorted each face is.
-use super::colour::{self, NO_VALUE, Rgb};
+use super::color::{self, NO_VALUE, Rgb};
 use super::legend;
 use super::panel::{Panel, Style, sheet};
 use super::raster::Mode;
@@ -48,7 +48,7 @@ impl HeatmapMeasure {
     }
 }
 
-/// From values to colours: logarithmic from the ideal value to `greatest`.
+/// From values to colors: logarithmic from the ideal value to `greatest`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
     pub ideal: f64,
@@ -88,9 +88,9 @@ impl Scale {
         ((value / self.ideal).ln() / (self.greatest / self.ideal).ln()).clamp(0.0, 1.0)
     }
 
-    fn colour(&self, value: f64) -> Rgb {
+    fn color(&self, value: f64) -> Rgb {
         if value.is_finite() {
-            colour::heat(self.position(value))
+            color::heat(self.position(value))
         } else {
             NO_VALUE
         }
@@ -101,17 +101,17 @@ fn uv_area([a, b, c]: &[[f64; 2]; 3]) -> f64 {
     0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }
 
-/// A PNG of the faces in the colours of their distortion, with a legend below; flipped faces are yellow.
+/// A PNG of the faces in the colors of their distortion, with a legend below; flipped faces are yellow.
 ///
 /// All panels share one scale. `size` as in [`layout_png`](super::layout_png); the legend comes on top of it.
 pub fn heatmap_png(panels: &[Panel], measure: HeatmapMeasure, size: u32, v_axis: VAxis) -> Vec<u8> {
     let scale = Scale::new(panels, measure);
-    let colour = |panel: &Panel, face: usize| {
+    let color = |panel: &Panel, face: usize| {
         let value = panel.distortion.get(face).map(|d| measure.value(d));
-        scale.colour(value.unwrap_or(f64::INFINITY))
+        scale.color(value.unwrap_or(f64::INFINITY))
     };
     let style = Style {
-        colour: &colour,
+        color: &color,
         mode: Mode::OnTop,
     };
     let drawn = sheet(panels, size, v_axis, &style);

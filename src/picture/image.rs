@@ -15,13 +15,13 @@ const MOST_BYTES: u64 = 16 * MOST_PIXELS;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ImageError {
     /// Neither PNG nor JPEG.
-    #[error("not a PNG or JPEG picture")]
+    #[error("the picture is not PNG or JPEG")]
     UnknownFormat,
     /// The file has more bytes than are read.
-    #[error("a picture of {0} bytes; at most 64 MiB are read")]
+    #[error("the picture has {0} bytes; the limit is 64 MiB")]
     TooManyBytes(usize),
     /// The picture has more pixels than are read.
-    #[error("{width} × {height} pixels are more than 100 megapixels")]
+    #[error("the picture has {width} × {height} pixels; the limit is 100 megapixels")]
     TooLarge {
         /// Columns.
         width: u32,

@@ -8,7 +8,7 @@ use image::{ExtendedColorType, ImageEncoder};
 const QUALITY: u8 = 92;
 
 impl Image {
-    /// The picture as a JPEG file, colours at full resolution; `None` where something is transparent, which JPEG cannot say.
+    /// The picture as a JPEG file, colors at full resolution; `None` where something is transparent, which JPEG cannot say.
     pub fn jpeg(&self) -> Option<Vec<u8>> {
         let opaque = self
             .pixels

@@ -1,15 +1,15 @@
 //! The layout: which chart lies where.
-use super::colour;
+use super::color;
 use super::panel::{Panel, Style, sheet};
 use super::raster::Mode;
 use crate::mesh::VAxis;
 
-/// A PNG of the charts, each in its own colour; overlaps are red and flipped faces yellow.
+/// A PNG of the charts, each in its own color; overlaps are red and flipped faces yellow.
 ///
 /// `size` is the side in pixels, at least 64 and at most 4096; several panels make a sheet of up to twice that width.
 pub fn layout_png(panels: &[Panel], size: u32, v_axis: VAxis) -> Vec<u8> {
     let style = Style {
-        colour: &|panel, face| colour::chart(panel.charts.get(face).copied().unwrap_or(0)),
+        color: &|panel, face| color::chart(panel.charts.get(face).copied().unwrap_or(0)),
         mode: Mode::Counted,
     };
     sheet(panels, size, v_axis, &style).png()

@@ -1,10 +1,10 @@
-//! The strip under a heat map: what is shown, the scale with its numbers, the colours outside the scale.
+//! The strip under a heat map: what is shown, the scale with its numbers, the colors outside the scale.
 use super::canvas::{Canvas, Lines};
-use super::colour::{self, FLIPPED, INK, NO_VALUE, Rgb};
+use super::color::{self, FLIPPED, INK, NO_VALUE, Rgb};
 use super::heat::Scale;
 use super::text;
 
-/// Colours outside the scale that occur in the picture.
+/// Colors outside the scale that occur in the picture.
 pub(super) struct Exceptions {
     pub flipped: bool,
     pub no_value: bool,
@@ -39,7 +39,7 @@ pub(super) fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exc
     for column in bar[0] as usize..bar[1] as usize {
         let t = (column as f64 - bar[0]) / (bar[1] - bar[0]);
         let rows = top as usize..(top + letters) as usize;
-        canvas.fill(column..column + 1, rows, colour::heat(t));
+        canvas.fill(column..column + 1, rows, color::heat(t));
     }
     ticks(&mut ink, scale, bar, top + letters, letters);
     canvas.ink(&ink, INK, 1.0);
@@ -80,7 +80,7 @@ fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
     }
 }
 
-/// Coloured squares with their meaning at the right; returns where they begin.
+/// Colored squares with their meaning at the right; returns where they begin.
 fn swatches(
     canvas: &mut Canvas,
     ink: &mut Lines,
@@ -93,12 +93,12 @@ fn swatches(
         (exceptions.no_value, "no area", NO_VALUE),
         (exceptions.flipped, "flipped", FLIPPED),
     ];
-    for (_, label, colour) in kinds.into_iter().filter(|kind| kind.0) {
+    for (_, label, color) in kinds.into_iter().filter(|kind| kind.0) {
         let left = right - text::width(label, letters);
         text::write(ink, label, left, top, letters);
         let square = left - 1.6 * letters;
         let rows = top as usize..(top + letters) as usize;
-        canvas.fill(square as usize..(square + letters) as usize, rows, colour);
+        canvas.fill(square as usize..(square + letters) as usize, rows, color);
         right = square - 1.5 * margin;
     }
     right

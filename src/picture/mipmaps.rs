@@ -81,7 +81,7 @@ impl<'a> Mipmaps<'a> {
         }
     }
 
-    /// The colour at a place in pixels of the picture, linear between pixel centres, constant beyond the outermost ones.
+    /// The color at a place in pixels of the picture, linear between pixel centers, constant beyond the outermost ones.
     pub fn sample(&self, level: usize, at: [f64; 2]) -> Premultiplied {
         let size = self.size(level);
         let scale = 0.5_f64.powi(level as i32);

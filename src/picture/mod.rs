@@ -6,7 +6,7 @@
 //! faces are drawn where faces are large enough to show them, the borders of charts always.
 //! Equal input gives equal bytes.
 mod canvas;
-mod colour;
+mod color;
 mod heat;
 mod image;
 mod jpeg;

@@ -1,6 +1,6 @@
 //! One group of faces drawn in its square, and several of them on a sheet.
 use super::canvas::{Canvas, Lines};
-use super::colour::{FLIPPED, INK, Rgb};
+use super::color::{FLIPPED, INK, Rgb};
 use super::raster::{Mode, Raster};
 use super::text;
 use crate::measure::FaceDistortion;
@@ -59,7 +59,7 @@ impl Frame {
                 is_unit: true,
             };
         }
-        // Centred, with room for the borders.
+        // Centered, with room for the borders.
         let full = side * (1.0 + 2.0 * FRAME_MARGIN);
         Self {
             origin: [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]) - 0.5 * full),
@@ -85,8 +85,8 @@ fn is_finite(face: &CornerUvs) -> bool {
 
 /// How panels are drawn.
 pub(super) struct Style<'a> {
-    /// Colour of a face that is not flipped, by its index.
-    pub colour: &'a dyn Fn(&Panel, usize) -> Rgb,
+    /// Color of a face that is not flipped, by its index.
+    pub color: &'a dyn Fn(&Panel, usize) -> Rgb,
     /// How such a face is laid on others.
     pub mode: Mode,
 }
@@ -103,12 +103,12 @@ fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas 
                 continue;
             }
             let corners = place(face);
-            let (colour, mode) = if flipped {
+            let (color, mode) = if flipped {
                 (FLIPPED, Mode::OnTop)
             } else {
-                ((style.colour)(panel, index), style.mode)
+                ((style.color)(panel, index), style.mode)
             };
-            raster.fill(corners, colour, edge_opacity(&corners), mode);
+            raster.fill(corners, color, edge_opacity(&corners), mode);
         }
     }
     let mut canvas = raster.canvas();

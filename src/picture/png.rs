@@ -3,11 +3,10 @@
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-/// The file of `width` × `height` pixels, row by row from the top, `bytes` as `colour` says.
-pub(super) fn png(bytes: &[u8], width: usize, height: usize, colour: ExtendedColorType) -> Vec<u8> {
+/// The file of `width` × `height` pixels, row by row from the top, `bytes` as `color` says.
+pub(super) fn png(bytes: &[u8], width: usize, height: usize, color: ExtendedColorType) -> Vec<u8> {
     let mut file = Vec::new();
-    let written =
-        PngEncoder::new(&mut file).write_image(bytes, width as u32, height as u32, colour);
+    let written = PngEncoder::new(&mut file).write_image(bytes, width as u32, height as u32, color);
     // Writing to memory fails for wrong dimensions only.
     debug_assert!(written.is_ok());
     file

@@ -1,6 +1,6 @@
 //! Filling triangles on a grid of samples, one or several to a pixel.
 use super::canvas::Canvas;
-use super::colour::{BACKGROUND, INK, OVERLAP, Rgb, mix};
+use super::color::{BACKGROUND, INK, OVERLAP, Rgb, mix};
 
 /// Steps of a corner's coordinates to a sample.
 const STEPS: i64 = 256;
@@ -15,7 +15,7 @@ const EDGE_PIXELS: f64 = 0.8;
 pub(super) struct Raster {
     side: usize,
     per_pixel: usize,
-    colours: Vec<Rgb>,
+    colors: Vec<Rgb>,
     /// Faces that cover each sample; stops at 2.
     layers: Vec<u8>,
 }
@@ -37,13 +37,13 @@ impl Raster {
         Self {
             side,
             per_pixel,
-            colours: vec![BACKGROUND; side * side],
+            colors: vec![BACKGROUND; side * side],
             layers: vec![0; side * side],
         }
     }
 
     /// Fills a triangle given in pixels. Its edges are drawn with the given opacity, each face drawing its half.
-    pub fn fill(&mut self, corners: [[f64; 2]; 3], colour: Rgb, edge_opacity: f32, mode: Mode) {
+    pub fn fill(&mut self, corners: [[f64; 2]; 3], color: Rgb, edge_opacity: f32, mode: Mode) {
         let fixed = steps(corners.map(|p| p.map(|x| x * self.per_pixel as f64)));
         let edges = Edges::new(&fixed);
         let reach = 0.5 * EDGE_PIXELS * self.per_pixel as f64;
@@ -54,23 +54,23 @@ impl Raster {
                 let shown = if edge_opacity > 0.0 {
                     let distance = edges.distance(at);
                     let cover = (reach - distance + 0.5).clamp(0.0, 1.0) as f32;
-                    mix(colour, INK, cover * edge_opacity)
+                    mix(color, INK, cover * edge_opacity)
                 } else {
-                    colour
+                    color
                 };
                 self.set(row * self.side + column, shown, mode);
             }
         }
     }
 
-    fn set(&mut self, sample: usize, colour: Rgb, mode: Mode) {
+    fn set(&mut self, sample: usize, color: Rgb, mode: Mode) {
         let layers = &mut self.layers[sample];
         *layers = (*layers + 1).min(2);
         let overlaps = *layers > 1 && mode == Mode::Counted;
-        self.colours[sample] = if overlaps {
-            mix(colour, OVERLAP, 0.85)
+        self.colors[sample] = if overlaps {
+            mix(color, OVERLAP, 0.85)
         } else {
-            colour
+            color
         };
     }
 
@@ -84,8 +84,8 @@ impl Raster {
                 let mut sum = [0_u32; 3];
                 for y in 0..self.per_pixel {
                     let start = (row * self.per_pixel + y) * self.side + column * self.per_pixel;
-                    for colour in &self.colours[start..start + self.per_pixel] {
-                        for (sum, &channel) in sum.iter_mut().zip(colour) {
+                    for color in &self.colors[start..start + self.per_pixel] {
+                        for (sum, &channel) in sum.iter_mut().zip(color) {
                             *sum += u32::from(channel);
                         }
                     }
@@ -137,10 +137,10 @@ fn rows(low: i64, high: i64, side: usize) -> std::ops::Range<usize> {
 fn first_sample(a: [i64; 2], b: [i64; 2], y: i64) -> i64 {
     let height = (b[1] - a[1]).max(1);
     let x_times_height = a[0] * height + (b[0] - a[0]) * (y - a[1]);
-    let centre = STEPS / 2 * height;
+    let center = STEPS / 2 * height;
     let step = STEPS * height;
     // The smallest c with c·STEPS + STEPS/2 ≥ x.
-    (x_times_height - centre + step - 1).div_euclid(step)
+    (x_times_height - center + step - 1).div_euclid(step)
 }
 
 /// Distances to the three lines of a triangle's edges.

@@ -1,9 +1,9 @@
 //! Pictures deformed with a mesh.
 //!
-//! Each deformed triangle is filled with what its rest shape covers: the centre of every pixel in it is mapped back by the
+//! Each deformed triangle is filled with what its rest shape covers: the center of every pixel in it is mapped back by the
 //! triangle's affine map, and the picture sampled there. Where the picture shrinks, a coarser copy of it is taken by the smaller
-//! of the two scales, and several samples along the direction of the greater one, as graphics hardware does. Colours are mixed as
-//! they are stored (sRGB), premultiplied by alpha, so that transparent pixels lend no colour.
+//! of the two scales, and several samples along the direction of the greater one, as graphics hardware does. Colors are mixed as
+//! they are stored (sRGB), premultiplied by alpha, so that transparent pixels lend no color.
 
 use super::mipmaps::{Mipmaps, Premultiplied, mix};
 use super::raster::{spans, steps};
@@ -21,7 +21,7 @@ const MOST_PIXELS: f64 = 1e8;
 pub struct Deformation<'a> {
     /// Vertices on the picture.
     pub rest: &'a [[f64; 2]],
-    /// The same vertices afterwards; finite.
+    /// The same vertices afterward; finite.
     pub deformed: &'a [[f64; 2]],
     /// Three vertices each.
     pub triangles: &'a [[u32; 3]],
@@ -45,7 +45,7 @@ pub struct Warped {
     pub origin: [i64; 2],
 }
 
-/// The picture under a deformation. A triangle covers the pixels whose centres it has; later ones lie over earlier ones.
+/// The picture under a deformation. A triangle covers the pixels whose centers it has; later ones lie over earlier ones.
 pub fn warped(
     image: &Image,
     deformation: &Deformation,
@@ -69,9 +69,9 @@ pub fn warped(
         let footprint = Footprint::of(&inverse, &mut mipmaps);
         for (row, columns) in spans(steps(to), [result.width, result.height]) {
             for column in columns {
-                let centre = inverse.at([column as f64 + 0.5, row as f64 + 0.5]);
-                let colour = footprint.sample(&mipmaps, centre);
-                result.pixels[row * result.width + column] = stored(colour);
+                let center = inverse.at([column as f64 + 0.5, row as f64 + 0.5]);
+                let color = footprint.sample(&mipmaps, center);
+                result.pixels[row * result.width + column] = stored(color);
             }
         }
     }
@@ -175,12 +175,12 @@ impl Footprint {
         }
     }
 
-    fn sample(&self, mipmaps: &Mipmaps, centre: [f64; 2]) -> Premultiplied {
+    fn sample(&self, mipmaps: &Mipmaps, center: [f64; 2]) -> Premultiplied {
         let n = self.n_samples as f64;
         let mut sum = [0.0; 4];
         for k in 0..self.n_samples {
             let t = (k as f64 + 0.5) / n - 0.5;
-            let at = [0, 1].map(|axis| centre[axis] + t * self.along[axis]);
+            let at = [0, 1].map(|axis| center[axis] + t * self.along[axis]);
             sum = mix(sum, mipmaps.sample(self.level, at), 1.0 / n as f32);
         }
         sum

@@ -31,7 +31,7 @@ pub enum PipelineError {
     #[error(transparent)]
     Document(#[from] DocumentError),
     /// More triangles than the limits allow.
-    #[error("the mesh has {triangles} triangles; {limit} are allowed")]
+    #[error("the mesh has {triangles} triangles; the limit is {limit}")]
     TooManyTriangles {
         /// How many it has.
         triangles: u64,
@@ -39,7 +39,7 @@ pub enum PipelineError {
         limit: u64,
     },
     /// No face has three distinct positions.
-    #[error("the mesh has no triangle")]
+    #[error("the mesh has no triangles")]
     NoTriangles,
     /// The UV set asked for is not there.
     #[error("{group} has no UV set {texcoord}")]
@@ -59,11 +59,11 @@ pub enum PipelineError {
     #[error(transparent)]
     Atlas(#[from] AtlasError),
     /// At the texels per unit asked for the charts do not fit.
-    #[error("the texture is too small for that many texels per unit{0}")]
+    #[error("the texture is too small for this texel density{0}")]
     TextureTooSmall(Enough),
     /// The UVs that were to be written have flips where none were promised: a mistake of this program, found by the certificate.
     #[cfg(feature = "files")]
-    #[error("nothing is written, since it would not be valid: {0}")]
+    #[error("nothing was written because the result is not valid: {0}")]
     NotValid(String),
     /// The UVs cannot be edited.
     #[cfg(feature = "files")]
@@ -81,10 +81,10 @@ pub enum PipelineError {
     #[error("no map without inversion was found")]
     Inverted,
     /// A boundary that may not cross itself does, by rounding.
-    #[error("no map was found whose boundary stays clear of itself")]
+    #[error("no map was found whose boundary does not cross itself")]
     Crossed,
     /// No material has the name or index that a weight was given for.
-    #[error("there is no material {0:?}")]
+    #[error("unknown material {0:?}")]
     UnknownMaterial(String),
     /// The seams given do not fit the mesh.
     #[error("seams: {0}")]

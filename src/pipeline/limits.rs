@@ -1,22 +1,22 @@
-//! What the work on a document may use, whatever its options ask for.
+//! Limits of the work on a document, whatever its options request.
 
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
 use crate::document::Document;
 
-/// Limits set by who runs the work, beside the options of who wants it. What is absent is not limited.
+/// Limits set by the operator, beside the options of the user. Absent limits do not apply.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(default)]
 pub struct Limits {
-    /// Triangles or tetrahedra of the document; one with more is refused.
+    /// Maximum number of triangles or tetrahedra; larger documents are refused.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub triangles: Option<u64>,
-    /// Threads.
+    /// Maximum number of threads.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threads: Option<usize>,
-    /// Seconds after which the current valid map is taken as it is.
+    /// Time limit in seconds. When it is reached, the current valid map becomes the result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
 }

@@ -1,7 +1,7 @@
-//! Plane geometry of many pieces, for those who make maps.
+//! Plane geometry of many pieces, for the makers of maps.
 //!
 //! Which faces of a map overlap, whether its boundary is simple, how near charts come to each
-//! other: who makes UVs asks this in every round, and steers by the answers. Candidates come from a
+//! other: code that makes UVs asks this in every round and steers by the answers. Candidates come from a
 //! [`BoxIndex`], a packed Hilbert R-tree; the answers are exact, but for distances, which are
 //! rounded.
 //!

@@ -13,7 +13,7 @@ pub struct LevenbergSettings {
     pub min_step: f64,
     /// The largest ‖Cx − d‖² that counts as met.
     pub tolerance: f64,
-    /// Targets retreat towards the present positions while the shift is large, equations 10 and 11.
+    /// Targets retreat toward the present positions while the shift is large, equations 10 and 11.
     pub substepping: bool,
     /// α grows so that the constraints keep up with the energy, equations 12 and 13.
     pub alpha_update: bool,

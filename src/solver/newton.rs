@@ -16,8 +16,8 @@ const CONFIRMING: f64 = 0.5;
 /// `x` is flat, the coordinates of a vertex one after another. A start outside the domain is left as it is and reported
 /// as [`Status::Stalled`]. Energy falls with every step. Costs per iteration, far from a minimum, one
 /// factorization, one solve, one assembly and about 1.2 evaluations; near one a fifth of a factorization, two to eleven solves and
-/// products with the Hessian, one assembly and one or two evaluations. No memory is allocated inside the loop, unless a term
-/// [renews](crate::energy::Term::renew) its stencils.
+/// products with the Hessian, one assembly and one or two evaluations. After the first iteration no memory is allocated
+/// (`tests/allocations.rs` counts), except by terms that [renew](crate::energy::Term::renew) their stencils.
 ///
 /// # Panics
 /// If `x` does not hold the coordinates of the objective's vertices.

@@ -50,7 +50,7 @@ impl Database {
         let Ok(Some(missing)) = missing else {
             let (file, known) = (file.display(), STEPS.len());
             return Err(StoreError(format!(
-                "{file} has schema version {version}; this program knows {known}"
+                "{file} has schema version {version}; this program supports {known}"
             )));
         };
         for step in missing {

@@ -21,7 +21,7 @@ ENERGIES = ["symmetric-dirichlet", "arap", "lscm"]
 BOUNDS = {4.05: ["--quality", "smooth"], 4.1: ["--quality", "balanced"], 4.5: ["--quality", "few"]}
 PRICES = ["0", "0.5", "1", "2", "4", "1000"]
 MEASURES = {"charts": "charts", "seam": "seam length / √area", "fill": "share of the square"}
-COLOURS = ["#1f5fa8", "#d9822b", "#3c9a5f", "#7a869a", "#a05195"]
+COLORS = ["#1f5fa8", "#d9822b", "#3c9a5f", "#7a869a", "#a05195"]
 
 
 def series():
@@ -65,8 +65,8 @@ def summarize(sweeps):
 def panels(figure, title, places, lines):
     """Three graphs side by side; `lines` holds values by name and measure, at `places`, which are positions and their names."""
     for axis, (measure, label) in zip(figure.subplots(1, len(MEASURES)), MEASURES.items()):
-        for (name, values), colour in zip(lines.items(), COLOURS):
-            axis.plot(list(places), values[measure], "o-", color=colour, markersize=3.5, label=name if measure == "charts" else None)
+        for (name, values), color in zip(lines.items(), COLORS):
+            axis.plot(list(places), values[measure], "o-", color=color, markersize=3.5, label=name if measure == "charts" else None)
         axis.set_xticks(list(places), places.values())
         axis.set_title(label, fontsize=9)
         axis.grid(alpha=0.25)

@@ -165,7 +165,7 @@ fn handles(body: &Body) -> Vec<Handle> {
     } else {
         [(longest + 1) % 3, (longest + 2) % 3]
     };
-    let centre = |k: usize| {
+    let center = |k: usize| {
         if k == longest {
             high[k]
         } else {
@@ -181,8 +181,8 @@ fn handles(body: &Body) -> Vec<Handle> {
         (along >= 1.0 - HELD).then(|| {
             let mut to = p.to_vec();
             (to[a], to[b]) = (
-                centre(a) - (p[b] - centre(b)),
-                centre(b) + (p[a] - centre(a)),
+                center(a) - (p[b] - center(b)),
+                center(b) + (p[a] - center(a)),
             );
             to[b] += 0.1 * length;
             to

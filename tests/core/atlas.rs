@@ -11,7 +11,7 @@ fn maps(charts: &[Chart]) -> Vec<ChartMap<'_>> {
         .collect()
 }
 
-/// Rings of vertices around a centre; `radius(ring, angle)`, ring 0 is the centre.
+/// Rings of vertices around a center; `radius(ring, angle)`, ring 0 is the center.
 fn disk(rings: usize, sectors: usize, radius: impl Fn(usize, f64) -> f64) -> Chart {
     let mut uv = vec![[0.0; 2]];
     let mut triangles = Vec::new();
@@ -396,7 +396,7 @@ fn needles_thinner_than_a_cell_are_opened() {
 
 #[test]
 fn a_thousand_triangles_within_one_cell_are_opened() {
-    // Twelve rings of 40 within 1e-9 of the centre of a disk of radius 1.
+    // Twelve rings of 40 within 1e-9 of the center of a disk of radius 1.
     let radius = |ring: usize, _| {
         if ring <= 12 {
             1e-10 * ring as f64

@@ -58,8 +58,8 @@ fn image(width: usize, height: usize, texel: impl Fn(usize, usize) -> [u8; 4]) -
     image
 }
 
-/// Each texel another colour.
-fn colourful(side: usize) -> Image {
+/// Each texel another color.
+fn colorful(side: usize) -> Image {
     image(side, side, |x, y| {
         [
             (17 * x + 40 * y) as u8,
@@ -72,8 +72,8 @@ fn colourful(side: usize) -> Image {
 
 #[test]
 fn the_same_map_and_size_give_the_same_texels() {
-    let source = colourful(32);
-    for encoding in [Encoding::Colour, Encoding::Data] {
+    let source = colorful(32);
+    for encoding in [Encoding::Color, Encoding::Data] {
         let texture = texture(&source, encoding, Wrap::Clamp);
         let result = resampled(texture, &unit_square(), &unit_square(), 32);
         assert_eq!(result, source);
@@ -82,7 +82,7 @@ fn the_same_map_and_size_give_the_same_texels() {
 
 #[test]
 fn a_quarter_turn_turns_the_texels() {
-    let source = colourful(16);
+    let source = colorful(16);
     let [a, b, c, d] = corners([0.0; 2], [1.0; 2]);
     let turned = rectangle([b, c, d, a]);
     let texture = texture(&source, Encoding::Data, Wrap::Clamp);
@@ -145,7 +145,7 @@ fn what_gets_smaller_is_averaged_in_linear_light() {
         let value = 255 * ((x + y) % 2) as u8;
         [value, value, value, 255]
     });
-    for (encoding, wanted) in [(Encoding::Colour, 188), (Encoding::Data, 128)] {
+    for (encoding, wanted) in [(Encoding::Color, 188), (Encoding::Data, 128)] {
         let texture = texture(&source, encoding, Wrap::Clamp);
         let result = resampled(texture, &unit_square(), &unit_square(), 16);
         for texel in &result.pixels {
@@ -154,7 +154,7 @@ fn what_gets_smaller_is_averaged_in_linear_light() {
     }
 }
 
-/// A grey of many repeats, each of which is smaller than a texel.
+/// A gray of many repeats, each of which is smaller than a texel.
 #[test]
 fn what_repeats_often_is_averaged_too() {
     let source = image(64, 64, |x, y| {
@@ -162,7 +162,7 @@ fn what_repeats_often_is_averaged_too() {
         [value, value, value, 255]
     });
     let from = rectangle(corners([0.0; 2], [40.0; 2]));
-    let texture = texture(&source, Encoding::Colour, Wrap::Repeat);
+    let texture = texture(&source, Encoding::Color, Wrap::Repeat);
     let result = resampled(texture, &from, &unit_square(), 16);
     for texel in &result.pixels {
         assert!((i32::from(texel[0]) - 188).abs() <= 2, "{texel:?}");
@@ -170,7 +170,7 @@ fn what_repeats_often_is_averaged_too() {
 }
 
 #[test]
-fn a_border_does_not_bleed_and_its_colour_goes_on() {
+fn a_border_does_not_bleed_and_its_color_goes_on() {
     // The left half of the source is red, the right half green; the chart has the red one and is shrunk eightfold.
     let source = image(256, 256, |x, _| {
         if x < 128 {
@@ -181,13 +181,13 @@ fn a_border_does_not_bleed_and_its_colour_goes_on() {
     });
     let from = rectangle(corners([0.0, 0.0], [0.498, 1.0]));
     let to = rectangle(corners([0.3, 0.3], [0.5, 0.7]));
-    let texture = texture(&source, Encoding::Colour, Wrap::Clamp);
+    let texture = texture(&source, Encoding::Color, Wrap::Clamp);
     let result = resampled(texture, &from, &to, 64);
     assert!(result.pixels.iter().all(|texel| *texel == [255, 0, 0, 255]));
 }
 
 #[test]
-fn a_face_without_a_source_takes_the_colours_around() {
+fn a_face_without_a_source_takes_the_colors_around() {
     let source = image(8, 8, |_, _| [7, 8, 9, 255]);
     let from = [unit_square(), unit_square()].concat();
     let to = [
@@ -259,8 +259,8 @@ fn directions_turn_with_the_tangents() {
 /// In a quarter of the square a texture has to be twice as wide to show as much, and powers of two are wanted.
 #[test]
 fn a_texture_has_as_many_texels_as_before() {
-    let source = colourful(300);
-    let texture = texture(&source, Encoding::Colour, Wrap::Clamp);
+    let source = colorful(300);
+    let texture = texture(&source, Encoding::Color, Wrap::Clamp);
     let plane = plane(texture, &unit_square());
     assert_eq!(side_for(&plane, &unit_square()), 512);
     let quarter = rectangle(corners([0.0, 0.0], [0.5, 0.5]));
@@ -271,7 +271,7 @@ fn a_texture_has_as_many_texels_as_before() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_picture() {
-    let source = colourful(50);
+    let source = colorful(50);
     let ring: Vec<Corners> = (0..200)
         .map(|k| {
             let at = |k: f64, radius: f64| {
@@ -287,7 +287,7 @@ fn any_number_of_threads_gives_the_same_picture() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("a pool").install(|| {
             resampled(
-                texture(&source, Encoding::Colour, Wrap::Mirror),
+                texture(&source, Encoding::Color, Wrap::Mirror),
                 &from,
                 &ring,
                 150,

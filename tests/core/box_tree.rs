@@ -84,19 +84,19 @@ fn the_closest_pair_is_of_two_groups() {
     let boxes = scattered_boxes(300);
     for n_groups in [1, 2, 7] {
         let groups: Vec<u32> = (0..300).map(|i| i / 10 % n_groups).collect();
-        let centre_distance = |i: u32, j: u32| {
-            let centre = |k: u32, axis: usize| {
+        let center_distance = |i: u32, j: u32| {
+            let center = |k: u32, axis: usize| {
                 0.5 * (boxes[k as usize][0][axis] + boxes[k as usize][1][axis])
             };
-            (centre(i, 0) - centre(j, 0)).hypot(centre(i, 1) - centre(j, 1))
+            (center(i, 0) - center(j, 0)).hypot(center(i, 1) - center(j, 1))
         };
         let mut expected = f64::INFINITY;
         for i in 0..300 {
             for j in (0..i).filter(|&j| groups[j as usize] != groups[i as usize]) {
-                expected = expected.min(centre_distance(i, j));
+                expected = expected.min(center_distance(i, j));
             }
         }
-        let found = BoxTree::new(&boxes).closest(&groups, 1_000_000, centre_distance);
+        let found = BoxTree::new(&boxes).closest(&groups, 1_000_000, center_distance);
         assert_eq!(found, (expected, Visit::Complete));
     }
 }

@@ -219,26 +219,26 @@ fn a_split_surface_stays_closed_and_follows_the_cage() {
         }
     }
 
-    // On a piece the map is linear, but for vertices that count as on a plane: the centre goes to the centre.
+    // On a piece the map is linear, but for vertices that count as on a plane: the center goes to the center.
     let moved: Vec<[f64; 3]> = cage
         .mesh()
         .vertices()
         .iter()
         .map(|&p| twisted(p, 0.3))
         .collect();
-    let centre = |positions: &[[f64; 3]], t: &[u32; 3]| {
+    let center = |positions: &[[f64; 3]], t: &[u32; 3]| {
         [0, 1, 2].map(|x| t.iter().map(|&v| positions[v as usize][x]).sum::<f64>() / 3.0)
     };
     let embedding = cage.embed(&split.positions).expect("inside");
     let carried = cage.interpolate(&embedding, &moved);
-    let centres: Vec<_> = split
+    let centers: Vec<_> = split
         .triangles
         .iter()
-        .map(|t| centre(&split.positions, t))
+        .map(|t| center(&split.positions, t))
         .collect();
-    let expected = cage.interpolate(&cage.embed(&centres).expect("inside"), &moved);
+    let expected = cage.interpolate(&cage.embed(&centers).expect("inside"), &moved);
     for (t, expected) in split.triangles.iter().zip(expected) {
-        assert!(norm(sub(centre(&carried, t), expected)) < 1e-5 * cage.voxel_side());
+        assert!(norm(sub(center(&carried, t), expected)) < 1e-5 * cage.voxel_side());
     }
     assert_eq!(crossings(&carried, &split.triangles).pairs, 0);
 }

@@ -199,7 +199,7 @@ fn a_bar_twists_by_half_a_turn_in_one_jump() {
     assert!(planar.solve(&Settings::follow(), &go_on).is_err());
 }
 
-/// The turns of a map of a [`bar`] about its axis: the rotations between neighbouring layers, each less than half a turn.
+/// The turns of a map of a [`bar`] about its axis: the rotations between neighboring layers, each less than half a turn.
 fn turns(x: &[f64]) -> f64 {
     let layers = x.as_chunks::<3>().0.as_chunks::<4>().0;
     let diagonal = |layer: &[[f64; 3]; 4]| {
@@ -308,7 +308,7 @@ fn an_arap_map_scales_with_the_unit() {
 
 #[test]
 fn targets_out_of_reach_end_in_a_valid_map() {
-    // Three neighbours in a row are to come to one line: their triangles would be empty.
+    // Three neighbors in a row are to come to one line: their triangles would be empty.
     let body = Body::from(&strip(4, 1.0));
     let targets = vec![0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0, 0.25];
     let problem = problem(

@@ -46,13 +46,13 @@ fn charts(mesh: &Mesh, made: &Unwrapped) -> Vec<u32> {
     chart_ids(&positions(mesh), &mesh.triangles, &made.corner_uvs())
 }
 
-/// A label for each face by where its centre lies.
+/// A label for each face by where its center lies.
 fn labels(mesh: &Mesh, label: impl Fn([f32; 3]) -> u32) -> Vec<u32> {
-    let centre = |t: &[u32; 3]| {
+    let center = |t: &[u32; 3]| {
         let corners = t.map(|v| mesh.positions[v as usize]);
         [0, 1, 2].map(|k| corners.iter().map(|p| p[k]).sum::<f32>() / 3.0)
     };
-    mesh.triangles.iter().map(|t| label(centre(t))).collect()
+    mesh.triangles.iter().map(|t| label(center(t))).collect()
 }
 
 /// UVs that are x and y, those of faces with other labels shifted.
@@ -246,7 +246,7 @@ fn a_number_of_charts_loosens_the_bound() {
     assert_eq!(one, 1, "of {free}");
 }
 
-/// A saddle whose angle at the centre is 2.4° more than a full turn.
+/// A saddle whose angle at the center is 2.4° more than a full turn.
 fn saddle(n_rays: u32, n_rings: u32) -> Mesh {
     let at = |ring: u32, ray: u32| {
         let (sin, cos) = (std::f32::consts::TAU * ray as f32 / n_rays as f32).sin_cos();
@@ -276,7 +276,7 @@ fn saddle(n_rays: u32, n_rings: u32) -> Mesh {
 
 #[test]
 fn the_sides_of_a_slit_are_pushed_apart() {
-    // Slit to the centre, an isometric map would overlap itself by 2.4°: a sliver that is no chart of its own.
+    // Slit to the center, an isometric map would overlap itself by 2.4°: a sliver that is no chart of its own.
     let (n_rays, n_rings) = (48, 16);
     let ray = (0..n_rings).map(|ring| match ring {
         0 => [0, 1],

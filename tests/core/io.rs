@@ -49,7 +49,7 @@ const PLY_TEXT: &str = "ply\r\nformat ascii 1.0\r\nelement face 1\r\nproperty li
     element vertex 4\r\nproperty float x\r\nproperty float y\r\nproperty float z\r\nproperty float nx\r\nend_header\r\n\
     4 0 1 2 3\r\n0.5 0 0 nan\r\n1. .0 -2 0\r\n1 1 3e0 0\r\n-0 1 0 0\r\n";
 
-const OFF_TEXT: &str = "COFF # colours\n\n4 1 0\n0.5 0 0 255 0 0 255\n1 0 -2 0 0 0 0\n# between\n1 1 3 0 0 0 0\n\
+const OFF_TEXT: &str = "COFF # colors\n\n4 1 0\n0.5 0 0 255 0 0 255\n1 0 -2 0 0 0 0\n# between\n1 1 3 0 0 0 0\n\
     -0.0 1 0 0 0 0 0\n4 0 1 2 3 0.5 0.5 0.5\n";
 
 const STL_TEXT: &str = "solid\nfacet normal nan nan nan\n outer loop\n  vertex 0.5 0 0\n  vertex 1 0 -2\n  vertex 1 1 3\n endloop\n\

@@ -50,7 +50,7 @@ fn the_identity_is_ideal() {
 }
 
 #[test]
-fn every_texel_centre_is_covered_once() {
+fn every_texel_center_is_covered_once() {
     for n in [1, 3, 7, 64] {
         let packing = UvMesh::grid(n)
             .measure_with(VAxis::Up, MeasureOptions::default())

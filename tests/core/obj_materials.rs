@@ -1,4 +1,4 @@
-//! Materials, names and colours between OBJ, PLY and glTF, and what is said of those that cannot be carried.
+//! Materials, names and colors between OBJ, PLY and glTF, and what is said of those that cannot be carried.
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use unwrapd::document::{
@@ -8,7 +8,7 @@ use unwrapd::mesh::VAxis;
 
 use crate::places;
 
-/// The beginning of a PNG with this type of colour: 2 is RGB, 0 gray.
+/// The beginning of a PNG with this type of color: 2 is RGB, 0 gray.
 fn png(color: u8) -> Vec<u8> {
     let mut bytes = vec![0x89, b'P', b'N', b'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13];
     bytes.extend(b"IHDR\0\0\0\x01\0\0\0\x01\x08");
@@ -251,7 +251,7 @@ fn files_are_found_in_two_steps_and_never_outside() {
 }
 
 #[test]
-fn colours_of_vertices_come_back() {
+fn colors_of_vertices_come_back() {
     let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n\
         property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\n\
         end_header\n";

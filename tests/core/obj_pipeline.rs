@@ -100,7 +100,7 @@ fn seams_keep_the_numbers_of_the_file() {
         ..Options::default()
     };
     let error = unwrap_document(&cube(), &beyond, &Unobserved).unwrap_err();
-    assert!(error.to_string().contains("vertex 8 is named"), "{error}");
+    assert!(error.to_string().contains("names vertex 8"), "{error}");
 }
 
 #[test]

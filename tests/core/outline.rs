@@ -8,7 +8,7 @@ use unwrapd::deform::outline::{
 use unwrapd::mesh::PlanarMesh;
 use unwrapd::picture::{Image, ImageError};
 
-/// A picture whose alpha is a function of the pixel centre.
+/// A picture whose alpha is a function of the pixel center.
 fn picture(width: usize, height: usize, alpha: impl Fn(f64, f64) -> f64) -> Image {
     let mut image = Image::transparent(width, height);
     for (k, pixel) in image.pixels.iter_mut().enumerate() {

@@ -18,7 +18,7 @@ fn decode(png: &[u8]) -> RgbImage {
     image::load_from_memory(png).unwrap().into_rgb8()
 }
 
-/// The colour at a place given in parts of the width, from the upper left corner.
+/// The color at a place given in parts of the width, from the upper left corner.
 fn at(picture: &RgbImage, x: f64, y: f64) -> [u8; 3] {
     let side = f64::from(picture.width());
     picture.get_pixel((x * side) as u32, (y * side) as u32).0
@@ -54,7 +54,7 @@ fn is_reddish([r, g, b]: [u8; 3]) -> bool {
 }
 
 #[test]
-fn a_face_has_the_colour_of_its_chart_where_the_texture_has_it() {
+fn a_face_has_the_color_of_its_chart_where_the_texture_has_it() {
     let uvs = two_charts();
     let panel = Panel {
         name: "scene",
@@ -107,13 +107,13 @@ fn flipped_faces_are_yellow() {
 #[test]
 fn overlaps_are_red_and_common_edges_are_not() {
     // A fan around a point that is on no sample, all round.
-    let centre = [0.512_345, 0.487_654];
+    let center = [0.512_345, 0.487_654];
     let rim = |k: usize| {
         let angle = std::f64::consts::TAU * k as f64 / 97.0;
         [0.5 + 0.49 * angle.cos(), 0.5 + 0.49 * angle.sin()]
     };
     let mut uvs: Vec<CornerUvs> = (0..97)
-        .map(|k| [centre, rim(k), rim((k + 1) % 97)])
+        .map(|k| [center, rim(k), rim((k + 1) % 97)])
         .collect();
     let charts = vec![3; 98];
     let distortion = vec![face(1.0, false); 98];
@@ -164,7 +164,7 @@ fn heat_grows_darker_with_distortion() {
         assert_eq!(
             at(&picture, 0.65, 0.15),
             [176; 3],
-            "a face without a value is grey"
+            "a face without a value is gray"
         );
         let legend = picture.rows().skip(512).flatten();
         assert!(

@@ -15,7 +15,7 @@ fn go_on(_: &Iterate) -> Control {
     Control::Continue
 }
 
-/// A picture whose colour tells the place.
+/// A picture whose color tells the place.
 fn ramp(width: usize, height: usize) -> Image {
     let mut image = Image::transparent(width, height);
     for (k, pixel) in image.pixels.iter_mut().enumerate() {
@@ -33,7 +33,7 @@ fn options(grid: usize, boundary: Boundary) -> WarpOptions {
     }
 }
 
-/// The exact judgement, made here of the numbers that came out.
+/// The exact judgment, made here of the numbers that came out.
 #[track_caller]
 fn assert_bijective(warp: &PictureWarp, context: &str) {
     let certificate = certify_planar(&warp.deformed, warp.grid.triangles());

@@ -224,7 +224,7 @@ fn charts_are_counted_once_they_are_known_and_none_is_slit_when_the_time_is_up()
 }
 
 #[test]
-fn repeated_faces_lie_on_an_edge_of_a_neighbour() {
+fn repeated_faces_lie_on_an_edge_of_a_neighbor() {
     let mut mesh = zoo::grid(4, 4);
     mesh.triangles.push([0, 0, 1]);
     mesh.triangles.push([2, 2, 2]);

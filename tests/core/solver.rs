@@ -209,11 +209,11 @@ fn the_largest_step_is_where_the_first_triangle_collapses() {
         BarrierKind::None,
     );
     let x: Vec<f64> = grid.positions.iter().flatten().copied().collect();
-    // One inner vertex moves to the right, over its neighbour at distance 1: the area is linear in the step.
+    // One inner vertex moves to the right, over its neighbor at distance 1: the area is linear in the step.
     let mut d = vec![0.0; x.len()];
     d[2 * 5] = 4.0;
     assert!((objective.largest_step(&x, &d) - 0.25).abs() < 1e-15);
-    // All shrink towards the origin: a double root at 1.
+    // All shrink toward the origin: a double root at 1.
     let inward: Vec<f64> = x.iter().map(|x| -x).collect();
     assert!((objective.largest_step(&x, &inward) - 1.0).abs() < 1e-7);
     let outward = x.clone();

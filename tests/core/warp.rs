@@ -4,7 +4,7 @@ use unwrapd::deform::warp::{GridError, picture_grid};
 use unwrapd::mesh::PlanarMesh;
 use unwrapd::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
 
-/// A picture whose colour tells the place.
+/// A picture whose color tells the place.
 fn ramp(width: usize, height: usize) -> Image {
     let mut image = Image::transparent(width, height);
     for (k, pixel) in image.pixels.iter_mut().enumerate() {
@@ -68,7 +68,7 @@ fn the_identity_gives_the_same_pixels() {
         let same = warp(&image, &mesh, |p| p, extent).expect("a picture");
         assert_eq!(same.origin, [0, 0]);
         for (k, (a, b)) in same.image.pixels.iter().zip(&image.pixels).enumerate() {
-            // Without alpha there is no colour.
+            // Without alpha there is no color.
             let expected = if b[3] == 0 { [0; 4] } else { *b };
             assert!(
                 (0..4).all(|c| a[c].abs_diff(expected[c]) <= 1),
@@ -123,7 +123,7 @@ fn places_go_where_the_map_takes_them() {
             assert_eq!(shown[3], 255);
         }
     }
-    // A pixel is 1.3 steps of colour; the map is linear on cells of 5 pixels only.
+    // A pixel is 1.3 steps of color; the map is linear on cells of 5 pixels only.
     assert!(worst < 3.0, "{worst}");
 }
 
@@ -150,15 +150,15 @@ fn what_shrinks_is_averaged() {
         let small = small.expect("a picture").image;
         for y in 2..small.height - 2 {
             for x in 2..small.width - 2 {
-                let grey = pixel(&small, x, y)[0];
-                assert!((85..170).contains(&grey), "{scale:?}: {grey} at {x}, {y}");
+                let gray = pixel(&small, x, y)[0];
+                assert!((85..170).contains(&gray), "{scale:?}: {gray} at {x}, {y}");
             }
         }
     }
 }
 
 #[test]
-fn transparent_pixels_lend_no_colour() {
+fn transparent_pixels_lend_no_color() {
     // An opaque red half beside a transparent green one.
     let mut image = Image::transparent(64, 64);
     for (k, pixel) in image.pixels.iter_mut().enumerate() {

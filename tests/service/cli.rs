@@ -78,7 +78,10 @@ fn where_uvs_went_is_said_and_judged() {
         let run = unwrapd(&["verify", output, "--bijective"]);
         assert_status(&run, 0);
         let said = String::from_utf8_lossy(&run.stdout).into_owned();
-        assert!(said.starts_with("judged as the file says: "), "{said}");
+        assert!(
+            said.starts_with("judged by the record in the file: "),
+            "{said}"
+        );
         assert!(said.contains("2 texels apart at 1024"), "{said}");
         assert_status(&unwrapd(&["measure", output]), 0);
     }

@@ -107,22 +107,22 @@ fn other_commands_refuse_what_would_do_nothing_as_well() {
         unwrapd(&[&arguments[..], options].concat())
     };
     for (options, words) in [
-        (&["--split"][..], "--split goes with --cage"),
+        (&["--split"][..], "--split requires --cage"),
         (
             &["--cage", "4", "--triangles", "7"],
-            "--triangles fill an outline",
+            "--triangles applies to outlines",
         ),
         (
             &["--barrier", "log", "--s", "2"],
-            "--s goes with --barrier inverse-spline",
+            "--s requires --barrier inverse-spline",
         ),
         (
             &["--barrier", "none", "--beta", "2"],
-            "--beta goes with a --barrier",
+            "--beta requires a --barrier",
         ),
         (
             &["--barrier", "none", "--barrier-continuation"],
-            "--barrier-continuation goes with a --barrier",
+            "--barrier-continuation requires a --barrier",
         ),
     ] {
         let output = deform(options);
@@ -163,9 +163,12 @@ fn pairs_that_are_no_edges_are_named() {
     for (pairs, words) in [
         (
             "[[0, 2], [1, 3], [0, 0]]",
-            "2 of 3 pairs of vertices are not joined by an edge, the first is [1, 3]",
+            "2 of 3 vertex pairs are not joined by an edge; the first is [1, 3]",
         ),
-        ("[[0, 9]]", "vertex 9 is named, but there are only 4"),
+        (
+            "[[0, 9]]",
+            "a pair names vertex 9, but there are only 4 vertices",
+        ),
     ] {
         let output = seamed(pairs);
         assert_status(&output, 3);
@@ -186,7 +189,7 @@ fn messages_are_about_what_was_typed() {
         ),
         (
             &["--mips", "12"],
-            "--mips 12 makes of --padding 2 8192 texels of --resolution 1024, which allows 128",
+            "--mips 12 turns --padding 2 into 8192 texels at --resolution 1024, which allows 128",
         ),
         (
             &["--padding", "129"],
@@ -194,7 +197,7 @@ fn messages_are_about_what_was_typed() {
         ),
         (
             &["--preset", "lightmap", "--padding", "40"],
-            "--mips 2 makes of --padding 40 160 texels",
+            "--mips 2 turns --padding 40 into 160 texels",
         ),
         (
             &["--max-stretch", "-2"],

@@ -48,10 +48,10 @@ fn what_cannot_be_written_is_found_before_the_work() {
     // There is no such input: whoever reads it first fails with status 3.
     let input = path("absent.glb");
     for (output, words) in [
-        (path("none/out.glb"), "there is no folder"),
-        (path("none/deeper/out.glb"), "there is no folder"),
-        (path("file/out.glb"), "there is no folder"),
-        (path("folder.glb"), "it is a folder"),
+        (path("none/out.glb"), "does not exist"),
+        (path("none/deeper/out.glb"), "does not exist"),
+        (path("file/out.glb"), "does not exist"),
+        (path("folder.glb"), "it is a directory"),
         ("/proc/out.glb".to_owned(), "cannot write /proc/out.glb"),
     ] {
         assert_refused(&["unwrap", &input, "-o", &output], 1, words);
@@ -60,13 +60,13 @@ fn what_cannot_be_written_is_found_before_the_work() {
     let (output, beside) = (path("out.glb"), path("none/r.json"));
     for option in ["--report", "--layout", "--heatmap"] {
         let arguments = ["unwrap", &input, "-o", &output, option, &beside];
-        assert_refused(&arguments, 1, "there is no folder");
+        assert_refused(&arguments, 1, "does not exist");
     }
     let frames = path("none/frames");
     let handles = path("absent.json");
     let arguments = ["deform", &input, "--handles", &handles, "-o", &output];
     let with_frames = [&arguments[..], &["--frames", &frames]].concat();
-    assert_refused(&with_frames, 1, "cannot make");
+    assert_refused(&with_frames, 1, "cannot create");
     let picture = path("out.jpg");
     let arguments = ["warp", &input, "--handles", &handles, "-o", &picture];
     assert_refused(&arguments, 2, ".png");
@@ -111,7 +111,7 @@ fn two_results_are_two_files() {
     let (input, output) = (path("in.glb"), path("out.glb"));
     let dotted = path("./out.glb");
     let arguments = ["unwrap", &input, "-o", &output, "--report", &dotted];
-    assert_refused(&arguments, 2, "one file");
+    assert_refused(&arguments, 2, "same file");
 }
 
 #[test]

@@ -116,7 +116,7 @@ fn streams_that_make_no_sense_are_refused() {
     );
     refused(
         &["unwrap", "-", "-o", "a.glb", "--format", "obj"],
-        "at odds",
+        "contradicts",
     );
     refused(
         &[

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 
 def picture(side):
-    """A PNG of one colour."""
+    """A PNG of one color."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = zlib.compress((b"\0" + b"\xff\0\0\xff" * side) * side)

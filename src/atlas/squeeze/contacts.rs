@@ -73,8 +73,8 @@ impl Scene<'_> {
         let mut lookups = 0;
         for run in &body.runs {
             lookups += 1;
-            let centre = poses[1].back(poses[0].place(run.centre));
-            if other.field.at_least(centre) > run.radius + room {
+            let center = poses[1].back(poses[0].place(run.center));
+            if other.field.at_least(center) > run.radius + room {
                 continue;
             }
             lookups += RUN as u64;
@@ -98,8 +98,8 @@ impl Scene<'_> {
         let (body, other) = (&self.bodies[a], &self.bodies[b]);
         self.work += WORDS_PER_LOOKUP * body.runs.len() as u64;
         let depth = |run: &Run| {
-            let centre = poses[1].back(poses[0].place(run.centre));
-            (self.room - other.field.at(centre).0).max(0.0)
+            let center = poses[1].back(poses[0].place(run.center));
+            (self.room - other.field.at(center).0).max(0.0)
         };
         let sum: f64 = body.runs.iter().map(|run| depth(run).powi(2)).sum();
         RUN as f64 * sum
@@ -121,7 +121,7 @@ impl Scene<'_> {
         }
         self.work += WORDS_PER_LOOKUP * body.runs.len() as u64;
         for run in &body.runs {
-            if is_within(pose.place(run.centre), run.radius) {
+            if is_within(pose.place(run.center), run.radius) {
                 continue;
             }
             for point in run.points.map(|p| pose.place(p)) {

@@ -12,7 +12,7 @@ pub(super) const RUN: usize = 8;
 /// Some points that follow each other, within a circle.
 pub(super) struct Run {
     pub points: [[f64; 2]; RUN],
-    pub centre: [f64; 2],
+    pub center: [f64; 2],
     pub radius: f64,
 }
 
@@ -32,13 +32,13 @@ pub(super) fn runs(edges: &[[[f64; 2]; 2]], is_wanted: impl Fn([f64; 2]) -> bool
 impl Run {
     fn of(some: &[[f64; 2]]) -> Self {
         let points = std::array::from_fn(|k| some[k.min(some.len() - 1)]);
-        let centre =
+        let center =
             [0, 1].map(|k| points.iter().map(|p: &[f64; 2]| p[k]).sum::<f64>() / RUN as f64);
-        let reach = |p: &[f64; 2]| (p[0] - centre[0]).hypot(p[1] - centre[1]);
+        let reach = |p: &[f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
         Self {
             radius: points.iter().map(reach).fold(0.0, f64::max),
             points,
-            centre,
+            center,
         }
     }
 }

@@ -189,7 +189,7 @@ impl Raster {
         [node % self.size[0], node / self.size[0]]
     }
 
-    /// For each node that is not known the known one from which it is nearest, by way of its neighbours.
+    /// For each node that is not known the known one from which it is nearest, by way of its neighbors.
     ///
     /// From: Danielsson 1980, Euclidean Distance Mapping.
     fn spread(&self, from: &mut [u32], by: impl Fn(usize, u32) -> f64) {

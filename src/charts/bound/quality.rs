@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum Quality {
-    /// At most 4.05.
+    /// Mean energy of at most 4.05.
     Smooth,
-    /// At most 4.1.
+    /// Mean energy of at most 4.1.
     #[default]
     Balanced,
-    /// At most 4.5: few charts, visibly distorted.
+    /// Mean energy of at most 4.5: few charts, visibly distorted.
     Few,
 }
 

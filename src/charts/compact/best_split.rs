@@ -229,7 +229,7 @@ impl<'a> Splitter<'a> {
         doubled_area(a, b, c) / 2.0
     }
 
-    /// How far a face's centre lies in a direction.
+    /// How far a face's center lies in a direction.
     fn reach(&self, face: u32, direction: [f64; 2]) -> f64 {
         let corners = self.corners(face as usize);
         corners.iter().map(|&p| dot(p, direction)).sum::<f64>() / 3.0

@@ -13,7 +13,7 @@ const STOPS: usize = 24;
 /// A straight chord of a map and the piece it cuts off.
 #[derive(Clone, Debug)]
 pub struct Chord {
-    /// Direction from the rest of the map towards the piece.
+    /// Direction from the rest of the map toward the piece.
     pub direction: [f64; 2],
     /// What lies farther than this in that direction is beyond the line.
     pub offset: f64,

@@ -14,7 +14,7 @@ const CELLS: f64 = 48.0;
 pub struct Clusters {
     /// For each face its cluster.
     pub of_face: Vec<u32>,
-    /// For each cluster the area it covers, the mean of its faces' centres, and its extent.
+    /// For each cluster the area it covers, the mean of its faces' centers, and its extent.
     pub area: Vec<f64>,
     pub centre: Vec<[f64; 2]>,
     pub support: Vec<Support>,

@@ -1,4 +1,4 @@
-//! Nearly flat facets: the atoms of which charts are merged.
+//! Nearly flat facets: the pieces that merge into charts.
 
 use crate::mesh::{CUT, Surface};
 use crate::numerics::vec3::{area_vector, dot, unit};

@@ -60,7 +60,7 @@ pub fn regions(surface: &Surface) -> (Vec<u32>, usize) {
     connected(&region, &across)
 }
 
-/// The connected parts of labelled triangles.
+/// The connected parts of labeled triangles.
 fn connected(region: &[u32], across: &[u32]) -> (Vec<u32>, usize) {
     let mut parts = UnionFind::new(region.len());
     for (h, &t) in across.iter().enumerate().filter(|(_, t)| **t != CUT) {

@@ -1,4 +1,4 @@
-//! Slight folds pushed apart.
+//! Pushes slight folds of a map apart.
 
 use super::contact::Contacts;
 use super::local_minimum::Local;
@@ -10,18 +10,19 @@ use crate::mesh::{CUT, UnionFind};
 use crate::solver::Watch;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A push helps that leaves no more than this share of the pairs; so many may not.
+/// A push helps if it leaves at most this share of the overlapping pairs.
 const HELPS: f64 = 0.9;
+/// A fold is given up after this many pushes that do not help.
 const IN_VAIN: usize = 3;
 
-/// Folds at most that are pushed apart: a chart with more is torn anyway.
+/// The most folds to push apart: a chart with more is cut anyway.
 const MOST_FOLDS: usize = 24;
 
 /// How deep a vertex may lie in other faces to be pushed out, as a share of the square root of the chart's area.
 const DEEPEST: f64 = 0.03;
 
-/// A map without flips that overlaps itself where these pairs of faces do, with the folds pushed apart that are slight; and which
-/// pairs of faces still overlap.
+/// Pushes the slight folds apart of a map without flips that overlaps itself at these pairs of faces.
+/// Returns the map and the pairs that still overlap.
 ///
 /// Most folds are slivers along slits, where a surface bends like a saddle and the sides of a slit would pass each other. They need
 /// little room, and a seam around each would make a chart of it. The energy with soft constraints is minimized in the surroundings

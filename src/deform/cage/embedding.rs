@@ -72,11 +72,11 @@ impl Cage {
         while !front.is_empty() {
             let mut next = Vec::new();
             for cell in front {
-                for neighbour in self.grid.neighbours(self.grid.place(cell)) {
-                    let neighbour = self.grid.cell(neighbour);
-                    if near[neighbour] == ABSENT {
-                        near[neighbour] = near[cell as usize];
-                        next.push(neighbour as u32);
+                for neighbor in self.grid.neighbors(self.grid.place(cell)) {
+                    let neighbor = self.grid.cell(neighbor);
+                    if near[neighbor] == ABSENT {
+                        near[neighbor] = near[cell as usize];
+                        next.push(neighbor as u32);
                     }
                 }
             }

@@ -12,7 +12,7 @@ pub enum CageError {
         error: ElementError,
     },
     /// There is no surface, or it has no extent.
-    #[error("there is nothing to put a cage around")]
+    #[error("there is no surface to put a cage around")]
     Empty,
     /// The number of voxels is zero or too large.
     #[error("the cage would need more than {0}")]

@@ -104,7 +104,7 @@ impl Grid {
     }
 
     /// The voxels that share a face with one.
-    pub fn neighbours(&self, at: [usize; 3]) -> impl Iterator<Item = [usize; 3]> + use<> {
+    pub fn neighbors(&self, at: [usize; 3]) -> impl Iterator<Item = [usize; 3]> + use<> {
         let counts = self.counts;
         (0..6).filter_map(move |side| {
             let (axis, mut next) = (side / 2, at);

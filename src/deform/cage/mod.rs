@@ -2,7 +2,7 @@
 //!
 //! A grid of voxels is laid around the surfaces; the voxels that a surface touches, or that no way
 //! from outside reaches, are cut into six tetrahedra each, the same way everywhere, so that
-//! neighbours match. A deformed cage maps every point inside piecewise linearly: [`Embedding`]
+//! neighbors match. A deformed cage maps every point inside piecewise linearly: [`Embedding`]
 //! carries vertices, normals and tangents, [`Cage::split`] cuts the triangles where the map has its
 //! creases, so that the surface follows it exactly. A cage without inverted tetrahedra then never
 //! folds the surface locally; it may pass through itself.

@@ -42,7 +42,7 @@ pub struct SplitSurface {
 impl Cage {
     /// Cuts the triangles so that each piece lies in one tetrahedron.
     ///
-    /// Neighbours stay neighbours: pieces share the vertices on a common edge, and where two edges have equal ends without being
+    /// Neighbors stay neighbors: pieces share the vertices on a common edge, and where two edges have equal ends without being
     /// one, as on seams, their vertices are at equal positions.
     pub fn split(&self, surface: &CagedSurface) -> Result<SplitSurface, CageError> {
         validate(surface.positions, surface.triangles, "triangles")

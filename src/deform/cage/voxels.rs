@@ -74,11 +74,11 @@ impl<'a> Voxels<'a> {
         let mut open = vec![[0_usize; 3]];
         self.state[0] = Voxel::Outside;
         while let Some(at) = open.pop() {
-            for neighbour in self.grid.neighbours(at) {
-                let state = &mut self.state[self.grid.cell(neighbour)];
+            for neighbor in self.grid.neighbors(at) {
+                let state = &mut self.state[self.grid.cell(neighbor)];
                 if *state == Voxel::Unreached {
                     *state = Voxel::Outside;
-                    open.push(neighbour);
+                    open.push(neighbor);
                 }
             }
         }
@@ -90,9 +90,9 @@ impl<'a> Voxels<'a> {
 ///
 /// True also where rounding leaves it in doubt, and for triangles without area where their line meets the box.
 fn overlaps(triangle: &[[f64; 3]; 3], [low, high]: &Bounds<3>) -> bool {
-    let centre = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
+    let center = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
     let half = [0, 1, 2].map(|k| 0.5 * (high[k] - low[k]));
-    let corners = triangle.map(|p| sub(p, centre));
+    let corners = triangle.map(|p| sub(p, center));
     let separates = |axis: [f64; 3]| {
         let reach = half[0] * axis[0].abs() + half[1] * axis[1].abs() + half[2] * axis[2].abs();
         let [a, b, c] = corners.map(|p| dot(axis, p));

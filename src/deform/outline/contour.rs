@@ -29,7 +29,7 @@ impl Default for ImageSettings {
 
 /// The outline of the pixels that are opaque enough, in pixels, (0, 0) the picture's upper left corner.
 ///
-/// Follows the contour of the alpha between pixel centres (marching squares with interpolation), so that anti-aliased edges are
+/// Follows the contour of the alpha between pixel centers (marching squares with interpolation), so that anti-aliased edges are
 /// met to a fraction of a pixel; what lies outside of the picture is transparent. Where the tolerance would make the outline cross
 /// itself, a smaller one is taken.
 pub fn of_image(image: &Image, settings: &ImageSettings) -> Result<Outline, OutlineError> {
@@ -120,7 +120,7 @@ impl<'a> Alpha<'a> {
         }
         let leaves = |k: usize| inside[k % 4] && !inside[(k + 1) % 4];
         let enters = |k: usize| !inside[k % 4] && inside[(k + 1) % 4];
-        // With opposite corners inside, the centre tells whether they are one piece.
+        // With opposite corners inside, the center tells whether they are one piece.
         let sum: u32 = corners.into_iter().map(u32::from).sum();
         let is_joined = sum >= 4 * u32::from(self.threshold);
         for from in (0..4).filter(|&k| leaves(k)) {
@@ -159,7 +159,7 @@ impl<'a> Alpha<'a> {
         };
         let [a, b] = [self.at(x, y), self.at(x + dx, y + dy)].map(f64::from);
         let t = (f64::from(self.threshold) - 0.5 - a) / (b - a);
-        // Sample 1 is pixel 0, whose centre is at 0.5.
+        // Sample 1 is pixel 0, whose center is at 0.5.
         [
             x as f64 - 0.5 + t * dx as f64,
             y as f64 - 0.5 + t * dy as f64,

@@ -19,7 +19,7 @@ pub enum OutlineError {
         path: usize,
     },
     /// Two boundary lines cross or touch.
-    #[error("the outline meets itself near ({}, {})", at[0], at[1])]
+    #[error("the outline crosses or touches itself near ({}, {})", at[0], at[1])]
     SelfIntersecting {
         /// A vertex of one of them.
         at: [f64; 2],
@@ -34,7 +34,7 @@ pub enum OutlineError {
     #[error("{0} must be a positive number")]
     InvalidSetting(&'static str),
     /// Triangles became flat by rounding: details too small for their distance from the origin.
-    #[error("the outline is too fine for its coordinates")]
+    #[error("the details of the outline are too small for its coordinates")]
     TooFine,
 }
 

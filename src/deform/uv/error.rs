@@ -10,30 +10,28 @@ pub(super) const MOST_ANCHORS: usize = 1000;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EditError {
     /// The file is not a list of anchors.
-    #[error("the anchors: {0}")]
+    #[error("the anchors cannot be parsed: {0}")]
     Malformed(String),
     /// There is nothing to pull, or more than is possible.
-    #[error("{0} anchors; 1 to {MOST_ANCHORS} are possible")]
+    #[error("there are {0} anchors; 1 to {MOST_ANCHORS} are allowed")]
     HandleCount(usize),
     /// A number of an anchor is not finite or beyond 1e6.
-    #[error("anchor {0} has a number that is not finite or beyond 1e6")]
+    #[error("anchor {0} has a coordinate that is not finite or exceeds 1e6")]
     BadTarget(usize),
     /// An anchor's vertex has no UV.
-    #[error("anchor {0} names no vertex of a face with UVs")]
+    #[error("anchor {0} names a vertex without UVs")]
     UnknownHandle(usize),
     /// An anchor's vertex has several UVs.
     #[error("anchor {0} names a vertex on a seam; name it by its UV")]
     AmbiguousVertex(usize),
     /// Two anchors pull one vertex or point to two places.
-    #[error("anchors {0} and {1} pull one place of the map to different places")]
+    #[error("anchors {0} and {1} pull the same point to different targets")]
     Contradictory(usize, usize),
     /// An anchor pulls at a boundary that stays.
-    #[error("anchor {0} pulls at a vertex of a boundary, which is fixed")]
+    #[error("anchor {0} moves a vertex of a fixed boundary")]
     OnBoundary(usize),
     /// The present map has a flip where it should be pulled, and cannot be untangled.
-    #[error(
-        "face {face} is flipped or empty in the present UVs of its chart, and no map without flips was found near them"
-    )]
+    #[error("face {face} is flipped or degenerate in its chart, and untangling failed")]
     Flipped {
         /// The face.
         face: usize,

@@ -37,10 +37,10 @@ pub use error::EditError;
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum UvRest {
-    /// The one it has: where nothing pulls, nothing moves.
+    /// The present UV shape: where nothing pulls, nothing moves.
     #[default]
     Present,
-    /// The one it has on the surface, scaled so that the chart keeps its area.
+    /// The shape on the surface, scaled so that the chart keeps its area.
     Surface,
 }
 

@@ -12,7 +12,7 @@ pub enum GridError {
     #[error("the picture has no pixels")]
     Empty,
     /// The number of cells is zero or too large.
-    #[error("{0} cells along the longer side; 1 to 512 are possible")]
+    #[error("`grid` must be between 1 and 512 cells, not {0}")]
     Cells(usize),
 }
 

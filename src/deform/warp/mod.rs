@@ -1,6 +1,6 @@
 //! Pictures pulled by handles.
 //!
-//! [`picture_grid`] makes the mesh on which a picture is deformed; what the picture looks like afterwards is drawn by
+//! [`picture_grid`] makes the mesh on which a picture is deformed; what the picture looks like afterward is drawn by
 #![cfg_attr(
     feature = "files",
     doc = "[`picture::warped`](crate::picture::warped). [`warp_picture`] does both."

@@ -70,16 +70,16 @@ pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WarpError {
     /// The file is not a list of handles.
-    #[error("the handles: {0}")]
+    #[error("the handles cannot be parsed: {0}")]
     Malformed(String),
     /// There is nothing to pull, or more than is possible.
-    #[error("{0} handles; 1 to {MOST_HANDLES} are possible")]
+    #[error("there are {0} handles; 1 to {MOST_HANDLES} are allowed")]
     HandleCount(usize),
     /// A handle is not in the picture.
-    #[error("handle {0} is not in the picture")]
+    #[error("handle {0} lies outside the picture")]
     HandleOutside(usize),
     /// The target of a handle is not a position.
-    #[error("the target of handle {0} is not two finite numbers, or beyond 1e9 pixels")]
+    #[error("the target of handle {0} must be two finite numbers up to 1e9 pixels")]
     BadTarget(usize),
     /// All vertices of the grid are on its border, which is fixed.
     #[error("the grid has no vertex inside its border")]
@@ -87,7 +87,7 @@ pub enum WarpError {
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The picture cannot be read or is too large afterwards.
+    /// The picture cannot be read or is too large afterward.
     #[error(transparent)]
     Image(#[from] ImageError),
     /// The handles contradict each other, or a number is out of range.
@@ -118,7 +118,7 @@ pub struct PictureWarp {
     pub picture: Warped,
     /// The grid on the original, in pixels, y down.
     pub grid: PlanarMesh,
-    /// Its vertices afterwards.
+    /// Its vertices afterward.
     pub deformed: Vec<[f64; 2]>,
     /// How it was pulled.
     pub summary: PullSummary,

@@ -161,7 +161,7 @@ fn described(
             .collect();
         let parts = warning::listed(counted.iter().map(String::as_str));
         let message =
-            format!("MTL has no place for parts of materials, which are left out: {parts}");
+            format!("MTL cannot hold these material properties, which are left out: {parts}");
         notes
             .warnings
             .push(Warning::new("material_parts_dropped", message));

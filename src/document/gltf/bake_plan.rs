@@ -100,7 +100,8 @@ fn keep_frames_together(users: &Users, slots: &mut BTreeMap<usize, Vec<Slot>>) {
                 continue;
             }
             for slot in slots.iter_mut().filter(moves) {
-                slot.resampled = Err("another normal map of its surface stays".to_owned());
+                slot.resampled =
+                    Err("another normal map of its surface is not resampled".to_owned());
                 changed = true;
             }
         }

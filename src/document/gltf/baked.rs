@@ -141,7 +141,7 @@ fn users(json: &Value, material: usize) -> Result<BTreeSet<[usize; 2]>, Document
 
 /// Lets a texture info name another texture, sampled by `set` as it is. Whether it had a transform.
 fn point(json: &mut Value, pointer: &str, texture: usize, set: u32) -> Result<bool, DocumentError> {
-    let gone = || invalid(format!("there is no {pointer}"));
+    let gone = || invalid(format!("{pointer} does not exist"));
     let info = json.pointer_mut(pointer).ok_or_else(gone)?;
     object_mut(info)?.insert("index".to_owned(), json!(texture));
     let was_transformed = remove_extension(info, TRANSFORM).is_some();

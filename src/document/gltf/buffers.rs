@@ -40,7 +40,7 @@ pub(super) fn join(
         let buffer = required(view, "buffer")?;
         *needed
             .get_mut(buffer)
-            .ok_or_else(|| invalid(format!("there is no buffers[{buffer}]")))? = true;
+            .ok_or_else(|| invalid(format!("buffers[{buffer}] does not exist")))? = true;
     }
     let mut body = Body {
         json: Value::Null,

@@ -117,7 +117,7 @@ fn spend(budget: &mut usize, bytes: usize) -> Result<(), DocumentError> {
 }
 
 fn too_large() -> DocumentError {
-    DocumentError::LimitExceeded("the Draco data decodes to too much".to_owned())
+    DocumentError::LimitExceeded("the decoded Draco data is too large".to_owned())
 }
 
 /// Points and faces as they are in the stream: no deduplication, which would change the number of vertices.
@@ -137,7 +137,7 @@ fn decode_stream(bytes: &[u8], budget: usize) -> Result<Mesh, DocumentError> {
             _ => invalid("damaged Draco data"),
         })?;
     if mesh.num_faces() == 0 {
-        return Err(invalid("the Draco data is no triangle mesh"));
+        return Err(invalid("the Draco data is not a triangle mesh"));
     }
     Ok(mesh)
 }

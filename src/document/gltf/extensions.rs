@@ -33,7 +33,7 @@ pub(super) fn check(json: &Value) -> Result<(), DocumentError> {
     for name in items(json, "extensionsRequired")? {
         let name = name
             .as_str()
-            .ok_or_else(|| invalid("`extensionsRequired` holds something that is no name"))?;
+            .ok_or_else(|| invalid("`extensionsRequired` holds a value that is not a string"))?;
         if !KNOWN.contains(&name) && shapes_geometry(json, name)? {
             return Err(DocumentError::UnsupportedExtension(name.to_owned()));
         }

@@ -25,7 +25,7 @@ pub(super) fn item<'a>(
     items(root, collection)?
         .get(index)
         .filter(|item| item.is_object())
-        .ok_or_else(|| invalid(format!("there is no {collection}[{index}]")))
+        .ok_or_else(|| invalid(format!("{collection}[{index}] does not exist")))
 }
 
 /// A member that is an index, a count or a code; `None` where it is missing.
@@ -93,14 +93,14 @@ pub(super) fn item_mut<'a>(
     array_mut(root, collection)?
         .get_mut(index)
         .filter(|item| item.is_object())
-        .ok_or_else(|| invalid(format!("there is no {collection}[{index}]")))
+        .ok_or_else(|| invalid(format!("{collection}[{index}] does not exist")))
 }
 
 /// The members of an object, to change them.
 pub(super) fn object_mut(value: &mut Value) -> Result<&mut Map<String, Value>, DocumentError> {
     value
         .as_object_mut()
-        .ok_or_else(|| invalid("a member that must be an object is not one"))
+        .ok_or_else(|| invalid("a value that must be an object has another type"))
 }
 
 /// Primitive `primitive` of mesh `mesh`, to change it.
@@ -112,5 +112,5 @@ pub(super) fn primitive_mut(
     array_mut(item_mut(root, "meshes", mesh)?, "primitives")?
         .get_mut(primitive)
         .filter(|item| item.is_object())
-        .ok_or_else(|| invalid(format!("there is no primitive {primitive} in mesh {mesh}")))
+        .ok_or_else(|| invalid(format!("mesh {mesh} has no primitive {primitive}")))
 }

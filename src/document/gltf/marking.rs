@@ -22,7 +22,7 @@ pub(super) fn set(json: &mut Value, mark: &Mark) -> Result<Option<Warning>, Docu
     }
     Ok(Some(Warning::new(
         "not_marked",
-        "`asset.extras` of the file is not an object, so it cannot say which UVs were written: name the set to `verify`",
+        "`asset.extras` is not an object, so the file cannot record which UVs were written: give `verify` the UV set",
     )))
 }
 

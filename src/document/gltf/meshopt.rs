@@ -87,14 +87,16 @@ pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, Document
     };
     if !fits {
         return Err(invalid(
-            "meshopt mode, filter and stride do not go together",
+            "meshopt mode, filter and stride contradict each other",
         ));
     }
     let size = count
         .checked_mul(stride)
         .filter(|size| size / MAX_RATIO <= data.len())
         .ok_or_else(|| {
-            DocumentError::LimitExceeded("a compressed buffer view claims too much".to_owned())
+            DocumentError::LimitExceeded(
+                "a compressed buffer view claims too many bytes".to_owned(),
+            )
         })?;
     let mut words = vec![0u64; size.div_ceil(8)];
     if !decode_into(&mut words, mode, count, stride, data) {

@@ -12,7 +12,7 @@ pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentEr
     let mut warnings = Vec::new();
     let mut lose = |n: usize, code: &'static str, what: &str| {
         if n > 0 {
-            let message = format!("OBJ has no place for {what}: {n} left out");
+            let message = format!("OBJ cannot hold {what}: {n} left out");
             warnings.push(Warning::new(code, message));
         }
     };
@@ -28,7 +28,7 @@ pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentEr
     lose(lights, "lights_dropped", "lights");
     let variants = extension(json, "KHR_materials_variants");
     let variants = variants.map_or(Ok(0), |all| items(all, "variants").map(<[_]>::len))?;
-    lose(variants, "variants_dropped", "variants of materials");
+    lose(variants, "variants_dropped", "material variants");
     let counts = Counts::of(document)?;
     lose(
         counts.morphed,
@@ -43,7 +43,7 @@ pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentEr
     lose(
         counts.attributes,
         "attributes_dropped",
-        "further attributes of vertices",
+        "further vertex attributes",
     );
     lose(
         counts.elements,
@@ -53,7 +53,7 @@ pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentEr
     let moved = n_moved(json)?;
     if moved > 0 {
         let message = format!(
-            "the OBJ file holds each mesh once, without the transforms of nodes: {moved} are elsewhere or more often in the scene"
+            "the OBJ file holds each mesh once, without node transforms: {moved} appear elsewhere or repeatedly in the scene"
         );
         warnings.push(Warning::new("transforms_lost", message));
     }

@@ -122,12 +122,12 @@ impl<'a> ObjPictures<'a> {
         let mut warnings = Vec::new();
         if !self.missing.is_empty() {
             let names = warning::listed(self.missing.iter().map(String::as_str));
-            let message = format!("images were not supplied and stay references: {names}");
+            let message = format!("images were not supplied and remain references: {names}");
             warnings.push(Warning::new("image_missing", message));
         }
         if self.n_turned > 0 {
             let n = self.n_turned;
-            let message = format!("MTL has no place for turned textures: {n} are not turned");
+            let message = format!("MTL cannot rotate textures: {n} lose their rotation");
             warnings.push(Warning::new("turns_dropped", message));
         }
         if self.n_without_image > 0 {

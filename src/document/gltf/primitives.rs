@@ -119,7 +119,7 @@ fn check_attributes(
                 .ok_or_else(|| invalid(format!("attribute {name} is not an accessor index")))?;
             if Accessor::open(body, index)?.count != n_vertices {
                 return Err(invalid(format!(
-                    "attribute {name} has not as many elements as POSITION"
+                    "attribute {name} and POSITION differ in length"
                 )));
             }
         }

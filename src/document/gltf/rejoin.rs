@@ -89,6 +89,8 @@ fn accessors(primitive: &Value) -> Result<Vec<usize>, DocumentError> {
         .filter_map(Value::as_object)
         .flat_map(|set| set.values());
     values
-        .map(|value| as_unsigned(value).ok_or_else(|| invalid("an attribute is no index")))
+        .map(|value| {
+            as_unsigned(value).ok_or_else(|| invalid("an attribute is not an accessor index"))
+        })
         .collect()
 }

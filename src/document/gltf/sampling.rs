@@ -16,7 +16,7 @@ impl Resampled {
     /// Of a texture that a material names; the error says why it cannot be.
     pub fn of(json: &Value, texture: &TextureUse) -> Result<Self, String> {
         let encoding = encoding(&texture.slot)
-            .ok_or_else(|| "what its texels mean is not known".to_owned())?;
+            .ok_or_else(|| "the meaning of its texels is unknown".to_owned())?;
         if is_animated(json, &texture.pointer) {
             return Err("its transform is animated".to_owned());
         }
@@ -50,7 +50,7 @@ fn encoding(slot: &str) -> Option<Encoding> {
         | "specularColorTexture"
         | "diffuseTransmissionColorTexture"
         | "diffuseTexture"
-        | "specularGlossinessTexture" => Encoding::Colour,
+        | "specularGlossinessTexture" => Encoding::Color,
         "metallicRoughnessTexture"
         | "occlusionTexture"
         | "clearcoatTexture"

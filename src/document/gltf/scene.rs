@@ -57,7 +57,7 @@ pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
     for (parent, node) in nodes.iter().enumerate() {
         for child in items(node, "children")? {
             let child = as_unsigned(child).filter(|child| *child < nodes.len());
-            let child = child.ok_or_else(|| invalid("a node has a child that is not there"))?;
+            let child = child.ok_or_else(|| invalid("a node has a child that does not exist"))?;
             parents[child] = Some(parent);
         }
     }
@@ -69,7 +69,7 @@ pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
         };
         let placement = placements
             .get_mut(mesh)
-            .ok_or_else(|| invalid(format!("there is no meshes[{mesh}]")))?;
+            .ok_or_else(|| invalid(format!("meshes[{mesh}] does not exist")))?;
         if placement.is_none() && node.get("skin").is_none() {
             *placement = Some(unmirrored(global(nodes, &parents, index, &mut globals)?));
         }

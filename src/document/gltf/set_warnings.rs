@@ -46,7 +46,7 @@ pub(super) fn set_warnings(
     let filled = filled.into_iter().map(|(set, meshes)| {
         let meshes = names::of_meshes(document, &meshes);
         let text = format!(
-            "{meshes}: glTF has no UV set {set} without the lower ones, so those that were missing hold the same UVs"
+            "{meshes}: glTF requires the sets below UV set {set}, so the missing ones hold the same UVs"
         );
         Warning::new("uv_sets_filled", text)
     });

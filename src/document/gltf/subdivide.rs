@@ -27,7 +27,8 @@ pub(super) fn subdivide(
         return Err(DocumentError::Indivisible("morph targets".to_owned()));
     }
     for (name, index_of) in object_mut(&mut changed["attributes"])? {
-        let old = as_unsigned(index_of).ok_or_else(|| invalid("an attribute is no index"))?;
+        let old = as_unsigned(index_of)
+            .ok_or_else(|| invalid("an attribute is not an accessor index"))?;
         let accessor = Accessor::open(&document.body, old)?;
         let values = if name == "POSITION" {
             let added = cut.added.iter().map(|vertex| &vertex.position);

@@ -74,7 +74,7 @@ impl Geometry for Shape<'_> {
             return;
         };
         let length = tangent[..3].iter().map(|x| x * x).sum::<f32>();
-        // Degenerate neighbourhoods give no direction; the default is at least a unit vector.
+        // Degenerate neighborhoods give no direction; the default is at least a unit vector.
         if (length - 1.0).abs() < 1e-3 {
             self.tangents[face][corner] = tangent;
         }

@@ -147,7 +147,7 @@ fn set_for(
         .fold(0, |mask, c| mask | (c.present & c.sampled));
     match options.texcoord.or(overwrite.then_some(0)) {
         Some(set) if set > MAX_SET => Err(DocumentError::LimitExceeded(format!(
-            "TEXCOORD_{set}: sets go up to {MAX_SET}"
+            "TEXCOORD_{set} exceeds the last set, {MAX_SET}"
         ))),
         Some(set) if overwrite || !has(in_use, set) => Ok(set),
         Some(set) => Err(DocumentError::TexcoordInUse(set)),

@@ -75,7 +75,7 @@ impl Size {
         }
         let [takes, most] = [total, MOST].map(|bytes| bytes.div_ceil(1 << 20));
         Err(DocumentError::LimitExceeded(format!(
-            "the JSON has so many values that it takes {takes} MiB of memory, more than {most} MiB"
+            "the JSON needs {takes} MiB of memory; the limit is {most} MiB"
         )))
     }
 

@@ -25,7 +25,8 @@ pub(super) fn gather_vertices(
     }
     let members = sets.iter_mut().filter_map(Value::as_object_mut);
     for index in members.flat_map(|set| set.values_mut()) {
-        let old = as_unsigned(index).ok_or_else(|| invalid("an attribute is no index"))?;
+        let old =
+            as_unsigned(index).ok_or_else(|| invalid("an attribute is not an accessor index"))?;
         let new = match done.get(&old) {
             Some(new) => *new,
             None => gathered(&document.body, body, old, gather)?,

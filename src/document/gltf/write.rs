@@ -176,7 +176,7 @@ fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), Documen
         if remove_extension(item_mut(json, "meshes", mesh)?, MANIFOLD).is_some() {
             notes.warnings.push(Warning::new(
                 "manifold_dropped",
-                format!("mesh {mesh}: {MANIFOLD} described the indices before vertices were split"),
+                format!("mesh {mesh}: {MANIFOLD} is dropped because vertices were split"),
             ));
         }
     }
@@ -219,7 +219,7 @@ fn files(
         let uri: String = uri.chars().filter(|c| !c.is_control()).take(120).collect();
         notes.warnings.push(Warning::new(
             "image_missing",
-            format!("the image `{uri}` was not supplied and stays a reference"),
+            format!("the image `{uri}` was not supplied and remains a reference"),
         ));
     }
     Ok(files)

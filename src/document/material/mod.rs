@@ -1,6 +1,6 @@
 //! Materials between formats: what MTL, with its extension for physically based shading, and glTF can both say.
 //!
-//! Colours are carried as they are, without a conversion: that is how Blender and obj2gltf read and write them. Where MTL says
+//! Colors are carried as they are, without a conversion: that is how Blender and obj2gltf read and write them. Where MTL says
 //! nothing of roughness, it follows from `Ns` as in Blender, so that its own files come back as they were: r = 1 − √(Ns / 1000).
 //! `Ks` ½ is the reflection of 4 % that glTF gives to everything, so that `specularColorFactor` is twice `Ks`.
 //!
@@ -43,7 +43,7 @@ pub(super) struct Material {
     pub is_bump: bool,
     /// Strength and roughness of a coat.
     pub coat: [f64; 2],
-    /// Whether it shows its colour whatever the light.
+    /// Whether it shows its color whatever the light.
     pub is_unlit: bool,
 }
 

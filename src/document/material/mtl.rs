@@ -112,7 +112,7 @@ impl Reader<'_> {
         let color_map = self.map("map_kd");
         let mut color = self.color("kd").unwrap_or(new.color);
         if color == [0.0; 3] && color_map.is_some() {
-            // Written by tools that take a map for all of the colour.
+            // Written by tools that take a map for all of the color.
             color = [1.0; 3];
         }
         let opacity = self.number("d").or(self.number("tr").map(|tr| 1.0 - tr));
@@ -132,7 +132,7 @@ impl Reader<'_> {
             roughness: unit(roughness),
             metallic_roughness_map: self.metallic_roughness_map(),
             specular: self.color("ks").unwrap_or(new.specular),
-            // 1 and less is what is written by those who do not know better.
+            // Exporters that have no shininess write 1 or less.
             ior: self.number("ni").filter(|n| *n > 1.0).unwrap_or(new.ior),
             emission: if glows { emission } else { [1.0; 3] },
             emission_map,

@@ -167,7 +167,7 @@ impl<'a> GltfMaterials<'a> {
         let listed = |names: &BTreeSet<String>| warning::listed(names.iter().map(String::as_str));
         if !self.pictures.missing.is_empty() {
             let message = format!(
-                "pictures of materials were not supplied and are left out: {}; they belong beside the material file",
+                "material pictures were not supplied and are left out: {}; they belong beside the material file",
                 listed(&self.pictures.missing)
             );
             warnings.push(Warning::new("pictures_missing", message));
@@ -175,14 +175,14 @@ impl<'a> GltfMaterials<'a> {
         let [taken, left_out] = &self.bump_maps;
         if !taken.is_empty() {
             let message = format!(
-                "bump maps are taken for normal maps, wrongly if they are heights: materials {}",
+                "bump maps are used as normal maps, which is wrong if they hold heights: materials {}",
                 listed(taken)
             );
             warnings.push(Warning::new("bump_as_normals", message));
         }
         if !left_out.is_empty() {
             let message = format!(
-                "bump maps of heights have no place in glTF and are left out: materials {}",
+                "glTF cannot hold height maps, so bump maps are left out: materials {}",
                 listed(left_out)
             );
             warnings.push(Warning::new("bump_dropped", message));
@@ -233,7 +233,7 @@ fn place_of(objects: &mut Vec<Value>, wanted: Value) -> usize {
 /// Whether a PNG or JPEG has one channel, by its header.
 fn is_gray(bytes: &[u8]) -> bool {
     if bytes.starts_with(&[0x89, b'P', b'N', b'G']) {
-        // The type of colour stands at the end of the first chunk; 4 is gray with alpha.
+        // The type of color stands at the end of the first chunk; 4 is gray with alpha.
         return matches!(bytes.get(25), Some(0 | 4));
     }
     let mut rest = bytes.strip_prefix(&[0xFF, 0xD8]).unwrap_or_default();

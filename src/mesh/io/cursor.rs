@@ -81,7 +81,7 @@ impl<'a> Cursor<'a> {
     /// A 32-bit integer.
     pub fn int(&mut self) -> Result<i32, ReadError> {
         match self.encoding {
-            Encoding::Text => self.parse("an integer is expected"),
+            Encoding::Text => self.parse("expected an integer"),
             Encoding::LittleEndian => self.array().map(i32::from_le_bytes),
             Encoding::BigEndian => self.array().map(i32::from_be_bytes),
         }
@@ -90,7 +90,7 @@ impl<'a> Cursor<'a> {
     /// A 64-bit count or tag.
     pub fn size(&mut self) -> Result<u64, ReadError> {
         match self.encoding {
-            Encoding::Text => self.parse("a count or a tag is expected"),
+            Encoding::Text => self.parse("expected a count or a tag"),
             Encoding::LittleEndian => self.array().map(u64::from_le_bytes),
             Encoding::BigEndian => self.array().map(u64::from_be_bytes),
         }
@@ -99,7 +99,7 @@ impl<'a> Cursor<'a> {
     /// A coordinate; NaN and infinity are numbers here.
     pub fn float(&mut self) -> Result<f64, ReadError> {
         match self.encoding {
-            Encoding::Text => self.parse("a coordinate is expected"),
+            Encoding::Text => self.parse("expected a coordinate"),
             Encoding::LittleEndian => self.array().map(f64::from_le_bytes),
             Encoding::BigEndian => self.array().map(f64::from_be_bytes),
         }

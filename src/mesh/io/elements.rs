@@ -106,7 +106,7 @@ impl ElementFormat {
                 format: "VTU",
                 place: "byte",
                 at: 0,
-                cause: "the format is written but not read",
+                cause: "this format can be written but not read",
             }),
         }
     }

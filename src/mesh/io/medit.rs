@@ -14,16 +14,16 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
     let mut elements = Elements::default();
     let mut dimension = 3;
     if cursor.peek_word() != Some(b"MeshVersionFormatted") {
-        return Err(cursor.malformed("MeshVersionFormatted is expected"));
+        return Err(cursor.malformed("expected MeshVersionFormatted"));
     }
     while let Some(word) = cursor.word() {
         match word {
             b"End" => break,
             b"MeshVersionFormatted" => {
-                let _version: u32 = cursor.parse("a version is expected")?;
+                let _version: u32 = cursor.parse("expected a version")?;
             }
             b"Dimension" => {
-                dimension = cursor.parse("a dimension is expected")?;
+                dimension = cursor.parse("expected a dimension")?;
                 if !matches!(dimension, 2 | 3) {
                     return Err(cursor.malformed("the dimension is neither 2 nor 3"));
                 }
@@ -38,7 +38,7 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
                 read_section(&mut cursor, &mut elements.tets, n_vertices)?;
             }
             b"Quadrilaterals" | b"Hexahedra" | b"Prisms" | b"Pyramids" if cursor.size()? > 0 => {
-                return Err(cursor.malformed("only triangles and tetrahedra are read"));
+                return Err(cursor.malformed("only triangles and tetrahedra are supported"));
             }
             _ if word.starts_with(b"#") => cursor.end_line(),
             // The numbers of a section that is passed over, or its keyword.
@@ -56,7 +56,7 @@ fn read_vertices(
     for _ in 0..cursor.size()? {
         let (x, y) = (cursor.float()?, cursor.float()?);
         let z = if dimension == 3 { cursor.float()? } else { 0.0 };
-        let _reference: f64 = cursor.parse("a reference number is expected")?;
+        let _reference: f64 = cursor.parse("expected a reference number")?;
         let point = position([x, y, z], elements.vertices.len())?;
         elements.vertices.push(point);
     }
@@ -71,9 +71,9 @@ fn read_section<const N: usize>(
     for _ in 0..cursor.size()? {
         let mut corners = [0; N];
         for corner in &mut corners {
-            *corner = cursor.parse("a vertex index is expected")?;
+            *corner = cursor.parse("expected a vertex index")?;
         }
-        let _reference: f64 = cursor.parse("a reference number is expected")?;
+        let _reference: f64 = cursor.parse("expected a reference number")?;
         push_element(section, corners, 1, n_vertices)?;
     }
     Ok(())

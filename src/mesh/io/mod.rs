@@ -67,7 +67,7 @@ pub enum ReadError {
         vertex: usize,
     },
     /// A face names a vertex that is not there.
-    #[error("a face names vertex {index} of {n_vertices}")]
+    #[error("a face names vertex {index}, but there are only {n_vertices}")]
     IndexOutOfRange {
         /// Index of the vertex, from 0.
         index: i64,

@@ -166,10 +166,9 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
                 let start = raw_corners.len();
                 for word in words {
                     let corner = raw_corner(word, defined);
-                    raw_corners
-                        .push(corner.ok_or_else(|| {
-                            malformed(statement.line, "a corner is not an index")
-                        })?);
+                    raw_corners.push(corner.ok_or_else(|| {
+                        malformed(statement.line, "a corner is not a vertex index")
+                    })?);
                 }
                 obj.polygon_ends.push(raw_corners.len());
                 let end = u32::try_from(raw_corners.len());

@@ -1,7 +1,7 @@
 //! OFF, the text format of Geomview: `OFF`, counts, one vertex a line, one polygon a line.
 //!
 //! Of the variants (`[ST][C][N]OFF`) the coordinates come first on a vertex line in every one; what follows them
-//! (normals, colours, texture coordinates) is passed over, and so are the colours of faces. Four-dimensional and
+//! (normals, colors, texture coordinates) is passed over, and so are the colors of faces. Four-dimensional and
 //! binary files are refused. The counts are read as `u64` and nothing is reserved by them.
 use super::{
     Coordinate, Elements, Faces, IndexedTriangles, ReadError, lines, number, position,
@@ -61,7 +61,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<IndexedTriangles<T>
     for _ in 0..n_faces {
         let (at, line) = statements.next().ok_or_else(|| end.clone())?;
         read_polygon(line, &mut polygon)
-            .ok_or_else(|| malformed(at, "a face needs its count and as many indices"))?;
+            .ok_or_else(|| malformed(at, "a face needs a count and that many indices"))?;
         faces.push_checked(&polygon, mesh.positions.len(), at)?;
     }
     (mesh.triangles, mesh.fanned) = faces.filled(|v| mesh.positions[v as usize]);
@@ -78,7 +78,7 @@ fn counts<'a>(
         let mut words = words(line).peekable();
         if let Some(keyword) = words.next_if(|w| is_keyword(w)) {
             if keyword.iter().any(|b| matches!(b, b'4' | b'n')) {
-                return Err(malformed(at, "only three-dimensional files are read"));
+                return Err(malformed(at, "only three-dimensional files are supported"));
             }
             if words.peek().is_none() {
                 continue;
@@ -87,10 +87,7 @@ fn counts<'a>(
         let mut count = || words.next().and_then(number::<u64>);
         return match (count(), count()) {
             (Some(n_vertices), Some(n_faces)) => Ok((n_vertices, n_faces)),
-            _ => Err(malformed(
-                at,
-                "the numbers of vertices and faces are expected",
-            )),
+            _ => Err(malformed(at, "expected the numbers of vertices and faces")),
         };
     }
     Err(malformed(at, "the file ends before its counts"))

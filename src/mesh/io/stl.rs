@@ -117,7 +117,7 @@ fn read_text(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
         match keyword.as_slice() {
             b"facet" => {
                 if inside {
-                    return Err(malformed("line", at, "the facet before has no end"));
+                    return Err(malformed("line", at, "the previous facet has no end"));
                 }
                 inside = true;
                 polygon.clear();

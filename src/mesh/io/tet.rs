@@ -17,12 +17,12 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
     for _ in 0..n_tets {
         let mut corners = [0; 4];
         for corner in &mut corners {
-            *corner = cursor.parse("a vertex index is expected")?;
+            *corner = cursor.parse("expected a vertex index")?;
         }
         push_element(&mut elements.tets, corners, 0, elements.vertices.len())?;
     }
     if cursor.word().is_some() {
-        return Err(cursor.malformed("the file goes on after its elements"));
+        return Err(cursor.malformed("the file continues after its elements"));
     }
     Ok(elements)
 }

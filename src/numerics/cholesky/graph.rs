@@ -2,16 +2,16 @@
 
 use super::SymmetricPattern;
 
-/// The graph of a symmetric matrix made of square blocks: vertices, and for each all its neighbours, sorted.
+/// The graph of a symmetric matrix made of square blocks: vertices, and for each all its neighbors, sorted.
 pub(super) struct Graph {
     starts: Vec<u32>,
-    neighbours: Vec<u32>,
+    neighbors: Vec<u32>,
 }
 
 impl Graph {
     /// Of a pattern in which `block` consecutive unknowns belong to a vertex.
     ///
-    /// The first column of a vertex tells all: the rows of its own block come first, then those of its larger neighbours.
+    /// The first column of a vertex tells all: the rows of its own block come first, then those of its larger neighbors.
     pub fn new(pattern: &SymmetricPattern, block: usize) -> Self {
         let n = pattern.n / block;
         let larger = |v: usize| {
@@ -30,17 +30,17 @@ impl Graph {
         for v in 0..n {
             starts[v + 1] += starts[v];
         }
-        let mut neighbours = vec![0; starts[n] as usize];
+        let mut neighbors = vec![0; starts[n] as usize];
         let mut next = starts.clone();
         for v in 0..n {
             for w in larger(v) {
                 for (from, to) in [(v, w), (w, v)] {
-                    neighbours[next[from] as usize] = to as u32;
+                    neighbors[next[from] as usize] = to as u32;
                     next[from] += 1;
                 }
             }
         }
-        Self { starts, neighbours }
+        Self { starts, neighbors }
     }
 
     /// Number of vertices.
@@ -48,35 +48,35 @@ impl Graph {
         self.starts.len() - 1
     }
 
-    /// The neighbours of a vertex.
+    /// The neighbors of a vertex.
     pub fn of(&self, vertex: u32) -> &[u32] {
         let v = vertex as usize;
-        &self.neighbours[self.starts[v] as usize..self.starts[v + 1] as usize]
+        &self.neighbors[self.starts[v] as usize..self.starts[v + 1] as usize]
     }
 
-    /// Where each vertex's neighbours start in [`neighbours`](Self::neighbours).
+    /// Where each vertex's neighbors start in [`neighbors`](Self::neighbors).
     pub fn starts(&self) -> &[u32] {
         &self.starts
     }
 
     /// All lists, one after another.
-    pub fn neighbours(&self) -> &[u32] {
-        &self.neighbours
+    pub fn neighbors(&self) -> &[u32] {
+        &self.neighbors
     }
 
     /// The same graph with its vertices renumbered: `order[new] = old`.
     pub fn reordered(&self, order: &[u32]) -> Self {
         let place = inverse(order);
         let mut starts = Vec::with_capacity(self.starts.len());
-        let mut neighbours = Vec::with_capacity(self.neighbours.len());
+        let mut neighbors = Vec::with_capacity(self.neighbors.len());
         starts.push(0);
         for &old in order {
-            let from = neighbours.len();
-            neighbours.extend(self.of(old).iter().map(|&w| place[w as usize]));
-            neighbours[from..].sort_unstable();
-            starts.push(neighbours.len() as u32);
+            let from = neighbors.len();
+            neighbors.extend(self.of(old).iter().map(|&w| place[w as usize]));
+            neighbors[from..].sort_unstable();
+            starts.push(neighbors.len() as u32);
         }
-        Self { starts, neighbours }
+        Self { starts, neighbors }
     }
 }
 

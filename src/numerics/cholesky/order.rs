@@ -33,10 +33,10 @@ pub(super) fn fill_reducing_order(graph: &Graph, block: usize) -> Vec<u32> {
 fn minimum_degree(graph: &Graph) -> Vec<u32> {
     let n = graph.n();
     let starts: Vec<usize> = graph.starts().iter().map(|&s| s as usize).collect();
-    let neighbours: Vec<usize> = graph.neighbours().iter().map(|&v| v as usize).collect();
-    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &neighbours);
+    let neighbors: Vec<usize> = graph.neighbors().iter().map(|&v| v as usize).collect();
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &neighbors);
     let (mut order, mut place) = (vec![0; n], vec![0; n]);
-    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(n, neighbours.len()));
+    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(n, neighbors.len()));
     amd::order(
         &mut order,
         &mut place,
@@ -52,8 +52,8 @@ fn minimum_degree(graph: &Graph) -> Vec<u32> {
 fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     let n = graph.n();
     let signed = |values: &[u32]| values.iter().map(|&v| v as i32).collect::<Vec<_>>();
-    let (starts, neighbours) = (signed(graph.starts()), signed(graph.neighbours()));
-    let order = metis_order(&CscPattern::new(n, &starts, &neighbours)?).ok()?;
+    let (starts, neighbors) = (signed(graph.starts()), signed(graph.neighbors()));
+    let order = metis_order(&CscPattern::new(n, &starts, &neighbors)?).ok()?;
     let mut is_new = vec![true; n];
     let is_permutation = order.len() == n
         && (order.iter()).all(|&v| {

@@ -43,7 +43,7 @@ impl Scatter {
     ) -> Self {
         let mut scatter = Self {
             starts: vec![0],
-            blocks: Vec::with_capacity(graph.n() + graph.neighbours().len() / 2),
+            blocks: Vec::with_capacity(graph.n() + graph.neighbors().len() / 2),
             size,
         };
         for front in &fronts.list {

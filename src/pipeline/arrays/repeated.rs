@@ -1,4 +1,4 @@
-//! Faces that name a position twice: they can have no area in the plane, so they lie on an edge of a neighbour.
+//! Faces that name a position twice: they can have no area in the plane, so they lie on an edge of a neighbor.
 
 use std::collections::HashMap;
 

@@ -81,7 +81,7 @@ impl Seams {
         let n_positions = positions.len();
         if let Some(v) = (edges.as_flattened().iter()).find(|&&v| v as usize >= n_positions) {
             return Err(PipelineError::Seams(format!(
-                "vertex {v} is named, but there are only {n_positions}"
+                "a pair names vertex {v}, but there are only {n_positions} vertices"
             )));
         }
         let ends = |a, b| {
@@ -99,7 +99,7 @@ impl Seams {
         };
         let (n_none, n_pairs) = (1 + none.count(), edges.len());
         Err(PipelineError::Seams(format!(
-            "{n_none} of {n_pairs} pairs of vertices are not joined by an edge, the first is {first:?}"
+            "{n_none} of {n_pairs} vertex pairs are not joined by an edge; the first is {first:?}"
         )))
     }
 

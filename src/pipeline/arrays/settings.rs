@@ -33,14 +33,14 @@ impl Settings {
         self.layout.check()?;
         if self.layout.pages > 1 && self.mapping.quantization_safe.is_some() {
             return Err(
-                "`quantization_safe` goes with one page: of several, tools round to fewer bits of each".to_owned(),
+                "`quantization_safe` requires a single page: on several, rounding leaves fewer bits per page".to_owned(),
             );
         }
         if self.borders == Borders::OnTexels && !self.layout.resolution.shorter().is_power_of_two()
         {
             let given = self.layout.resolution;
             return Err(format!(
-                "charts of a lightmap end where texels end: its `resolution` is a power of two, not {given}"
+                "the `resolution` of a lightmap must be a power of two, not {given}: its charts end on texel borders"
             ));
         }
         self.cutting.check()?;

@@ -21,13 +21,13 @@ pub enum BodyFormat {
     Msh,
     /// Medit.
     Mesh,
-    /// Counts, positions, corners.
+    /// TET: counts, positions, corners.
     Tet,
     /// VTK XML.
     Vtu,
-    /// Binary glTF: surfaces in a cage, and planar ones that came as glTF, PLY or STL.
+    /// Binary glTF, for surfaces in a cage and for planar meshes from glTF, PLY or STL.
     Glb,
-    /// glTF with its files beside it: the same.
+    /// glTF with separate files, for the same.
     Gltf,
 }
 

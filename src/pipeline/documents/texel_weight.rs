@@ -30,7 +30,7 @@ impl FromStr for TexelWeight {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("{text:?} is no weight of a material: MATERIAL=W");
+        let wrong = || format!("{text:?} is not a material weight of the form MATERIAL=W");
         let (material, weight) = text.rsplit_once('=').ok_or_else(wrong)?;
         Ok(Self {
             material: material.to_owned(),

@@ -15,7 +15,7 @@ use crate::numerics::vec3::{area_vector, norm};
 pub struct BoundReport {
     /// The largest mean symmetric Dirichlet energy that was asked for.
     pub max_distortion: f64,
-    /// The largest stretch of all but a hundredth of the area that was asked for.
+    /// The bound on the 99th percentile of the stretch, weighted by area, that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_stretch: Option<f64>,
     /// The mean symmetric Dirichlet energy of the written bytes, `sym_dirichlet_mean`.
@@ -83,7 +83,7 @@ impl BoundReport {
         {
             let [percent, most] = [reached, self.max_distortion].map(stretch_percent);
             parts.push(format!(
-                "stretched by {percent:.1} % on the mean where {most:.1} % were asked for (symmetric Dirichlet {reached:.4} of at most {})",
+                "mean stretch {percent:.1} % exceeds the bound of {most:.1} % (symmetric Dirichlet {reached:.4}, bound {})",
                 self.max_distortion
             ));
         }
@@ -92,7 +92,7 @@ impl BoundReport {
         {
             let [percent, asked] = [reached, most].map(|stretch| 100.0 * (stretch - 1.0));
             parts.push(format!(
-                "more than a hundredth of the area stretched by {percent:.1} % or more where {asked:.1} % were asked for"
+                "the 99th percentile of the stretch, {percent:.1} %, exceeds the bound of {asked:.1} %"
             ));
         }
         let worst = self.worst_chart.map(|worst| {
@@ -100,7 +100,7 @@ impl BoundReport {
             let WorstChart {
                 chart, distortion, ..
             } = worst;
-            format!("; chart {chart} is the worst, {percent:.1} % ({distortion:.4})")
+            format!("; the worst is chart {chart} with {percent:.1} % ({distortion:.4})")
         });
         format!("{}{}", parts.join(", "), worst.unwrap_or_default())
     }

@@ -7,26 +7,26 @@ use serde::Serialize;
 use crate::certificate::{Certificate, Overlap};
 use crate::mesh::Resolution;
 
-/// What is proven about the UVs of all groups, beside what was asked for.
+/// What is proven about the UVs of all groups, beside what was requested.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Proven {
     /// No face is flipped or degenerate.
     pub locally_injective: bool,
-    /// Beyond that no two faces of a group overlap.
+    /// In addition, no two faces of a group overlap.
     pub bijective: bool,
-    /// No chart is seen from behind.
+    /// No chart is mirrored.
     pub unmirrored: bool,
-    /// The distance of charts; null where none was asked for.
+    /// The distance between charts; null if none was requested.
     pub padding: Option<ProvenPadding>,
-    /// Whether charts end where texels end; null where that was not asked.
+    /// Whether charts end on texel borders; null if not requested.
     pub aligned: Option<bool>,
-    /// Whether every chart lies on one page; null where that was not asked.
+    /// Whether every chart lies on one page; null if not requested.
     pub pages: Option<ProvenPages>,
-    /// The coarsest of 16, 14 and 12 bits b at which every group stays bijective however each coordinate moves by up to
-    /// 1/(2(2ᵇ−1)) + 2⁻¹⁶; null when there is none.
+    /// The coarsest of 16, 14 and 12 bits b at which every group stays bijective if each coordinate moves by
+    /// up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. Null if there is none.
     pub safe_bits: Option<u32>,
-    /// The bits asked for; null where none were.
+    /// The requested bits; null if none were requested.
     pub bits: Option<ProvenBits>,
 }
 
@@ -34,37 +34,37 @@ pub struct Proven {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct ProvenPadding {
-    /// The distance asked for, in texels.
+    /// The requested distance, in texels.
     pub asked_texels: u32,
     /// The texture of the unit square.
     pub resolution: Resolution,
-    /// Whether no two charts of a group are nearer.
+    /// Whether no two charts of a group are closer.
     pub kept: bool,
-    /// The smallest distance of two charts, rounded; null when each group has one chart.
+    /// The smallest distance between two charts, rounded; null if each group has one chart.
     pub reached_texels: Option<f64>,
 }
 
-/// Whether every chart lies on one of so many pages.
+/// Whether every chart lies on one page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct ProvenPages {
-    /// The pages asked for.
+    /// The requested number of pages.
     pub asked: u32,
-    /// Pages that charts of a group lie on, at most.
+    /// The most pages that the charts of a group lie on.
     pub used: usize,
-    /// Whether every chart lies on one of those asked for.
+    /// Whether every chart lies on one of the requested pages.
     pub kept: bool,
 }
 
-/// Whether the map holds at so many bits.
+/// Whether the map holds at the requested bits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct ProvenBits {
-    /// The bits asked for.
+    /// The requested bits.
     pub asked: u32,
     /// Whether every group holds at them.
     pub hold: bool,
-    /// Faces of which the orientation, and pairs of edges of charts of which the separation, is in doubt.
+    /// Faces whose orientation is in doubt, plus pairs of chart edges whose separation is.
     pub in_doubt: u64,
 }
 
@@ -142,7 +142,7 @@ fn bits<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<Prove
 }
 
 impl Proven {
-    /// What of this is asked for and does not hold, in words; with [`Overlap::Skip`] faces may overlap.
+    /// What is requested and does not hold, in words; with [`Overlap::Skip`] faces may overlap.
     pub fn lacks(&self, overlap: Overlap, mirrored: Mirrored) -> Vec<&'static str> {
         let overlaps = overlap == Overlap::Test && self.locally_injective && !self.bijective;
         let missing = [

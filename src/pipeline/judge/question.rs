@@ -76,6 +76,6 @@ impl Question {
 fn stale() -> Warning {
     Warning::new(
         "mark_stale",
-        "the file says which UVs were written and what for, but they were changed since: it is judged as a file that says nothing",
+        "the UVs changed since unwrapd recorded its options, so the record is ignored",
     )
 }

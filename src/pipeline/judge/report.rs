@@ -14,10 +14,10 @@ use crate::pipeline::limits::Limits;
 use crate::pipeline::options::Options;
 use crate::solver::Status;
 
-/// Version of the report's schema; it rises when a key changes its meaning or goes.
+/// Version of the report schema. It increases when a key is removed or changes its meaning.
 pub const SCHEMA_VERSION: u32 = 2;
 
-/// The report of a document: what was read, what was done, and what the written bytes are worth.
+/// The report of a document: what was read, what was done, and the quality of the written bytes.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Report {
@@ -25,26 +25,26 @@ pub struct Report {
     pub schema_version: u32,
     /// Version of the program.
     pub unwrapd_version: &'static str,
-    /// What was asked for; absent where existing UVs were measured.
+    /// The requested options; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub options: Option<Options>,
-    /// What it was allowed to use of that; absent where existing UVs were measured.
+    /// The limits that applied; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<Limits>,
-    /// Whether everything that was asked for is proven on the written bytes: no face flipped or without area, no chart mirrored, no two
-    /// faces overlapping, and padding, pages, alignment and bits as asked. What is missing stands among the warnings. A bound on
-    /// the distortion that is missed is a warning too, but does not count.
+    /// Whether everything requested is proven on the written bytes: no face is flipped or degenerate, no
+    /// chart is mirrored, no two faces overlap, and padding, pages, alignment and bits are as requested.
+    /// The warnings name what is missing. A missed distortion bound is only a warning.
     pub certified: bool,
-    /// What is proven on the written bytes, beside what was asked for.
+    /// What is proven on the written bytes, beside what was requested.
     pub proven: Proven,
-    /// What users should know of the file that was read, of the work and of the file that was written.
+    /// Warnings about the input file, the work and the written file.
     pub warnings: Vec<Warning>,
-    /// One entry per atlas, in the document's order.
+    /// One entry per atlas, in document order.
     pub groups: Vec<GroupReport>,
-    /// What was changed in the document; absent where existing UVs were measured.
+    /// Changes to the document; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub written: Option<WriteNotes>,
-    /// Where the time went; absent where existing UVs were measured.
+    /// Time of each stage; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<Seconds>,
 }
@@ -55,19 +55,19 @@ pub struct Report {
 pub struct GroupReport {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
-    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    /// Name for display: the name of the mesh or material, otherwise `mesh 0` or `material 0`.
     pub label: String,
-    /// Texels along one unit of length of the mesh, of materials of weight 1: the root of the area of all faces in texels over that on
-    /// the surface, enlarged by its weights; null where the surface has none.
+    /// Mean number of texels per unit of length of the mesh, for materials of weight 1: the square root of
+    /// UV area in texels over weighted surface area. Null if the surface has no area.
     pub texels_per_unit: Option<f64>,
     /// Distortion, seams, packing and overlaps, measured on the written bytes.
     pub measures: Measures,
-    /// Exact judgement of the written bytes.
+    /// Exact judgment of the written bytes.
     pub certificate: Certificate,
-    /// What was found to be wrong with the mesh; absent where existing UVs were measured.
+    /// Defects of the mesh; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub defects: Option<Defects>,
-    /// How the atlas was made; absent where existing UVs were measured.
+    /// How the atlas was made; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub atlas: Option<AtlasReport>,
 }
@@ -78,12 +78,12 @@ pub struct GroupReport {
 pub struct AtlasReport {
     /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
-    /// `name` of the group that has the same atlas, since its mesh has the same shape: it was mapped and packed once.
+    /// `name` of the group with the same atlas: its mesh has the same shape, so both were mapped and packed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub same_as: Option<String>,
-    /// Padding kept between charts, in texels at the resolution asked for.
+    /// Padding kept between charts, in texels at the requested resolution.
     pub padding_texels: f64,
-    /// What was asked of the distortion, and whether it was kept; absent where `cut` is not `auto`.
+    /// The bound on the distortion, and whether it was kept; absent unless `cut` is `auto`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bound: Option<BoundReport>,
     /// One entry per chart.
@@ -106,11 +106,11 @@ pub struct ChartReport {
     pub energy_first: f64,
     /// Energy at the end, in the same units.
     pub energy_last: f64,
-    /// Seconds from the chart's start to its end.
+    /// Seconds for the map of the chart that this one was cut from, its cutting included.
     pub seconds: f64,
 }
 
-/// Where the time went, in seconds of the wall clock.
+/// Wall-clock time of each stage, in seconds.
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Seconds {
@@ -122,7 +122,7 @@ pub struct Seconds {
     pub bake: f64,
     /// Writing the document.
     pub write: f64,
-    /// Reading the written bytes again and judging them.
+    /// Rereading and judging the written bytes.
     pub judge: f64,
 }
 
@@ -166,7 +166,7 @@ impl GroupReport {
         }
     }
 
-    /// Whether everything that was asked for is proven of it, as [`Report::certified`] says of all.
+    /// Whether everything requested is proven for this atlas, as [`Report::certified`] says for all.
     pub fn is_certified(&self) -> bool {
         let proven = Proven::of(std::iter::once(&self.certificate));
         proven.lacks(Overlap::Test, Mirrored::Refused).is_empty()

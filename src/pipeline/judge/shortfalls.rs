@@ -65,12 +65,12 @@ fn faces(name: &str, certificate: &Certificate, charts: &[u32]) -> Vec<Warning> 
         (
             "zero_area",
             certificate.degenerate,
-            "without area in UV (degenerate)",
+            "degenerate (without area in UV)",
         ),
         (
             "not_finite",
             certificate.nonfinite_faces,
-            "with UVs that are no numbers",
+            "with UVs that are not finite",
         ),
     ];
     let warning = |(code, n, what): (&'static str, usize, &str)| {
@@ -87,7 +87,7 @@ fn faces(name: &str, certificate: &Certificate, charts: &[u32]) -> Vec<Warning> 
 fn overlapping(name: &str, certificate: &Certificate, charts: &[u32]) -> Option<Warning> {
     let pairs = certificate.overlapping_pairs.unwrap_or(0);
     if certificate.overlap_truncated {
-        let text = format!("{name}: too many triangles may overlap to look at them all");
+        let text = format!("{name}: too many candidates for overlaps to test them all");
         return Some(Warning::new("overlapping", text));
     }
     let place = (certificate.offending_pairs.first()).map(|&[a, b]| {
@@ -128,19 +128,19 @@ fn whole_charts(name: &str, certificate: &Certificate) -> Vec<Warning> {
     add(
         "one_sided",
         certificate.nonorientable_charts,
-        "with one side only, as a Möbius strip (not orientable)",
+        "not orientable (like a Möbius strip)",
     );
     add(
         "not_aligned",
         certificate.unaligned_charts.unwrap_or(0),
-        "not ending where texels end",
+        "not aligned to texel borders",
     );
     if let Some(pages) = &certificate.pages {
         let asked = count(pages.asked as usize, "page");
         add(
             "outside_pages",
             pages.charts_across,
-            &format!("not on one of {asked}"),
+            &format!("not inside one of {asked}"),
         );
     }
     warnings
@@ -158,7 +158,7 @@ fn padding(name: &str, certificate: &Certificate, charts: &[u32]) -> Option<Warn
         ..
     } = verdict;
     let nearest = (verdict.reached_texels)
-        .map(|reached| format!(", the nearest {reached:.3}"))
+        .map(|reached| format!(", the nearest at {reached:.3}"))
         .unwrap_or_default();
     let place = (verdict.offending_faces.first())
         .map(|&[a, b]| {
@@ -173,8 +173,8 @@ fn padding(name: &str, certificate: &Certificate, charts: &[u32]) -> Option<Warn
     Some(Warning::new(
         "padding_missed",
         format!(
-            "{name}: {pairs} of charts closer than the padding of {asked_texels} texels at {resolution}{nearest}{place}; a larger \
-             --resolution or a smaller --padding leaves room"
+            "{name}: {pairs} of charts closer than the padding of {asked_texels} texels at {resolution}{nearest}{place}; use a larger \
+             --resolution or a smaller --padding"
         ),
     ))
 }
@@ -214,7 +214,7 @@ fn limited(found: impl Iterator<Item = Warning>) -> Vec<Warning> {
         let (shown, rest) = of_code.split_at(MOST_OF_A_CODE - 1);
         kept.extend_from_slice(shown);
         let text = format!(
-            "{} more of these ({}); the report has them all",
+            "{} more of these ({}); the report lists them all",
             rest.len(),
             rest[0].code
         );

@@ -12,7 +12,7 @@ use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::options::{CommandOptions, MeasureOptions};
 
-/// The exact judgement of a document's UVs.
+/// The exact judgment of a document's UVs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verified {
     /// What holds of all groups.
@@ -25,7 +25,7 @@ pub struct Verified {
     pub warnings: Vec<Warning>,
 }
 
-/// The exact judgement of a group's UVs.
+/// The exact judgment of a group's UVs.
 #[derive(Clone, Debug, Serialize)]
 pub struct VerifiedGroup {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`; `chart0` where charts alone are judged.

@@ -10,14 +10,13 @@ options! {
         /// Resample the textures for the new UVs, which then replace set 0 unless `texcoord` names
         /// another.
         ///
-        /// Textures that cannot be read or are of an unknown kind stay, and so do the UVs that they
-        /// sample; the report lists them.
+        /// Textures that cannot be read, or of an unknown kind, stay as they are and keep their
+        /// UVs. The report lists them.
         pub rebake: bool, arg(help_heading = None::<&'static str>);
-        /// Texels along the sides of resampled textures. If absent, `resolution`, or the power of
-        /// two up to 4096 at which the surface has as many texels as it had, whichever is more.
+        /// Side of the resampled textures, in texels. The default is `resolution`, or more if the
+        /// surface would lose texels: a power of two up to 4096.
         pub bake_size: Option<u32>, in 16..=8192, value "TEXELS";
-        /// The format of resampled textures: that of the images that they are made of, or one for
-        /// all.
+        /// File format of the resampled textures: that of the source images, or one format for all.
         pub image_format: ImageFormat = ImageFormat::Source;
     }
 }

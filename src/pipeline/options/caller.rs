@@ -1,17 +1,17 @@
-//! What code that calls the pipeline says beside the options of a user.
+//! Settings of the code that calls the pipeline, beside the options of the user.
 
 use super::{Budget, Workers};
 use crate::document::Upload;
 use crate::pipeline::PipelineError;
 use crate::pipeline::limits::Limits;
 
-/// What code that calls the pipeline says beside the options of a user: it is no option, neither in
-/// JSON nor in the command line.
+/// Settings of the code that calls the pipeline. They are options neither in JSON nor on the command
+/// line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Caller {
     /// Name of the written files without extension; the input's if absent.
     pub stem: Option<String>,
-    /// What may be used, whatever the options ask for.
+    /// Limits, whatever the options request.
     pub limits: Limits,
 }
 

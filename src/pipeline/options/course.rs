@@ -3,13 +3,13 @@
 use crate::options::options;
 
 options! {
-    /// What is done beside minimizing once.
+    /// What the solver does besides one minimization.
     #[derive(Copy)]
     pub struct Course under "Course of the solver" {
-        /// Lower the barrier's strength while the energy without it falls.
+        /// Lower the barrier strength as long as the energy without the barrier falls.
         pub barrier_continuation: bool;
-        /// Also minimize without a barrier and report that energy beside the solution's: the
-        /// barrier's bias.
+        /// Also minimize without the barrier and report that energy. The difference is the bias of
+        /// the barrier.
         pub bias: bool;
     }
 }

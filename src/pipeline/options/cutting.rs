@@ -5,16 +5,15 @@ use serde::{Deserialize, Serialize};
 use crate::charts::{Bound, Cut, Quality};
 use crate::options::options;
 
-/// What becomes of the maps of islands that are kept.
+/// What happens to the maps of islands that are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum KeptMaps {
-    /// They are optimized from where they lie.
+    /// Optimize each map from its present position.
     #[default]
     Optimized,
-    /// They stay as they are but for quarter turns, shifts and one scale; whatever is wrong with
-    /// them stays too.
+    /// Keep each map, except for quarter turns, shifts and one common scale. Its defects stay, too.
     AsGiven,
 }
 
@@ -22,29 +21,29 @@ options! {
     /// Where to cut.
     #[derive(Copy)]
     pub struct Cutting under "Where to cut" {
-        /// Where to cut: few charts under a bound on their distortion, more in less time, one per
-        /// component, the islands of the present UVs, or along given seams.
+        /// Where to cut. auto: few charts under a distortion bound. fast: more charts in less time.
+        /// disk: one chart per component. keep: the present UV islands. seams: along `seams`.
         pub cut: Cut = Cut::Auto, arg(help_heading = None::<&'static str>);
-        /// How distorted the atlas may be with `cut` auto: the mean symmetric Dirichlet energy is
-        /// at most 4.05, 4.1 or 4.5; 4 is an isometry.
+        /// Distortion bound of `cut` auto: a mean symmetric Dirichlet energy of at most 4.05, 4.1
+        /// or 4.5. An isometry has 4.
         pub quality: Quality = Quality::Balanced, arg(help_heading = None::<&'static str>);
-        /// What becomes of the maps of islands with `cut` keep.
+        /// What `cut` keep does with the map of each island.
         pub kept_maps: KeptMaps = KeptMaps::Optimized;
-        /// The most charts that `cut` auto may make for an atlas: where it needs more it allows
+        /// Maximum number of charts that `cut` auto makes per atlas. If more are needed, it allows
         /// more distortion, up to one chart per component.
         pub max_charts: Option<u32>, in 1..=1e9, value "N";
-        /// The bound on the mean symmetric Dirichlet energy in the place of what `quality` says; 4
-        /// is an isometry.
+        /// Bound on the mean symmetric Dirichlet energy, in place of the one that `quality` sets.
+        /// An isometry has 4.
         ///
-        /// It goes with `cut` auto. The report says whether it was kept.
+        /// Requires `cut` auto. The report says whether the bound was kept.
         pub max_distortion: Option<f64>, in 4.0001..=1e6, value "E";
-        /// A bound on the stretch max(σ₁, 1/σ₂) that all but a hundredth of the area keeps: more is
-        /// cut until it does.
+        /// Bound on the 99th percentile of the stretch max(σ₁, 1/σ₂), weighted by area. Charts are
+        /// cut until they keep it.
         ///
-        /// It goes with `cut` auto. The report says whether it was kept.
+        /// Requires `cut` auto. The report says whether the bound was kept.
         pub max_stretch: Option<f64>, in 1.001..=1e6, value "S";
-        /// The price of a seam where charts are cut so that the atlas becomes fuller: 0 cuts
-        /// wherever that gains anything, a large number never.
+        /// Price of seams that are cut only to fill the atlas better. With 0 every gain is taken; a
+        /// large number prevents such cuts.
         pub seam_weight: f64 = 1.0, in 0..=1e6, value "W";
     }
 }
@@ -70,7 +69,7 @@ impl Cutting {
             ("max_stretch", self.max_stretch),
         ] {
             if given.is_some() && self.cut != Cut::Auto {
-                return Err(format!("`{name}` goes with `cut` auto"));
+                return Err(format!("`{name}` requires `cut` auto"));
             }
         }
         Ok(())

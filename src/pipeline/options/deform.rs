@@ -13,31 +13,33 @@ options! {
     /// What is deformed and how. The command line's long names in snake case; a file of handles is
     /// one with the handles only.
     pub struct DeformOptions {
-        /// About how many triangles an outline is filled with.
+        /// Approximate number of triangles to fill an outline with.
         pub triangles: usize = TRIANGLES, value "N", schema(minimum = 1);
-        /// Put all meshes of the file, each once and without the transforms of nodes, into a cage
-        /// of cubes, so many along its longest side, and deform that. Handles are then places
-        /// ("at", "center"); connected parts of the cage without any stay at rest.
+        /// Deform the meshes of the file in a cage of cubes, this many along its longest side.
+        ///
+        /// Each mesh enters the cage once, without the transforms of nodes. Handles are then places
+        /// (`at`, `center`). Connected parts of the cage without a handle stay at rest.
         pub cage: Option<u32>, value "N", schema(minimum = 1);
-        /// With a `cage`: cut triangles where they pass from one of its tetrahedra into the next,
-        /// so that they follow it exactly.
+        /// With `cage`: split triangles where they cross from one tetrahedron of the cage into the
+        /// next. They then follow the cage exactly.
         pub split: bool;
     }
     files {
-        /// What is pulled, and where to: vertices, points inside elements, discs of vertices:
-        /// {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …}, {"center": …,
-        /// "radius": r, "to": …}]}.
+        /// Handles and their targets. A handle is a vertex, a point inside an element, or a disc of
+        /// vertices: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …}, {"center":
+        /// …, "radius": r, "to": …}]}.
         pub handles: Vec<Handle>;
-        /// Show the observer the map of every iteration; over HTTP they become files beside the
-        /// result, 256 MiB of them at most. Not as gltf, which is several files.
+        /// Record the map of every iteration. Over HTTP these become files beside the result, at
+        /// most 256 MiB. Not available for gltf, which consists of several files.
         pub frames: bool;
-        /// Format of the result; the input's if absent and possible, else OBJ.
+        /// Format of the result. The default is the format of the input if it can be written,
+        /// otherwise OBJ.
         pub format: Option<BodyFormat>;
     }
     groups {
-        /// What the deformation costs.
+        /// Energy and barrier.
         pub model: Model;
-        /// What is done beside minimizing once.
+        /// What the solver does besides one minimization.
         pub course: Course;
         /// What works.
         pub workers: Workers;
@@ -56,17 +58,14 @@ impl DeformOptions {
         idle::check_model(&self.model)?;
         let is_barrier_absent = self.model.barrier == BarrierKind::None;
         let idle = [
-            (
-                self.split && self.cage.is_none(),
-                "`split` goes with `cage`",
-            ),
+            (self.split && self.cage.is_none(), "`split` requires `cage`"),
             (
                 self.triangles != TRIANGLES && self.cage.is_some(),
-                "`triangles` fill an outline; `cage` goes with surfaces",
+                "`triangles` applies to outlines, `cage` to surfaces: give one of them",
             ),
             (
                 self.course.barrier_continuation && is_barrier_absent,
-                "`barrier_continuation` goes with a `barrier`",
+                "`barrier_continuation` requires a `barrier`",
             ),
         ];
         let first = idle.into_iter().find(|(is_idle, _)| *is_idle);
@@ -76,7 +75,7 @@ impl DeformOptions {
     fn check_format(&self) -> Result<(), String> {
         match (self.format, self.cage) {
             (Some(format), Some(_)) if format.of_document().is_none() => {
-                Err("`format`: surfaces in a cage are written as glb, gltf or obj".to_owned())
+                Err("`format` must be glb, gltf or obj with `cage`".to_owned())
             }
             _ => Ok(()),
         }

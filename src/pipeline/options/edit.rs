@@ -22,25 +22,25 @@ options! {
     /// How the UVs of a document are edited. The command line's long names in snake case; a file of
     /// anchors is one with the anchors only.
     pub struct EditOptions {
-        /// The UV set, read and written.
+        /// The UV set to read and write.
         pub texcoord: u32 = 0, value "N";
-        /// Whether the boundaries of charts stay; if absent they do where a surface is aligned with
-        /// a texture, and do not where UVs are edited.
+        /// Whether the boundaries of charts stay fixed. The default is fixed when a surface is
+        /// aligned with a texture, free when UVs are edited.
         pub boundary: Option<Boundary>;
-        /// Which shapes of triangles to keep; if absent the surface's where it is aligned with a
-        /// texture, and the present ones where UVs are edited.
+        /// Which triangle shapes to preserve. The default is the shapes on the surface when it is
+        /// aligned with a texture, the present UV shapes when UVs are edited.
         pub rest: Option<UvRest>;
     }
     files {
-        /// Vertices and points of the map and where they go, in the numbers of the file (glTF: v
-        /// down): {"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": …}, …]}; `at`
-        /// means the point of the surface that has this UV. Also called points.
+        /// Anchors of the map and their targets: {"anchors": [{"vertex": i, "to": [u, v]}, {"at":
+        /// [u, v], "to": …}, …]}. All UVs are as in the file; in glTF, v points down. `at` selects
+        /// the point of the surface with this UV. `points` is another name for this list.
         pub anchors: Vec<Anchor>, also "points";
         /// Format of the result.
         pub format: OutputFormat = OutputFormat::Glb;
     }
     groups {
-        /// What the deformation costs, for a mean triangle of area 1.
+        /// Energy and barrier, for a mean triangle area of 1.
         pub model: Model;
         /// What works.
         pub workers: Workers;

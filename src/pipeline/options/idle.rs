@@ -1,4 +1,4 @@
-//! Options that would do nothing are refused: who gives one expects something of it.
+//! Refuses options that would have no effect: their user expects one.
 
 use super::{KeptMaps, Options, Preset};
 use crate::barrier::BarrierKind;
@@ -7,12 +7,12 @@ use crate::deform::Model;
 use crate::document::{GroupBy, OutputFormat};
 use crate::pipeline::rebake::ImageFormat;
 
-/// An option, what it goes with, and whether it is given in vain.
+/// An option, what it goes with, and whether it is given without effect.
 type Idle = (&'static str, &'static str, bool);
 
 fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
     match all.into_iter().find(|(.., is_idle)| *is_idle) {
-        Some((name, with, _)) => Err(format!("`{name}` goes with {with}")),
+        Some((name, with, _)) => Err(format!("`{name}` requires {with}")),
         None => Ok(()),
     }
 }
@@ -81,12 +81,12 @@ pub(in crate::pipeline) fn check(options: &Options) -> Result<(), String> {
         ),
         (
             "texcoord",
-            "glTF: an OBJ file has one set of UVs",
+            "a glTF result: an OBJ file has one UV set",
             options.sets.texcoord.is_some_and(|set| set > 0) && is_obj,
         ),
         (
             "overwrite",
-            "glTF: an OBJ file has one set of UVs",
+            "a glTF result: an OBJ file has one UV set",
             options.sets.overwrite && is_obj,
         ),
     ])?;
@@ -94,7 +94,7 @@ pub(in crate::pipeline) fn check(options: &Options) -> Result<(), String> {
     let is_one_atlas = options.preset == Preset::Lightmap || is_obj;
     match options.group_by {
         Some(by) if by != GroupBy::Scene && is_one_atlas => Err(format!(
-            "`group_by` does nothing here: {} is one atlas",
+            "`group_by` has no effect here: {} always has one atlas",
             if is_obj { "an OBJ file" } else { "a lightmap" }
         )),
         _ => Ok(()),
@@ -107,7 +107,7 @@ pub(in crate::pipeline) fn check_grouping(
     options: &Options,
     group_by: Option<GroupBy>,
 ) -> Result<(), String> {
-    const WITH: &str = "atlases of several materials: `group_by` mesh or scene";
+    const WITH: &str = "an atlas with several materials: `group_by` mesh or scene";
     if !matches!(group_by, Some(GroupBy::Material | GroupBy::Primitive)) {
         return Ok(());
     }

@@ -6,20 +6,20 @@ use crate::atlas::Texture;
 use crate::mesh::Resolution;
 use crate::options::{options, within};
 
-/// How long the fullest layout of an atlas is searched for.
+/// How long to search for the fullest layout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum PackingMode {
-    /// Two to three seconds of the processor.
+    /// The default search budget: at most a few processor seconds per mesh.
     #[default]
     Fast,
-    /// Ten times as long.
+    /// Ten times that budget.
     Tight,
 }
 
 impl PackingMode {
-    /// How often the words that a fast search reads.
+    /// The multiple of the usual search budget.
     pub(in crate::pipeline) fn passes(self) -> u64 {
         match self {
             Self::Fast => 1,
@@ -32,19 +32,21 @@ options! {
     /// How charts are laid out on a texture.
     #[derive(Copy)]
     pub struct Layout under "Atlas" {
-        /// The texture that `padding` is counted in: texels along its side, or along both. One side
-        /// is the other times a power of two; texels are square on the surface.
+        /// Texture size that `padding` refers to: the side in texels, or width and height. The
+        /// ratio of the sides must be a power of two.
+        ///
+        /// Texels are square on the surface.
         pub resolution: Resolution = Resolution::square(1024), value "N|WxH", arg(help_heading = None::<&'static str>);
-        /// Least distance of two charts in texels; half of it is kept to the borders of pages. At
-        /// most an eighth of the texture's shorter side.
+        /// Minimum distance between two charts, in texels. Charts keep half of it from the borders
+        /// of a page. At most an eighth of the shorter side.
         pub padding: u32 = 2, in 0..=8192, value "TEXELS", arg(help_heading = None::<&'static str>);
-        /// Pages of that texture that charts may lie on: page k covers u from k to k + 1, the tile
-        /// 1001 + k of UDIM. All have one density.
+        /// Number of texture pages. Page k covers u from k to k + 1, the UDIM tile 1001 + k. All
+        /// pages have the same texel density.
         pub pages: u32 = 1, in 1..=10, value "N";
-        /// Texels along one unit of length of the mesh, at the mean; as many as fit if absent. A
-        /// texture that is too small is an error.
+        /// Mean number of texels per unit of length of the mesh. The default is the highest density
+        /// that fits. A texture that is too small is an error.
         pub texels_per_unit: Option<f64>, in 1e-9..=1e9, value "T";
-        /// How long the fullest layout is searched for.
+        /// How long to search for the fullest layout.
         pub packing: PackingMode = PackingMode::Fast;
     }
 }
@@ -66,7 +68,7 @@ fn check_texels(resolution: Resolution, padding: u32) -> Result<(), String> {
     if !resolution.is_regular() {
         let most = Resolution::MOST_ELONGATED;
         return Err(format!(
-            "`resolution` must have one side that is the other times a power of two up to {most}, not {resolution}"
+            "the sides of `resolution` must differ by a power of two up to {most}, not {resolution}"
         ));
     }
     let most = f64::from(most_padding(resolution));
@@ -87,8 +89,8 @@ pub(super) fn check_mips(padding: u32, mips: u32, resolution: Resolution) -> Res
         return Ok(());
     }
     Err(format!(
-        "`mips` {mips} makes of `padding` {padding} {texels} texels of `resolution` {resolution}, which allows {most}: take `mips` \
-         up to {}, less `padding` or more `resolution`",
+        "`mips` {mips} turns `padding` {padding} into {texels} texels at `resolution` {resolution}, \
+         which allows {most}: use `mips` up to {}, a smaller `padding` or a larger `resolution`",
         (most / padding).ilog2()
     ))
 }

@@ -11,20 +11,20 @@ options! {
     pub struct Mapping under "Energy and barrier" {
         /// Distortion energy to minimize.
         pub energy: EnergyKind = EnergyKind::SymmetricDirichlet;
-        /// Barrier that keeps every triangle from inverting; none is for comparison: what flips
-        /// without it is written, and is not certified.
+        /// Barrier that keeps every triangle from inverting. With none, for comparison, flipped
+        /// triangles are written and the result is not certified.
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
-        /// Weight β of the barrier.
+        /// Barrier strength β.
         pub barrier_strength: f64 = 0.01, in 1e-9..=1e9, value "BETA";
-        /// Support s of the inverse spline, relative to an element's rest area.
+        /// Support s of the inverse-spline barrier, relative to the rest area of an element.
         pub barrier_support: f64 = 1.0, in 1e-6..=1e6, value "S";
-        /// Vertices of each chart's boundary that are held, far from each other: 0, or with `cut`
-        /// disk 2, as least-squares conformal maps (`energy` lscm) need them.
+        /// Vertices of each chart to hold fixed, on the boundary and far apart: 0 or 2.
+        /// Least-squares conformal maps (`energy` lscm) need 2, which requires `cut` disk.
         pub pin: u32 = 0, value "N", schema(maximum = 2);
-        /// Bits that tools will round the texture coordinates to, 12, 14 or 16: thin triangles and
-        /// narrow gaps are opened so that the map stays bijective, as far as that is possible.
+        /// Keep the map bijective when tools round texture coordinates to this many bits: 12, 14 or
+        /// 16. Thin triangles and narrow gaps are opened as far as possible.
         ///
-        /// The report says whether that is proven, and which faces are in doubt. It goes with one
+        /// The report says whether that is proven, and which faces are in doubt. Requires a single
         /// page.
         pub quantization_safe: Option<u32>, value "BITS", arg(help_heading = "Atlas"),
             schema(minimum = 12, maximum = 16, multiple_of = 2);
@@ -44,7 +44,7 @@ impl Mapping {
         }
         match (self.pin, cut) {
             (0, _) | (2, Cut::Disk) => Ok(()),
-            (2, _) => Err("`pin` 2 goes with `cut` disk".to_owned()),
+            (2, _) => Err("`pin` 2 requires `cut` disk".to_owned()),
             (pin, _) => Err(format!("`pin` must be 0 or 2, not {pin}")),
         }
     }

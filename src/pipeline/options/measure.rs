@@ -10,33 +10,34 @@ use crate::pipeline::PipelineError;
 use crate::pipeline::documents::nodes::Nodes;
 
 options! {
-    /// Which UVs of a document are measured or verified. What is absent is what the file says that
-    /// its UVs were written for.
+    /// Which UVs of a document to measure or verify. Absent options take the values that the file
+    /// records.
     pub struct MeasureOptions {
-        /// The UV set. If absent it is the one that the file says was written, and what else is
-        /// absent is what it was written for; set 0 of a file that says nothing, or whose UVs were
-        /// changed since.
+        /// The UV set. By default the file tells: unwrapd records the set it wrote and its options.
+        /// Without such a record, or if the UVs changed since, it is set 0.
         pub texcoord: Option<u32>, value "N";
-        /// What shares one atlas; if absent what the file says, else each mesh has its own.
+        /// What shares an atlas. The default is what the file records, otherwise one atlas per
+        /// mesh.
         pub group_by: Option<GroupBy>;
-        /// Judge what each node shows of a mesh by itself, where it is in the scene: nodes that
-        /// show one mesh show the same UVs.
+        /// Judge each node that shows a mesh separately, with its transform in the scene. Nodes
+        /// that share a mesh share its UVs.
         pub separate_nodes: bool;
-        /// Least distance of two charts to prove, in texels of the coarsest of the mip levels that
-        /// count; not judged if absent.
+        /// Prove this minimum distance between charts, in texels of the coarsest mip level that
+        /// counts. Not judged by default.
         pub padding: Option<u32>, in 0..=8192, value "TEXELS";
-        /// The texture that `padding` is counted in, and texels per unit: texels along its side, or
-        /// along both; 1024 texels square if absent.
+        /// Texture size that `padding` and texel densities refer to: the side in texels, or width
+        /// and height. The default is 1024.
         pub resolution: Option<Resolution>, value "N|WxH";
-        /// Prove that each chart lies on one of so many pages side by side, the tiles of UDIM from
-        /// 1001 on; not judged if absent.
+        /// Prove that each chart lies on one of this many pages side by side, the UDIM tiles from
+        /// 1001 on. Not judged by default.
         pub pages: Option<u32>, in 1..=10, value "N";
-        /// Mip levels beyond the first in which charts are to keep the padding; none if absent.
+        /// Number of mip levels beyond the first in which charts must keep the padding. The default
+        /// is 0.
         pub mips: Option<u32>, in 0..=12, value "N";
-        /// Prove that the bounding rectangles of charts end where texels of `resolution` end.
+        /// Prove that the bounding rectangle of every chart ends on texel borders of `resolution`.
         pub aligned: bool;
-        /// Bits b at which to prove that the map stays bijective however each coordinate moves by
-        /// up to 1/(2(2ᵇ−1)) + 2⁻¹⁶.
+        /// Prove that the map stays bijective when texture coordinates are rounded to b bits: when
+        /// each moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶.
         pub bits: Option<u32>, in 8..=16, value "B";
     }
     groups {

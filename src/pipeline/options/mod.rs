@@ -1,4 +1,4 @@
-//! The options of the applications: groups that several have, and what each alone has.
+//! The options of the applications: shared groups, and the options of each.
 //!
 //! Every option is written [once](crate::options). Arrays are unwrapped with
 //! [`Settings`](crate::pipeline::Settings), which consists of the groups that concern the geometry.

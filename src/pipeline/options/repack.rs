@@ -9,7 +9,7 @@ use crate::pipeline::PipelineError;
 options! {
     /// How the UVs of a document are packed. The command line's long names in snake case.
     pub struct RepackOptions {
-        /// What shares one atlas.
+        /// What shares an atlas.
         pub group_by: GroupBy = GroupBy::Scene;
     }
     files {

@@ -6,9 +6,10 @@ options! {
     /// Which UV sets are read and written.
     #[derive(Copy)]
     pub struct Sets under "UV sets and textures" {
-        /// The UV set whose islands are kept; 0 if absent.
+        /// The UV set that provides the islands. The default is 0.
         pub source_texcoord: Option<u32>, in 0..=7, value "N";
-        /// The UV set to write; if absent 0 where no texture samples it, else the next free one.
+        /// The UV set to write. The default is set 0 if no texture samples it, otherwise the next
+        /// free set.
         pub texcoord: Option<u32>, in 0..=7, value "N";
         /// Replace the UV set even if textures sample it.
         pub overwrite: bool;

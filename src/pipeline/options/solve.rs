@@ -10,18 +10,18 @@ use crate::pipeline::deform::plan::Plan;
 options! {
     /// How a problem file is solved. The command line's long names in snake case.
     pub struct SolveOptions {
-        /// How: projected Newton with advancing targets, or the paper's iteration.
+        /// Solver: projected Newton with advancing targets, or the iteration of the paper.
         pub method: Method = Method::Projected;
     }
     files {
-        /// Show the observer the map of every iteration; over HTTP they become files beside the
-        /// result, 256 MiB of them at most.
+        /// Record the map of every iteration. Over HTTP these become files beside the result, at
+        /// most 256 MiB.
         pub frames: bool;
-        /// Format of the result: positions as text if absent.
+        /// Format of the result. The default is positions as text.
         pub format: BodyFormat = BodyFormat::Txt;
     }
     groups {
-        /// What is done beside minimizing once.
+        /// What the solver does besides one minimization.
         pub course: Course;
         /// What works.
         pub workers: Workers;

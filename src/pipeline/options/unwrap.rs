@@ -13,24 +13,24 @@ use crate::pipeline::arrays::settings::Settings;
 use crate::pipeline::documents::nodes::Nodes;
 use crate::pipeline::documents::texel_weight::TexelWeight;
 
-/// Edges of a document that are cut in any case.
+/// Edges of a document to cut in any mode.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(untagged)]
 pub enum GivenSeams {
-    /// By a word.
+    /// Seams named by a word.
     Named(NamedSeams),
-    /// Those between these pairs of vertices, counted over the triangle primitives of the file as
-    /// they follow each other.
+    /// The edges between these pairs of vertices, counted over the triangle primitives of the file
+    /// in order.
     Edges(Vec<[u32; 2]>),
 }
 
-/// Seams that the document itself tells.
+/// Seams that the document itself defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum NamedSeams {
-    /// Edges at which the normals of two faces differ.
+    /// Hard edges: those where the normals of two faces differ.
     Normals,
 }
 
@@ -38,33 +38,32 @@ options! {
     /// How a document is unwrapped: what [`Settings`] consist of, and what concerns the file. The
     /// command line's long names in snake case.
     pub struct Options under "Atlas" {
-        /// What the UVs are for, and what follows from that.
+        /// Purpose of the UVs.
         pub preset: Preset = Preset::Material;
-        /// What shares one atlas and one density. If absent, the meshes of a glTF file that have
-        /// one material, and each mesh without one by itself; all of another file.
+        /// What shares an atlas and a texel density. The default for glTF is one atlas per
+        /// material; a mesh without a material has its own. Other files have one atlas.
         ///
-        /// A lightmap and an OBJ file have one atlas for the scene in any case.
+        /// A lightmap and an OBJ file always have one atlas for the scene.
         pub group_by: Option<GroupBy>;
-        /// Materials of a glTF, by name or index, that get W times as many texels along a line as
-        /// the others of their atlas.
+        /// Give a material of a glTF, by name or index, W times the linear texel density of the
+        /// others in its atlas.
         ///
-        /// Borders between different weights are cut, `texels_per_unit` is that of weight 1, and
-        /// distortion is measured against the density intended. The command line takes one at a
-        /// time, JSON a list.
+        /// The surface is cut between materials of different weight. `texels_per_unit` refers to
+        /// weight 1, and distortion is measured against the intended density. Repeat the option for
+        /// several materials; JSON takes a list.
         pub texel_weight: Vec<TexelWeight>, value "MATERIAL=W", schema(value_type = Vec<String>);
-        /// Mip levels beyond the first in which charts keep the padding, in texels of each; 0 if
-        /// absent, 2 of a lightmap.
+        /// Number of mip levels beyond the first in which charts keep the padding, counted in
+        /// texels of each level. The default is 0, for a lightmap 2.
         pub mips: Option<u32>, in 0..=12, value "N";
-        /// Cut along the borders of materials too.
+        /// Also cut along the borders between materials.
         pub material_borders: bool, arg(help_heading = "Where to cut");
         /// What the heat map shows.
         pub heatmap_measure: HeatmapMeasure = HeatmapMeasure::SymmetricDirichlet,
             arg(help_heading = "Files and messages", requires = "heatmap");
     }
     files {
-        /// Edges to cut in any case: normals for those with hard normals, or a list [[v, w], …] of
-        /// pairs of vertices, counted over the triangle primitives of the file as they follow each
-        /// other.
+        /// Edges to cut in any mode: normals for hard edges, or a list [[v, w], …] of vertex pairs.
+        /// Vertices are counted over the triangle primitives of the file in order.
         pub seams: Option<GivenSeams>;
         /// Format of the result.
         pub format: OutputFormat = OutputFormat::Glb;

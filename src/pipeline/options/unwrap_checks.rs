@@ -15,12 +15,12 @@ impl Options {
         idle::check(self)?;
         self.texel_weight.iter().try_for_each(TexelWeight::check)?;
         if self.cutting.cut == Cut::Seams && self.seams.is_none() {
-            return Err("`cut` seams needs `seams`".to_owned());
+            return Err("`cut` seams requires `seams`".to_owned());
         }
         let is_one_square = self.layout.pages == 1 && self.layout.resolution.aspect() == 1.0;
         if self.baking.rebake && !is_one_square {
             return Err(
-                "`rebake` makes one square texture: it needs `pages` 1 and a square `resolution`"
+                "`rebake` makes one square texture: it requires `pages` 1 and a square `resolution`"
                     .to_owned(),
             );
         }

@@ -10,20 +10,22 @@ options! {
     /// How a picture is warped. The command line's long names in snake case; a file of handles is
     /// one with the handles only.
     pub struct WarpOptions {
-        /// Cells of the grid along the longer side.
+        /// Number of grid cells along the longer side of the picture.
         pub grid: usize = warp::WarpOptions::default().grid, value "N", schema(minimum = 1, maximum = 512);
-        /// Hold the border, so that the map is bijective; handles next to it take hold of inner
-        /// vertices.
+        /// Hold the border fixed, which makes the map bijective. Handles next to the border then
+        /// move the nearest inner vertex.
         pub fix_border: bool;
     }
     files {
-        /// Places of the picture and where they go, in pixels, y down: {"handles": [{"at": [x, y],
-        /// "to": [x, y]}, …]}. Each takes hold of its own point; next to a fixed border of the
-        /// nearest inner vertex of the grid, whose target is shifted by the same offset.
+        /// Points of the picture and their targets, in pixels, y down: {"handles": [{"at": [x, y],
+        /// "to": [x, y]}, …]}.
+        ///
+        /// Each handle moves its exact point. Next to a fixed border it moves the nearest inner
+        /// vertex of the grid by the same offset.
         pub handles: Vec<PictureHandle>;
     }
     groups {
-        /// What the deformation costs, for a mean triangle of an area from ½ to 2.
+        /// Energy and barrier, for a mean triangle area between ½ and 2.
         pub model: Model;
         /// What works.
         pub workers: Workers;

@@ -6,7 +6,8 @@ options! {
     /// What works.
     #[derive(Copy)]
     pub struct Workers under "Time" {
-        /// Threads to use; all that are allowed if absent. The result does not depend on it.
+        /// Number of threads. The default is all that are allowed. The result does not depend on
+        /// it.
         pub threads: Option<usize>, in 1..=1024, value "N";
     }
 }
@@ -15,7 +16,8 @@ options! {
     /// How long the work may take.
     #[derive(Copy)]
     pub struct Budget under "Time" {
-        /// Seconds after which the current valid map is taken as it is.
+        /// Time limit in seconds. When it is reached, the current map, which is valid, becomes the
+        /// result.
         pub time_budget: Option<f64>, in 0..=1e6, value "SECONDS";
     }
 }

@@ -12,12 +12,12 @@ use crate::picture::Image;
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum ImageFormat {
-    /// JPEG where all the images that a texture is made of are, else PNG.
+    /// JPEG if all source images are JPEG, otherwise PNG.
     #[default]
     Source,
-    /// PNG, without loss.
+    /// PNG, lossless.
     Png,
-    /// JPEG, but PNG where something is transparent.
+    /// JPEG, or PNG if a texel is transparent.
     Jpeg,
 }
 

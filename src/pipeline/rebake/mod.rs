@@ -106,7 +106,7 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
     near.map(|side| {
         let gap = gap(side);
         let message = format!(
-            "charts are {gap:.2} texels apart in textures of {side}: filtering mixes them; see padding"
+            "charts are {gap:.2} texels apart in textures of {side}, so filtering mixes them: use more padding"
         );
         Warning::new("charts_near", message)
     })
@@ -119,6 +119,6 @@ fn check_texels(texels: u64) -> Result<(), DocumentError> {
     }
     let (most, wanted) = (MOST_TEXELS >> 20, texels >> 20);
     Err(DocumentError::LimitExceeded(format!(
-        "the new textures would have {wanted} Mi texels or more; at most {most} Mi are made"
+        "the new textures would have {wanted} Mi texels or more; the limit is {most} Mi"
     )))
 }

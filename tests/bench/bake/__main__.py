@@ -3,10 +3,10 @@
 
     python3 tests/bench/bake --unwrapd target/release/unwrapd [--pictures FOLDER] FILE...
 
-The interpreter needs numpy, pillow, uvunwrap and xatlas from PyPI. A glTF with a base colour texture is judged by that
+The interpreter needs numpy, pillow, uvunwrap and xatlas from PyPI. A glTF with a base color texture is judged by that
 texture, every other mesh by a procedural one, a function of space with detail down to the texels of a full atlas. All tools get
 the same faces, welded where positions are equal, one atlas per mesh, and a gap of 2 texels at 1024 (uvunwrap `padding=1`,
-xatlas `resolution=1024, padding=2`). The same baker fills 1024² texels of 8 bits through each atlas: at the texels' centres, and
+xatlas `resolution=1024, padding=2`). The same baker fills 1024² texels of 8 bits through each atlas: at the texels' centers, and
 at the nearest points of charts for those that bilinear filtering reads beside them. The surface is seen from the eight corners
 of a cube, in pictures of 1024², as the source has it and with each texture, sampled bilinearly; PSNR is over all pixels that
 show the surface.
@@ -50,13 +50,13 @@ PEERS = {"uvunwrap": uvunwrap_uvs, "xatlas": xatlas_uvs}
 
 def seen(positions):
     """What each view shows: faces, weights and pixels."""
-    centre = 0.5 * (positions.min((0, 1)) + positions.max((0, 1)))
-    radius = np.linalg.norm(positions - centre, axis=2).max()
+    center = 0.5 * (positions.min((0, 1)) + positions.max((0, 1)))
+    radius = np.linalg.norm(positions - center, axis=2).max()
     for direction in VIEWS:
         right = np.cross([0, 1, 0], direction)
         right /= np.linalg.norm(right)
         up = np.cross(direction, right)
-        local = (positions - centre) / radius
+        local = (positions - center) / radius
         plane = np.stack([local @ right, -(local @ up)], 2)
         yield visible((plane + 1) * 0.5 * SIDE, -(local @ direction), SIDE)
 
@@ -65,7 +65,7 @@ def baked(uv, source):
     """The texture of SIDE² texels, 8 bits, for UVs with v down."""
     texture = np.zeros((SIDE * SIDE, 3))
     faces, weights, at = covered(uv * SIDE, SIDE)
-    texture[at] = np.round(source.colours(faces, weights))
+    texture[at] = np.round(source.colors(faces, weights))
     return texture.reshape(SIDE, SIDE, 3)
 
 
@@ -78,7 +78,7 @@ def compared(name, positions, source, atlases, pictures):
     textures = {tool: baked(uv, source) for tool, uv in atlases.items()}
     errors = {tool: [] for tool in atlases}
     for number, (faces, weights, pixels) in enumerate(seen(positions)):
-        truth = source.colours(faces, weights)
+        truth = source.colors(faces, weights)
         shown = {"source": truth}
         for tool, uv in atlases.items():
             value = bilinear(linear(textures[tool]), blended(weights, uv[faces]))

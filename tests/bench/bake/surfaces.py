@@ -124,7 +124,7 @@ class Procedural:
             channels.append(((x ^ (x >> 15)) & 0xFFFF) / 65535)
         return np.stack(channels, 1)
 
-    def colours(self, faces, weights):
+    def colors(self, faces, weights):
         """0 to 255."""
         points = blended(weights, self.positions[faces])
         value = np.full((len(points), 3), 0.5)
@@ -137,7 +137,7 @@ class Procedural:
 
 
 class Textured:
-    """Triangles of primitives with the base colour textures that their materials have."""
+    """Triangles of primitives with the base color textures that their materials have."""
 
     def __init__(self, glb, primitives):
         self.glb, self.parts = glb, []
@@ -164,7 +164,7 @@ class Textured:
         wrap = sampler.get("wrapS", 10497), sampler.get("wrapT", 10497)
         return linear(self.glb.image(texture["source"])[..., :3]), uv, wrap
 
-    def colours(self, faces, weights):
+    def colors(self, faces, weights):
         """0 to 255; white where there is no texture."""
         values = np.full((len(faces), 3), 255.0)
         for first, end, part in self.parts:

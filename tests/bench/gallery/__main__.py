@@ -3,8 +3,8 @@
 
     python3 tests/bench/gallery --judge path/to/uvmetrics.py --unwrapd target/release/unwrapd --data DIR --out P.png [NAME...]
 
-DIR holds the meshes of the table below, whose licences allow the pictures to be passed on. JUDGE and the interpreter are those of
-`tests/bench/atlas.py`, and scipy and pillow from PyPI. Charts have the same colours in the square and on the mesh, where
+DIR holds the meshes of the table below, whose licenses allow the pictures to be passed on. JUDGE and the interpreter are those of
+`tests/bench/atlas.py`, and scipy and pillow from PyPI. Charts have the same colors in the square and on the mesh, where
 thin lines are seams; the squares of the checkerboard are as large on a mesh with each tool. Underneath, by the judge: charts,
 seam length over the square root of the area, mean symmetric Dirichlet energy, share of the square. unwrapd and uvunwrap keep 2
 texels at 1024 between charts, xatlas by default 1.
@@ -22,7 +22,7 @@ import atlas  # noqa: E402
 from atlases import Atlas  # noqa: E402
 from drawing import layout, surface  # noqa: E402
 
-# File, view (azimuth, elevation, axis that points up), and who made it under which licence.
+# File, view (azimuth, elevation, axis that points up), and who made it under which license.
 MESHES = {
     "Spot": ("closed/spot.ply", (150, 12, "y"), "Keenan Crane, CC0"),
     "Human": ("closed/human_neutral.obj", (20, 5, "y"), "Max Planck Society via SMPL-X, CC BY 4.0"),
@@ -34,7 +34,7 @@ MESHES = {
     "Hand": ("disk/hand_lowres.obj", (20, 10, "y"), "Max Planck Society via SMPL, CC BY 4.0"),
 }
 TOOLS = {"unwrapd": "unwrapd", "uvunwrap, gap 2": "uvunwrap", "xatlas": "xatlas"}
-SIDE, MARGIN, LINE, CHECKS, COLOURS = 252, 16, 32, 24, 96
+SIDE, MARGIN, LINE, CHECKS, COLORS = 252, 16, 32, 24, 96
 FONTS = Path("/usr/share/fonts/truetype/dejavu")
 
 
@@ -103,7 +103,7 @@ def main():
     print("mesh | tool | charts | seam | E | fill")
     with tempfile.TemporaryDirectory() as folder:
         rows = [row(arguments, name, Path(folder)) for name in arguments.names]
-    sheet(rows).quantize(COLOURS, Image.Quantize.MEDIANCUT, kmeans=5, dither=Image.Dither.NONE).save(arguments.out, optimize=True)
+    sheet(rows).quantize(COLORS, Image.Quantize.MEDIANCUT, kmeans=5, dither=Image.Dither.NONE).save(arguments.out, optimize=True)
 
 
 if __name__ == "__main__":

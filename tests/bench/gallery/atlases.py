@@ -1,4 +1,4 @@
-"""What can be seen of an atlas: its charts, their colours, where the surface is cut."""
+"""What can be seen of an atlas: its charts, their colors, where the surface is cut."""
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
@@ -24,7 +24,7 @@ class Atlas:
         welded, surface_edge = np.unique(sides(faces), axis=0, return_inverse=True)
         ways = np.unique(np.stack([surface_edge, edge], 1), axis=0)[:, 0]
         self.seams = self.positions[welded[np.bincount(ways) > 1]]
-        self.neighbours = neighbours(of_face, surface_edge, self.chart)
+        self.neighbors = neighbors(of_face, surface_edge, self.chart)
 
     def areas(self):
         a, b, c = self.positions[self.faces].transpose(1, 0, 2)
@@ -35,14 +35,14 @@ class Atlas:
         e, f = self.uv[:, 1] - self.uv[:, 0], self.uv[:, 2] - self.uv[:, 0]
         return (0.5 * np.abs(e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]).sum() / self.areas().sum()) ** 0.5
 
-    def paint(self, n_colours):
-        """The colour of each chart: of those that no neighbour has the one that is used least."""
-        colour = np.full(self.chart.max() + 1, -1)
-        for chart in range(len(colour)):
-            taken = np.bincount(colour[self.neighbours[chart]] + 1, minlength=n_colours + 1)[1:] > 0
-            uses = np.bincount(colour + 1, minlength=n_colours + 1)[1:]
-            colour[chart] = np.lexsort((uses, taken))[0]
-        return colour
+    def paint(self, n_colors):
+        """The color of each chart: of those that no neighbor has the one that is used least."""
+        color = np.full(self.chart.max() + 1, -1)
+        for chart in range(len(color)):
+            taken = np.bincount(color[self.neighbors[chart]] + 1, minlength=n_colors + 1)[1:] > 0
+            uses = np.bincount(color + 1, minlength=n_colors + 1)[1:]
+            color[chart] = np.lexsort((uses, taken))[0]
+        return color
 
 
 def sides(triangles):
@@ -62,7 +62,7 @@ def by_area(chart, areas):
     return np.argsort(order)[chart]
 
 
-def neighbours(of_face, edge, chart):
+def neighbors(of_face, edge, chart):
     """For each chart those across its seams."""
     n_charts = chart.max() + 1
     incidence = coo_matrix((np.ones(len(edge)), (chart[of_face], edge)), (n_charts, edge.max() + 1)).tocsr()

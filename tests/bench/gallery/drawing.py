@@ -12,7 +12,7 @@ from raster import visible  # noqa: E402
 from atlases import corner_normals  # noqa: E402
 
 SUPERSAMPLES = 3
-COLOURS = np.array([[0x6F, 0xA8, 0xDC], [0xF4, 0xB1, 0x6A], [0x8C, 0xC8, 0x8A], [0xE5, 0x8A, 0x8A], [0xB0, 0x9A, 0xD8],
+COLORS = np.array([[0x6F, 0xA8, 0xDC], [0xF4, 0xB1, 0x6A], [0x8C, 0xC8, 0x8A], [0xE5, 0x8A, 0x8A], [0xB0, 0x9A, 0xD8],
                     [0xE8, 0xD0, 0x6C], [0x7C, 0xC9, 0xC3], [0xE3, 0x9A, 0xC6], [0xB8, 0xA0, 0x88], [0xA9, 0xB4, 0xC4]]) / 255
 INK = np.array([0.13, 0.15, 0.20])
 PAPER = np.array([0.955, 0.955, 0.945])
@@ -20,15 +20,15 @@ KEY, FILL = (np.array(v) / np.linalg.norm(v) for v in ([-0.5, 0.7, 0.65], [0.8, 
 
 
 def checked(atlas, faces, weights, checks):
-    """Colours of places on charts: a checkerboard in two tones, with so many squares along the root of the surface's area."""
+    """Colors of places on charts: a checkerboard in two tones, with so many squares along the root of the surface's area."""
     uv = np.einsum("nk,nkw->nw", weights, atlas.uv[faces]) * (checks / (atlas.scale() * atlas.areas().sum() ** 0.5))
     light = np.floor(uv).astype(int).sum(1) % 2 == 0
-    colour = COLOURS[atlas.paint(len(COLOURS))[atlas.chart[faces]]]
-    return np.where(light[:, None], 0.45 * colour + 0.55, colour)
+    color = COLORS[atlas.paint(len(COLORS))[atlas.chart[faces]]]
+    return np.where(light[:, None], 0.45 * color + 0.55, color)
 
 
 def shrunk(pixels):
-    """An 8-bit picture of the colours (n, n, 3) in 0 to 1."""
+    """An 8-bit picture of the colors (n, n, 3) in 0 to 1."""
     return Image.fromarray(np.round(255 * np.clip(pixels, 0, 1)).astype(np.uint8)).reduce(SUPERSAMPLES)
 
 
@@ -62,7 +62,7 @@ def layout(atlas, size, checks):
 
 
 def axes(azimuth, elevation, up):
-    """Right, up and towards the eye; degrees; `up` is y or z."""
+    """Right, up and toward the eye; degrees; `up` is y or z."""
     a, e = np.radians([azimuth, elevation])
     eye = np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)])
     frame = np.array([[np.cos(a), 0, -np.sin(a)], np.cross(eye, [np.cos(a), 0, -np.sin(a)]), eye])
@@ -70,7 +70,7 @@ def axes(azimuth, elevation, up):
 
 
 def surface(atlas, size, checks, view):
-    """The surface with the charts' colours and seams, seen from `view`, which goes to `axes`."""
+    """The surface with the charts' colors and seams, seen from `view`, which goes to `axes`."""
     n = size * SUPERSAMPLES
     frame = axes(*view)
     seen = atlas.positions @ frame.T
@@ -99,7 +99,7 @@ def shade(normals):
 
 
 def open_sky(depth, n):
-    """Less than 1 where the neighbourhood is nearer to the eye: what is hollow is darker."""
+    """Less than 1 where the neighborhood is nearer to the eye: what is hollow is darker."""
     covered = np.isfinite(depth).reshape(n, n)
     values = np.where(covered, depth.reshape(n, n), 0)
     radius = n / 40

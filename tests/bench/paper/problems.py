@@ -44,7 +44,7 @@ def read_positions(path):
 
 
 def mean_edge(problem):
-    """Mean edge length of the rest mesh of a problem file, over every pair of neighbouring corners."""
+    """Mean edge length of the rest mesh of a problem file, over every pair of neighboring corners."""
     x, elements = read_mesh(problem.parent / json.loads(problem.read_text())["mesh"])
     return statistics.fmean(math.dist(x[e[i]], x[e[i - 1]]) for e in elements for i in range(len(e)))
 

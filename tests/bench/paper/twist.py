@@ -1,6 +1,6 @@
 """Figure 20: bars twisted by turns of one end, and how many of the turns the map keeps.
 
-The turns of a map are the sum over neighbouring layers of the rotation that best takes one to the next, each in (-180°, 180°],
+The turns of a map are the sum over neighboring layers of the rotation that best takes one to the next, each in (-180°, 180°],
 about the layers' common normal: the twist; what a coiled bar lacks of the turns applied is in its coil. An element without
 inversion can hold no more than 90° between its layers. What a bar can hold with its energy at a minimum is less, and `limit`
 measures it: the bar starts as a straight screw, is settled, turned a little further as a screw, and so on, until a minimum with
@@ -48,17 +48,17 @@ def bar(path, length, width):
 
 def screw(x, turns):
     """The positions `x` of a bar along the x axis, every layer turned about the axis in proportion to its rest place."""
-    centre = 0.5 * (x[:, 1:].min(0) + x[:, 1:].max(0))
-    return rotated(x, 2 * np.pi * turns * x[:, 0] / x[:, 0].max(), centre)
+    center = 0.5 * (x[:, 1:].min(0) + x[:, 1:].max(0))
+    return rotated(x, 2 * np.pi * turns * x[:, 0] / x[:, 0].max(), center)
 
 
-def rotated(x, angle, centre):
-    y, z = (x[:, 1:] - centre).T
-    return np.stack([x[:, 0], centre[0] + np.cos(angle) * y - np.sin(angle) * z, centre[1] + np.sin(angle) * y + np.cos(angle) * z], 1)
+def rotated(x, angle, center):
+    y, z = (x[:, 1:] - center).T
+    return np.stack([x[:, 0], center[0] + np.cos(angle) * y - np.sin(angle) * z, center[1] + np.sin(angle) * y + np.cos(angle) * z], 1)
 
 
 def turns(rest, x):
-    """The turns of a map of a bar, and the largest rotation between neighbouring layers in degrees."""
+    """The turns of a map of a bar, and the largest rotation between neighboring layers in degrees."""
     angles = []
     for layer in range(1, round(rest[:, 0].max()) + 1):
         # The two axes of each layer, as the map takes them, in the least-squares sense.
@@ -97,7 +97,7 @@ def limit(program, folder, mesh, energy, beta, first):
     """How far a straight screw can be turned and settled before it loses turns: the last that kept them, as a row."""
     rest = np.array(read_mesh(mesh)[0])
     keys = problem_keys(mesh, energy, beta, rest)
-    held, centre = ends(rest), 0.5 * (rest[:, 1:].min(0) + rest[:, 1:].max(0))
+    held, center = ends(rest), 0.5 * (rest[:, 1:].min(0) + rest[:, 1:].max(0))
     x, applied, work = screw(rest, first), first, np.zeros(3)
     last = (f"{mesh.stem}, as a screw", energy, beta, f"less than {first:.2f}") + ("–",) * (len(HEADER) - 4)
     while True:
@@ -111,7 +111,7 @@ def limit(program, folder, mesh, energy, beta, first):
         if abs(turns(rest, x)[0]) < applied - LOST:
             return last
         last = row(f"{mesh.stem}, as a screw", keys, rest, applied, report, positions, (int(work[0]), int(work[1]), work[2]))
-        x = rotated(x, 2 * np.pi * SCREW_STEP * rest[:, 0] / rest[:, 0].max(), centre)
+        x = rotated(x, 2 * np.pi * SCREW_STEP * rest[:, 0] / rest[:, 0].max(), center)
         applied += SCREW_STEP
 
 
@@ -119,14 +119,14 @@ def twisted(program, folder, mesh, energy, n_turns, beta=BETA, chunk=48, degrees
     """Rows of a bar whose x = 0 end is turned in steps of `degrees`, each settled before the next; a row each `chunk` steps."""
     rest = np.array(read_mesh(mesh)[0])
     keys = problem_keys(mesh, energy, beta, rest)
-    held, centre = ends(rest), 0.5 * (rest[:, 1:].min(0) + rest[:, 1:].max(0))
+    held, center = ends(rest), 0.5 * (rest[:, 1:].min(0) + rest[:, 1:].max(0))
     turned = rest[held][:, 0] == 0
     x, work, n_steps = rest, np.zeros(3), round(360 * n_turns / degrees)
     for begin in range(0, n_steps, chunk):
         stations = []
         for step in range(begin + 1, min(begin + chunk, n_steps) + 1):
             angle = np.where(turned, np.radians(degrees * step), 0.0)
-            stations.append(rotated(rest[held], angle, centre).tolist())
+            stations.append(rotated(rest[held], angle, center).tolist())
         write_positions(folder / "start.txt", x)
         problem = folder / "twist.json"
         problem.write_text(json.dumps(keys | {"initial": "start.txt", "sequence": stations, "targets": stations[-1]}))

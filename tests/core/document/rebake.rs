@@ -12,10 +12,10 @@ const RED: [u8; 4] = [255, 0, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 255, 255];
 const FLAT: [u8; 4] = [128, 128, 255, 255];
 
-/// A data URI of a picture of one colour.
-fn uri(colour: [u8; 4]) -> String {
+/// A data URI of a picture of one color.
+fn uri(color: [u8; 4]) -> String {
     let mut image = Image::transparent(4, 4);
-    image.pixels.fill(colour);
+    image.pixels.fill(color);
     let text = base64::engine::general_purpose::STANDARD.encode(image.png());
     format!("data:image/png;base64,{text}")
 }
@@ -67,11 +67,11 @@ fn rebaked(builder: &Builder) -> Outcome {
     unwrap_document(&builder.upload(), &options(), &Unobserved).unwrap()
 }
 
-/// The JSON and the colours of the picture that a material has in a slot.
+/// The JSON and the colors of the picture that a material has in a slot.
 fn written(outcome: &Outcome) -> (Value, impl Fn(usize, &str) -> Vec<[u8; 4]> + use<>) {
     let (json, bin) = parts(&outcome.files[0].1);
     let copy = json.clone();
-    let colours = move |material: usize, slot: &str| {
+    let colors = move |material: usize, slot: &str| {
         let index = |value: &Value| value.as_u64().unwrap() as usize;
         let info = json["materials"][material].pointer(slot).unwrap();
         let texture = &json["textures"][index(&info["index"])];
@@ -79,12 +79,12 @@ fn written(outcome: &Outcome) -> (Value, impl Fn(usize, &str) -> Vec<[u8; 4]> + 
         let view = &json["bufferViews"][index(view)];
         let start = index(&view["byteOffset"]);
         let file = &bin[start..start + index(&view["byteLength"])];
-        let mut colours = Image::decode(file).unwrap().pixels;
-        colours.sort_unstable();
-        colours.dedup();
-        colours
+        let mut colors = Image::decode(file).unwrap().pixels;
+        colors.sort_unstable();
+        colors.dedup();
+        colors
     };
-    (copy, colours)
+    (copy, colors)
 }
 
 const BASE: &str = "/pbrMetallicRoughness/baseColorTexture";
@@ -96,8 +96,8 @@ fn a_texture_follows_its_uvs() {
         json!({"KHR_texture_transform": {"scale": [3, -2], "rotation": 1, "texCoord": 0}});
     builder.json["extensionsUsed"] = json!(["KHR_texture_transform"]);
     let outcome = rebaked(&builder);
-    let (json, colours) = written(&outcome);
-    assert_eq!(colours(0, BASE), [RED]);
+    let (json, colors) = written(&outcome);
+    assert_eq!(colors(0, BASE), [RED]);
     assert_eq!(json["materials"].as_array().unwrap().len(), 1);
     assert_eq!(
         json["materials"][0].pointer(BASE).unwrap(),
@@ -126,24 +126,24 @@ fn a_texture_follows_its_uvs() {
 #[test]
 fn a_material_of_two_atlases_becomes_two() {
     let outcome = rebaked(&twice(square(), "mesh"));
-    let (json, colours) = written(&outcome);
+    let (json, colors) = written(&outcome);
     assert_eq!(json["materials"].as_array().unwrap().len(), 2);
     let material = |mesh: usize| json["meshes"][mesh]["primitives"][0]["material"].as_u64();
     assert_ne!(material(0), material(1));
     let textures = [0, 1].map(|m| json["materials"][m].pointer(BASE).unwrap()["index"].as_u64());
     assert_ne!(textures[0], textures[1]);
-    assert_eq!((colours(0, BASE), colours(1, BASE)), (vec![RED], vec![RED]));
+    assert_eq!((colors(0, BASE), colors(1, BASE)), (vec![RED], vec![RED]));
 }
 
 #[test]
 fn what_takes_no_part_keeps_the_material() {
     let mut builder = twice(square(), "mesh");
     builder.json["meshes"][1]["primitives"][0]["mode"] = json!(0);
-    let (json, colours) = written(&rebaked(&builder));
+    let (json, colors) = written(&rebaked(&builder));
     assert_eq!(json["meshes"][1]["primitives"][0]["material"], 0);
     assert_eq!(json["materials"][0].pointer(BASE).unwrap()["index"], 0);
     assert_eq!(json["meshes"][0]["primitives"][0]["material"], 1);
-    assert_eq!(colours(1, BASE), [RED]);
+    assert_eq!(colors(1, BASE), [RED]);
 }
 
 #[test]
@@ -152,11 +152,11 @@ fn materials_of_one_atlas_share_a_texture() {
     builder.json["meshes"][0]["primitives"][1]["material"] = json!(1);
     let other = json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}});
     push(&mut builder.json["materials"], other);
-    let (json, colours) = written(&rebaked(&builder));
+    let (json, colors) = written(&rebaked(&builder));
     let textures = [0, 1].map(|m| json["materials"][m].pointer(BASE).unwrap()["index"].as_u64());
     assert_eq!(textures, [Some(0), Some(0)]);
-    let colours = colours(0, BASE);
-    assert!(colours.contains(&RED) && colours.contains(&BLUE));
+    let colors = colors(0, BASE);
+    assert!(colors.contains(&RED) && colors.contains(&BLUE));
 }
 
 #[test]
@@ -165,11 +165,11 @@ fn occlusion_and_roughness_of_one_image_stay_one() {
     builder.json["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"] =
         json!({"index": 1});
     builder.json["materials"][0]["occlusionTexture"] = json!({"index": 1});
-    let (json, colours) = written(&rebaked(&builder));
+    let (json, colors) = written(&rebaked(&builder));
     let material = &json["materials"][0];
     let roughness = &material["pbrMetallicRoughness"]["metallicRoughnessTexture"];
     assert_eq!(material["occlusionTexture"], *roughness);
-    assert_eq!(colours(0, "/occlusionTexture"), [BLUE]);
+    assert_eq!(colors(0, "/occlusionTexture"), [BLUE]);
     assert_eq!(json["textures"].as_array().unwrap().len(), 2);
 }
 
@@ -180,11 +180,8 @@ fn every_variant_of_a_surface_has_its_own() {
     push(&mut builder.json["materials"], other);
     builder.json["meshes"][0]["primitives"][0]["extensions"] =
         json!({"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}});
-    let (_, colours) = written(&rebaked(&builder));
-    assert_eq!(
-        (colours(0, BASE), colours(1, BASE)),
-        (vec![RED], vec![BLUE])
-    );
+    let (_, colors) = written(&rebaked(&builder));
+    assert_eq!((colors(0, BASE), colors(1, BASE)), (vec![RED], vec![BLUE]));
 }
 
 #[test]
@@ -193,8 +190,8 @@ fn a_normal_map_gets_its_tangents() {
     builder.json["images"][1]["uri"] = json!(uri(FLAT));
     builder.json["materials"][0]["normalTexture"] = json!({"index": 1, "scale": 0.5});
     let outcome = rebaked(&builder);
-    let (json, colours) = written(&outcome);
-    assert_eq!(colours(0, "/normalTexture"), [FLAT]);
+    let (json, colors) = written(&outcome);
+    assert_eq!(colors(0, "/normalTexture"), [FLAT]);
     assert!(json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"].is_u64());
     assert_eq!(json["materials"][0]["normalTexture"]["scale"], 0.5);
 }

@@ -102,6 +102,6 @@ fn a_weight_needs_others_in_its_atlas_or_a_density() {
     };
     let error = weighted(None).expect_err("each material has its own atlas");
     assert_eq!(error.code(), "invalid_options");
-    assert!(error.to_string().contains("`texel_weight` goes with"));
+    assert!(error.to_string().contains("`texel_weight` requires"));
     assert!(weighted(Some(100.0)).is_ok());
 }

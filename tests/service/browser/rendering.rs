@@ -90,8 +90,8 @@ fn a_textured_asset_looks_the_same_with_another_uv_set() {
     let (replaced, kept) = compared.split_last().expect("three answers");
     assert_eq!(kept.len(), textured.len());
     for answer in kept {
-        // Both are full of text in colours: the textures are there.
-        assert!(number(answer, "covered") > 0.1 && number(answer, "colours") > 1000.0);
+        // Both are full of text in colors: the textures are there.
+        assert!(number(answer, "covered") > 0.1 && number(answer, "colors") > 1000.0);
         assert_eq!(number(answer, "max"), 0.0, "{answer}");
     }
     assert!(number(replaced, "mean") > 1.0, "{replaced}");
@@ -120,7 +120,7 @@ fn a_textured_obj_looks_the_same_through_gltf_and_back() {
     assert!(
         compared
             .iter()
-            .all(|answer| answer["colours"].as_u64() > Some(1000)),
+            .all(|answer| answer["colors"].as_u64() > Some(1000)),
         "{compared:?}"
     );
     // Edges of a checkerboard are resampled, and one picture is JPEG once more.

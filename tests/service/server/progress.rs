@@ -130,7 +130,7 @@ async fn events_need_one_of_the_two_protocols() {
 }
 
 #[tokio::test]
-async fn a_stop_says_goodbye_and_the_job_goes_on_afterwards() {
+async fn a_stop_says_goodbye_and_the_job_goes_on_afterward() {
     let mut server = Server::start();
     let job = server.submit(meshes::large(), "cut=disk").await;
     server.mapping(&job).await;

@@ -94,7 +94,7 @@ async fn options_that_make_no_sense_are_refused_before_202() {
     let server = Server::start();
     let bytes = "application/octet-stream";
     for query in [
-        "colour=red",
+        "color=red",
         "energy=warp",
         "resolution=0",
         "max_distortion=3.9",

@@ -28,7 +28,7 @@ enum Version {
 pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
     let mut cursor = Cursor::new(bytes, "Gmsh");
     if !cursor.skip_past(b"$MeshFormat") {
-        return Err(cursor.malformed("$MeshFormat is expected"));
+        return Err(cursor.malformed("expected $MeshFormat"));
     }
     let version = read_header(&mut cursor)?;
     let mut reader = Reader::new(cursor);
@@ -54,11 +54,11 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
 
 /// Version and encoding: `version is-binary size-of-numbers`, and in binary files the number 1.
 fn read_header(cursor: &mut Cursor) -> Result<Version, ReadError> {
-    let version: f64 = cursor.parse("a version is expected")?;
+    let version: f64 = cursor.parse("expected a version")?;
     let binary: u32 = cursor.parse("0 or 1 is expected")?;
-    let size: u32 = cursor.parse("the size of a number is expected")?;
+    let size: u32 = cursor.parse("expected the size of a number")?;
     if size != 8 {
-        return Err(cursor.malformed("only numbers of 8 bytes are read"));
+        return Err(cursor.malformed("only 8-byte numbers are supported"));
     }
     if binary == 1 {
         cursor.end_line();
@@ -66,7 +66,7 @@ fn read_header(cursor: &mut Cursor) -> Result<Version, ReadError> {
         cursor.encoding = match cursor.int()? {
             1 => Encoding::LittleEndian,
             0x0100_0000 => Encoding::BigEndian,
-            _ => return Err(cursor.malformed("the byte order is unknown")),
+            _ => return Err(cursor.malformed("unknown byte order")),
         };
     }
     if version == 2.2 {
@@ -74,6 +74,6 @@ fn read_header(cursor: &mut Cursor) -> Result<Version, ReadError> {
     } else if version == 4.1 {
         Ok(Version::V41)
     } else {
-        Err(cursor.malformed("only versions 2.2 and 4.1 are read"))
+        Err(cursor.malformed("only versions 2.2 and 4.1 are supported"))
     }
 }

@@ -25,7 +25,7 @@ impl<'a> Reader<'a> {
     }
 
     pub fn nodes_22(&mut self) -> Result<(), ReadError> {
-        let n: u64 = self.cursor.parse("the number of nodes is expected")?;
+        let n: u64 = self.cursor.parse("expected the number of nodes")?;
         self.begin_numbers();
         for _ in 0..n {
             let tag = self.tag_22()?;
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
     }
 
     pub fn elements_22(&mut self) -> Result<(), ReadError> {
-        let n: u64 = self.cursor.parse("the number of elements is expected")?;
+        let n: u64 = self.cursor.parse("expected the number of elements")?;
         self.begin_numbers();
         let mut read = 0;
         while read < n {
@@ -135,7 +135,7 @@ impl<'a> Reader<'a> {
     ) -> Result<(), ReadError> {
         let n = n_nodes(element_type).ok_or_else(|| {
             self.cursor
-                .malformed("only linear triangles and tetrahedra are read")
+                .malformed("only linear triangles and tetrahedra are supported")
         })?;
         let n_vertices = self.elements.vertices.len();
         let mut nodes = [0; 6];

@@ -48,8 +48,7 @@ impl Data<'_> {
         let word = &rest[start..];
         let length = word.iter().position(u8::is_ascii_whitespace);
         let word = &word[..length.unwrap_or(word.len())];
-        let value =
-            number(word).ok_or_else(|| malformed(self.at + start, "a number is expected"))?;
+        let value = number(word).ok_or_else(|| malformed(self.at + start, "expected a number"))?;
         self.at += start + word.len();
         Ok(value)
     }

@@ -1,11 +1,11 @@
-//! What a PLY file has beside the shape: colours of vertices, and names of what is not read.
+//! What a PLY file has beside the shape: colors of vertices, and names of what is not read.
 
 use super::data::Data;
 use super::header::{Element, Header, Kind, Scalar, header};
 use super::read_records;
 use crate::mesh::io::ReadError;
 
-/// Names of the properties that are colours; alpha may be missing.
+/// Names of the properties that are colors; alpha may be missing.
 const COLORS: [[&[u8]; 4]; 3] = [
     [b"red", b"green", b"blue", b"alpha"],
     [
@@ -40,7 +40,7 @@ pub fn extras(bytes: &[u8]) -> Result<Extras, ReadError> {
     })
 }
 
-/// Where the colour stands among the properties, three or four of them.
+/// Where the color stands among the properties, three or four of them.
 fn channels(element: &Element) -> Option<Vec<usize>> {
     let place = |name: &[u8]| element.properties.iter().position(|p| p.name == name);
     COLORS.iter().find_map(|[r, g, b, a]| {
@@ -77,7 +77,7 @@ fn colors(bytes: &[u8], header: &Header, channels: &[usize]) -> Result<Vec<[f64;
     Ok(colors)
 }
 
-/// The number that stands for all of a colour.
+/// The number that stands for all of a color.
 fn largest(element: &Element, property: usize) -> f64 {
     match element.properties.get(property).map(|p| &p.kind) {
         Some(Kind::Scalar(Scalar::U8)) => 255.0,

@@ -53,7 +53,7 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     loop {
         let rest = &bytes[at..];
         let length = rest.iter().position(|&b| b == b'\n' || b == b'\r');
-        let length = length.ok_or_else(|| malformed(at, "the header does not end"))?;
+        let length = length.ok_or_else(|| malformed(at, "the header has no end"))?;
         let line = &rest[..length];
         let ending = if rest[length..].starts_with(b"\r\n") {
             2
@@ -76,14 +76,16 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
             }
             b"element" => {
                 let element = element(&mut line_words);
-                elements
-                    .push(element.ok_or_else(|| malformed(at, "an element needs name and count"))?);
+                elements.push(
+                    element.ok_or_else(|| malformed(at, "an element needs a name and a count"))?,
+                );
             }
             b"property" => {
                 let property = property(&mut line_words)
-                    .ok_or_else(|| malformed(at, "a property needs type and name"))?;
+                    .ok_or_else(|| malformed(at, "a property needs a type and a name"))?;
                 let element = elements.last_mut();
-                let element = element.ok_or_else(|| malformed(at, "a property of no element"))?;
+                let element =
+                    element.ok_or_else(|| malformed(at, "a property without an element"))?;
                 element.properties.push(property);
             }
             _ => {}

@@ -2,7 +2,7 @@
 //!
 //! A header declares elements and their properties, the data follow in that order. Used are `x y z` of `vertex`
 //! and the list `vertex_indices` (or `vertex_index`) of `face`; everything else is passed over by its declared
-//! size ([`extras`](fn@extras) has the colours). Read without a library: the kept one at hand refuses `nan` anywhere in a text file, numbers such as `1.`
+//! size ([`extras`](fn@extras) has the colors). Read without a library: the kept one at hand refuses `nan` anywhere in a text file, numbers such as `1.`
 //! and comments that are not UTF-8, and runs for ever on an element that has a count but no properties.
 mod data;
 mod extras;
@@ -113,7 +113,7 @@ fn read_records(
                 Kind::List { count, item } => {
                     let n_items = data.next(count)?;
                     if n_items < 0.0 || n_items.fract() != 0.0 {
-                        return Err(malformed(data.at, "a list of so many items is impossible"));
+                        return Err(malformed(data.at, "a list has an impossible length"));
                     }
                     data.list(
                         n_items as u64,

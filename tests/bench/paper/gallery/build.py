@@ -3,7 +3,7 @@
 
     python3 tests/bench/paper/gallery/build.py --unwrapd PROGRAM --shared DIR --out DIR [NUMBER ...]
 
-`--shared` holds `reference/` (the problems) and `data/` (meshes), whose licences `data/SOURCES.md` states: many of them do not
+`--shared` holds `reference/` (the problems) and `data/` (meshes), whose licenses `data/SOURCES.md` states: many of them do not
 allow the pictures to be passed on. Needs numpy and matplotlib. Figures whose numbers are given are drawn anew; the page
 shows all that are there. Exits with 1 if a command fails that should not.
 """

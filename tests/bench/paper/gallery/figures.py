@@ -59,7 +59,7 @@ BARRIERS = ("none", "spline", "auglog", "log", "neohookean")
 
 
 def grid608(number, title, energies):
-    """Handles of the libigl tutorial 608: the boundary held, one inner vertex moved towards a corner; with and without barrier."""
+    """Handles of the libigl tutorial 608: the boundary held, one inner vertex moved toward a corner; with and without barrier."""
     panels, commands, files = {}, [], {}
     for energy in energies:
         for barrier in ("none", "spline"):
@@ -181,7 +181,7 @@ FIGURES = [
     ),
     Figure(
         18, "Bounded distortion",
-        "A disk whose middle is turned by 80 degrees, its rim held at eight places. Colour is the conformal distortion σ₁/σ₂ from 1 (dark) to 5 (bright); the second map bounds it.",
+        "A disk whose middle is turned by 80 degrees, its rim held at eight places. Color is the conformal distortion σ₁/σ₂ from 1 (dark) to 5 (bright); the second map bounds it.",
         [Command("deform disk.svg --triangles 3000 --handles still.json -o rest.obj"),
          Command("deform disk.svg --triangles 3000 --handles turn.json -o arap.obj"),
          Command("deform disk.svg --triangles 3000 --handles turn.json --max-conformal 3 -o bounded.obj")],

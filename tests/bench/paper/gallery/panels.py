@@ -14,7 +14,7 @@ FILL, EDGE, INVERTED = "#f3dfb9", "#6b5a3a", "#d62728"
 
 
 def planar(name, rest=None, handles=None, conformal=False, box=None):
-    """A planar mesh; inverted triangles red. With `rest`, its file, `conformal` colours by σ₁/σ₂ up to 5; `handles` are places
+    """A planar mesh; inverted triangles red. With `rest`, its file, `conformal` colors by σ₁/σ₂ up to 5; `handles` are places
     to mark; `box` the part of the plane to show."""
     def draw(axis, folder):
         mesh = meshes.read(folder / name)
@@ -78,7 +78,7 @@ def bar(name, rest):
 
 
 def section(name, box, axis_of_cut=2, at=0.0):
-    """Where the two halves of a file's triangles, in two colours, meet a plane square to an axis."""
+    """Where the two halves of a file's triangles, in two colors, meet a plane square to an axis."""
     def draw(axis, folder):
         mesh = meshes.read(folder / name)
         for half, color in zip(np.split(mesh.triangles, 2), ("#b5442c", "#2c6fb5")):

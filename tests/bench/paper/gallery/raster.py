@@ -6,7 +6,7 @@ CLAY = np.array([0.86, 0.80, 0.70])
 
 
 def rotation(azimuth, elevation):
-    """World (y up) to view (x right, y up, z towards the viewer); degrees."""
+    """World (y up) to view (x right, y up, z toward the viewer); degrees."""
     a, e = np.radians([azimuth, elevation])
     turn = np.array([[np.cos(a), 0, -np.sin(a)], [0, 1, 0], [np.sin(a), 0, np.cos(a)]])
     tilt = np.array([[1, 0, 0], [0, np.cos(e), -np.sin(e)], [0, np.sin(e), np.cos(e)]])
@@ -14,7 +14,7 @@ def rotation(azimuth, elevation):
 
 
 def render(mesh, view=(30, 15), size=520, color=CLAY, uvs=None, texture=None, frame=(), wire=0.0):
-    """An RGB picture (size, size, 3) in [0, 1]; `texture(uv)` gives colours of points (n, 2). `frame` holds meshes
+    """An RGB picture (size, size, 3) in [0, 1]; `texture(uv)` gives colors of points (n, 2). `frame` holds meshes
     whose common box the picture shows, so that several pictures have one scale; `wire` darkens the edges of triangles."""
     turned = mesh.positions @ rotation(*view).T
     box = np.concatenate([m.positions for m in (mesh, *frame)]) @ rotation(*view).T

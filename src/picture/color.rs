@@ -1,4 +1,4 @@
-//! Colours, chosen and mixed in Oklab, where equal steps look equal (Ottosson 2020).
+//! Colors, chosen and mixed in Oklab, where equal steps look equal (Ottosson 2020).
 
 /// Red, green and blue as a PNG has them.
 pub(super) type Rgb = [u8; 3];
@@ -13,7 +13,7 @@ pub(super) const OVERLAP: Rgb = [222, 38, 44];
 /// Without a value.
 pub(super) const NO_VALUE: Rgb = [176, 176, 176];
 
-/// The muted fill of a chart: equal lightness, hues spread by the golden angle so that neighbours in number differ.
+/// The muted fill of a chart: equal lightness, hues spread by the golden angle so that neighbors in number differ.
 pub(super) fn chart(id: u32) -> Rgb {
     const GOLDEN_TURN: f64 = 0.618_033_988_749_894_9;
     let turn = (0.58 + GOLDEN_TURN * f64::from(id)).fract();

@@ -17,12 +17,12 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     })
 });
 
-/// A texel as numbers: colours in linear light, data as it is, directions of unit length. The fourth channel is never
+/// A texel as numbers: colors in linear light, data as it is, directions of unit length. The fourth channel is never
 /// more than data.
 pub(super) fn decoded([r, g, b, a]: [u8; 4], encoding: Encoding) -> [f32; 4] {
     let part = |code: u8| f32::from(code) / 255.0;
     let channel = |code: u8| match encoding {
-        Encoding::Colour => LINEAR[code as usize],
+        Encoding::Color => LINEAR[code as usize],
         Encoding::Data => part(code),
         Encoding::Normal => 2.0 * part(code) - 1.0,
     };
@@ -33,7 +33,7 @@ pub(super) fn decoded([r, g, b, a]: [u8; 4], encoding: Encoding) -> [f32; 4] {
 pub(super) fn encoded([r, g, b, a]: [f32; 4], encoding: Encoding) -> [u8; 4] {
     let code = |part: f32| (part.clamp(0.0, 1.0) * 255.0).round() as u8;
     let channel = |value: f32| match encoding {
-        Encoding::Colour => code(srgb(value)),
+        Encoding::Color => code(srgb(value)),
         Encoding::Data => code(value),
         Encoding::Normal => code(0.5 * value + 0.5),
     };

@@ -18,21 +18,21 @@ use serde::Serialize;
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Certificate {
-    /// Faces judged, all those below included.
+    /// Number of faces judged, including all those below.
     pub faces: usize,
-    /// Faces that name one position twice. They need no UV area; where they have some it must not be flipped.
+    /// Faces that name a position twice. They need no UV area, but must not be flipped.
     pub exempt_faces: usize,
     /// Faces that cannot be judged: a UV or a position is not finite or missing.
     pub nonfinite_faces: usize,
-    /// Charts found from the UVs, those of exempt faces alone left out.
+    /// Charts found from the UVs, except those of exempt faces only.
     pub charts: usize,
-    /// Charts whose winding contradicts itself (a Möbius strip in one piece); no map of them is injective.
+    /// Charts that are not orientable, such as an uncut Möbius strip; no map of them is injective.
     pub nonorientable_charts: usize,
-    /// Charts seen from behind: most of their UV area is, as the file winds it, clockwise with v up. They may be valid.
+    /// Mirrored charts: most of their UV area is clockwise with v up, as the file winds it. They may be valid.
     pub mirrored_charts: usize,
     /// Faces oriented against the rest of their chart.
     pub flipped: usize,
-    /// Faces of exactly zero UV area, exempt ones left out.
+    /// Faces of exactly zero UV area, except exempt ones.
     pub degenerate: usize,
     /// Pairs of faces whose interiors intersect; null when not tested.
     pub overlapping_pairs: Option<u64>,
@@ -46,18 +46,18 @@ pub struct Certificate {
     /// only its full precision is. 23: UVs rounded to multiples of 2⁻²³ (the grid written here) keep it. 16, 14, 12: it
     /// survives any move of each coordinate by 1/(2(2ᵇ−1)) + 2⁻¹⁶. Overlaps after rounding are not included.
     pub grid_bits: Option<u32>,
-    /// The coarsest of 16, 14 and 12 bits b at which the map stays bijective however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶;
-    /// null when it is not bijective, or at none of them, or where overlaps were not tested.
+    /// The coarsest of 16, 14 and 12 bits b at which the map provably stays bijective: each coordinate may
+    /// move by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. Null if there is none, or overlaps were not tested.
     pub safe_bits: Option<u32>,
-    /// Whether charts keep the distance asked for; null when not asked or overlaps were not tested.
+    /// Whether charts keep the requested distance; null if not requested or overlaps were not tested.
     pub padding: Option<PaddingVerdict>,
-    /// Charts whose bounding rectangle does not end where texels end; null when not asked.
+    /// Charts whose bounding rectangle does not end on texel borders; null if not requested.
     pub unaligned_charts: Option<usize>,
-    /// Whether every chart lies on one of the pages asked for; null when not asked.
+    /// Whether every chart lies on one of the requested pages; null if not requested.
     pub pages: Option<PagesVerdict>,
-    /// Whether the map holds at the bits asked for; null when not asked or overlaps were not tested.
+    /// Whether the map holds at the requested bits; null if not requested or overlaps were not tested.
     pub bits: Option<BitsVerdict>,
-    /// The first few charts that are seen from behind; charts are numbered in the order of their first faces.
+    /// The first few mirrored charts; charts are numbered in the order of their first faces.
     pub mirrored: Vec<u32>,
     /// The first few faces that are flipped, degenerate or cannot be judged.
     pub offending_faces: Vec<u32>,
