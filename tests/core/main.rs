@@ -44,6 +44,7 @@ mod obj_pipeline;
 mod once;
 #[cfg(feature = "files")]
 mod outline;
+mod packing_mode;
 mod pages;
 #[cfg(feature = "files")]
 mod picture;
