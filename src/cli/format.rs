@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use super::failure::Failure;
 use super::output::is_stream;
 use crate::document::OutputFormat;
+use crate::mesh::io::Format;
 use crate::pipeline::BodyFormat;
 
 /// The format of a document to write.
@@ -32,8 +33,8 @@ pub(super) fn body_format(path: &Path, given: Option<BodyFormat>) -> Result<Body
 
 /// Pictures are PNG.
 pub(super) fn check_png(path: &Path) -> Result<(), Failure> {
-    let extension = path.extension().unwrap_or_default();
-    if extension.eq_ignore_ascii_case("png") || is_stream(path) {
+    let format = Format::of_name(&path.to_string_lossy());
+    if format == Some(Format::Png) || is_stream(path) {
         return Ok(());
     }
     let name = path.display();

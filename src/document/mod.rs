@@ -37,6 +37,7 @@ mod upload;
 mod uvs;
 mod warning;
 
+use crate::mesh::io::Format;
 use crate::mesh::{CornerUvs, VAxis};
 pub use bake::{
     BakePlan, BakePlane, BakedTexture, BakedTextures, CornerTangents, Encoding, KeptTexture,
@@ -67,14 +68,10 @@ pub enum Document {
 impl Document {
     /// Reads the main file of `upload`; its format is known by its content, else by the extension of its name.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
-        if gltf::is_gltf(upload) {
-            gltf::GltfDocument::read(upload).map(Self::Gltf)
-        } else if obj::is_obj(upload) {
-            obj::ObjDocument::read(upload).map(Self::Obj)
-        } else if soup::is_soup(upload) {
-            soup::SoupDocument::read(upload).map(Self::Soup)
-        } else {
-            Err(DocumentError::UnknownFormat)
+        match upload.format() {
+            Some(Format::Glb | Format::Gltf) => gltf::GltfDocument::read(upload).map(Self::Gltf),
+            Some(Format::Obj) => obj::ObjDocument::read(upload).map(Self::Obj),
+            _ => soup::SoupDocument::read(upload).map(Self::Soup),
         }
     }
 

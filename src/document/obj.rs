@@ -12,7 +12,7 @@ use super::{
     Written,
 };
 use super::{fanned, new_obj, obj_gltf, obj_mark, obj_moved};
-use crate::mesh::io::{self, Format};
+use crate::mesh::io;
 use crate::mesh::{CornerUvs, VAxis};
 use std::collections::BTreeMap;
 
@@ -24,11 +24,6 @@ pub struct ObjDocument {
     primitives: Vec<Primitive>,
     resources: BTreeMap<String, Vec<u8>>,
     warnings: Vec<Warning>,
-}
-
-/// Whether the content, or else the name, says so.
-pub(super) fn is_obj(upload: &Upload) -> bool {
-    Format::detect(&upload.name, &upload.bytes) == Some(Format::Obj)
 }
 
 impl ObjDocument {

@@ -15,29 +15,22 @@ pub struct SoupDocument {
     warnings: Vec<Warning>,
 }
 
-/// Whether the content, or else the name, says so.
-pub(super) fn is_soup(upload: &Upload) -> bool {
-    matches!(
-        Format::detect(&upload.name, &upload.bytes),
-        Some(Format::Off | Format::Ply | Format::Stl)
-    )
-}
-
 impl SoupDocument {
     /// Reads the main file.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
-        let (mesh, place) = match Format::detect(&upload.name, &upload.bytes) {
+        let format = upload.format();
+        let (mesh, place) = match format {
             Some(Format::Off) => (io::off::read(&upload.bytes)?, "line"),
             Some(Format::Ply) => (io::ply::read(&upload.bytes)?, "face"),
             Some(Format::Stl) => (io::stl::read(&upload.bytes)?, "line"),
-            Some(Format::Obj) | None => return Err(DocumentError::UnknownFormat),
+            _ => return Err(DocumentError::UnknownFormat),
         };
         let mut document = Self {
             warnings: fanned::warning(&mesh.fanned, place).into_iter().collect(),
             primitives: vec![Primitive::of_file(mesh)?],
             colors: None,
         };
-        if Format::detect(&upload.name, &upload.bytes) == Some(Format::Ply) {
+        if format == Some(Format::Ply) {
             document.add(io::ply::extras(&upload.bytes)?);
         }
         Ok(document)

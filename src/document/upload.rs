@@ -1,5 +1,5 @@
-use super::obj::is_obj;
 use super::{gltf, obj_materials};
+use crate::mesh::io::{Content, Format, extension};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A main file and the files it may refer to.
@@ -26,12 +26,14 @@ impl Upload {
     /// Paths that the main file, and the material files among the others, may refer to: those of buffers, images, material files
     /// and their pictures. None is absolute or climbs out of the folder.
     pub fn references(&self) -> BTreeSet<String> {
-        if gltf::is_gltf(self) {
-            return gltf::references(&self.bytes).into_iter().collect();
+        match self.format() {
+            Some(Format::Glb | Format::Gltf) => gltf::references(&self.bytes).into_iter().collect(),
+            Some(Format::Obj) => self.references_of_obj(),
+            _ => BTreeSet::new(),
         }
-        if !is_obj(self) {
-            return BTreeSet::new();
-        }
+    }
+
+    fn references_of_obj(&self) -> BTreeSet<String> {
         let materials = obj_materials::material_paths(&self.bytes);
         let supplied = self
             .resources
@@ -46,11 +48,13 @@ impl Upload {
             .collect()
     }
 
+    /// The format of the main file as a surface: by its content, else by the extension of its name.
+    pub fn format(&self) -> Option<Format> {
+        Format::detect(&self.name, &self.bytes, Content::Surface)
+    }
+
     /// The extension of the main file in lower case, without the dot; empty where there is none.
     pub fn extension(&self) -> String {
-        let name = self.name.rsplit(['/', '\\']).next().unwrap_or_default();
-        name.rsplit_once('.')
-            .map(|(_, extension)| extension.to_ascii_lowercase())
-            .unwrap_or_default()
+        extension(&self.name)
     }
 }

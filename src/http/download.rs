@@ -12,6 +12,18 @@ use tokio_util::io::ReaderStream;
 use super::App;
 use super::problem::{Code, Problem};
 use crate::jobs::{Job, OutputFile};
+use crate::mesh::io::Format;
+
+/// Formats whose media types are answered with, as the `OpenAPI` document says; files of others are bytes.
+const TYPED: [Format; 7] = [
+    Format::Glb,
+    Format::Gltf,
+    Format::Obj,
+    Format::Json,
+    Format::Png,
+    Format::Txt,
+    Format::Csv,
+];
 
 /// A file that a job made, or what of it was asked for. The name of its version is job, attempt and role: files never
 /// change.
@@ -53,7 +65,7 @@ pub(super) async fn answer(
             headers.insert(name, value);
         }
     };
-    set(header::CONTENT_TYPE, content_type(&file.name));
+    set(header::CONTENT_TYPE, &content_type(&file.name));
     set(header::CONTENT_LENGTH, &length.to_string());
     set(header::CONTENT_DISPOSITION, &disposition(&file.name));
     set(header::ACCEPT_RANGES, "bytes");
@@ -99,24 +111,19 @@ fn range(value: &HeaderValue, size: u64) -> Result<Option<Range<u64>>, ()> {
     }
 }
 
-fn content_type(name: &str) -> &'static str {
-    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
-    match extension {
-        "glb" => "model/gltf-binary",
-        "gltf" => "model/gltf+json",
-        "obj" => "model/obj",
-        "json" => "application/json",
-        "png" => "image/png",
-        "txt" => "text/plain; charset=utf-8",
-        "csv" => "text/csv; charset=utf-8",
-        _ => "application/octet-stream",
+fn content_type(name: &str) -> String {
+    let format = Format::of_name(name).filter(|format| TYPED.contains(format));
+    match format.and_then(|format| format.media_types().first()) {
+        Some(text) if text.starts_with("text/") => format!("{text}; charset=utf-8"),
+        Some(media_type) => (*media_type).to_owned(),
+        None => "application/octet-stream".to_owned(),
     }
 }
 
 /// Pictures and reports are shown, everything else is saved. The name is given in ASCII, and in UTF-8 if it needs it.
 fn disposition(name: &str) -> String {
-    let kind = match content_type(name) {
-        "image/png" | "application/json" => "inline",
+    let kind = match Format::of_name(name) {
+        Some(Format::Png | Format::Json) => "inline",
         _ => "attachment",
     };
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_' | ' ');

@@ -8,7 +8,7 @@ use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 use super::causes::CAUSES;
 use super::problem::Code;
 use super::schemas::{self, bytes, reference};
-use super::upload::{MESH_TYPES, OTHER_TYPES};
+use super::upload::{other_types, surface_types};
 use crate::jobs::Kind;
 
 const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
@@ -175,9 +175,9 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
         "multipart/form-data".to_owned(),
         json!({ "schema": schema, "encoding": encoding }),
     );
-    let others = OTHER_TYPES.iter().filter(|_| is_job);
-    for (media_type, _) in MESH_TYPES.iter().chain(others) {
-        content.insert((*media_type).to_owned(), json!({ "schema": bytes() }));
+    let others = other_types().filter(|_| is_job);
+    for media_type in surface_types().chain(others) {
+        content.insert(media_type.to_owned(), json!({ "schema": bytes() }));
     }
     operation["requestBody"] = json!({
         "required": true,

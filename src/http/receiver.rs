@@ -184,11 +184,11 @@ impl Receiver {
         let options = options::complete(kind, given)?;
 
         let checked = path.clone();
-        let extension = tokio::task::spawn_blocking(move || framing::extension(&checked, kind))
+        let format = tokio::task::spawn_blocking(move || framing::format(&checked, kind))
             .await
             .map_err(|error| Problem::internal(&error))??;
         let name = query.filename.as_deref().unwrap_or(&input.name);
-        input.name = file_name(name, kind, extension);
+        input.name = file_name(name, kind, format.extension());
 
         let mut hash = Sha256::new();
         hash.update(format!("{kind:?}\n{options}\n{}\n", input.name));

@@ -13,32 +13,30 @@ use super::options::UploadQuery;
 use super::problem::{Code, Problem};
 use super::receiver::{Received, Receiver};
 use crate::jobs::{JobId, Kind};
+use crate::mesh::io::{Content, Format};
 
 /// How long the rest of a refused body is waited for.
 const DRAIN_TIME: Duration = Duration::from_secs(5);
 
-/// Media types of raw bodies that are meshes, and the format that they name; an empty one leaves it to the content.
-pub(super) const MESH_TYPES: [(&str, &str); 11] = [
-    ("model/gltf-binary", "glb"),
-    ("model/gltf+json", "gltf"),
-    ("model/obj", "obj"),
-    ("model/stl", "stl"),
-    ("application/sla", "stl"),
-    ("application/vnd.ms-pki.stl", "stl"),
-    ("model/ply", "ply"),
-    ("application/ply", "ply"),
-    ("model/off", "off"),
-    ("text/plain", ""),
-    ("application/octet-stream", ""),
-];
+/// Media types of raw bodies that leave the format to the content.
+const UNTOLD: [&str; 2] = ["text/plain", "application/octet-stream"];
+
+/// Those of surfaces.
+pub(super) fn surface_types() -> impl Iterator<Item = &'static str> {
+    let named = Format::that_hold(Content::Surface).flat_map(Format::media_types);
+    named.chain(&UNTOLD).copied()
+}
 
 /// Those of pictures, drawings and problem files.
-pub(super) const OTHER_TYPES: [(&str, &str); 4] = [
-    ("image/png", "png"),
-    ("image/jpeg", "jpg"),
-    ("image/svg+xml", "svg"),
-    ("application/json", "json"),
-];
+pub(super) fn other_types() -> impl Iterator<Item = &'static str> {
+    let others = formats().filter(|format| !format.holds(Content::Surface));
+    others.flat_map(Format::media_types).copied()
+}
+
+/// The formats that jobs of some kind read.
+fn formats() -> impl Iterator<Item = Format> {
+    Format::all().filter(|format| Kind::ALL.iter().any(|kind| format.holds(kind.reads())))
+}
 
 /// Receives an upload to disk and checks what can be checked without computing: size, framing, options. `kind` is
 /// given where the path already says it.
@@ -95,18 +93,17 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
             .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
         receiver.form(form).await?;
     } else {
-        let mut types = MESH_TYPES.iter().chain(&OTHER_TYPES);
-        let format = types.find(|(name, _)| *name == media_type);
-        let Some((_, extension)) = format else {
+        let has_type = |format: &Format| format.media_types().contains(&media_type.as_str());
+        let format = formats().find(has_type);
+        if format.is_none() && !UNTOLD.contains(&media_type.as_str()) {
             let detail = format!(
                 "{media_type:?} is not the type of a mesh, a picture, a drawing or a problem"
             );
             return Err(Problem::new(Code::UnsupportedMediaType, detail));
-        };
-        let name = disposition_name(request.headers()).unwrap_or_else(|| match *extension {
-            "" => String::new(),
-            extension => format!("input.{extension}"),
-        });
+        }
+        let given = disposition_name(request.headers());
+        let made = || format.map(|format| format!("input.{}", format.extension()));
+        let name = given.or_else(made).unwrap_or_default();
         receiver.body(name, request.into_body()).await?;
     }
     receiver.finish(kind, query).await

@@ -10,6 +10,7 @@ use super::progress::{Event, Progress};
 use super::state::State;
 use super::timestamp::Timestamp;
 use crate::document::Warning;
+use crate::mesh::io::Content;
 
 /// Names a job; ids sort by the time of their making (UUID version 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -77,6 +78,18 @@ impl Kind {
         Self::TextureMap,
         Self::Repack,
     ];
+
+    /// What jobs of this kind read.
+    pub fn reads(self) -> Content {
+        match self {
+            Self::Unwrap | Self::Measure | Self::EditUv | Self::TextureMap | Self::Repack => {
+                Content::Surface
+            }
+            Self::Solve => Content::Problem,
+            Self::Deform => Content::Body,
+            Self::Warp => Content::Picture,
+        }
+    }
 
     /// The word used in JSON and in the store.
     pub fn word(self) -> &'static str {

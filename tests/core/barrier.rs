@@ -5,8 +5,8 @@ use unwrapd::barrier::{
 };
 use unwrapd::energy::{Arap, EnergyKind, Guard, Lscm, SymmetricDirichlet, Zero};
 
-use crate::energy::{assert_plane_taylor, assert_space_taylor};
 use crate::taylor::assert_taylor;
+use crate::terms::{assert_plane_taylor, assert_space_taylor};
 
 const SPLINE: InverseSpline = InverseSpline {
     beta: 0.7,

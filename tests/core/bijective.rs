@@ -11,8 +11,8 @@ use unwrapd::energy::Term;
 use unwrapd::mesh::PlanarMesh;
 use unwrapd::solver::{Control, Iterate, Settings, Status, Watch};
 
-use crate::energy::{assert_term_taylor, derivatives};
 use crate::random::Random;
+use crate::terms::{assert_term_taylor, derivatives};
 
 const TWO: [[u32; 3]; 2] = [[0, 1, 2], [5, 3, 4]];
 /// Two triangles well apart.

@@ -12,9 +12,8 @@ use unwrapd::mesh::Disk;
 use unwrapd::numerics::predicates::orient2d_sign;
 use unwrapd::solver::{Control, Iterate};
 
+use crate::disks::{Mesh, NO_HOLE, cone, grid, tube};
 use crate::taylor::assert_taylor;
-
-type Mesh = (Disk, Vec<[f64; 3]>);
 
 fn go_on(_: &Iterate) -> Control {
     Control::Continue
@@ -34,76 +33,6 @@ fn area(disk: &Disk, uv: &[[f64; 2]]) -> f64 {
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     });
     0.5 * doubled.sum::<f64>()
-}
-
-/// `n` × `n` squares, each cut by a diagonal, placed by `place(x, y)` with x, y in 0..=n; `is_hole(x, y)` takes squares
-/// out.
-fn grid(
-    n: usize,
-    is_hole: impl Fn(usize, usize) -> bool,
-    place: impl Fn(usize, usize) -> [f64; 3],
-) -> Mesh {
-    let mut triangles = Vec::new();
-    for y in 0..n {
-        for x in 0..n {
-            if !is_hole(x, y) {
-                let a = (y * (n + 1) + x) as u32;
-                let d = a + n as u32 + 1;
-                let flip = (x + y) % 2 == 0;
-                triangles.extend(if flip {
-                    [[a, a + 1, d + 1], [a, d + 1, d]]
-                } else {
-                    [[a, a + 1, d], [a + 1, d + 1, d]]
-                });
-            }
-        }
-    }
-    let positions: Vec<[f64; 3]> = (0..(n + 1) * (n + 1))
-        .map(|v| place(v % (n + 1), v / (n + 1)))
-        .collect();
-    let disk = Disk::new(positions.len(), triangles).expect("a disk");
-    (disk, positions)
-}
-
-/// A cone of `n` triangles.
-fn cone(n: u32, height: f64) -> Mesh {
-    let mut positions = vec![[0.0, 0.0, height]];
-    positions.extend((0..n).map(|i| {
-        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
-        [angle.cos(), angle.sin(), 0.0]
-    }));
-    let triangles = (0..n).map(|i| [0, 1 + i, 1 + (i + 1) % n]).collect();
-    (
-        Disk::new(positions.len(), triangles).expect("a disk"),
-        positions,
-    )
-}
-
-/// A tube of `length` rings of `around` vertices, closed at one end; its only boundary is the first ring.
-fn tube(around: u32, length: u32) -> Mesh {
-    let mut positions = Vec::new();
-    let mut triangles = Vec::new();
-    for ring in 0..length {
-        for i in 0..around {
-            let turn = (f64::from(i) + 0.5 * f64::from(ring % 2)) / f64::from(around);
-            let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
-            positions.push([cos, sin, -f64::from(ring)]);
-            let (a, b) = (ring * around + i, ring * around + (i + 1) % around);
-            let (c, d) = (a + around, b + around);
-            if ring + 1 == length {
-                triangles.push([a, length * around, b]);
-            } else if ring % 2 == 0 {
-                triangles.extend([[a, c, b], [b, c, d]]);
-            } else {
-                triangles.extend([[a, d, b], [a, c, d]]);
-            }
-        }
-    }
-    positions.push([0.0, 0.0, -f64::from(length)]);
-    (
-        Disk::new(positions.len(), triangles).expect("a disk"),
-        positions,
-    )
 }
 
 /// Maps with every energy and checks what is promised of every map.
@@ -140,8 +69,6 @@ fn check(name: &str, (disk, positions): &Mesh) {
         assert!(embedding.summary.energy_last <= embedding.summary.energy_first);
     }
 }
-
-const NO_HOLE: fn(usize, usize) -> bool = |_, _| false;
 
 #[test]
 fn nasty_disks_are_mapped_without_a_flip() {

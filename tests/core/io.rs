@@ -1,7 +1,7 @@
 //! Readers of OBJ, OFF, PLY and STL: what they read, what they refuse, and that no byte makes them panic.
 use crate::places;
 use std::path::Path;
-use unwrapd::mesh::io::{Format, IndexedTriangles, ReadError, obj, off, ply, stl};
+use unwrapd::mesh::io::{Content, Format, IndexedTriangles, ReadError, obj, off, ply, stl};
 
 type Reader = fn(&[u8]) -> Result<IndexedTriangles, ReadError>;
 
@@ -154,6 +154,10 @@ fn every_format_fills_a_concave_polygon() {
     }
 }
 
+fn detected(name: &str, bytes: &[u8]) -> Option<Format> {
+    Format::detect(name, bytes, Content::Surface)
+}
+
 #[test]
 fn formats_are_told_by_content_then_by_name() {
     for (name, _, bytes) in squares() {
@@ -163,16 +167,55 @@ fn formats_are_told_by_content_then_by_name() {
             "ply" => Format::Ply,
             _ => Format::Stl,
         };
-        assert_eq!(Format::detect(name, &bytes), Some(expected), "{name}");
+        assert_eq!(detected(name, &bytes), Some(expected), "{name}");
         assert_eq!(
-            Format::detect("upload", &bytes),
+            detected("upload", &bytes),
             Some(expected),
             "{name} without its name"
         );
     }
-    assert_eq!(Format::detect("a.OFF", b"3 1 0\n"), Some(Format::Off));
-    assert_eq!(Format::detect("a.png", b"\x89PNG\r\n\x1a\n"), None);
-    assert_eq!(Format::detect("", b""), None);
+    assert_eq!(detected("a.OFF", b"3 1 0\n"), Some(Format::Off));
+    assert_eq!(detected("a.png", b"\x89PNG\r\n\x1a\n"), None);
+    assert_eq!(detected("", b""), None);
+}
+
+#[test]
+fn content_is_told_apart_by_what_it_is_read_for() {
+    use Content::{Body, Picture, Problem, Surface, Texture};
+    let png: &[u8] = b"\x89PNG\r\n\x1a\n";
+    let jpeg: &[u8] = b"\xFF\xD8\xFF\xE0";
+    let webp: &[u8] = b"RIFF\x04\0\0\0WEBP";
+    let drawing: &[u8] = b"\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<svg/>";
+    for (bytes, content, expected) in [
+        (&b" {}"[..], Surface, Some(Format::Gltf)),
+        (b" {}", Problem, Some(Format::Json)),
+        (b" {}", Picture, None),
+        (png, Body, Some(Format::Png)),
+        (png, Picture, Some(Format::Png)),
+        (png, Surface, None),
+        (jpeg, Body, None),
+        (jpeg, Picture, Some(Format::Jpeg)),
+        (webp, Texture, Some(Format::Webp)),
+        (webp, Picture, None),
+        (drawing, Body, Some(Format::Svg)),
+        (b"<html>", Body, None),
+        (b"12 4\n0 0 0\n", Body, Some(Format::Tet)),
+        (b"12 4\n0 0 0\n", Surface, None),
+        (b"# a comment\nOFF\n", Surface, Some(Format::Off)),
+        (b"solid words", Surface, None),
+    ] {
+        let found = Format::of_content(bytes, bytes.len() as u64, content);
+        assert_eq!(found, expected, "{content:?}: {}", bytes.escape_ascii());
+    }
+}
+
+#[test]
+fn a_name_outdoes_text_that_only_resembles_a_format() {
+    assert_eq!(detected("a.stl", b"v 0 0 0\n"), Some(Format::Stl));
+    assert_eq!(detected("a.glb", b"ply\n"), Some(Format::Ply));
+    assert_eq!(detected("a.JPEG", b""), None);
+    assert_eq!(Format::of_name("b.c/a.JPEG"), Some(Format::Jpeg));
+    assert_eq!(Format::of_name("b.png/a"), None);
 }
 
 #[test]
@@ -337,7 +380,7 @@ fn mutated_files_never_panic() {
                 ),
                 Err(_) => refused += 1,
             }
-            Format::detect(name, &mutant);
+            detected(name, &mutant);
         }
     }
     assert!(refused > 1000, "the mutations were harmless");

@@ -18,6 +18,7 @@ mod crossings;
 mod cut;
 mod deform;
 mod disk;
+mod disks;
 #[cfg(feature = "files")]
 mod document;
 #[cfg(feature = "files")]
@@ -29,6 +30,7 @@ mod given_seams;
 #[cfg(feature = "files")]
 mod io;
 mod layers;
+mod layouts;
 mod left_out;
 mod measure;
 mod mesh;
@@ -42,6 +44,7 @@ mod obj_pipeline;
 mod once;
 #[cfg(feature = "files")]
 mod outline;
+mod packing_mode;
 mod pages;
 #[cfg(feature = "files")]
 mod picture;
@@ -57,12 +60,14 @@ mod polygon;
 #[cfg(feature = "files")]
 mod problem_files;
 mod progress;
+mod pulled;
 mod random;
 mod separation;
 #[cfg(feature = "files")]
 mod simple_polygons;
 mod solver;
 mod taylor;
+mod terms;
 mod texture_mapping;
 mod threads;
 mod untangle;

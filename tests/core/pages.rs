@@ -1,14 +1,13 @@
 //! Several pages, textures that are not square, and a density that is given.
 
+use crate::layouts::{Chart, maps};
 use crate::uv_meshes::UvMesh;
 use unwrapd::atlas::{
-    Atlas, AtlasError, AtlasOptions, ChartMap, GRID_BITS, Scale, Texture, enough, fits, pack,
+    Atlas, AtlasError, AtlasOptions, GRID_BITS, Scale, Texture, enough, fits, pack,
 };
 use unwrapd::certificate::{Certificate, Claims, Padding, certify};
 use unwrapd::measure::MeasureOptions;
 use unwrapd::mesh::{Resolution, VAxis};
-
-type Chart = (Vec<[f64; 2]>, Vec<[u32; 3]>);
 
 /// Fans with a wavy outline, of many sizes.
 fn fans(n: usize) -> Vec<Chart> {
@@ -26,13 +25,6 @@ fn fans(n: usize) -> Vec<Chart> {
         )
     };
     (0..n).map(fan).collect()
-}
-
-fn maps(charts: &[Chart]) -> Vec<ChartMap<'_>> {
-    charts
-        .iter()
-        .map(|(uv, triangles)| ChartMap { uv, triangles })
-        .collect()
 }
 
 fn options(width: u32, height: u32, pages: u32) -> AtlasOptions {

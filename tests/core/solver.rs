@@ -8,8 +8,8 @@ use unwrapd::solver::{
     Control, Iterate, Objective, Projection, Settings, Status, best_scale, minimize,
 };
 
-use crate::energy::dense;
 use crate::taylor::assert_taylor;
+use crate::terms::dense;
 
 const NO_WATCH: fn(&Iterate) -> Control = |_| Control::Continue;
 

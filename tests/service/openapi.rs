@@ -1,6 +1,6 @@
 //! The OpenAPI document.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde_json::Value;
@@ -53,39 +53,76 @@ fn every_operation_says_what_it_answers() {
     assert_eq!(ids.len(), count, "each has its own id");
 }
 
-/// The words of every `fn code(&self)` in the sources.
-fn codes(folder: &Path, found: &mut BTreeSet<String>) {
+/// The codes that the sources produce: the words of every `fn code(&self)`, those of failures made
+/// in place, and those of the service's own that its handlers name.
+fn produced_codes() -> BTreeSet<String> {
+    let own = own_codes();
+    let mut found = BTreeSet::new();
+    for text in sources(&places::repository("src")) {
+        let bodies = text.split("fn code(&self) -> &'static str {").skip(1);
+        let bodies = bodies.filter_map(|rest| rest.split("\n    }\n").next());
+        let lines = bodies.flat_map(str::lines);
+        for line in lines.filter(|line| !line.trim_start().starts_with("#[")) {
+            found.extend(line.split('"').nth(1).map(str::to_owned));
+        }
+        for failure in text.split("Failure::new(").skip(1).map(str::trim_start) {
+            let literal = failure.strip_prefix('"');
+            found.extend(
+                literal
+                    .and_then(|rest| rest.split('"').next())
+                    .map(str::to_owned),
+            );
+        }
+        for argument in text.split("::new(").skip(1).map(str::trim_start) {
+            let variant = argument.strip_prefix("Code::");
+            found.extend(variant.map(|rest| own[identifier(rest)].clone()));
+        }
+    }
+    found
+}
+
+/// The words of the service's own codes, by their variants.
+fn own_codes() -> BTreeMap<String, String> {
+    let path = places::repository("src/http/problem.rs");
+    let text = std::fs::read_to_string(path).expect("text");
+    let rows = text.split("pub fn row(self)").nth(1).expect("a table");
+    let rows = rows.split("\n    }\n").next().unwrap_or_default();
+    let rows = rows.split("Self::").skip(1);
+    let word = |row: &str| row.split('"').nth(1).expect("a word").to_owned();
+    rows.map(|row| (identifier(row).to_owned(), word(row)))
+        .collect()
+}
+
+fn identifier(text: &str) -> &str {
+    let end = text.find(|c: char| !c.is_alphanumeric());
+    &text[..end.unwrap_or(text.len())]
+}
+
+fn sources(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
-            codes(&path, found);
-            continue;
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(std::fs::read_to_string(&path).expect("text"));
         }
-        let text = std::fs::read_to_string(&path).expect("text");
-        let bodies = text.split("fn code(&self) -> &'static str {").skip(1);
-        let bodies = bodies.map(|rest| rest.split("\n    }\n").next().unwrap_or_default());
-        let words = bodies.flat_map(|body| body.split("=> \"").skip(1));
-        let words = words.filter_map(|rest| rest.split_once('"'));
-        found.extend(words.map(|(word, _)| word.to_owned()));
     }
+    found
 }
 
 #[test]
-fn every_code_of_an_input_is_in_the_table() {
+fn the_codes_documented_are_those_produced() {
     let document = stored();
-    let table = document["x-problems"].as_array().expect("a table").iter();
-    let table: Vec<&str> = table.filter_map(|row| row["code"].as_str()).collect();
-    let mut found = BTreeSet::new();
-    codes(&places::repository("src"), &mut found);
-    assert!(
-        found.contains("unknown_handle") && found.contains("folded_mesh"),
-        "{found:?}"
-    );
-    let missing: Vec<_> = found
-        .iter()
-        .filter(|word| !table.contains(&word.as_str()))
+    let rows = document["x-problems"].as_array().expect("a table").iter();
+    let table: Vec<String> = rows
+        .filter_map(|row| row["code"].as_str().map(str::to_owned))
         .collect();
-    assert!(missing.is_empty(), "{missing:?}");
-    let distinct: BTreeSet<_> = table.iter().collect();
-    assert_eq!(distinct.len(), table.len(), "a code has one meaning");
+    let documented: BTreeSet<String> = table.iter().cloned().collect();
+    assert_eq!(documented.len(), table.len(), "a code has one meaning");
+    let produced = produced_codes();
+    let missing: Vec<_> = produced.difference(&documented).collect();
+    assert!(missing.is_empty(), "not documented: {missing:?}");
+    let stale: Vec<_> = documented.difference(&produced).collect();
+    assert!(stale.is_empty(), "produced nowhere: {stale:?}");
 }

@@ -3,6 +3,7 @@ use super::body::{Body, Target};
 use super::json::{item, item_mut, items, remove, required};
 use super::uri;
 use crate::document::DocumentError;
+use crate::mesh::io::{Content, Format};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -92,46 +93,12 @@ fn external_uri(image: &Value) -> Option<String> {
 
 /// The extension of a file with this content.
 pub(super) fn file_extension(bytes: &[u8]) -> &'static str {
-    match mime_type("", bytes) {
-        Some("image/png") => "png",
-        Some("image/jpeg") => "jpg",
-        Some("image/webp") => "webp",
-        Some("image/ktx2") => "ktx2",
-        _ => "bin",
-    }
+    let format = Format::of_content(bytes, bytes.len() as u64, Content::Texture);
+    format.map_or("bin", Format::extension)
 }
 
 /// The media type by content, else by name; `None` where it is not known, and an embedded image must have one.
 fn mime_type(name: &str, bytes: &[u8]) -> Option<&'static str> {
-    match bytes {
-        [0x89, b'P', b'N', b'G', ..] => return Some("image/png"),
-        [0xFF, 0xD8, 0xFF, ..] => return Some("image/jpeg"),
-        [
-            b'R',
-            b'I',
-            b'F',
-            b'F',
-            _,
-            _,
-            _,
-            _,
-            b'W',
-            b'E',
-            b'B',
-            b'P',
-            ..,
-        ] => return Some("image/webp"),
-        [0xAB, b'K', b'T', b'X', b' ', b'2', b'0', ..] => return Some("image/ktx2"),
-        _ => {}
-    }
-    let extension = name.rsplit_once('.')?.1.to_ascii_lowercase();
-    Some(match extension.as_str() {
-        "png" => "image/png",
-        "jpg" | "jpeg" => "image/jpeg",
-        "webp" => "image/webp",
-        "ktx2" => "image/ktx2",
-        "avif" => "image/avif",
-        "dds" => "image/vnd-ms.dds",
-        _ => return None,
-    })
+    let format = Format::detect(name, bytes, Content::Texture)?;
+    format.media_types().first().copied()
 }

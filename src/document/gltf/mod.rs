@@ -54,6 +54,7 @@ use super::{
     SpaceMap, Subdivision, Upload, Warning, WriteOptions, Written,
 };
 use crate::mesh::CornerUvs;
+use crate::mesh::io::without_mark;
 pub use references::references;
 pub use tangents::tangents;
 pub(in crate::document) use uri::{encoded, normalized};
@@ -83,20 +84,6 @@ pub struct GltfDocument {
     used: Vec<Option<Vec<u32>>>,
     /// What was noticed on the way here.
     warnings: Vec<Warning>,
-}
-
-/// Whether the content, or else the name, says that this is glTF.
-pub(in crate::document) fn is_gltf(upload: &Upload) -> bool {
-    glb::is_glb(&upload.bytes)
-        || matches!(upload.extension().as_str(), "glb" | "gltf")
-        || without_mark(&upload.bytes)
-            .trim_ascii_start()
-            .starts_with(b"{")
-}
-
-/// Text without the byte order mark that some editors put before it.
-fn without_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
 }
 
 impl GltfDocument {

@@ -1,6 +1,6 @@
 //! What is deformed, as files have it, and the formats it comes in.
 
-use super::{ReadError, gmsh, medit, obj, off, tet, vtu};
+use super::{Format, ReadError, gmsh, medit, obj, off, tet, vtu};
 use crate::mesh::{ElementError, PlanarMesh, TetMesh, boundary_triangles};
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -75,16 +75,20 @@ pub enum ElementFormat {
 }
 
 impl ElementFormat {
-    /// The format by the extension of a file's name.
+    /// The format that the extension of a file's name stands for.
     pub fn of_name(name: &str) -> Option<Self> {
-        let (_, extension) = name.rsplit_once('.')?;
-        Some(match extension.to_ascii_lowercase().as_str() {
-            "msh" => Self::Gmsh,
-            "mesh" => Self::Medit,
-            "tet" => Self::Tet,
-            "obj" => Self::Obj,
-            "off" => Self::Off,
-            "vtu" => Self::Vtu,
+        Format::of_name(name).and_then(Self::of)
+    }
+
+    /// A format, if it is one of these.
+    pub fn of(format: Format) -> Option<Self> {
+        Some(match format {
+            Format::Msh => Self::Gmsh,
+            Format::Mesh => Self::Medit,
+            Format::Tet => Self::Tet,
+            Format::Obj => Self::Obj,
+            Format::Off => Self::Off,
+            Format::Vtu => Self::Vtu,
             _ => return None,
         })
     }

@@ -8,6 +8,11 @@ use super::elements::{Elements, push_element};
 use super::{ReadError, position};
 use std::fmt::Write;
 
+/// Whether the text begins with the format's first keyword.
+pub(super) fn has_header(text: &[u8]) -> bool {
+    text.starts_with(b"MeshVersionFormatted")
+}
+
 /// Reads a text `.mesh` file of two or three dimensions.
 pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
     let mut cursor = Cursor::new(bytes, "Medit");

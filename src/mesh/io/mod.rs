@@ -8,6 +8,7 @@
 mod cursor;
 mod elements;
 mod faces;
+mod format;
 pub mod gmsh;
 pub mod medit;
 pub mod obj;
@@ -20,6 +21,7 @@ pub mod vtu;
 pub use elements::{ElementFormat, Elements, text_positions};
 use faces::Faces;
 pub use faces::Fanned;
+pub use format::{Content, Format, SEARCHED_BYTES, extension, without_mark};
 
 /// Positions and triangles of one file, in the file's order.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,19 +32,6 @@ pub struct IndexedTriangles<T = f32> {
     pub triangles: Vec<[u32; 3]>,
     /// Polygons that have no inside.
     pub fanned: Fanned,
-}
-
-/// The mesh formats read here.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Wavefront OBJ.
-    Obj,
-    /// Geomview OFF, text.
-    Off,
-    /// Stanford PLY, text or binary.
-    Ply,
-    /// Stereolithography, text or binary.
-    Stl,
 }
 
 /// Why a file cannot be used.
@@ -83,29 +72,6 @@ impl ReadError {
             Self::Malformed { .. } => "invalid_mesh",
             Self::NonFinitePosition { .. } => "non_finite_position",
             Self::IndexOutOfRange { .. } => "index_out_of_range",
-        }
-    }
-}
-
-impl Format {
-    /// The format of a file, by its first bytes where they tell, else by the extension of its name.
-    pub fn detect(name: &str, bytes: &[u8]) -> Option<Self> {
-        let extension = name.rsplit_once('.').map(|(_, e)| e.to_ascii_lowercase());
-        if bytes.starts_with(b"ply") && matches!(bytes.get(3), Some(b'\n' | b'\r' | b' ')) {
-            return Some(Self::Ply);
-        }
-        if off::has_header(bytes) {
-            return Some(Self::Off);
-        }
-        if stl::is_binary(bytes) || stl::has_text_header(bytes) {
-            return Some(Self::Stl);
-        }
-        match extension.as_deref() {
-            Some("obj") => Some(Self::Obj),
-            Some("off") => Some(Self::Off),
-            Some("ply") => Some(Self::Ply),
-            Some("stl") => Some(Self::Stl),
-            _ => obj::has_statements(bytes).then_some(Self::Obj),
         }
     }
 }

@@ -120,16 +120,16 @@ fn statement_text(bytes: &[u8]) -> (&[u8], usize) {
     }
 }
 
-/// Whether the text has one of the format's statements among its first lines.
-pub(super) fn has_statements(bytes: &[u8]) -> bool {
-    statements(&bytes[..bytes.len().min(4096)])
-        .find(|s| !s.keyword.is_empty())
-        .is_some_and(|s| {
-            matches!(
-                s.keyword,
-                b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"mtllib" | b"usemtl" | b"s"
-            )
-        })
+/// Whether the text has a line that is a vertex.
+pub(super) fn has_vertex(text: &[u8]) -> bool {
+    let is_vertex = |line: &[u8]| {
+        let line = line.trim_ascii_start();
+        line.starts_with(b"v ") || line.starts_with(b"v\t")
+    };
+    !text.contains(&0)
+        && text
+            .split(|byte| matches!(byte, b'\n' | b'\r'))
+            .any(is_vertex)
 }
 
 /// A corner as the text has it: indices from 1, negative ones already resolved, 0 where none is given.

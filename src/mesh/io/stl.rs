@@ -27,19 +27,27 @@ fn claimed_facets(bytes: &[u8]) -> Option<usize> {
 }
 
 /// Whether the size is exactly that of a binary file with the number of facets it claims.
-pub(super) fn is_binary(bytes: &[u8]) -> bool {
-    claimed_facets(bytes).is_some_and(|n| HEADER + n * FACET == bytes.len() && n > 0)
+pub(super) fn is_binary(head: &[u8], size: u64) -> bool {
+    claimed_facets(head).is_some_and(|n| (HEADER + n * FACET) as u64 == size)
+}
+
+/// Whether a text file begins like this: with its first word, and facets after it.
+pub(super) fn is_text(head: &[u8]) -> bool {
+    has_text_header(head)
+        && head
+            .windows(5)
+            .any(|word| word.eq_ignore_ascii_case(b"facet"))
 }
 
 /// Whether the file begins as a text file does.
-pub(super) fn has_text_header(bytes: &[u8]) -> bool {
+fn has_text_header(bytes: &[u8]) -> bool {
     let first = words(&bytes[..bytes.len().min(4096)]).next();
     first.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
 /// Reads a text or binary STL file. The size decides, as binary headers may begin with `solid` too.
 pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
-    if has_text_header(bytes) && !is_binary(bytes) {
+    if has_text_header(bytes) && !is_binary(bytes, bytes.len() as u64) {
         read_text(bytes)
     } else {
         read_binary(bytes)

@@ -2,8 +2,14 @@
 
 use super::cursor::Cursor;
 use super::elements::{Elements, push_element};
-use super::{ReadError, position};
+use super::{ReadError, lines, position, words};
 use std::fmt::Write;
+
+/// Whether the first line of the text is two numbers: how many vertices, how many tetrahedra.
+pub(super) fn has_counts(text: &[u8]) -> bool {
+    let line = lines(text).next().map_or(&[][..], |(_, line)| line);
+    words(line).count() == 2 && words(line).flatten().all(u8::is_ascii_digit)
+}
 
 /// Reads a `.tet` file.
 pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {

@@ -9,6 +9,7 @@ use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, Caged, CagedSurface};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
 use crate::document::{Document, GroupBy, OutputFormat, Upload, Written};
+use crate::mesh::io::Format;
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::limits::Limits;
@@ -65,8 +66,8 @@ pub fn deform(
 ) -> Result<Deformed, PipelineError> {
     tracker.stage(Stage::Read);
     let format = options.format.and_then(BodyFormat::of_document);
-    let format = format.unwrap_or(match upload.extension().as_str() {
-        "obj" => OutputFormat::Obj,
+    let format = format.unwrap_or(match Format::of_name(&upload.name) {
+        Some(Format::Obj) => OutputFormat::Obj,
         _ => OutputFormat::Glb,
     });
     if options.frames {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::document::OutputFormat;
-use crate::mesh::io::{ElementFormat, Elements, text_positions};
+use crate::mesh::io::{ElementFormat, Elements, Format, text_positions};
 use crate::pipeline::PipelineError;
 
 /// What a deformed body is written as.
@@ -32,29 +32,33 @@ pub enum BodyFormat {
 }
 
 impl BodyFormat {
-    const ALL: [(Self, &'static str); 9] = [
-        (Self::Txt, "txt"),
-        (Self::Obj, "obj"),
-        (Self::Off, "off"),
-        (Self::Msh, "msh"),
-        (Self::Mesh, "mesh"),
-        (Self::Tet, "tet"),
-        (Self::Vtu, "vtu"),
-        (Self::Glb, "glb"),
-        (Self::Gltf, "gltf"),
+    const ALL: [(Self, Format); 9] = [
+        (Self::Txt, Format::Txt),
+        (Self::Obj, Format::Obj),
+        (Self::Off, Format::Off),
+        (Self::Msh, Format::Msh),
+        (Self::Mesh, Format::Mesh),
+        (Self::Tet, Format::Tet),
+        (Self::Vtu, Format::Vtu),
+        (Self::Glb, Format::Glb),
+        (Self::Gltf, Format::Gltf),
     ];
 
-    /// The format by a file's extension, in lower case and without the dot.
-    pub fn of_extension(extension: &str) -> Option<Self> {
+    /// The format that the extension of a file's name stands for.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let named = Format::of_name(name)?;
         let mut all = Self::ALL.into_iter();
-        all.find_map(|(format, word)| (word == extension).then_some(format))
+        all.find_map(|(format, file)| (file == named).then_some(format))
     }
 
     /// The extension of its files.
     pub fn extension(self) -> &'static str {
+        self.file().map_or("", Format::extension)
+    }
+
+    fn file(self) -> Option<Format> {
         let mut all = Self::ALL.into_iter();
-        all.find_map(|(format, word)| (format == self).then_some(word))
-            .unwrap_or_default()
+        all.find_map(|(format, file)| (format == self).then_some(file))
     }
 
     /// As the format of a document.
@@ -79,7 +83,7 @@ impl BodyFormat {
 
     /// The file of a deformed body: `elements` with the positions `x`, `dim` coordinates each.
     pub(in crate::pipeline) fn write(self, elements: &Elements, dim: usize, x: &[f64]) -> Vec<u8> {
-        let format = ElementFormat::of_name(&format!(".{}", self.extension()));
+        let format = self.file().and_then(ElementFormat::of);
         let text = match (format, dim) {
             (None, 2) => text_positions::<2>(x.as_chunks().0),
             (None, _) => text_positions::<3>(x.as_chunks().0),

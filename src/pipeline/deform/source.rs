@@ -7,7 +7,7 @@ use crate::deform::Body;
 use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
 use crate::document::{Document, GroupBy, OutputFormat, Upload};
 use crate::mesh::Surface;
-use crate::mesh::io::{ElementFormat, Elements};
+use crate::mesh::io::{Content, ElementFormat, Elements, Format};
 use crate::picture::Image;
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::merged::Merged;
@@ -27,18 +27,19 @@ impl Source {
     /// The mesh of a file, or of the outline in a picture or drawing, that is filled with about so many triangles. Its kind is known
     /// by the extension of its name, of a file without one by its first bytes.
     pub fn read(upload: &Upload, triangles: usize, limits: &Limits) -> Result<Self, PipelineError> {
-        let extension = match upload.extension() {
-            none if none.is_empty() => extension_by_content(&upload.bytes).to_owned(),
-            extension => extension,
+        let format = if upload.extension().is_empty() {
+            other_than_documents(&upload.bytes)
+        } else {
+            Format::of_name(&upload.name)
         };
-        let drawn = drawn(&upload.bytes, &extension, triangles, limits)?;
+        let drawn = drawn(&upload.bytes, format, triangles, limits)?;
         if drawn.is_none() && triangles != TRIANGLES {
             let text = "`triangles` fill an outline, and this input is a mesh";
             return Err(PipelineError::InvalidOptions(text.to_owned()));
         }
         let (elements, document) = if let Some(elements) = drawn {
             (elements, None)
-        } else if let Some(format) = ElementFormat::of_name(&format!(".{extension}")) {
+        } else if let Some(format) = format.and_then(ElementFormat::of) {
             (format.read(&upload.bytes)?, None)
         } else {
             let document = Document::read(upload)?;
@@ -60,7 +61,7 @@ impl Source {
 
     /// The format of the result where none was asked for: the input's if possible.
     pub fn format(&self, upload: &Upload) -> BodyFormat {
-        BodyFormat::of_extension(&upload.extension())
+        BodyFormat::of_name(&upload.name)
             .filter(|&format| self.check(format, false).is_ok())
             .unwrap_or(BodyFormat::Obj)
     }
@@ -109,32 +110,24 @@ impl Source {
     }
 }
 
-/// What the first bytes say of files that are no documents; empty where they are of another kind.
-fn extension_by_content(bytes: &[u8]) -> &'static str {
-    let start = bytes.trim_ascii_start();
-    let kinds: [(&[u8], _); 5] = [
-        (b"\x89PNG", "png"),
-        (b"<svg", "svg"),
-        (b"<?xml", "svg"),
-        (b"$MeshFormat", "msh"),
-        (b"MeshVersionFormatted", "mesh"),
-    ];
-    let known = kinds.iter().find(|(first, _)| start.starts_with(first));
-    known.map_or("", |(_, extension)| extension)
+/// What the content says of files that are no documents, which know their own formats.
+fn other_than_documents(bytes: &[u8]) -> Option<Format> {
+    let format = Format::of_content(bytes, bytes.len() as u64, Content::Body);
+    format.filter(|format| !format.holds(Content::Surface))
 }
 
 /// The mesh of the outline in a picture or drawing, if it is one.
 fn drawn(
     bytes: &[u8],
-    extension: &str,
+    format: Option<Format>,
     triangles: usize,
     limits: &Limits,
 ) -> Result<Option<Elements>, PipelineError> {
-    if !matches!(extension, "svg" | "png") {
+    let Some(format @ (Format::Svg | Format::Png)) = format else {
         return Ok(None);
-    }
+    };
     limits.check_count(triangles)?;
-    let outline = if extension == "svg" {
+    let outline = if format == Format::Svg {
         let text = String::from_utf8_lossy(bytes);
         outline::of_svg(&text, &SvgSettings::default())?
     } else {

@@ -38,6 +38,23 @@ async fn a_killed_server_leaves_no_child_and_its_job_completes_once() {
 }
 
 #[tokio::test]
+async fn a_job_during_which_the_server_is_lost_three_times_fails() {
+    let mut server = Server::start();
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    for _ in 0..3 {
+        server.mapping(&job).await;
+        server.kill();
+        server.restart();
+    }
+    let ended = server.ended(&job).await;
+    assert_eq!(
+        (&ended["state"], &ended["error"]["code"], &ended["attempt"]),
+        (&"failed".into(), &"worker_lost".into(), &3.into()),
+        "{ended}"
+    );
+}
+
+#[tokio::test]
 async fn two_servers_do_not_share_a_folder() {
     let server = Server::start();
     let second = std::process::Command::new(env!("CARGO_BIN_EXE_unwrapd"))

@@ -24,6 +24,11 @@ enum Version {
     V41,
 }
 
+/// Whether the text begins with the format's first section.
+pub(super) fn has_header(text: &[u8]) -> bool {
+    text.starts_with(b"$MeshFormat")
+}
+
 /// Reads a `.msh` file.
 pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
     let mut cursor = Cursor::new(bytes, "Gmsh");

@@ -23,6 +23,11 @@ fn malformed(at: usize, cause: &'static str) -> ReadError {
     }
 }
 
+/// Whether the file begins with the format's first line.
+pub(super) fn has_header(head: &[u8]) -> bool {
+    head.starts_with(b"ply") && matches!(head.get(3), Some(b'\n' | b'\r' | b' '))
+}
+
 /// Reads a PLY file.
 pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
     let header = header(bytes)?;
