@@ -4,14 +4,13 @@
 //! coordinates are replaced, corners of polygons are given the new ones, everything else stands as it stood. OBJ has one
 //! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along
 //! diagonals between them, as a corner of a polygon has one UV.
-use super::conversion::{Conversion, OldUvs};
 use super::obj_materials::ObjMaterials;
 use super::obj_text::rewrite;
 use super::{
     DocumentError, Layout, NewUvs, Primitive, SpaceMap, Upload, Warning, WriteNotes, WriteOptions,
     Written,
 };
-use super::{fanned, new_obj, obj_gltf, obj_mark, obj_moved};
+use super::{fanned, new_obj, obj_mark, obj_moved};
 use crate::mesh::io;
 use crate::mesh::{CornerUvs, VAxis};
 use std::collections::BTreeMap;
@@ -52,11 +51,6 @@ impl ObjDocument {
         let positions = &self.primitives[0].positions;
         let bytes = obj_moved::moved(&self.bytes, &self.obj, positions, map);
         Self::parse(bytes, self.resources)
-    }
-
-    /// The same triangles as glTF, with objects, materials, pictures and colors.
-    pub(super) fn to_gltf(&self, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
-        obj_gltf::convert(self, old_uvs)
     }
 
     /// What the document has in the place of a mark.

@@ -7,11 +7,15 @@ use super::obj_parts::{ObjParts, Part};
 use super::{DocumentError, Warning, warning};
 use std::collections::{BTreeSet, HashMap};
 
+impl ObjDocument {
+    /// The same triangles as glTF, with objects, materials, pictures and colors.
+    pub(super) fn to_gltf(&self, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
+        convert(self, old_uvs)
+    }
+}
+
 /// The document as glTF.
-pub(super) fn convert(
-    document: &ObjDocument,
-    old_uvs: OldUvs,
-) -> Result<Conversion, DocumentError> {
+fn convert(document: &ObjDocument, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
     let parts = ObjParts::of(document.bytes());
     let parts_of_faces = parts_of_faces(document, &parts);
     let described = document.materials();

@@ -1,7 +1,7 @@
 //! The strip under a heat map: what is shown, the scale with its numbers, the colors outside the scale.
 use super::canvas::{Canvas, Lines};
 use super::color::{self, FLIPPED, INK, NO_VALUE, Rgb};
-use super::heat::Scale;
+use super::scale::Scale;
 use super::text;
 
 /// Colors outside the scale that occur in the picture.

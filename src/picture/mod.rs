@@ -16,12 +16,14 @@ mod mipmaps;
 mod panel;
 mod png;
 mod raster;
+mod scale;
 mod text;
 mod warp;
 
-pub use heat::{HeatmapMeasure, heatmap_png};
+pub use heat::heatmap_png;
 pub use image::{Image, ImageError};
 pub use layout::layout_png;
 pub use panel::Panel;
 pub(crate) use raster::{spans, steps};
+pub use scale::HeatmapMeasure;
 pub use warp::{Deformation, Extent, Warped, warped};

@@ -12,6 +12,7 @@ mod caged;
 mod certificate;
 mod charts;
 mod cholesky;
+mod circles;
 mod clearance;
 mod coarse_cage;
 mod crossings;

@@ -1,6 +1,6 @@
 //! What is deformed, as files have it, and the formats it comes in.
 
-use super::{Format, ReadError, gmsh, medit, obj, off, tet, vtu};
+use super::ReadError;
 use crate::mesh::{ElementError, PlanarMesh, TetMesh, boundary_triangles};
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -53,78 +53,6 @@ impl From<&PlanarMesh> for Elements {
             vertices: mesh.vertices().iter().map(|p| [p[0], p[1], 0.0]).collect(),
             triangles: mesh.triangles().to_vec(),
             tets: Vec::new(),
-        }
-    }
-}
-
-/// The formats in which meshes to deform are read and written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ElementFormat {
-    /// Gmsh `.msh`.
-    Gmsh,
-    /// Medit `.mesh`.
-    Medit,
-    /// `.tet`: counts, positions, corners.
-    Tet,
-    /// Wavefront OBJ: triangles only.
-    Obj,
-    /// Geomview OFF: triangles only.
-    Off,
-    /// VTK XML `.vtu`: written, not read.
-    Vtu,
-}
-
-impl ElementFormat {
-    /// The format that the extension of a file's name stands for.
-    pub fn of_name(name: &str) -> Option<Self> {
-        Format::of_name(name).and_then(Self::of)
-    }
-
-    /// A format, if it is one of these.
-    pub fn of(format: Format) -> Option<Self> {
-        Some(match format {
-            Format::Msh => Self::Gmsh,
-            Format::Mesh => Self::Medit,
-            Format::Tet => Self::Tet,
-            Format::Obj => Self::Obj,
-            Format::Off => Self::Off,
-            Format::Vtu => Self::Vtu,
-            _ => return None,
-        })
-    }
-
-    /// Reads a file; `.vtu` is not read.
-    pub fn read(self, bytes: &[u8]) -> Result<Elements, ReadError> {
-        let triangles = |mesh: super::IndexedTriangles<f64>| Elements {
-            vertices: mesh.positions,
-            triangles: mesh.triangles,
-            tets: Vec::new(),
-        };
-        match self {
-            Self::Gmsh => gmsh::read(bytes),
-            Self::Medit => medit::read(bytes),
-            Self::Tet => tet::read(bytes),
-            Self::Obj => obj::read_as(bytes).map(|obj| triangles(obj.mesh)),
-            Self::Off => off::read_as(bytes).map(triangles),
-            Self::Vtu => Err(ReadError::Malformed {
-                format: "VTU",
-                place: "byte",
-                at: 0,
-                cause: "this format can be written but not read",
-            }),
-        }
-    }
-
-    /// The text of a file. Numbers are the shortest that read back as the same `f64`. OBJ and OFF hold the
-    /// [surface](Elements::surface) only.
-    pub fn write(self, elements: &Elements) -> String {
-        match self {
-            Self::Gmsh => gmsh::write(elements),
-            Self::Medit => medit::write(elements),
-            Self::Tet => tet::write(elements),
-            Self::Obj => obj::write(elements),
-            Self::Off => off::write(elements),
-            Self::Vtu => vtu::write(elements),
         }
     }
 }

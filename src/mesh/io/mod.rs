@@ -6,6 +6,7 @@
 //! `f32` once, −0 becoming 0: what is welded, mapped and measured is what is written. What is deformed ([`Elements`]) keeps
 //! its `f64`.
 mod cursor;
+mod element_format;
 mod elements;
 mod faces;
 mod format;
@@ -18,7 +19,8 @@ pub mod stl;
 pub mod tet;
 pub mod vtu;
 
-pub use elements::{ElementFormat, Elements, text_positions};
+pub use element_format::ElementFormat;
+pub use elements::{Elements, text_positions};
 use faces::Faces;
 pub use faces::Fanned;
 pub use format::{Content, Format, SEARCHED_BYTES, extension, without_mark};
