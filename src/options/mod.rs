@@ -1,7 +1,7 @@
 //! Options, each written once.
 //!
 //! An option has a name, a type, a default, a range and a text. They stand in one line of an
-//! [`options!`] block, with the text above it, and all that users meet follows from that: the field
+//! `options!` block, with the text above it, and all that users meet follows from that: the field
 //! of a struct and its default, the member of a JSON object and of a query, the schema in the
 //! OpenAPI document and with it the form of the page, the option of the command line and its help,
 //! and the check of the range. Options that several commands have are a group, a struct of its own;

@@ -45,6 +45,7 @@ pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Worke
 
 #[cfg(feature = "files")]
 pub use deform::cage_report::CageReport;
+#[cfg(feature = "files")]
 pub use deform::caged::{CageOptions, CagedDocument, Surfaces};
 #[cfg(feature = "files")]
 pub use deform::file::deform_file;

@@ -38,9 +38,9 @@ fn fork(gap: f64, is_mirrored: bool) -> (Vec<[f64; 2]>, Vec<[u32; 3]>) {
     ];
     let side = if is_mirrored { -0.25 } else { 0.25 };
     if is_mirrored {
-        triangles
-            .iter_mut()
-            .for_each(|t: &mut [u32; 3]| t.swap(1, 2));
+        for triangle in &mut triangles {
+            triangle.swap(1, 2);
+        }
     }
     let places = corners.map(|[x, y]| [0.5 + side * (x - 1.0), 0.5 + 0.25 * y]);
     (places.to_vec(), triangles)
@@ -83,7 +83,7 @@ fn narrow_gaps_are_opened_on_either_side() {
 fn charts_without_padding_stay_apart_when_they_are_rounded() {
     let sphere = || zoo::sphere(8, 6);
     let others = [4.0, 8.0].map(|x| sphere().moved([x, 0.0, 0.0]));
-    let mesh = others.iter().fold(sphere(), |mesh, other| mesh.with(other));
+    let mesh = others.iter().fold(sphere(), zoo::Mesh::with);
     let settings = Settings {
         layout: Layout {
             padding: 0,

@@ -99,15 +99,14 @@ impl Format {
 
     fn by_signature(head: &[u8], size: u64, content: Content) -> Option<Self> {
         let head = Head { bytes: head, size };
-        let is_it =
-            |format: &Self| matches!(format.row().known, Known::BySignature(is) if is(&head));
+        let is_it = |format: &Self| matches!(format.row().known, Known::Signature(is) if is(&head));
         Self::that_hold(content).find(is_it)
     }
 
     fn by_resemblance(head: &[u8], size: u64, content: Content) -> Option<Self> {
         let head = Head { bytes: head, size };
         let is_it =
-            |format: &Self| matches!(format.row().known, Known::ByResemblance(is) if is(&head));
+            |format: &Self| matches!(format.row().known, Known::Resemblance(is) if is(&head));
         Self::that_hold(content).find(is_it)
     }
 

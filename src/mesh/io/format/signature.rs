@@ -9,11 +9,11 @@ pub(super) type Test = fn(&Head) -> bool;
 #[derive(Clone, Copy)]
 pub(super) enum Known {
     /// By bytes that no other format begins with.
-    BySignature(Test),
+    Signature(Test),
     /// By the name; if that says nothing, by text that is usual in such files.
-    ByResemblance(Test),
+    Resemblance(Test),
     /// By the name alone.
-    ByName,
+    Name,
 }
 
 /// The beginning of a file.
