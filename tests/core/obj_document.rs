@@ -380,7 +380,7 @@ fn polygons_without_an_inside_are_named() {
     assert!(
         one[0]
             .1
-            .starts_with("1 polygon crosses itself or has no area (line 6): "),
+            .starts_with("1 polygon crosses itself or has no area (line 6). "),
         "{}",
         one[0].1
     );
