@@ -386,7 +386,7 @@ fn polygons_without_an_inside_are_named() {
     );
     let many = messages("a.obj", &bow_ties(70));
     assert_eq!(many.len(), 1);
-    let start = "70 polygons cross themselves or have no area (lines 6, 7, 8, 9, 10, …): ";
+    let start = "70 polygons cross themselves or have no area (lines 6, 7, 8, 9, 10, …). ";
     assert!(many[0].1.starts_with(start), "{}", many[0].1);
     let ply = "ply\nformat ascii 1.0\nelement face 2\nproperty list uchar int vertex_indices\nelement vertex 4\n\
         property float x\nproperty float y\nproperty float z\nend_header\n3 0 2 1\n4 0 1 2 3\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n";
