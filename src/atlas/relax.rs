@@ -5,11 +5,11 @@
 //! plane, each triangle with the same weight however small, then pushes small triangles open and
 //! holds the others; it is minimized by the solver of the library, whose iterates are all strictly
 //! positive and whose energy falls. Vertices whose ring leaves the patch stay where they are.
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use crate::barrier::NoBarrier;
 use crate::energy::{RestShape, SymmetricDirichlet, Triangles};
-use crate::mesh::VertexFaces;
+use crate::mesh::{UsedVertices, VertexFaces};
 use crate::solver::{Control, Iterate, Objective, Settings, minimize};
 
 /// Smallest height of a rest shape, in grid cells. A triangle whose heights are √2 stays positive when
@@ -37,14 +37,11 @@ pub(super) fn relax(
 ) -> Vec<u32> {
     let of_patch = patch.iter().map(|&t| triangles[t as usize]);
     let held: Vec<[u32; 3]> = of_patch.chain(gaps.iter().copied()).collect();
-    let mut vertices = held.as_flattened().to_vec();
-    vertices.sort_unstable();
-    vertices.dedup();
-    let index: HashMap<u32, u32> = vertices.iter().zip(0..).map(|(&v, i)| (v, i)).collect();
+    let vertices = UsedVertices::new(held.iter().flatten().copied());
     let inside = |&t: &u32| patch.binary_search(&t).is_ok();
-    let (free, fixed): (Vec<u32>, Vec<u32>) = vertices
-        .iter()
-        .partition(|&&v| rings.of(v).iter().all(inside));
+    let all = vertices.as_slice();
+    let is_free = |&v: &u32| rings.of(v).iter().all(inside);
+    let (free, fixed): (Vec<u32>, Vec<u32>) = all.iter().partition(|v| is_free(v));
     // Differences of neighbors stay exact if the origin is where the triangles are smallest.
     let corners = |t: &[u32; 3]| t.map(|v| plane[v as usize]);
     let smallest = held
@@ -54,15 +51,15 @@ pub(super) fn relax(
         return free;
     };
     let local = |p: [f64; 2]| [0, 1].map(|k| (p[k] - origin[k]) / cell);
-    let mut x: Vec<f64> = vertices
-        .iter()
-        .flat_map(|&v| local(plane[v as usize]))
-        .collect();
+    let x = all.iter().flat_map(|&v| local(plane[v as usize]));
+    let mut x: Vec<f64> = x.collect();
     let rest: Vec<RestShape> = held.iter().map(|t| rest(corners(t).map(local))).collect();
-    let stencils: Vec<[u32; 3]> = held.iter().map(|t| t.map(|v| index[&v])).collect();
+    let mut stencils = held.clone();
+    vertices.renumber(stencils.as_flattened_mut());
     let term = Triangles::new(&stencils, &rest, SymmetricDirichlet, NoBarrier);
-    let mut objective = Objective::new(vertices.len(), Box::new(term));
-    objective.fix(&fixed.iter().map(|v| index[v]).collect::<Vec<_>>());
+    let mut objective = Objective::new(vertices.count(), Box::new(term));
+    let number = |&v: &u32| vertices.number(v);
+    objective.fix(&fixed.iter().filter_map(number).collect::<Vec<_>>());
     let max_iterations = (WORK / held.len()).clamp(8, MAX_ITERATIONS);
     let settings = Settings {
         max_iterations,
@@ -76,9 +73,10 @@ pub(super) fn relax(
         }
     };
     minimize(&mut objective, &mut x, &settings, &enough);
-    for &v in &free {
-        let i = 2 * index[&v] as usize;
-        plane[v as usize] = [0, 1].map(|k| origin[k] + x[i + k] * cell);
+    for (&v, x) in all.iter().zip(x.as_chunks::<2>().0) {
+        if is_free(&v) {
+            plane[v as usize] = [0, 1].map(|k| origin[k] + x[k] * cell);
+        }
     }
     free
 }

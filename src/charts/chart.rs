@@ -2,7 +2,7 @@
 
 use super::regions::within_cones::regions;
 use crate::cut::{Branches, Sheet, isolate_doubled_edges, join_disks, open_to_disk};
-use crate::mesh::{CUT, Disk, Surface, UnionFind};
+use crate::mesh::{CUT, Disk, Surface, UnionFind, spread};
 use crate::numerics::vec3::{area_vector, norm};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -159,22 +159,21 @@ fn consistent_corners(surface: &Surface, sheet: &Sheet) -> Vec<[u32; 3]> {
     let mut turned: Vec<Option<bool>> = vec![None; n];
     turned[0] = Some(false);
     let mut order = vec![0u32];
+    spread(&sheet.twin, &mut order, |h, t| {
+        let is_new = turned[t as usize / 3].is_none();
+        if is_new {
+            let this = turned[h as usize / 3] == Some(true);
+            let same = sheet.vertex[h as usize] == sheet.vertex[t as usize];
+            turned[t as usize / 3] = Some(this != same);
+        }
+        is_new
+    });
     let mut balance = 0.0;
-    let mut done = 0;
-    while let Some(&f) = order.get(done) {
-        done += 1;
-        let this = turned[f as usize] == Some(true);
+    for &f in &order {
         let [a, b, c] = surface.corners(sheet.triangles[f as usize] as usize);
         let area = norm(area_vector(a, b, c));
-        balance += if this { -area } else { area };
-        for h in 3 * f..3 * f + 3 {
-            let t = sheet.twin[h as usize];
-            if t != CUT && turned[t as usize / 3].is_none() {
-                let same = sheet.vertex[h as usize] == sheet.vertex[t as usize];
-                turned[t as usize / 3] = Some(this != same);
-                order.push(t / 3);
-            }
-        }
+        let is_turned = turned[f as usize] == Some(true);
+        balance += if is_turned { -area } else { area };
     }
     (0..n as u32)
         .map(|f| {

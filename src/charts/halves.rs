@@ -2,7 +2,7 @@
 
 use super::Chart;
 use super::parts::{parted, parts, twins};
-use crate::mesh::CUT;
+use crate::mesh::spread;
 
 /// The parts into which a cut across the middle divides a chart: two, or more where the cut meets the boundary again.
 ///
@@ -26,14 +26,8 @@ fn by_distance(twin: &[u32], from: u32) -> Vec<u32> {
     let mut seen = vec![false; twin.len() / 3];
     seen[from as usize] = true;
     let mut order = vec![from];
-    let mut done = 0;
-    while let Some(&f) = order.get(done) {
-        done += 1;
-        for &t in &twin[3 * f as usize..3 * f as usize + 3] {
-            if t != CUT && !std::mem::replace(&mut seen[t as usize / 3], true) {
-                order.push(t / 3);
-            }
-        }
-    }
+    spread(twin, &mut order, |_, t| {
+        !std::mem::replace(&mut seen[t as usize / 3], true)
+    });
     order
 }

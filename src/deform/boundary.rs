@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::mesh::boundary_edges;
+use crate::mesh::{UsedVertices, boundary_edges};
 
 /// What becomes of the boundary of a map of the plane that is pulled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -23,9 +23,6 @@ impl Boundary {
             return Vec::new();
         }
         let edges = boundary_edges(n_vertices, triangles);
-        let mut boundary: Vec<u32> = edges.into_iter().flatten().collect();
-        boundary.sort_unstable();
-        boundary.dedup();
-        boundary
+        UsedVertices::new(edges.into_iter().flatten()).into_vec()
     }
 }

@@ -10,6 +10,7 @@
 use super::body::{Body, BodyElements};
 use crate::barrier::NoBarrier;
 use crate::energy::{FoldoverFree, Term, Tetrahedra, Triangles};
+use crate::mesh::UsedVertices;
 use crate::numerics::predicates::{orient2d_sign, orient3d_sign};
 use crate::solver::{Control, Iterate, Objective, Settings, minimize};
 
@@ -123,24 +124,22 @@ impl Patch {
     fn new(body: &Body, is_free: &[bool]) -> Self {
         let corners = body.corners();
         let has_free = |element: &&[u32]| element.iter().any(|&v| is_free[v as usize]);
-        let used = corners.iter().filter(|e| has_free(e));
-        let mut vertices: Vec<u32> = used.flat_map(|e| e.iter().copied()).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let local = |v: u32| vertices.partition_point(|&other| other < v) as u32;
         let kept: Vec<usize> = (0..corners.len())
             .filter(|&e| has_free(&corners[e]))
             .collect();
+        let used = kept.iter().flat_map(|&e| corners[e].iter().copied());
+        let vertices = UsedVertices::new(used);
         let elements = match &body.elements {
             BodyElements::Triangles { corners, rest } => BodyElements::Triangles {
-                corners: kept.iter().map(|&e| corners[e].map(local)).collect(),
+                corners: part(&kept, corners, &vertices),
                 rest: kept.iter().map(|&e| rest[e]).collect(),
             },
             BodyElements::Tetrahedra { corners, rest } => BodyElements::Tetrahedra {
-                corners: kept.iter().map(|&e| corners[e].map(local)).collect(),
+                corners: part(&kept, corners, &vertices),
                 rest: kept.iter().map(|&e| rest[e]).collect(),
             },
         };
+        let vertices = vertices.into_vec();
         let stays = |v: &u32| !is_free[vertices[*v as usize] as usize];
         Self {
             fixed: (0..vertices.len() as u32).filter(stays).collect(),
@@ -194,6 +193,17 @@ impl Patch {
             }
         }
     }
+}
+
+/// Some of the elements, in the numbers of their vertices.
+fn part<const N: usize>(
+    kept: &[usize],
+    elements: &[[u32; N]],
+    vertices: &UsedVertices,
+) -> Vec<[u32; N]> {
+    let mut part: Vec<[u32; N]> = kept.iter().map(|&e| elements[e]).collect();
+    vertices.renumber(part.as_flattened_mut());
+    part
 }
 
 fn density(epsilon: f64) -> FoldoverFree {

@@ -7,6 +7,7 @@ use super::gltf::GltfDocument;
 use super::material::GltfMaterials;
 use super::new_vertices::{Corner, Vertices};
 use super::{DocumentError, Upload};
+use crate::mesh::UsedVertices;
 use serde_json::{Value, json};
 
 /// The one buffer's name while the document is made.
@@ -89,10 +90,7 @@ pub(super) fn document(
 /// The vertices of some faces, ascending.
 fn used(shape: &Shape, faces: &[u32]) -> Vec<u32> {
     let corners = faces.iter().flat_map(|&f| shape.triangles[f as usize]);
-    let mut used: Vec<u32> = corners.collect();
-    used.sort_unstable();
-    used.dedup();
-    used
+    UsedVertices::new(corners).into_vec()
 }
 
 /// The vertices of a primitive, with what all its corners have.

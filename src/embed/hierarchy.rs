@@ -19,7 +19,7 @@ use super::sweep::sweep;
 use super::tutte::tutte;
 use crate::barrier::{Barrier, MapEnergy, map_energy};
 use crate::energy::{EnergyKind, RestShape, Term};
-use crate::mesh::Disk;
+use crate::mesh::{Disk, UsedVertices};
 use crate::solver::{Control, Iterate, Objective, Projection, Settings, best_scale, minimize};
 
 /// Symmetric Dirichlet alone: it knows no flipped triangle, and it drives every ring back into shape, so that rings stay
@@ -160,16 +160,9 @@ struct System {
 
 impl System {
     fn new(level: &[(usize, [u32; 3])], n_real: usize, shape: &Shape) -> Self {
-        let mut vertices: Vec<u32> = level.iter().flat_map(|(_, t)| *t).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let mut local = vec![0; shape.positions.len()];
-        for (i, &v) in vertices.iter().enumerate() {
-            local[v as usize] = i as u32;
-        }
-        let triangles: Vec<[u32; 3]> = (level.iter())
-            .map(|(_, t)| t.map(|v| local[v as usize]))
-            .collect();
+        let mut triangles: Vec<[u32; 3]> = level.iter().map(|(_, t)| *t).collect();
+        let vertices = UsedVertices::new(triangles.iter().flatten().copied());
+        vertices.renumber(triangles.as_flattened_mut());
         let rest: Vec<RestShape> = (level.iter())
             .map(|&(original, t)| {
                 let rest = rest_shape(t.map(|v| shape.positions[v as usize]), shape.least);
@@ -187,7 +180,7 @@ impl System {
         Self {
             term: map_energy(&triangles, &rest, &ROUNDING),
             corners: rest.iter().map(Corners::new).collect(),
-            vertices,
+            vertices: vertices.into_vec(),
             triangles,
         }
     }

@@ -18,6 +18,7 @@ mod closed;
 mod decimate;
 mod flat;
 mod hierarchy;
+mod map_term;
 mod options;
 mod parameterize;
 mod pins;
@@ -32,6 +33,7 @@ mod sweep;
 mod triangulation;
 mod tutte;
 
+pub use map_term::map_term;
 pub use options::{Embedding, Options};
 pub use parameterize::{InvalidStart, optimize, parameterize};
 pub use pins::Pins;

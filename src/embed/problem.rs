@@ -1,12 +1,12 @@
 //! A disk, its rest shapes and the energy of its maps.
 
+use super::map_term::{map_term, map_term_with, signed_area};
 use super::options::{Embedding, Options};
 use super::positive::first_bad_triangle;
 use super::rest::RestShapes;
-use crate::barrier::{Barrier, BarrierKind, MapEnergy, epsilon, map_energy};
+use crate::barrier::BarrierKind;
 use crate::energy::Term;
 use crate::mesh::Disk;
-use crate::numerics::vec2::doubled_area;
 use crate::solver::{Objective, Settings, Summary, Watch, best_scale, minimize};
 
 /// Newton steps times triangles, at most: 14 steps for 357,000 triangles, where one takes 1.5 s. Six of them came within
@@ -26,26 +26,16 @@ pub(super) struct Problem<'a> {
 impl Problem<'_> {
     /// The energy with the ε that this start asks for.
     fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
-        let smallest_rest = (self.rest.shapes.iter())
-            .map(|shape| shape.size)
-            .fold(f64::INFINITY, f64::min);
-        let smallest_start = (self.disk.triangles.iter())
-            .map(|t| signed_area(t, start))
-            .fold(f64::INFINITY, f64::min);
-        self.term_with(epsilon(smallest_rest, smallest_start))
+        map_term(&self.disk.triangles, &self.rest.shapes, start, self.options)
     }
 
     fn term_with(&self, epsilon: f64) -> Box<dyn Term> {
-        let parameters = MapEnergy {
-            energy: self.options.energy,
-            barrier: Barrier {
-                kind: self.options.barrier,
-                beta: self.options.beta,
-                s: self.options.s,
-                epsilon,
-            },
-        };
-        map_energy(&self.disk.triangles, &self.rest.shapes, &parameters)
+        map_term_with(
+            &self.disk.triangles,
+            &self.rest.shapes,
+            epsilon,
+            self.options,
+        )
     }
 
     /// The map at the size of lowest energy.
@@ -155,11 +145,6 @@ impl Problem<'_> {
         };
         self.with_area(uv, wanted)
     }
-}
-
-fn signed_area(triangle: &[u32; 3], uv: &[[f64; 2]]) -> f64 {
-    let [a, b, c] = triangle.map(|v| uv[v as usize]);
-    0.5 * doubled_area(a, b, c)
 }
 
 fn total_area(triangles: &[[u32; 3]], uv: &[[f64; 2]]) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::closed::ClosedDisk;
 use super::decimate::{Care, Decimation};
-use crate::mesh::Disk;
+use crate::mesh::{Disk, UsedVertices};
 
 /// A disk of about so many of a disk's vertices, or more where its shape would suffer, with as many holes; and for each of its vertices
 /// the one of the disk. None if nothing simpler is a disk.
@@ -17,15 +17,8 @@ pub fn simplified(
     let is_real = |&(t, _): &(usize, [u32; 3])| t < closed.n_real;
     let triangles = decimation.triangulation.triangles().filter(is_real);
     let mut triangles: Vec<[u32; 3]> = triangles.map(|(_, triangle)| triangle).collect();
-    let mut vertices = triangles.as_flattened().to_vec();
-    vertices.sort_unstable();
-    vertices.dedup();
-    let mut number = vec![0; disk.n_vertices];
-    for (i, &v) in (0..).zip(&vertices) {
-        number[v as usize] = i;
-    }
-    for v in triangles.as_flattened_mut() {
-        *v = number[*v as usize];
-    }
-    Some((Disk::new(vertices.len(), triangles).ok()?, vertices))
+    let vertices = UsedVertices::new(triangles.iter().flatten().copied());
+    vertices.renumber(triangles.as_flattened_mut());
+    let disk = Disk::new(vertices.count(), triangles).ok()?;
+    Some((disk, vertices.into_vec()))
 }

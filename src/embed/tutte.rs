@@ -79,7 +79,7 @@ fn system(
 ) -> (SymmetricPattern, Vec<f64>, Vec<f64>) {
     let mut degrees = vec![0.0; n];
     let mut rhs = vec![0.0; 2 * n];
-    let mut edges = Vec::with_capacity(3 * n);
+    let mut entries = Vec::with_capacity(4 * n);
     for triangle in &closed.triangles {
         for k in 0..3 {
             let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
@@ -92,30 +92,12 @@ fn system(
                 rhs[row as usize] += uv[b as usize][0];
                 rhs[n + row as usize] += uv[b as usize][1];
             } else if column < row {
-                edges.push((column, row));
+                entries.push((column, row, -1.0));
             }
         }
     }
-    edges.extend((0..n as u32).map(|i| (i, i)));
-    edges.sort_unstable();
-    let mut pattern = SymmetricPattern {
-        n,
-        col_ptr: vec![0; n + 1],
-        row_idx: Vec::with_capacity(edges.len()),
-    };
-    let mut values = Vec::with_capacity(edges.len());
-    for (column, row) in edges {
-        pattern.col_ptr[column as usize + 1] += 1;
-        pattern.row_idx.push(row as usize);
-        values.push(if row == column {
-            degrees[row as usize]
-        } else {
-            -1.0
-        });
-    }
-    for column in 0..n {
-        pattern.col_ptr[column + 1] += pattern.col_ptr[column];
-    }
+    entries.extend((0..).zip(degrees).map(|(i, degree)| (i, i, degree)));
+    let (pattern, values) = SymmetricPattern::from_entries(n, entries);
     (pattern, values, rhs)
 }
 

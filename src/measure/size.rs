@@ -2,6 +2,7 @@
 
 use super::faces::FaceMeasures;
 use crate::certificate::UvTopology;
+use crate::mesh::UsedVertices;
 use serde::Serialize;
 
 /// Counts, areas and extents.
@@ -70,8 +71,5 @@ fn count(flags: &[bool]) -> usize {
 }
 
 fn distinct(faces: &[[u32; 3]]) -> usize {
-    let mut vertices = faces.as_flattened().to_vec();
-    vertices.sort_unstable();
-    vertices.dedup();
-    vertices.len()
+    UsedVertices::new(faces.iter().flatten().copied()).count()
 }

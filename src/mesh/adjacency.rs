@@ -1,6 +1,7 @@
 //! Who is glued to whom.
 
 use super::edges::Edges;
+use super::spread::spread;
 use super::{CUT, UnionFind, next, origin, same_direction};
 use crate::numerics::vec3::{add_scaled, dot, sub, unit};
 
@@ -183,22 +184,16 @@ fn consistent_winding(triangles: &[[u32; 3]], twin: &[u32]) -> Vec<bool> {
         turned[first] = Some(false);
         piece.clear();
         piece.push(first as u32);
-        let mut n_turned = 0;
-        let mut done = 0;
-        while done < piece.len() {
-            let f = piece[done];
-            done += 1;
-            let this = turned[f as usize] == Some(true);
-            n_turned += usize::from(this);
-            for h in 3 * f..3 * f + 3 {
-                let t = twin[h as usize];
-                if t != CUT && turned[t as usize / 3].is_none() {
-                    turned[t as usize / 3] = Some(this != same_direction(triangles, h, t));
-                    piece.push(t / 3);
-                }
+        spread(twin, &mut piece, |h, t| {
+            let is_new = turned[t as usize / 3].is_none();
+            if is_new {
+                let this = turned[h as usize / 3] == Some(true);
+                turned[t as usize / 3] = Some(this != same_direction(triangles, h, t));
             }
-        }
-        if 2 * n_turned > piece.len() {
+            is_new
+        });
+        let is_turned = |f: &&u32| turned[**f as usize] == Some(true);
+        if 2 * piece.iter().filter(is_turned).count() > piece.len() {
             for &f in &piece {
                 turned[f as usize] = turned[f as usize].map(|t| !t);
             }

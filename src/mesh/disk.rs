@@ -1,5 +1,7 @@
 //! A surface proven to be one disk, possibly with holes.
 
+use super::edges::CUT;
+use super::spread::spread;
 use thiserror::Error;
 
 /// Triangles that form one connected, oriented, manifold surface of genus 0 with at least one boundary loop.
@@ -49,9 +51,6 @@ pub enum NotADisk {
     #[error("the surface has genus {0}, not 0")]
     Genus(usize),
 }
-
-/// Marks a halfedge without an opposite one.
-const BOUNDARY: u32 = u32::MAX;
 
 impl Disk {
     /// Proves that the triangles form a disk with holes, and finds its boundary loops. O(n log n).
@@ -123,7 +122,7 @@ fn opposite_halfedges(triangles: &[[u32; 3]]) -> Result<Vec<u32>, NotADisk> {
         })
         .collect();
     edges.sort_unstable();
-    let mut opposite = vec![BOUNDARY; 3 * triangles.len()];
+    let mut opposite = vec![CUT; 3 * triangles.len()];
     for same in edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
         match *same {
             [_] => {}
@@ -142,20 +141,12 @@ fn opposite_halfedges(triangles: &[[u32; 3]]) -> Result<Vec<u32>, NotADisk> {
 
 fn check_connected(opposite: &[u32]) -> Result<(), NotADisk> {
     let mut seen = vec![false; opposite.len() / 3];
-    let mut stack = vec![0];
-    let mut n_seen = 1;
+    let mut faces = vec![0];
     seen[0] = true;
-    while let Some(t) = stack.pop() {
-        for &h in &opposite[3 * t..3 * t + 3] {
-            let neighbor = h as usize / 3;
-            if h != BOUNDARY && !seen[neighbor] {
-                seen[neighbor] = true;
-                n_seen += 1;
-                stack.push(neighbor);
-            }
-        }
-    }
-    if n_seen == seen.len() {
+    spread(opposite, &mut faces, |_, h| {
+        !std::mem::replace(&mut seen[h as usize / 3], true)
+    });
+    if faces.len() == seen.len() {
         Ok(())
     } else {
         Err(NotADisk::Disconnected)
@@ -169,7 +160,7 @@ fn boundary_successors(
     opposite: &[u32],
 ) -> Vec<Option<u32>> {
     let mut next = vec![None; n_vertices];
-    for (h, _) in opposite.iter().enumerate().filter(|(_, o)| **o == BOUNDARY) {
+    for (h, _) in opposite.iter().enumerate().filter(|(_, o)| **o == CUT) {
         let (a, b) = ends(triangles, h);
         next[a as usize] = Some(b);
     }
@@ -184,11 +175,11 @@ fn check_umbrellas(
 ) -> Result<(), NotADisk> {
     let mut n_corners = vec![0_u32; n_vertices];
     // Where turning starts: at the boundary halfedge that leaves the vertex, else anywhere.
-    let mut first = vec![BOUNDARY; n_vertices];
+    let mut first = vec![CUT; n_vertices];
     for (h, &across) in opposite.iter().enumerate() {
         let v = ends(triangles, h).0 as usize;
         n_corners[v] += 1;
-        if first[v] == BOUNDARY || across == BOUNDARY {
+        if first[v] == CUT || across == CUT {
             first[v] = h as u32;
         }
     }
@@ -198,7 +189,7 @@ fn check_umbrellas(
         loop {
             // The incoming halfedge of the same triangle, then across it.
             let across = opposite[next_in_triangle(next_in_triangle(h))];
-            if across == BOUNDARY || across == start {
+            if across == CUT || across == start {
                 break;
             }
             h = across as usize;

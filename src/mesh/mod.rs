@@ -21,9 +21,11 @@ mod planar;
 #[cfg(feature = "files")]
 pub mod polygon;
 mod resolution;
+mod spread;
 mod surface;
 mod tets;
 mod union_find;
+mod used_vertices;
 mod vertex_faces;
 mod weld;
 
@@ -36,8 +38,10 @@ pub use element_error::ElementError;
 pub(crate) use element_error::validate;
 pub use planar::{PlanarMesh, boundary_edges};
 pub use resolution::Resolution;
+pub use spread::spread;
 pub use surface::{MeshError, Surface};
 pub use tets::{TetMesh, boundary_triangles};
 pub use union_find::UnionFind;
+pub use used_vertices::UsedVertices;
 pub use vertex_faces::VertexFaces;
 pub(crate) use weld::weld;

@@ -150,38 +150,31 @@ impl Equations {
             .flat_map(|block| (0..DOF).map(|k| block[k][k]));
         let damping = damping * diagonal.fold(0.0, f64::max) + LEAST;
         let n = DOF * self.of_body.len();
-        let mut pattern = SymmetricPattern {
-            n,
-            col_ptr: vec![0],
-            row_idx: Vec::new(),
-        };
-        let mut values = Vec::new();
-        let mut pairs = self.of_pair.iter().peekable();
+        let mut entries = Vec::new();
         for (a, block) in self.of_body.iter().enumerate() {
-            let mut below = Vec::new();
-            while let Some(pair) = pairs.next_if(|(pair, _)| pair[0] == a) {
-                below.push(pair);
-            }
-            for k in 0..DOF {
-                for i in k..DOF {
-                    pattern.row_idx.push(DOF * a + i);
-                    values.push(block[i][k] + if i == k { damping } else { 0.0 });
-                }
-                for &([_, b], block) in &below {
-                    for (i, row) in block.iter().enumerate() {
-                        pattern.row_idx.push(DOF * b + i);
-                        values.push(row[k]);
-                    }
-                }
-                pattern.col_ptr.push(values.len());
+            for (k, i) in (0..DOF).flat_map(|k| (k..DOF).map(move |i| (k, i))) {
+                let added = if i == k { damping } else { 0.0 };
+                entries.push((place(a, k), place(a, i), block[i][k] + added));
             }
         }
+        for &([a, b], block) in &self.of_pair {
+            for (i, row) in block.iter().enumerate() {
+                let row = (0..).zip(row);
+                entries.extend(row.map(|(k, &value)| (place(a, k), place(b, i), value)));
+            }
+        }
+        let (pattern, values) = SymmetricPattern::from_entries(n, entries);
         let mut x = self.right.concat();
         ConjugateGradients::new(n)
             .solve(&pattern, &values, &mut x)
             .ok()?;
         Some(x.chunks_exact(DOF).map(|x| [x[0], x[1], x[2]]).collect())
     }
+}
+
+/// The unknown that a degree of freedom of a body is.
+fn place(body: usize, freedom: usize) -> u32 {
+    (DOF * body + freedom) as u32
 }
 
 /// Adds w a bᵀ.

@@ -53,7 +53,7 @@ impl Predictor {
                 area[c as usize] += shape.weight * unit / 3.0;
             }
         }
-        let (pattern, stiffness) = assembled(n, entries);
+        let (pattern, stiffness) = SymmetricPattern::from_entries(n, entries);
         Self {
             cholesky: Cholesky::analyze(&pattern, 1),
             pattern,
@@ -103,25 +103,4 @@ impl Predictor {
         let mean = weighted(&|u| u) / self.area().max(f64::MIN_POSITIVE);
         weighted(&|u| 4.0 * ((2.0 * (u - mean)).cosh() - 1.0))
     }
-}
-
-/// The lower triangle of a symmetric matrix from `(column, row, value)` with column ≤ row, every diagonal entry present.
-fn assembled(n: usize, mut entries: Vec<(u32, u32, f64)>) -> (SymmetricPattern, Vec<f64>) {
-    entries.sort_by_key(|&(column, row, _)| (column, row));
-    let mut pattern = SymmetricPattern {
-        n,
-        col_ptr: vec![0; n + 1],
-        row_idx: Vec::new(),
-    };
-    let mut values: Vec<f64> = Vec::new();
-    for same in entries.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        let (column, row, _) = same[0];
-        pattern.row_idx.push(row as usize);
-        pattern.col_ptr[column as usize + 1] += 1;
-        values.push(same.iter().map(|e| e.2).sum());
-    }
-    for column in 0..n {
-        pattern.col_ptr[column + 1] += pattern.col_ptr[column];
-    }
-    (pattern, values)
 }

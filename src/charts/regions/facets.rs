@@ -1,6 +1,6 @@
 //! Nearly flat facets: the pieces that merge into charts.
 
-use crate::mesh::{CUT, Surface};
+use crate::mesh::{CUT, Surface, spread};
 use crate::numerics::vec3::{area_vector, dot, unit};
 
 /// A facet's normals lie within about 8° of its first triangle's.
@@ -49,24 +49,21 @@ pub fn facets(normals: &[[f64; 3]], across: &[u32]) -> (Vec<u32>, usize) {
         let mut axis = directions[first];
         queue.clear();
         queue.push(first as u32);
-        let mut done = 0;
-        while let Some(&f) = queue.get(done) {
-            done += 1;
-            for h in 3 * f..3 * f + 3 {
-                let t = across[h as usize];
-                if t == CUT || label[t as usize / 3] != CUT {
-                    continue;
-                }
-                let direction = directions[t as usize / 3];
-                if axis == [0.0; 3] {
-                    axis = direction;
-                }
-                if direction == [0.0; 3] || dot(direction, axis) > FACET_CONE_COS {
-                    label[t as usize / 3] = n_facets;
-                    queue.push(t / 3);
-                }
+        spread(across, &mut queue, |_, t| {
+            let face = t as usize / 3;
+            if label[face] != CUT {
+                return false;
             }
-        }
+            if axis == [0.0; 3] {
+                axis = directions[face];
+            }
+            let is_like =
+                directions[face] == [0.0; 3] || dot(directions[face], axis) > FACET_CONE_COS;
+            if is_like {
+                label[face] = n_facets;
+            }
+            is_like
+        });
         n_facets += 1;
     }
     (label, n_facets as usize)

@@ -1,12 +1,10 @@
 //! Maps minimized in one place.
 
-use super::surroundings::{NONE, Surroundings};
-use crate::barrier::{Barrier, MapEnergy, epsilon, map_energy};
+use super::surroundings::Surroundings;
 use crate::charts::Chart;
-use crate::embed::{self, RestShapes, rest_shapes};
-use crate::energy::{Positional, RestShape, Term};
+use crate::embed::{self, RestShapes, map_term, rest_shapes};
+use crate::energy::{Positional, RestShape};
 use crate::mesh::VertexFaces;
-use crate::numerics::vec2::doubled_area;
 use crate::solver::{Objective, Settings, Watch, minimize};
 
 /// What a constraint pulls with, in the unit of the energy per area of a mean triangle.
@@ -64,54 +62,31 @@ impl<'a> Local<'a> {
             alpha: STRENGTH,
         };
         for (row, target) in constraints {
-            let row = row.map(|(v, weight)| (around.local[v as usize], weight));
-            if row.iter().all(|&(v, _)| v != NONE) {
-                local.rows.push(row.to_vec());
+            let near = |&(v, weight)| Some((around.vertices.number(v)?, weight));
+            if let Some(row) = row.iter().map(near).collect() {
+                local.rows.push(row);
                 local.targets.extend(target);
             }
         }
-        let term = self.term(&around, uv);
-        let mut objective = Objective::constrained(around.vertices.len(), vec![term], local);
+        let start = around.gathered(uv);
+        let rest = around.faces.iter().map(|&f| self.rest.shapes[f as usize]);
+        let rest: Vec<RestShape> = rest.collect();
+        let term = map_term(&around.triangles, &rest, &start, self.options);
+        let mut objective = Objective::constrained(around.vertices.count(), vec![term], local);
         objective.fix(&around.held);
         let settings = Settings {
             max_iterations: STEPS,
             ..self.options.solver
         };
-        let mut x = around.gathered(uv).into_flattened();
+        let mut x = start.into_flattened();
         let summary = minimize(&mut objective, &mut x, &settings, self.watch);
         let places: &[[f64; 2]] = x.as_chunks().0;
         if summary.iterations == 0 || !embed::is_positive(&around.triangles, places) {
             return Vec::new();
         }
-        for (&v, &p) in around.vertices.iter().zip(places) {
+        for (&v, &p) in around.vertices.as_slice().iter().zip(places) {
             uv[v as usize] = p;
         }
         around.faces
-    }
-
-    /// The energy of the surroundings.
-    fn term(&self, around: &Surroundings, uv: &[[f64; 2]]) -> Box<dyn Term> {
-        let rest = around.faces.iter().map(|&f| self.rest.shapes[f as usize]);
-        let rest: Vec<RestShape> = rest.collect();
-        let uv = around.gathered(uv);
-        let area = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| uv[v as usize]);
-            0.5 * doubled_area(a, b, c)
-        };
-        let smallest = around.triangles.iter().map(area);
-        let smallest_rest = rest.iter().map(|shape| shape.size);
-        let energy = MapEnergy {
-            energy: self.options.energy,
-            barrier: Barrier {
-                kind: self.options.barrier,
-                beta: self.options.beta,
-                s: self.options.s,
-                epsilon: epsilon(
-                    smallest_rest.fold(f64::INFINITY, f64::min),
-                    smallest.fold(f64::INFINITY, f64::min),
-                ),
-            },
-        };
-        map_energy(&around.triangles, &rest, &energy)
     }
 }

@@ -1,7 +1,7 @@
 //! What gives way where a fold is pushed apart.
 
 use crate::charts::Chart;
-use crate::mesh::VertexFaces;
+use crate::mesh::{UsedVertices, VertexFaces};
 
 /// Faces that give way: so many times those that overlap, and at least so many.
 const AROUND: usize = 30;
@@ -10,17 +10,12 @@ const LEAST_AROUND: usize = 3_000;
 /// Faces of a chart that give way, those beyond them held.
 pub struct Surroundings {
     pub faces: Vec<u32>,
-    pub vertices: Vec<u32>,
+    pub vertices: UsedVertices,
     /// In the numbering of `vertices`.
     pub triangles: Vec<[u32; 3]>,
     /// Vertices that have faces beyond.
     pub held: Vec<u32>,
-    /// For each vertex of the chart its number in `vertices`, or [`NONE`].
-    pub local: Vec<u32>,
 }
-
-/// No vertex.
-pub const NONE: u32 = u32::MAX;
 
 impl Surroundings {
     /// The faces around some vertices.
@@ -50,29 +45,24 @@ impl Surroundings {
             }
             done += 1;
         }
-        let triangle = |&f: &u32| disk.triangles[f as usize];
-        let mut vertices: Vec<u32> = faces.iter().flat_map(triangle).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let mut local = vec![NONE; disk.n_vertices];
-        for (i, &v) in (0..).zip(&vertices) {
-            local[v as usize] = i;
-        }
+        let triangles = faces.iter().map(|&f| disk.triangles[f as usize]);
+        let mut triangles: Vec<[u32; 3]> = triangles.collect();
+        let vertices = UsedVertices::new(triangles.iter().flatten().copied());
+        vertices.renumber(triangles.as_flattened_mut());
         let has_beyond = |v: u32| of_vertex.of(v).iter().any(|&f| !is_in[f as usize]);
-        let held = vertices.iter().filter(|&&v| has_beyond(v));
+        let numbered = (0..).zip(vertices.as_slice());
+        let held = numbered.filter(|&(_, &v)| has_beyond(v));
         Self {
-            triangles: (faces.iter())
-                .map(|f| triangle(f).map(|v| local[v as usize]))
-                .collect(),
-            held: held.map(|&v| local[v as usize]).collect(),
+            held: held.map(|(number, _)| number).collect(),
+            triangles,
             faces,
             vertices,
-            local,
         }
     }
 
     /// The part of a map.
     pub fn gathered(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        self.vertices.iter().map(|&v| uv[v as usize]).collect()
+        let all = self.vertices.as_slice().iter();
+        all.map(|&v| uv[v as usize]).collect()
     }
 }

@@ -4,7 +4,7 @@ use super::map::UvMap;
 use super::{EditError, UvRest, body};
 use crate::deform::boundary::Boundary;
 use crate::deform::untangle::untangled;
-use crate::mesh::{UnionFind, next, origin};
+use crate::mesh::{UnionFind, UsedVertices, next, origin};
 use crate::numerics::predicates::orient2d_sign;
 
 /// The vertices of a UV map: corners that lie on each other in space, in UV space and in their chart.
@@ -104,19 +104,18 @@ impl UvChart {
             let face = faces.faces.first().map_or(0, |face| face.0 as usize);
             return Err(EditError::Nonorientable { face });
         }
-        let corners: Vec<[u32; 3]> = faces.corners().collect();
         let vertex = |corner: u32| uv_vertices.of_corner[corner as usize];
-        let mut vertices: Vec<u32> = corners.as_flattened().iter().map(|&c| vertex(c)).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let local = |corner: u32| vertices.partition_point(|&v| v < vertex(corner)) as u32;
+        let mut triangles: Vec<[u32; 3]> = faces.corners().map(|c| c.map(vertex)).collect();
+        let vertices = UsedVertices::new(triangles.iter().flatten().copied());
+        vertices.renumber(triangles.as_flattened_mut());
+        let vertices = vertices.into_vec();
         let space = |&v: &u32| {
             let corner = uv_vertices.first_corner[v as usize] as usize;
             map.points[map.faces[corner / 3][corner % 3] as usize]
         };
         let uv = |&v: &u32| uv_vertices.uv(map, v);
         let mut chart = Self {
-            triangles: corners.iter().map(|c| c.map(local)).collect(),
+            triangles,
             uvs: vertices.iter().map(uv).collect(),
             positions: vertices.iter().map(space).collect(),
             vertices,

@@ -4,6 +4,7 @@ use super::body::Body;
 use super::json::{invalid, items};
 use super::mode::position_accessor;
 use crate::document::DocumentError;
+use crate::mesh::UsedVertices;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -51,18 +52,14 @@ impl Positions {
     }
 }
 
-/// Renumbers the indices by the vertices they use; `None` where they use all.
+/// Renumbers indices by the vertices they use; `None` where they use all.
 pub(super) fn compact(indices: &mut [u32], positions: &[[f32; 3]]) -> Option<Vec<u32>> {
-    let mut used = indices.to_vec();
-    used.sort_unstable();
-    used.dedup();
-    if used.len() == positions.len() {
+    let used = UsedVertices::new(indices.iter().copied());
+    if used.count() == positions.len() {
         return None;
     }
-    for index in indices {
-        *index = used.partition_point(|vertex| vertex < index) as u32;
-    }
-    Some(used)
+    used.renumber(indices);
+    Some(used.into_vec())
 }
 
 /// Refuses accessors without data that are long.

@@ -53,6 +53,28 @@ pub struct SymmetricPattern {
 }
 
 impl SymmetricPattern {
+    /// The pattern of entries `(column, row, value)` of the lower triangle, and a value for each
+    /// stored entry: the sum of those with its place. Every diagonal entry must be among them.
+    pub fn from_entries(n: usize, mut entries: Vec<(u32, u32, f64)>) -> (Self, Vec<f64>) {
+        entries.sort_by_key(|&(column, row, _)| (column, row));
+        let mut pattern = Self {
+            n,
+            col_ptr: vec![0; n + 1],
+            row_idx: Vec::with_capacity(entries.len()),
+        };
+        let mut values = Vec::with_capacity(entries.len());
+        for same in entries.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (column, row, _) = same[0];
+            pattern.row_idx.push(row as usize);
+            pattern.col_ptr[column as usize + 1] += 1;
+            values.push(same.iter().map(|entry| entry.2).sum());
+        }
+        for column in 0..n {
+            pattern.col_ptr[column + 1] += pattern.col_ptr[column];
+        }
+        (pattern, values)
+    }
+
     /// The product of the matrix whose stored entries are `values` with a vector.
     pub fn multiply(&self, values: &[f64], vector: &[f64], product: &mut [f64]) {
         product.fill(0.0);

@@ -1,7 +1,6 @@
 //! Charts cut where that makes their atlas fuller.
 
 use super::chart_maps::chart_maps;
-use super::settings::Settings;
 use crate::atlas::{AtlasError, AtlasOptions, Draft, OnRead, Scale, Texture};
 use crate::charts::{MappedChart, Split, seam_length};
 use rayon::prelude::*;
@@ -39,11 +38,12 @@ impl Drafted {
 ///
 /// The cut is made first that is worth most by the hulls and sizes of its parts, which say well where to cut but not when to stop:
 /// that a search for full layouts decides, in which the charts before and after each cut compete. Maps stay as they are.
-/// `seam_weight` multiplies the price of a seam: with 0 all cuts that gain anything are made.
+/// `seam_price` multiplies the price of a seam: with 0 all cuts that gain anything are made. The
+/// charts may become as many as `most_charts`.
 pub fn compacted(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
-    settings: &Settings,
+    (seam_price, most_charts): (f64, Option<u32>),
     on_read: &OnRead,
 ) -> Result<Drafted, AtlasError> {
     let Drafted { charts, draft } = Drafted::new(charts, options)?;
@@ -53,16 +53,15 @@ pub fn compacted(
     };
     let words = options.search_words / 4 * 3;
     let (n_charts, pages) = (charts.len() as u64, u64::from(options.texture.pages));
-    let wanted = settings.cutting.max_charts.map_or(u64::MAX, u64::from);
+    let wanted = most_charts.map_or(u64::MAX, u64::from);
     let most_cuts = (wanted.saturating_sub(n_charts))
         .min(MOST_CUTS * pages)
         .min(MOST_CUTS_PER_CHART * n_charts * pages)
         .min(words / WORDS_PER_CUT);
-    let seam_weight = settings.cutting.seam_weight * settings.cutting.quality.seam_price();
     let candidates = candidates(
         charts,
         draft,
-        seam_weight,
+        seam_price,
         most_cuts as usize,
         options,
         on_read,
@@ -102,7 +101,7 @@ impl Candidate {
 fn candidates(
     charts: Vec<MappedChart>,
     draft: Draft,
-    seam_weight: f64,
+    seam_price: f64,
     most_cuts: usize,
     options: &AtlasOptions,
     on_read: &OnRead,
@@ -114,7 +113,7 @@ fn candidates(
     let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
     let per_chart = PER_CHART * area.sqrt();
     let seams = seam_length(&charts).max(area.sqrt()).max(f64::MIN_POSITIVE);
-    let price = PRICE * seam_weight / seams;
+    let price = PRICE * seam_price / seams;
     let mut candidate = Candidate {
         charts: charts.into_iter().map(Arc::new).collect(),
         draft,

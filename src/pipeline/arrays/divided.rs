@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::alike::{Alike, alike};
 use super::map::mapped_charts;
+use super::plan::Plan;
 use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::{Piece, Soup};
@@ -27,9 +28,9 @@ pub struct Divided<'a> {
 }
 
 impl<'a> Divided<'a> {
-    pub fn new(meshes: &[Soup<'a>], settings: &Settings) -> Result<Self, PipelineError> {
+    pub fn new(meshes: &[Soup<'a>], plan: &Plan) -> Result<Self, PipelineError> {
         // So many charts are allowed for an atlas, not for a piece.
-        let is_one = settings.cutting.max_charts.is_some();
+        let is_one = plan.most_charts.is_some();
         let pieces: Vec<Vec<Piece>> = meshes
             .par_iter()
             .map(|mesh| if is_one { mesh.whole() } else { mesh.pieces() })
@@ -59,13 +60,8 @@ impl<'a> Divided<'a> {
     }
 
     /// The charts of those meshes that are `wanted`, with corners `3 f + c` of their faces: of each shape the first piece is mapped.
-    pub fn charts(
-        &self,
-        wanted: &[bool],
-        settings: &Settings,
-        tracker: &Tracker,
-    ) -> Vec<Vec<MappedChart>> {
-        let mut mapped = self.mapped(settings, tracker);
+    pub fn charts(&self, wanted: &[bool], plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
+        let mut mapped = self.mapped(plan, tracker);
         let meshes = || (0..wanted.len()).filter(|&mesh| wanted[mesh]);
         let mut uses = vec![0; self.pieces.len()];
         for piece in meshes().flat_map(|mesh| self.of_mesh[mesh].clone()) {
@@ -97,7 +93,7 @@ impl<'a> Divided<'a> {
     }
 
     /// The charts of the first piece of each shape; none of the others.
-    fn mapped(&self, settings: &Settings, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
+    fn mapped(&self, plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
         let is_first = |&piece: &usize| self.shapes[piece].first == piece;
         let firsts: Vec<usize> = (0..self.pieces.len()).filter(is_first).collect();
         let surfaces: Vec<&Surface> = firsts.iter().map(|&piece| &self.surfaces[piece]).collect();
@@ -106,7 +102,7 @@ impl<'a> Divided<'a> {
             .map(|&piece| &*self.pieces[piece].seams)
             .collect();
         let mut mapped = vec![Vec::new(); self.pieces.len()];
-        let charts = mapped_charts(&surfaces, &seams, settings, tracker);
+        let charts = mapped_charts(&surfaces, &seams, plan, tracker);
         for (piece, charts) in firsts.into_iter().zip(charts) {
             mapped[piece] = charts;
         }

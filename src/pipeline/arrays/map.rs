@@ -3,36 +3,30 @@
 use rayon::prelude::*;
 use std::cmp::Reverse;
 
+use super::plan::{Plan, Refinement, Start};
 use super::seams::Seams;
-use super::settings::Settings;
-use crate::barrier::BarrierKind;
 use crate::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
     given_back, map_chart, map_chart_from,
 };
-use crate::embed::{self, Pins};
 use crate::mesh::{CornerUvs, Surface};
 use crate::pipeline::observer::Tracker;
 use crate::pipeline::portion::Portion;
-use crate::solver;
 
-/// The charts of every surface with their maps; with [`Cut::Keep`] they begin at the given UVs. What was cut off where a map
-/// overlapped itself is given back where it finds room; [`Cut::Fast`] leaves it.
+/// The charts of every surface with their maps.
 pub fn mapped_charts(
     surfaces: &[&Surface],
     seams: &[&Seams],
-    settings: &Settings,
+    plan: &Plan,
     tracker: &Tracker,
 ) -> Vec<Vec<MappedChart>> {
-    let is_promised = settings.mapping.barrier != BarrierKind::None;
-    if settings.cutting.cut == Cut::Auto && is_promised {
+    if plan.refinement == Refinement::UnderBound {
         tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
-        let options = options(settings);
         let charts = surfaces
             .par_iter()
             .map(|surface| {
                 let portion = Portion::of_surface(tracker, surface.triangles.len());
-                let charts = under_bound(surface, settings, &options, &portion);
+                let charts = under_bound(surface, plan, &portion);
                 tracker.charts_done(charts.len());
                 charts
             })
@@ -42,43 +36,30 @@ pub fn mapped_charts(
     }
     let charts: Vec<Vec<Chart>> = surfaces
         .par_iter()
-        .map(|surface| charts(surface, settings.cutting.cut))
+        .map(|surface| charts(surface, plan.cut))
         .collect();
     let kept = |mesh: usize, chart: &Chart| {
-        let uvs = (settings.cutting.cut == Cut::Keep).then_some(seams[mesh].uvs.as_ref());
+        let uvs = plan.reads_uvs().then_some(seams[mesh].uvs.as_ref());
         Some(uvs_of(chart, surfaces[mesh], uvs.flatten()?))
     };
-    let maps = map_charts(charts, kept, settings, tracker);
-    if !gives_back(settings) {
+    let maps = map_charts(charts, kept, plan, tracker);
+    if plan.refinement != Refinement::GivenBack {
         return maps;
     }
-    let (bound, options) = (settings.cutting.bound(), options(settings));
     (surfaces.par_iter().zip(maps))
         .map(|(surface, maps)| {
             let portion = Portion::of_chart(tracker, surface.triangles.len());
-            given_back(surface, maps, &bound, &options, &portion)
+            given_back(surface, maps, &plan.bound, &plan.embedding, &portion)
         })
         .collect()
 }
 
-/// Whether charts are given back once all are mapped.
-fn gives_back(settings: &Settings) -> bool {
-    settings.cutting.cut != Cut::Fast && folds(settings) == Folds::Cut
-}
-
 /// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
 /// component, should that be fewer.
-fn under_bound(
-    surface: &Surface,
-    settings: &Settings,
-    options: &embed::Options,
-    observer: &dyn Observer,
-) -> Vec<MappedChart> {
-    let most = settings
-        .cutting
-        .max_charts
-        .map_or(usize::MAX, |n| n as usize);
-    let mut bound = settings.cutting.bound();
+fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<MappedChart> {
+    let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);
+    let mut bound = plan.bound;
+    let options = &plan.embedding;
     let mut fewest = charts_under_bound(surface, &bound, options, observer);
     while fewest.len() > most {
         let next = Quality::looser_than(bound.mean);
@@ -121,7 +102,7 @@ fn uvs_of(chart: &Chart, surface: &Surface, uvs: &[CornerUvs]) -> Vec<[f64; 2]> 
 fn map_charts(
     charts: Vec<Vec<Chart>>,
     kept: impl Fn(usize, &Chart) -> Option<Vec<[f64; 2]>> + Sync,
-    settings: &Settings,
+    plan: &Plan,
     tracker: &Tracker,
 ) -> Vec<Vec<MappedChart>> {
     let mut maps: Vec<Vec<MappedChart>> = charts
@@ -133,21 +114,20 @@ fn map_charts(
         .collect();
     let n_faces = |(_, chart): &(_, Chart)| chart.disk.triangles.len();
     let faces: usize = queue.iter().map(n_faces).sum();
-    let passes = 1 + usize::from(gives_back(settings));
+    let passes = 1 + usize::from(plan.refinement == Refinement::GivenBack);
     tracker.charts(queue.len(), passes * faces);
     queue.sort_by_key(|entry| (Reverse(n_faces(entry)), entry.0));
-    let (options, folds) = (options(settings), folds(settings));
     let mut mapped: Vec<((usize, usize), Vec<MappedChart>)> = queue
         .into_par_iter()
         .with_max_len(1)
         .map(|(id, chart)| {
             let portion = Portion::of_chart(tracker, chart.disk.triangles.len());
             let parts = match kept(id.0, &chart) {
-                Some(uv) if settings.cutting.are_maps_given() => {
+                Some(uv) if plan.start == Start::Final => {
                     vec![MappedChart::given(chart, uv)]
                 }
-                Some(uv) => map_chart_from(chart, uv, &options, &portion),
-                None => map_chart(chart, &options, folds, &portion),
+                Some(uv) => map_chart_from(chart, uv, &plan.embedding, &portion),
+                None => map_chart(chart, &plan.embedding, plan.folds, &portion),
             };
             tracker.charts_done(1);
             (id, parts)
@@ -158,31 +138,4 @@ fn map_charts(
         maps[mesh].extend(parts);
     }
     maps
-}
-
-/// Whoever asks for one chart per component wants no other seams, and without a barrier nothing is promised.
-pub fn folds(settings: &Settings) -> Folds {
-    if settings.cutting.cut == Cut::Disk
-        || settings.cutting.are_maps_given()
-        || settings.mapping.barrier == BarrierKind::None
-    {
-        Folds::Keep
-    } else {
-        Folds::Cut
-    }
-}
-
-fn options(settings: &Settings) -> embed::Options {
-    embed::Options {
-        energy: settings.mapping.energy,
-        barrier: settings.mapping.barrier,
-        beta: settings.mapping.barrier_strength,
-        s: settings.mapping.barrier_support,
-        pins: if settings.mapping.pin == 0 {
-            Pins::None
-        } else {
-            Pins::Two
-        },
-        solver: solver::Settings::default(),
-    }
 }

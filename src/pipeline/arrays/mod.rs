@@ -8,6 +8,7 @@ mod divided;
 mod map;
 mod packed;
 mod packing;
+pub(super) mod plan;
 mod position_key;
 pub(super) mod repeated;
 pub(super) mod seams;

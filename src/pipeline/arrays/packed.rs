@@ -5,10 +5,9 @@ use rayon::prelude::*;
 use super::chart_maps::chart_maps;
 use super::clearance::open_charts;
 use super::compact::{Drafted, compacted};
-use super::map::folds;
-use super::settings::Settings;
+use super::plan::Plan;
 use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale};
-use crate::charts::{Cut, Folds, MappedChart};
+use crate::charts::{Folds, MappedChart};
 use crate::pipeline::PipelineError;
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
@@ -27,14 +26,14 @@ const FEWER_PAGES: u64 = 4;
 pub fn packed(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
-    settings: &Settings,
+    plan: &Plan,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
     let Scale::TexelsPerUnit(texels) = options.scale else {
         return Ok(settled(
-            drafted(charts, options, settings, on_read)?,
+            drafted(charts, options, plan, on_read)?,
             options,
-            settings,
+            plan,
             on_read,
         )?);
     };
@@ -43,7 +42,7 @@ pub fn packed(
             charts,
             draft: None,
         };
-        return Ok(settled(whole, options, settings, on_read)?);
+        return Ok(settled(whole, options, plan, on_read)?);
     }
     let mut last = Vec::new();
     for pages in page_numbers(&charts, texels, options) {
@@ -52,9 +51,9 @@ pub fn packed(
         if pages < options.texture.pages {
             tried.search_words /= FEWER_PAGES;
         }
-        let drafted = drafted(charts.clone(), &tried, settings, on_read)?;
+        let drafted = drafted(charts.clone(), &tried, plan, on_read)?;
         last.clone_from(&drafted.charts);
-        match settled(drafted, &tried, settings, on_read) {
+        match settled(drafted, &tried, plan, on_read) {
             Err(AtlasError::TextureTooSmall) => {}
             done => return Ok(done?),
         }
@@ -81,12 +80,12 @@ fn page_numbers(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> 
 fn drafted(
     charts: Vec<MappedChart>,
     options: &AtlasOptions,
-    settings: &Settings,
+    plan: &Plan,
     on_read: &OnRead,
 ) -> Result<Drafted, AtlasError> {
-    match settings.cutting.cut {
-        Cut::Auto if folds(settings) == Folds::Cut => compacted(charts, options, settings, on_read),
-        _ => Drafted::new(charts, options),
+    match plan.compaction {
+        Some(seam_price) => compacted(charts, options, (seam_price, plan.most_charts), on_read),
+        None => Drafted::new(charts, options),
     }
 }
 
@@ -95,7 +94,7 @@ fn drafted(
 fn settled(
     drafted: Drafted,
     options: &AtlasOptions,
-    settings: &Settings,
+    plan: &Plan,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
     let Drafted {
@@ -105,16 +104,17 @@ fn settled(
     let (mut rounds, mut openings) = (0, 0);
     loop {
         let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options, on_read)?;
-        let safe = settings.mapping.quantization_safe;
         if openings < OPENINGS
-            && safe.is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))
+            && plan
+                .safe_bits
+                .is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))
         {
             openings += 1;
             draft = Draft::new(&chart_maps(&charts), options)?;
             continue;
         }
         rounds += 1;
-        if folds(settings) == Folds::Keep || rounds == PACKINGS {
+        if plan.folds == Folds::Keep || rounds == PACKINGS {
             return Ok((charts, atlas));
         }
         let n_before = charts.len();

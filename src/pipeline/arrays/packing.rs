@@ -2,9 +2,10 @@
 
 use super::clearance::texels_apart;
 use super::compact::MOST_CHARTS;
+use super::plan::{Plan, Search};
 use super::settings::Settings;
-use crate::atlas::{AtlasOptions, Scale, Texture, Turns};
-use crate::charts::{Cut, MappedChart};
+use crate::atlas::{AtlasOptions, Scale, Texture};
+use crate::charts::MappedChart;
 
 /// Words that packing all meshes of a document may read, those of one mesh for each of its faces, and the least and most of one: a
 /// hundred meshes shall not take a hundred times as long, nor small ones as long as large ones.
@@ -20,7 +21,7 @@ const LEAST_CELLS: u32 = 128;
 
 /// How to pack the charts of one of so many meshes, which has so many faces.
 pub fn atlas_options(
-    settings: &Settings,
+    (settings, plan): (&Settings, &Plan),
     n_meshes: usize,
     n_faces: usize,
     charts: &[MappedChart],
@@ -38,33 +39,29 @@ pub fn atlas_options(
             .map_or(Scale::Largest, |texels| {
                 Scale::TexelsPerUnit(texels / density(charts))
             }),
-        padding_texels: padding_texels(settings),
-        turns: if settings.cutting.are_maps_given() {
-            Turns::Quarters
-        } else {
-            Turns::Any
-        },
+        padding_texels: padding_texels(settings, plan),
+        turns: plan.turns,
         borders: settings.borders,
-        search_words: search_words(settings, n_meshes, n_faces),
+        search_words: search_words((settings, plan), n_meshes, n_faces),
         most_cells: cells.next_power_of_two().max(LEAST_CELLS),
     }
 }
 
 /// Words that packing one of so many meshes may read, which has so many faces.
-pub fn search_words(settings: &Settings, n_meshes: usize, n_faces: usize) -> u64 {
+pub fn search_words((settings, plan): (&Settings, &Plan), n_meshes: usize, n_faces: usize) -> u64 {
     let [least, most] = SEARCH_WORDS_OF_MESH;
     let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
-    let words = match settings.cutting.cut {
-        Cut::Fast => SEARCH_WORDS_IF_FAST,
-        _ => words.clamp(least, most),
+    let words = match plan.search {
+        Search::Brief => SEARCH_WORDS_IF_FAST,
+        Search::Full => words.clamp(least, most),
     };
     settings.layout.packing.passes() * words.min(SEARCH_WORDS_OF_ALL / n_meshes as u64)
 }
 
 /// About how many words packing reads: looking for cuts takes most, and where charts are not cut the rest is all.
-pub fn expected_words(settings: &Settings, options: &AtlasOptions, n_charts: usize) -> u64 {
+pub fn expected_words(plan: &Plan, options: &AtlasOptions, n_charts: usize) -> u64 {
     let words = options.search_words;
-    if settings.cutting.cut == Cut::Auto && n_charts <= MOST_CHARTS {
+    if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
         words + words / 8
     } else {
         words / 4 + words / 16
@@ -72,9 +69,8 @@ pub fn expected_words(settings: &Settings, options: &AtlasOptions, n_charts: usi
 }
 
 /// The padding asked for, or what keeps charts apart when UVs are rounded.
-fn padding_texels(settings: &Settings) -> u32 {
-    let safe = settings.mapping.quantization_safe;
-    let least = safe.map_or(0, |bits| {
+fn padding_texels(settings: &Settings, plan: &Plan) -> u32 {
+    let least = plan.safe_bits.map_or(0, |bits| {
         texels_apart(bits, settings.layout.resolution.longer())
     });
     settings.layout.padding.max(least)

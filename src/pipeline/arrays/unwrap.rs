@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::divided::Divided;
 use super::packed::packed;
 use super::packing::{atlas_options, expected_words, search_words};
+use super::plan::Plan;
 use super::repeated::{self, GridCorners};
 use super::seams::Seams;
 use super::settings::Settings;
@@ -109,17 +110,18 @@ pub fn unwrap_all(
     tracker: &Tracker,
 ) -> Result<Vec<Unwrapped>, PipelineError> {
     tracker.stage(Stage::Cut);
-    let divided = Divided::new(meshes, settings)?;
+    let plan = Plan::new(settings);
+    let divided = Divided::new(meshes, &plan)?;
     let same_as: Vec<Option<(usize, f64)>> = (0..meshes.len())
         .map(|mesh| divided.same_mesh(mesh, settings))
         .collect();
     let is_own: Vec<bool> = same_as.iter().map(Option::is_none).collect();
     let own = || (0..meshes.len()).filter(|&mesh| is_own[mesh]);
     let n_atlases = own().count();
-    let words = |mesh| search_words(settings, n_atlases, divided.n_faces(mesh));
+    let words = |mesh| search_words((settings, &plan), n_atlases, divided.n_faces(mesh));
     let all_words = own().map(words).sum();
     tracker.expect(divided.n_mapped_faces(), all_words);
-    let charts = divided.charts(&is_own, settings, tracker);
+    let charts = divided.charts(&is_own, &plan, tracker);
     tracker.begin(Stage::Pack, all_words as f64);
     let atlases: Vec<Option<(Vec<MappedChart>, Atlas)>> = (charts.into_par_iter().enumerate())
         .with_max_len(1)
@@ -127,12 +129,17 @@ pub fn unwrap_all(
             if !is_own[index] {
                 return Ok(None);
             }
-            let options = atlas_options(settings, n_atlases, divided.n_faces(index), &charts);
+            let options = atlas_options(
+                (settings, &plan),
+                n_atlases,
+                divided.n_faces(index),
+                &charts,
+            );
             let charts = weighted(charts, meshes[index].seams);
-            let expected = expected_words(settings, &options, charts.len());
+            let expected = expected_words(&plan, &options, charts.len());
             let portion = Portion::of_atlas(tracker, options.search_words, expected);
             let on_read = |words| portion.advance(words as f64);
-            packed(charts, &options, settings, &on_read).map(Some)
+            packed(charts, &options, &plan, &on_read).map(Some)
         })
         .collect::<Result<_, PipelineError>>()?;
     (meshes.par_iter().enumerate())

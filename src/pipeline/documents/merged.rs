@@ -1,10 +1,10 @@
 //! The primitives of a group as one mesh.
 
 use super::texel_weight::face_weights;
-use crate::charts::Cut;
 use crate::document::{Document, Group, Primitive};
 use crate::mesh::{CornerUvs, VAxis};
 use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::seams::Seams;
 use crate::pipeline::arrays::soup::{Part, Soup};
 use crate::pipeline::options::{GivenSeams, NamedSeams, Options};
@@ -55,13 +55,13 @@ impl Merged {
 
     /// With the seams that the options ask for, of which the edges are [checked](check_edges); `primitives` are those of the document, wherever they lie.
     pub fn with_seams(
-        document: &Document,
-        primitives: &[Primitive],
+        (document, primitives): (&Document, &[Primitive]),
         group: &Group,
         options: &Options,
+        plan: &Plan,
     ) -> Result<Self, PipelineError> {
         let mut merged = Self::new(primitives, group);
-        if options.cutting.cut == Cut::Keep {
+        if plan.reads_uvs() {
             let set = options.sets.source_texcoord.unwrap_or(0);
             merged.seams.uvs = Some(corner_uvs(document, group, set)?);
         }

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use super::merged::check_edges;
-use crate::charts::Cut;
 use crate::document::{Document, DocumentError, GroupBy, OldUvs, OutputFormat, Primitive, Upload};
 use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::options::{GivenSeams, Options, check_grouping};
 
 /// A document in the form in which it is written.
@@ -19,7 +19,7 @@ pub struct Prepared {
 
 impl Prepared {
     /// Reads a document, and refuses what cannot be written of it before anything is done.
-    pub fn read(upload: &Upload, options: &Options) -> Result<Self, PipelineError> {
+    pub fn read(upload: &Upload, options: &Options, plan: &Plan) -> Result<Self, PipelineError> {
         let document = Document::read(upload)?;
         options.caller.limits.check(&document)?;
         let group_by = match options.format {
@@ -35,9 +35,10 @@ impl Prepared {
                 "new textures for an OBJ file from another format than glTF: write .glb or .gltf";
             return Err(DocumentError::UnsupportedOutput(what.to_owned()).into());
         }
-        let old_uvs = match options.cutting.cut {
-            Cut::Keep => OldUvs::Kept,
-            _ => OldUvs::Sampled,
+        let old_uvs = if plan.reads_uvs() {
+            OldUvs::Kept
+        } else {
+            OldUvs::Sampled
         };
         check_edges(document.primitives(), options)?;
         let conversion = document.for_output(options.format, old_uvs)?;

@@ -4,12 +4,12 @@ use super::merged::Merged;
 use super::pictures::Pictures;
 use super::prepared::Prepared;
 use crate::atlas::GRID_BITS;
-use crate::charts::Cut;
 use crate::document::{
     BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, Upload, WriteOptions, Written,
 };
 use crate::mesh::VAxis;
 use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::repeated::GridCorners;
 use crate::pipeline::arrays::soup::Soup;
 use crate::pipeline::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
@@ -56,17 +56,17 @@ fn unwrap_in_pool(
     let mut watch = StopWatch::start(tracker);
 
     tracker.stage(Stage::Read);
-    let nodes = options.nodes();
+    let (nodes, plan) = (options.nodes(), Plan::new(&options.settings()));
     let Prepared {
         document,
         group_by,
         seams,
-    } = Prepared::read(upload, options)?;
+    } = Prepared::read(upload, options, &plan)?;
     let groups = document.groups(group_by);
     let primitives = nodes.primitives(&document)?;
     let meshes: Vec<Merged> = groups
         .iter()
-        .map(|group| Merged::with_seams(&document, &primitives, group, &seams))
+        .map(|group| Merged::with_seams((&document, &primitives), group, &seams, &plan))
         .collect::<Result<_, _>>()?;
     seconds.read = watch.lap();
 
@@ -96,13 +96,13 @@ fn unwrap_in_pool(
         group.weights = mesh.seams.weights;
     }
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
-    add_history(&mut groups, &atlases, &uvs, options);
+    add_history(&mut groups, &atlases, &uvs, (&plan, options));
     seconds.judge = watch.lap();
 
     let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&judged);
     let is_valid = groups.iter().all(|group| group.certificate.is_valid());
-    if options.is_promised() && !is_valid {
+    if plan.is_promised && !is_valid {
         let messages: Vec<&str> = missing.iter().map(|w| w.message.as_str()).collect();
         return Err(PipelineError::NotValid(messages.join("; ")));
     }
@@ -179,15 +179,14 @@ fn add_history(
     groups: &mut [GroupReport],
     atlases: &[Unwrapped],
     uvs: &WrittenUvs,
-    options: &Options,
+    (plan, options): (&Plan, &Options),
 ) {
     let aspect = options.layout.resolution.aspect();
-    let bound = (options.cutting.cut == Cut::Auto).then(|| options.cutting.bound());
     let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
     for ((group, atlas), uvs) in groups.iter_mut().zip(atlases).zip(&uvs.groups) {
         group.defects = Some(atlas.defects);
         group.atlas = Some(AtlasReport {
-            bound: bound
+            bound: (plan.reported_bound)
                 .map(|bound| BoundReport::new(&bound, &group.measures.distortion, (uvs, aspect))),
             same_as: atlas.same_as.map(|group| names[group].clone()),
             ..AtlasReport::new(atlas)

@@ -57,11 +57,6 @@ impl Cutting {
         }
     }
 
-    /// Whether maps stay as they are given.
-    pub(in crate::pipeline) fn are_maps_given(&self) -> bool {
-        self.cut == Cut::Keep && self.kept_maps == KeptMaps::AsGiven
-    }
-
     /// Checks what goes with what; the text names the option.
     pub(in crate::pipeline) fn check(&self) -> Result<(), String> {
         for (name, given) in [

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use super::{Baking, Budget, Caller, Cutting, Layout, Mapping, Preset, Sets, Workers};
 use crate::atlas::Borders;
-use crate::barrier::BarrierKind;
 use crate::certificate::{Claims, Overlap, Padding};
 use crate::document::{GroupBy, OutputFormat, Terms};
 use crate::options::options;
@@ -91,11 +90,6 @@ options! {
 }
 
 impl Options {
-    /// Whether the result has to be valid: not without a barrier, nor where maps stay as they are.
-    pub(in crate::pipeline) fn is_promised(&self) -> bool {
-        self.mapping.barrier != BarrierKind::None && !self.cutting.are_maps_given()
-    }
-
     /// With what follows from the preset.
     pub(in crate::pipeline) fn resolved(&self) -> Self {
         let mut options = Self {
