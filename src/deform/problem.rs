@@ -45,10 +45,10 @@ options! {
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
         /// Barrier strength β. The default is the value of the paper: 100 for green, 0.01 for the
         /// other energies.
-        pub beta: Option<f64>, value "X";
+        pub barrier_strength: Option<f64>, value "BETA", also "beta";
         /// Support s of the inverse-spline barrier: the share of its rest size below which an
         /// element feels the barrier.
-        pub s: f64 = 1.0, value "X";
+        pub barrier_support: f64 = 1.0, value "S", also "s";
         /// Upper bound on the conformal distortion σ₁/σ₂ of every triangle, greater than 1. Only in
         /// the plane.
         pub max_conformal: Option<f64>, value "K";
@@ -62,7 +62,10 @@ impl Model {
     /// Checks every number against its range.
     pub fn check(&self) -> Result<(), ProblemError> {
         let is_positive = |x: f64| x > 0.0 && x.is_finite();
-        for (name, value) in [("beta", self.beta), ("s", Some(self.s))] {
+        for (name, value) in [
+            ("barrier_strength", self.barrier_strength),
+            ("barrier_support", Some(self.barrier_support)),
+        ] {
             if !value.is_none_or(is_positive) {
                 let range = "a positive number";
                 return Err(ProblemError::BadParameter { name, range });
@@ -92,8 +95,8 @@ impl Model {
             .fold(f64::INFINITY, f64::min);
         let barrier = Barrier {
             kind: self.barrier,
-            beta: self.beta.unwrap_or(self.energy.default_beta()),
-            s: self.s,
+            beta: (self.barrier_strength).unwrap_or(self.energy.default_beta()),
+            s: self.barrier_support,
             epsilon: epsilon.unwrap_or(1e-4 * smallest),
         };
         if !(barrier.epsilon >= 0.0 && barrier.epsilon < smallest) {

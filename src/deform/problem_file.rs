@@ -36,10 +36,11 @@ pub struct ProblemFile {
     /// The barrier.
     pub barrier: BarrierKind,
     /// β; the paper's for the energy if absent.
-    pub beta: Option<f64>,
+    #[serde(alias = "beta")]
+    pub barrier_strength: Option<f64>,
     /// s.
-    #[serde(default = "one")]
-    pub gamma: f64,
+    #[serde(default = "one", alias = "gamma")]
+    pub barrier_support: f64,
     /// ε; 1e-4 of the smallest rest determinant if absent.
     pub eps: Option<f64>,
     /// Whether the boundary, too, is kept from crossing itself.
@@ -107,8 +108,8 @@ impl ProblemFile {
         let model = Model {
             energy: self.energy,
             barrier: self.barrier,
-            beta: self.beta,
-            s: self.gamma,
+            barrier_strength: self.barrier_strength,
+            barrier_support: self.barrier_support,
             max_conformal: None,
             bijective: self.bijective,
         };

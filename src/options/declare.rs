@@ -13,12 +13,13 @@
 /// ```
 ///
 /// `under` is the heading of the help. An option without a default is absent, off or empty unless
-/// it is given. `in` is its range and `value` what the help calls its value. `arg(…)` and
+/// it is given. `in` is its range, `value` what the help calls its value, and `also` another name,
+/// which is not shown. `arg(…)` and
 /// `schema(…)` are further attributes for clap and utoipa, where an option needs any.
 ///
 /// Three blocks may follow. `files` are options that JSON has like the others, and that the command
 /// line reads from files or tells from a file's name: it declares those itself, with
-/// [`about`](super::OptionSet::about) as their help. `also` is another name in JSON. `groups` are
+/// [`about`](super::OptionSet::about) as their help. `groups` are
 /// sets of options that this one consists of. `untold` are fields that are no options: code sets
 /// them.
 macro_rules! options {
@@ -31,7 +32,7 @@ macro_rules! options {
             $(
                 $(#[doc = $about:tt])+
                 pub $name:ident: $Type:ty $(= $default:expr)? $(, in $low:tt ..= $high:tt)? $(, value $value:literal)?
-                    $(, arg($($arg:tt)*))? $(, schema($($schema:tt)*))?;
+                    $(, also $known_as:literal)? $(, arg($($arg:tt)*))? $(, schema($($schema:tt)*))?;
             )*
         }
         $(files {
@@ -65,6 +66,7 @@ macro_rules! options {
                     long
                     $(, default_value = $crate::options::typed::<$Type>(&$default))?
                     $(, value_name = $value)?
+                    $(, alias = $known_as)?
                     $(, $($arg)*)?
                 ))]
                 $(#[cfg_attr(feature = "service", schema(minimum = $low, maximum = $high))])?
@@ -133,7 +135,7 @@ macro_rules! options {
                 Ok(Self {
                     $($name: $crate::options::taken(
                         given,
-                        &[stringify!($name)],
+                        &[stringify!($name) $(, $known_as)?],
                         $crate::options::options!(@default $($default)?),
                     )?,)*
                     $($($file: $crate::options::taken(

@@ -38,8 +38,8 @@ fn options(n_voxels: u32, format: OutputFormat) -> CageOptions {
         model: Model {
             energy: DeformationEnergy::Arap,
             barrier: BarrierKind::InverseSpline,
-            beta: None,
-            s: 1.0,
+            barrier_strength: None,
+            barrier_support: 1.0,
             max_conformal: None,
             bijective: false,
         },

@@ -326,8 +326,8 @@ fn points_inside_elements_come_to_their_targets() {
 const ARAP: Model = Model {
     energy: DeformationEnergy::Arap,
     barrier: BarrierKind::InverseSpline,
-    beta: None,
-    s: 1.0,
+    barrier_strength: None,
+    barrier_support: 1.0,
     max_conformal: None,
     bijective: false,
 };
@@ -366,7 +366,7 @@ fn handles_that_cannot_be_have_names() {
         assert!(!error.to_string().is_empty());
     }
     let strong = Model {
-        beta: Some(-1.0),
+        barrier_strength: Some(-1.0),
         ..ARAP
     };
     let error = Problem::new(

@@ -238,7 +238,7 @@ fn what_cannot_be_warped_has_a_code() {
     assert_eq!(code(&one, &options(0, Boundary::Fixed)), "invalid_setting");
     for beta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let model = Model {
-            beta: Some(beta),
+            barrier_strength: Some(beta),
             ..Model::default()
         };
         assert_eq!(code(&one, &WarpOptions { model, ..fixed }), "bad_parameter");

@@ -113,12 +113,12 @@ fn other_commands_refuse_what_would_do_nothing_as_well() {
             "--triangles applies to outlines",
         ),
         (
-            &["--barrier", "log", "--s", "2"],
-            "--s requires --barrier inverse-spline",
+            &["--barrier", "log", "--barrier-support", "2"],
+            "--barrier-support requires --barrier inverse-spline",
         ),
         (
             &["--barrier", "none", "--beta", "2"],
-            "--beta requires a --barrier",
+            "--barrier-strength requires a --barrier",
         ),
         (
             &["--barrier", "none", "--barrier-continuation"],
@@ -136,7 +136,7 @@ fn other_commands_refuse_what_would_do_nothing_as_well() {
     let negative = deform(&["--beta", "-1"]);
     assert_status(&negative, 3);
     assert!(
-        last_error(&negative).contains("--beta must be a positive number"),
+        last_error(&negative).contains("--barrier-strength must be a positive number"),
         "{}",
         last_error(&negative)
     );

@@ -26,7 +26,6 @@ pub(in crate::pipeline) fn check(options: &Options) -> Result<(), String> {
     let is_obj = options.format == OutputFormat::Obj;
     check_barrier(
         options.mapping.barrier,
-        ["barrier_strength", "barrier_support"],
         [
             options.mapping.barrier_strength != default.mapping.barrier_strength,
             options.mapping.barrier_support != default.mapping.barrier_support,
@@ -128,10 +127,9 @@ pub(in crate::pipeline) fn check_model(model: &Model) -> Result<(), String> {
     let has_others = model.max_conformal.is_some() || model.bijective;
     check_barrier(
         model.barrier,
-        ["beta", "s"],
         [
-            model.beta.is_some() && !has_others,
-            model.s != Model::default().s,
+            model.barrier_strength.is_some() && !has_others,
+            model.barrier_support != Model::default().barrier_support,
         ],
     )
 }
@@ -139,17 +137,16 @@ pub(in crate::pipeline) fn check_model(model: &Model) -> Result<(), String> {
 /// A strength needs a barrier, a support the inverse spline.
 fn check_barrier(
     barrier: BarrierKind,
-    [strength, support]: [&'static str; 2],
     [is_strength_given, is_support_given]: [bool; 2],
 ) -> Result<(), String> {
     refused([
         (
-            strength,
+            "barrier_strength",
             "a `barrier`",
             is_strength_given && barrier == BarrierKind::None,
         ),
         (
-            support,
+            "barrier_support",
             "`barrier` inverse-spline",
             is_support_given && barrier != BarrierKind::InverseSpline,
         ),

@@ -50,7 +50,7 @@ options! {
         /// The surface is cut between materials of different weight. `texels_per_unit` refers to
         /// weight 1, and distortion is measured against the intended density. Repeat the option for
         /// several materials; JSON takes a list.
-        pub texel_weight: Vec<TexelWeight>, value "MATERIAL=W", schema(value_type = Vec<String>);
+        pub texel_weight: Vec<TexelWeight>, value "MATERIAL=W", also "texel_weights", schema(value_type = Vec<String>);
         /// Number of mip levels beyond the first in which charts keep the padding, counted in
         /// texels of each level. The default is 0, for a lightmap 2.
         pub mips: Option<u32>, in 0..=12, value "N";
