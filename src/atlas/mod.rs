@@ -40,6 +40,7 @@ mod squeeze;
 mod texture;
 mod tight;
 mod turned;
+mod upright;
 
 pub use clear::cleared;
 pub use draft::Draft;

@@ -2,6 +2,7 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
+use super::upright::upright_axis;
 use super::{AtlasError, ChartMap};
 
 /// A chart's outline, turned to the angle at which it is packed.
@@ -14,6 +15,8 @@ pub(super) struct Outline {
     pub size: f64,
     /// Sides of the bounding rectangle once turned, in mesh units.
     pub extent: [f64; 2],
+    /// The axis in the plane of the map along which most of the outline runs, if it has one.
+    pub upright: Option<[f64; 2]>,
     /// The horizontal axis in the plane of the map, and what is subtracted after turning to it.
     axis: [f64; 2],
     low: [f64; 2],
@@ -23,8 +26,10 @@ impl Outline {
     /// The outline of a map of this area, not turned yet.
     pub(super) fn new(map: &ChartMap, area: f64) -> Self {
         let at = |v: u32| map.uv[v as usize];
+        let boundary: Arc<[_]> = boundary(map).into_iter().map(|e| e.map(at)).collect();
         let outline = Self {
-            boundary: boundary(map).into_iter().map(|e| e.map(at)).collect(),
+            upright: upright_axis(&boundary),
+            boundary,
             n_triangles: map.triangles.len(),
             size: area.max(0.0).sqrt(),
             extent: [0.0; 2],

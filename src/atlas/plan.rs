@@ -60,7 +60,7 @@ impl Plan {
     }
 }
 
-/// A chart turned to its smallest rectangle; one that is most of a page with charts of an area of `total` decides its side, and is
+/// A chart turned upright, or else to its smallest rectangle; one that is most of a page with charts of an area of `total` decides its side, and is
 /// turned to the smallest page.
 pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     let is_most = 2.0 * outline.size * outline.size > total;
@@ -75,6 +75,9 @@ pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline 
 }
 
 fn turned(outline: &Outline, bounds: Bounds) -> Outline {
+    if let (Some(axis), true) = (outline.upright, bounds != Bounds::Given) {
+        return outline.turned(axis);
+    }
     let hull = convex_hull(outline.corners());
     outline.turned(orientation::direction(&hull, bounds))
 }

@@ -12,8 +12,15 @@ const ANGLES: usize = 16;
 /// What is kept free beside the padding, as distances are looked up roughly and rounded up to cells of the fine raster later.
 const ROOM: f64 = 0.2;
 
+/// The angle of a pose; a chart that is upright is turned by quarters only.
+fn angle_of(pose: usize, is_upright: bool) -> f64 {
+    let sixteenths = if is_upright { 0 } else { pose / 4 };
+    FRAC_PI_2 * (sixteenths as f64 / ANGLES as f64 + (pose % 4) as f64)
+}
+
 /// An outline at 64 angles, each rastered when it is first asked for.
 pub(super) struct Poses {
+    /// One that is upright has the same at every angle.
     outlines: Vec<Outline>,
     masks: Vec<OnceLock<Turned>>,
     body: OnceLock<Arc<Body>>,
@@ -26,7 +33,7 @@ impl Poses {
     pub(super) const COUNT: usize = 4 * ANGLES;
 
     pub(super) fn new(outline: &Outline, scale: f64, distances: Distances) -> Self {
-        let angle = |k: usize| FRAC_PI_2 * k as f64 / ANGLES as f64;
+        let angle = |k: usize| angle_of(4 * k, outline.upright.is_some());
         Self {
             outlines: (0..ANGLES).map(|k| outline.rotated(angle(k))).collect(),
             masks: (0..Self::COUNT).map(|_| OnceLock::new()).collect(),
@@ -53,8 +60,8 @@ impl Poses {
     }
 
     /// The angle of a pose.
-    pub(super) fn angle(pose: usize) -> f64 {
-        FRAC_PI_2 * ((pose / 4) as f64 / ANGLES as f64 + (pose % 4) as f64)
+    pub(super) fn angle(&self, pose: usize) -> f64 {
+        angle_of(pose, self.outlines[0].upright.is_some())
     }
 
     /// The chart at the first angle, to be pushed about.

@@ -51,9 +51,29 @@ pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
         Cut::Auto | Cut::Keep | Cut::Seams => Branches::None,
         Cut::Fast | Cut::Disk => Branches::ToLimbs,
     };
+    let mut twin = opened(surface, &region, n_regions, branches);
+    if cut == Cut::Disk && !surface.is_cut() {
+        join_disks(surface, &mut twin);
+    }
+    charts_glued(surface, &twin)
+}
+
+/// The charts of given regions of a surface, each opened to a disk; `region` labels triangles.
+pub(super) fn charts_of_regions(
+    surface: &Surface,
+    region: &[u32],
+    n_regions: usize,
+    branches: Branches,
+) -> Vec<Chart> {
+    charts_glued(surface, &opened(surface, region, n_regions, branches))
+}
+
+/// The gluing that is left when regions are parted and opened to disks.
+fn opened(surface: &Surface, region: &[u32], n_regions: usize, branches: Branches) -> Vec<u32> {
+    let adjacency = surface.adjacency();
     let mesh = (&*surface.triangles, &*surface.positions);
-    let sheets = Sheet::divide(mesh, &adjacency.twin, &region, n_regions);
-    let mut twin = glued_within(&adjacency.twin, &region);
+    let sheets = Sheet::divide(mesh, &adjacency.twin, region, n_regions);
+    let mut twin = glued_within(&adjacency.twin, region);
     let seams: Vec<Vec<u32>> = sheets
         .par_iter()
         .map(|sheet| open_to_disk(sheet, branches))
@@ -67,11 +87,14 @@ pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
         }
     }
     isolate_doubled_edges(surface, &mut twin);
-    if cut == Cut::Disk && !surface.is_cut() {
-        join_disks(surface, &mut twin);
-    }
-    let (label, n_charts) = connected_faces(&twin);
-    Sheet::divide(mesh, &twin, &label, n_charts)
+    twin
+}
+
+/// The charts that a gluing leaves.
+fn charts_glued(surface: &Surface, twin: &[u32]) -> Vec<Chart> {
+    let mesh = (&*surface.triangles, &*surface.positions);
+    let (label, n_charts) = connected_faces(twin);
+    Sheet::divide(mesh, twin, &label, n_charts)
         .into_par_iter()
         .flat_map_iter(|sheet| open(surface, sheet))
         .collect()

@@ -1,7 +1,7 @@
 //! A chart cut in two.
 
 use super::Chart;
-use super::parts::{parted, parts, twins};
+use super::parts::{parted, parts};
 use crate::mesh::spread;
 
 /// The parts into which a cut across the middle divides a chart: two, or more where the cut meets the boundary again.
@@ -10,7 +10,7 @@ use crate::mesh::spread;
 /// always be mapped. The nearer half, in faces from one far out, is one part, and each connected piece of the rest another;
 /// any part of a disk is a disk, holes allowed. O(n log n).
 pub fn halves(chart: &Chart) -> Vec<Chart> {
-    let twin = twins(&chart.disk);
+    let twin = chart.disk.twins();
     let far = *by_distance(&twin, 0).last().unwrap_or(&0);
     let order = by_distance(&twin, far);
     let mut is_near = vec![false; order.len()];

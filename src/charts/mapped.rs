@@ -1,6 +1,6 @@
 //! Charts with their maps.
 
-use super::parts::{parted, parts, twins};
+use super::parts::{parted, parts};
 use super::unfold::overlaps::{lengths, one_side, overlaps};
 use super::unfold::push_apart::pushed_apart;
 use super::{Chart, halves};
@@ -187,7 +187,7 @@ impl MappedChart {
 
     /// Cut once where these pairs of its triangles overlap; with each part the triangles it is made of.
     fn parted_at(&self, pairs: &[[u32; 2]]) -> Vec<(Self, Vec<u32>)> {
-        let twin = twins(&self.chart.disk);
+        let twin = self.chart.disk.twins();
         let length = lengths(&self.chart.disk, &self.chart.positions);
         let side = one_side(&twin, &length, pairs);
         parts(&self.chart, &parted(&twin, &side))

@@ -26,6 +26,7 @@ mod bound;
 mod chart;
 mod compact;
 mod crease;
+mod creases;
 mod give_back;
 mod halves;
 mod mapped;

@@ -3,19 +3,7 @@
 use super::Chart;
 use super::chart::connected_faces;
 use crate::cut::Sheet;
-use crate::mesh::{CUT, Disk, Edges};
-
-/// For each halfedge of a disk the one across, or [`CUT`].
-pub fn twins(disk: &Disk) -> Vec<u32> {
-    let mut twin = vec![CUT; 3 * disk.triangles.len()];
-    for edge in Edges::new(disk.n_vertices, &disk.triangles).iter() {
-        if let [a, b] = *edge {
-            twin[a as usize] = b;
-            twin[b as usize] = a;
-        }
-    }
-    twin
-}
+use crate::mesh::{CUT, Disk};
 
 /// The connected parts that are left of a chart when only the edges in `twin` are glued, each with the chart's triangles it is
 /// made of. Any part of a disk is a disk, holes allowed. O(n log n).

@@ -32,6 +32,7 @@ mod start;
 mod sweep;
 mod triangulation;
 mod tutte;
+mod unfolded;
 
 pub use map_term::map_term;
 pub use options::{Embedding, Options};

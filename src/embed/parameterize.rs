@@ -8,6 +8,7 @@ use super::positive::first_bad_triangle;
 use super::problem::Problem;
 use super::rest::rest_shapes;
 use super::start::{hierarchical_start_at, start};
+use super::unfolded::unfolded_map;
 use crate::energy::EnergyKind;
 use crate::mesh::Disk;
 use crate::solver::{Iterate, Objective, Status, Watch};
@@ -69,10 +70,12 @@ fn first_map_and_objective(
     (start, objective)
 }
 
-/// The disk as it lies where it is flat; else, at its best size, Tutte's map where that is near enough, or the one found coarse to
+/// The disk as it lies where it is flat, or unrolled where it can be; else, at its best size, Tutte's map where that is near enough, or the one found coarse to
 /// fine.
 fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    if let Some(uv) = flat_map(problem.disk, positions) {
+    let isometric =
+        flat_map(problem.disk, positions).or_else(|| unfolded_map(problem.disk, positions));
+    if let Some(uv) = isometric {
         let uv = problem.scaled(&uv, 1.0 / problem.rest.scale);
         if problem.mean_energy(&uv) <= FAR {
             return uv;

@@ -1,6 +1,6 @@
 //! A surface proven to be one disk, possibly with holes.
 
-use super::edges::CUT;
+use super::edges::{CUT, Edges};
 use super::spread::spread;
 use thiserror::Error;
 
@@ -76,6 +76,18 @@ impl Disk {
             triangles,
             loops,
         })
+    }
+
+    /// For each halfedge the one across, or [`CUT`]. O(n log n).
+    pub fn twins(&self) -> Vec<u32> {
+        let mut twin = vec![CUT; 3 * self.triangles.len()];
+        for edge in Edges::new(self.n_vertices, &self.triangles).iter() {
+            if let [a, b] = *edge {
+                twin[a as usize] = b;
+                twin[b as usize] = a;
+            }
+        }
+        twin
     }
 
     /// The images of the boundary loops in a map, of which `uv` has the place of each vertex.

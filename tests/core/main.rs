@@ -15,6 +15,7 @@ mod cholesky;
 mod circles;
 mod clearance;
 mod coarse_cage;
+mod creases;
 mod crossings;
 mod cut;
 mod deform;

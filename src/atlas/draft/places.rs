@@ -32,7 +32,7 @@ impl Draft {
                 f64::from(corner.x) + within[0],
                 f64::from(corner.y) + within[1],
             ];
-            Pose::new(middle, Poses::angle(pose))
+            Pose::new(middle, poses.angle(pose))
         };
         let page = |number: u32| {
             let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;

@@ -57,6 +57,8 @@ pub(in crate::atlas) struct Body {
     pub(super) half: [f64; 2],
     /// How far it reaches.
     pub(super) radius: f64,
+    /// Whether it is turned by quarters only.
+    pub(super) is_upright: bool,
 }
 
 impl Body {
@@ -73,6 +75,7 @@ impl Body {
             field,
             half,
             radius: half[0].hypot(half[1]).max(1.0),
+            is_upright: outline.upright.is_some(),
         }
     }
 

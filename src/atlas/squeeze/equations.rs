@@ -32,11 +32,12 @@ pub(super) struct Equations {
 fn row(body: &Body, pose: &Pose, contact: &Contact) -> Row {
     let Contact { point, out, .. } = contact;
     let arm = [point[0] - pose.middle[0], point[1] - pose.middle[1]];
-    [
-        out[0],
-        out[1],
-        (arm[0] * out[1] - arm[1] * out[0]) / body.radius,
-    ]
+    let turning = if body.is_upright {
+        0.0
+    } else {
+        (arm[0] * out[1] - arm[1] * out[0]) / body.radius
+    };
+    [out[0], out[1], turning]
 }
 
 impl Equations {

@@ -55,9 +55,9 @@ impl Scene<'_> {
         let mut best = vec![(self.rough_energy(poses, body, &here, f64::INFINITY), here)];
         for k in 0..ANYWHERE + NEARBY {
             let pose = if k < ANYWHERE {
-                self.anywhere(random)
+                self.anywhere(body, random)
             } else {
-                self.nearby(&here, random)
+                self.nearby(body, &here, random)
             };
             let Some(pose) = self.within(body, pose) else {
                 continue;
@@ -97,17 +97,25 @@ impl Scene<'_> {
         energy
     }
 
-    fn anywhere(&self, random: &mut Random) -> Pose {
+    fn anywhere(&self, body: usize, random: &mut Random) -> Pose {
         let middle = [0, 1].map(|_| random.unit() * self.side);
-        Pose::new(middle, random.unit() * TAU)
+        let angle = random.unit() * TAU;
+        let angle = if self.bodies[body].is_upright {
+            FRAC_PI_2 * (angle / FRAC_PI_2).floor()
+        } else {
+            angle
+        };
+        Pose::new(middle, angle)
     }
 
-    fn nearby(&self, here: &Pose, random: &mut Random) -> Pose {
+    fn nearby(&self, body: usize, here: &Pose, random: &mut Random) -> Pose {
         let mut about = |width: f64| width * (2.0 * random.unit() - 1.0);
         let by = [0, 1].map(|_| about(WAY * self.side));
         let angle = about(ANGLE);
         let angle = if random.unit() < QUARTERS {
             FRAC_PI_2 * (1 + random.below(3)) as f64
+        } else if self.bodies[body].is_upright {
+            0.0
         } else {
             angle
         };

@@ -1,11 +1,13 @@
 //! Few charts under a bound on their distortion.
 
-use super::distortion::stretched_area;
+use super::distortion::excess_and_area;
 use super::pending_chart::Piece;
 use super::quality::Bound;
+use super::rounds::{mean_excess, rounds};
 use super::simplified::Simplified;
 use super::slits::Slits;
 use crate::charts::chart::{Chart, Cut, charts};
+use crate::charts::creases::hard_components::hard_components;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, Observer, map_chart};
 use crate::embed::{self, is_needle};
@@ -14,26 +16,9 @@ use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::Control;
 use rayon::prelude::*;
 
-/// What each round promises of what the one before promised.
-const PROMISE: f64 = 0.95;
-
-/// Triangles up to which the next round goes half of the way to the bound: slits gain more than is expected of them, and of what is
-/// too much nothing comes back. With more of them a round costs seconds.
-const PATIENT: usize = 30_000;
-
 /// Triangles of a chart from which on its first slits are planned on a simplification, and the vertices of that.
 const LARGE: usize = 60_000;
 const SIMPLE: usize = 10_000;
-
-/// The share of the mean excess that is aimed at where the stretch is too large.
-const TIGHTER: f64 = 0.7;
-
-/// Rounds of cutting and mapping at most. One to three are the rule.
-const MOST_ROUNDS: usize = 8;
-
-/// A round that leaves more than this share of the excess, and that many times more than there may be, shows that slits do
-/// not help: a sponge of a thousand handles stays one.
-const HOPELESS: [f64; 2] = [0.7, 4.0];
 
 /// Newton steps at most on a chart of needles, which go on for hundreds without gaining a shape.
 const STEPS_FOR_NEEDLES: usize = 10;
@@ -57,7 +42,34 @@ pub fn charts_under_bound(
         options.solver.max_iterations = STEPS_FOR_NEEDLES;
         return map_all(charts(surface, Cut::Disk), &options, observer);
     }
-    let slit = slit_and_mapped(surface, bound, options, observer);
+    let divided = hard_components(surface);
+    let mut is_hard = divided.is_hard.clone();
+    let mut hard = divided.mapped(surface, bound, options, observer);
+    let [excess, area] = (hard.iter().map(excess_and_area))
+        .fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+    if excess > bound.budget() * area {
+        is_hard.fill(false);
+        hard.clear();
+    }
+    let is_soft = |chart: &Chart| !is_hard[chart.corners[0][0] as usize / 3];
+    let soft = |cut| charts(surface, cut).into_iter().filter(is_soft).collect();
+    hard.extend(soft_charts(surface, &soft, bound, options, observer));
+    hard
+}
+
+/// The charts of those components that are not hard; `divided` cuts them.
+fn soft_charts(
+    surface: &Surface,
+    divided: &dyn Fn(Cut) -> Vec<Chart>,
+    bound: &Bound,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let pieces = divided(Cut::Auto);
+    if pieces.is_empty() {
+        return Vec::new();
+    }
+    let slit = slit_and_mapped(pieces, bound, options, observer);
     let maps = |pieces: Vec<Piece>| {
         let maps = pieces.into_iter().filter_map(|piece| piece.map).collect();
         given_back(surface, maps, bound, options, observer)
@@ -65,7 +77,7 @@ pub fn charts_under_bound(
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
         return maps(slit);
     }
-    let divided = map_all(charts(surface, Cut::Fast), options, observer);
+    let divided = map_all(divided(Cut::Fast), options, observer);
     let divided: Vec<Piece> = divided.into_iter().map(Piece::of).collect();
     let better = if mean_excess(&divided) < mean_excess(&slit) {
         divided
@@ -97,28 +109,8 @@ fn is_mostly_needles(surface: &Surface) -> bool {
     of_needles > 0.5 * area
 }
 
-fn mean_excess(pieces: &[Piece]) -> f64 {
-    let excess: f64 = pieces.iter().map(|piece| piece.excess).sum();
-    excess / total_area(pieces)
-}
-
-fn total_area(pieces: &[Piece]) -> f64 {
-    let area: f64 = pieces.iter().map(|piece| piece.area).sum();
-    area.max(f64::MIN_POSITIVE)
-}
-
-/// Whether more of the area is stretched beyond the bound than may be.
-fn is_stretched(pieces: &[Piece], bound: &Bound) -> bool {
-    let Some(most) = bound.stretch else {
-        return false;
-    };
-    let maps = pieces.iter().filter_map(|piece| piece.map.as_ref());
-    let stretched: f64 = maps.map(|map| stretched_area(map, most)).sum();
-    stretched > Bound::stretched_budget() * total_area(pieces)
-}
-
 fn slit_and_mapped(
-    surface: &Surface,
+    pieces: Vec<Chart>,
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
@@ -131,7 +123,6 @@ fn slit_and_mapped(
         let maps = parts.flat_map(|part| map_chart(part, options, Folds::Cut, observer));
         maps.map(Piece::of).collect()
     };
-    let pieces = charts(surface, Cut::Auto);
     let pieces = pieces.into_par_iter().with_max_len(1).flat_map_iter(first);
     rounds(pieces.collect(), bound, options, observer, |_| ())
 }
@@ -152,72 +143,4 @@ fn slit_as_simplified(
         tips.extend(slits.tips().map(|corner| simple.vertex(corner)));
     });
     Slits::from_tips(chart, &tips).opened()
-}
-
-/// Slits and maps pieces in rounds until their maps keep the bound, or that is hopeless; `see` is shown what is slit.
-fn rounds(
-    mut pieces: Vec<Piece>,
-    bound: &Bound,
-    options: &embed::Options,
-    observer: &dyn Observer,
-    mut see: impl FnMut(&Slits),
-) -> Vec<Piece> {
-    let n_faces: usize = pieces.iter().map(Piece::n_faces).sum();
-    let budget = bound.budget();
-    let mut wanted = budget;
-    let mut before = f64::INFINITY;
-    for round in 0..MOST_ROUNDS {
-        slit(&mut pieces, wanted, observer);
-        pieces.iter().filter_map(Piece::slits).for_each(&mut see);
-        pieces = pieces
-            .into_par_iter()
-            .with_max_len(1)
-            .flat_map_iter(|piece| piece.mapped(options, observer))
-            .collect();
-        let reached = mean_excess(&pieces);
-        let is_hopeless = reached > HOPELESS[0] * before && reached > HOPELESS[1] * budget;
-        if is_hopeless || observer.control() == Control::Finish {
-            break;
-        }
-        wanted = if reached > budget {
-            // Where maps keep falling short of what they promised, less is promised.
-            let promised = budget * PROMISE.powi(round as i32);
-            if n_faces <= PATIENT {
-                (reached * promised).sqrt().min(2.0 * promised)
-            } else {
-                promised
-            }
-        } else if is_stretched(&pieces, bound) {
-            TIGHTER * reached
-        } else {
-            break;
-        };
-        before = reached;
-    }
-    pieces
-}
-
-/// Slits where the excess that is to be expected is largest, until its mean is as wanted.
-///
-/// Ends early when the observer wants the work to end: then fewer slits have to do.
-fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
-    let area: f64 = pieces.iter().map(|piece| piece.area).sum();
-    let mut is_done = vec![false; pieces.len()];
-    let mut expected: f64 = pieces.iter().map(|piece| piece.excess).sum();
-    while expected > wanted * area && observer.control() == Control::Continue {
-        let open = (0..pieces.len()).filter(|&i| !is_done[i]);
-        let worst = open.max_by(|&i, &j| {
-            let (a, b) = (pieces[i].excess, pieces[j].excess);
-            a.total_cmp(&b).then(j.cmp(&i))
-        });
-        let Some(worst) = worst else {
-            return;
-        };
-        expected -= pieces[worst].excess;
-        // Far from the goal several slits at once do as well as one after the other.
-        let is_far = expected > 2.0 * wanted * area;
-        is_done[worst] = !pieces[worst].cut(is_far);
-        observer.worked(pieces[worst].n_faces());
-        expected += pieces[worst].excess;
-    }
 }

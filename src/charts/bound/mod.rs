@@ -3,9 +3,10 @@
 
 pub(super) mod distortion;
 pub(super) mod few_charts;
-mod pending_chart;
+pub(super) mod pending_chart;
 mod predicted_slits;
 mod predictor;
 pub(super) mod quality;
+pub(super) mod rounds;
 mod simplified;
 mod slits;

@@ -90,6 +90,18 @@ impl Piece {
         }
     }
 
+    /// What the predictor says of a chart that is not mapped, with the slits that are planned.
+    pub fn predicted_excess(&self) -> f64 {
+        self.slits.as_ref().map_or(0.0, |slits| slits.excess)
+    }
+
+    /// A triangle of the surface that is in it.
+    pub fn first_face(&self) -> u32 {
+        let planned = self.slits().map(|slits| slits.chart().corners[0][0] / 3);
+        let mapped = self.map.as_ref().map(|map| map.chart.corners[0][0] / 3);
+        planned.or(mapped).unwrap_or(0)
+    }
+
     /// The slits that are planned.
     pub fn slits(&self) -> Option<&Slits> {
         self.slits.as_ref().map(|predicted| &predicted.slits)

@@ -9,6 +9,9 @@ use crate::numerics::vec3::distance;
 /// a slit that is a little less well chosen.
 const VERTICES_PER_SLIT: usize = 5_000;
 
+/// A scale whose logarithm is less than this is 1 but for rounding.
+const LEAST: f64 = 1e-6;
+
 /// A chart whose slits are planned as the predictor says.
 pub struct Predicted {
     /// The chart with its slits.
@@ -75,7 +78,7 @@ impl Predicted {
         };
         (0u32..)
             .zip(&self.log_scale)
-            .filter(|&(v, &u)| u != 0.0 && !is_seam[v as usize] && !is_near(v as usize))
+            .filter(|&(v, &u)| u.abs() > LEAST && !is_seam[v as usize] && !is_near(v as usize))
             .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()).then(b.0.cmp(&a.0)))
             .map(|(v, _)| v)
     }

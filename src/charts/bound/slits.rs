@@ -2,7 +2,7 @@
 
 use crate::charts::Chart;
 use crate::charts::crease::edge_costs;
-use crate::charts::parts::{parts, twins};
+use crate::charts::parts::parts;
 use crate::cut::{Neighbors, Sheet, distances_until};
 use crate::mesh::CUT;
 
@@ -24,7 +24,7 @@ pub struct Slits {
 impl Slits {
     /// No slit yet.
     pub fn new(chart: Chart) -> Self {
-        let twin = twins(&chart.disk);
+        let twin = chart.disk.twins();
         let label = vec![0; chart.disk.triangles.len()];
         let mesh = (&*chart.disk.triangles, &*chart.positions);
         let sheet = Sheet::divide(mesh, &twin, &label, 1).swap_remove(0);
@@ -56,6 +56,11 @@ impl Slits {
             }
         }
         slits
+    }
+
+    /// The chart without them.
+    pub fn chart(&self) -> &Chart {
+        &self.chart
     }
 
     /// For each slit a corner of the surface where it was begun.
@@ -160,7 +165,7 @@ impl Slits {
 
     /// The chart with the slits opened.
     pub fn opened(&self) -> Vec<Chart> {
-        let mut twin = twins(&self.chart.disk);
+        let mut twin = self.chart.disk.twins();
         for &h in &self.edges {
             let t = std::mem::replace(&mut twin[h as usize], CUT);
             twin[t as usize] = CUT;

@@ -6,7 +6,7 @@ use crate::charts::MappedChart;
 use crate::charts::chart::connected_faces;
 use crate::charts::crease::edge_costs;
 use crate::charts::min_cut::min_cut;
-use crate::charts::parts::{parted, parts, twins, twins_among};
+use crate::charts::parts::{parted, parts, twins_among};
 use crate::charts::unfold::overlaps::capacities;
 use crate::cut::Sheet;
 use crate::mesh::CUT;
@@ -34,7 +34,7 @@ const HOPE: f64 = 0.85;
 pub struct Split {
     /// For each face whether it belongs to the one part.
     is_piece: Vec<bool>,
-    /// Length of the seam on the surface.
+    /// Length of the seam on the surface; where it crosses a plane it counts several times.
     pub length: f64,
     /// How much the atlas may be expected to gain from it, for its length.
     pub worth: f64,
@@ -49,7 +49,7 @@ impl MappedChart {
         let disk = &self.chart.disk;
         let mesh = (&*disk.triangles, &*self.chart.positions);
         let labels = vec![0; disk.triangles.len()];
-        let sheet = Sheet::divide(mesh, &twins(disk), &labels, 1).pop()?;
+        let sheet = Sheet::divide(mesh, &disk.twins(), &labels, 1).pop()?;
         let splitter = Splitter::new(self, &sheet, unit);
         let mut chords = chords(&splitter.clusters, splitter.crumb, splitter.square);
         let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, chord.length);
@@ -63,7 +63,7 @@ impl MappedChart {
 
     /// The two parts, mapped as the whole is, each seen from its front.
     pub fn parted(&self, split: &Split) -> Vec<Self> {
-        let twin = parted(&twins(&self.chart.disk), &split.is_piece);
+        let twin = parted(&self.chart.disk.twins(), &split.is_piece);
         parts(&self.chart, &twin)
             .into_iter()
             .map(|(chart, faces)| self.restricted(chart, &faces).facing_front())
@@ -114,9 +114,10 @@ impl<'a> Splitter<'a> {
         for (&v, &of_chart) in sheet.vertex.iter().zip(corners) {
             uv[v as usize] = mapped.embedding.uv[of_chart as usize];
         }
-        let clusters = Clusters::new(sheet, &uv);
+        let cost = edge_costs(sheet);
+        let clusters = Clusters::new(sheet, &uv, &cost);
         let mut splitter = Self {
-            cost: edge_costs(sheet),
+            cost,
             area: clusters.area.iter().sum(),
             room: 0.0,
             square: unit * unit / HOPE,
@@ -146,7 +147,8 @@ impl<'a> Splitter<'a> {
         let seam = (0u32..).zip(twin).filter(|&(h, &t)| {
             t != CUT && h < t && is_piece[h as usize / 3] != is_piece[t as usize / 3]
         });
-        let length = seam.map(|(h, _)| self.sheet.length(h)).sum();
+        let length = seam.map(|(h, _)| self.cost[h as usize].max(self.sheet.length(h)));
+        let length = length.sum();
         let gain = self.room - self.room_of(|f| is_piece[f]) - self.room_of(|f| !is_piece[f]);
         (n_parts == 2).then(|| Split {
             is_piece,

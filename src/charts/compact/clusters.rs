@@ -9,6 +9,9 @@ use std::collections::BTreeMap;
 /// Cells along the square root of a map's area; faces of one cell that hang together make a cluster.
 const CELLS: f64 = 48.0;
 
+/// The cost of a seam over its length below which it runs on a crease.
+const CREASE: f64 = 0.9;
+
 /// Connected faces that lie close together in the plane: what is cut off a map is decided on them, and on faces only where
 /// exactly the seam runs.
 pub struct Clusters {
@@ -18,13 +21,15 @@ pub struct Clusters {
     pub area: Vec<f64>,
     pub centre: Vec<[f64; 2]>,
     pub support: Vec<Support>,
-    /// For each cluster those it touches, and the length of their common border on the surface.
+    /// For each cluster those it touches, and the length of their common border on the surface,
+    /// which counts several times where it crosses a plane.
     pub neighbors: Vec<Vec<(u32, f64)>>,
 }
 
 impl Clusters {
-    /// The clusters of a sheet with vertices at `uv`.
-    pub fn new(sheet: &Sheet, uv: &[[f64; 2]]) -> Self {
+    /// The clusters of a sheet with vertices at `uv`; `cost` is that of a seam along each halfedge.
+    /// Where a seam is cheap, on a crease, clusters end.
+    pub fn new(sheet: &Sheet, uv: &[[f64; 2]], cost: &[f64]) -> Self {
         let corners =
             |f: usize| [3 * f, 3 * f + 1, 3 * f + 2].map(|c| uv[sheet.vertex[c] as usize]);
         let n_faces = sheet.triangles.len();
@@ -38,7 +43,8 @@ impl Clusters {
         let place = |f: usize| centre(corners(f)).map(|x| (x / cell).floor() as i64);
         let mut sets = UnionFind::new(n_faces);
         for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
-            if place(h as usize / 3) == place(t as usize / 3) {
+            let is_crease = cost[h as usize] < CREASE * sheet.length(h);
+            if !is_crease && place(h as usize / 3) == place(t as usize / 3) {
                 sets.unite(h / 3, t / 3);
             }
         }
@@ -47,7 +53,7 @@ impl Clusters {
             area: vec![0.0; n],
             centre: vec![[0.0; 2]; n],
             support: vec![Support::EMPTY; n],
-            neighbors: neighbors(sheet, &of_face, n),
+            neighbors: neighbors(sheet, &of_face, n, cost),
             of_face,
         };
         clusters.measure(&area, corners);
@@ -77,12 +83,13 @@ fn centre(corners: [[f64; 2]; 3]) -> [f64; 2] {
     [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0)
 }
 
-fn neighbors(sheet: &Sheet, of_face: &[u32], n: usize) -> Vec<Vec<(u32, f64)>> {
+fn neighbors(sheet: &Sheet, of_face: &[u32], n: usize, cost: &[f64]) -> Vec<Vec<(u32, f64)>> {
     let mut borders: BTreeMap<(u32, u32), f64> = BTreeMap::new();
     for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
         let (a, b) = (of_face[h as usize / 3], of_face[t as usize / 3]);
         if a != b {
-            *borders.entry((a, b)).or_default() += sheet.length(h.min(t));
+            let h = h.min(t);
+            *borders.entry((a, b)).or_default() += cost[h as usize].max(sheet.length(h));
         }
     }
     let mut neighbors = vec![Vec::new(); n];

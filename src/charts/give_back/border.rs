@@ -1,6 +1,5 @@
 //! Where the charts of a surface lie side by side.
 
-use crate::charts::parts::twins;
 use crate::charts::{Chart, MappedChart};
 use crate::mesh::{CUT, Surface, next};
 use crate::numerics::vec2::sub;
@@ -51,7 +50,7 @@ impl<'a> Borders<'a> {
     pub fn runs(&self, number: u32, charts: &BTreeMap<u32, MappedChart>) -> Vec<Run> {
         let chart = &charts[&number].chart;
         let outgoing: BTreeMap<u32, u32> = (0u32..)
-            .zip(twins(&chart.disk))
+            .zip(chart.disk.twins())
             .filter(|&(_, t)| t == CUT)
             .map(|(h, _)| (chart.disk.triangles[h as usize / 3][h as usize % 3], h))
             .collect();

@@ -2,7 +2,7 @@
 //! cone, with borders that are evened out.
 
 mod cone;
-mod facets;
+pub(super) mod facets;
 mod merge;
 mod smooth;
 pub(super) mod within_cones;

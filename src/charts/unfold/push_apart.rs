@@ -4,7 +4,6 @@ use super::contact::Contacts;
 use super::local_minimum::Local;
 use super::overlaps::{overlaps, overlaps_after};
 use crate::charts::Chart;
-use crate::charts::parts::twins;
 use crate::embed;
 use crate::mesh::{CUT, UnionFind};
 use crate::solver::Watch;
@@ -37,7 +36,7 @@ pub fn pushed_apart(
     if pairs.is_empty() {
         return (uv.to_vec(), pairs);
     }
-    let twin = twins(&chart.disk);
+    let twin = chart.disk.twins();
     let folds = folds(&twin, &pairs);
     if folds.len() > MOST_FOLDS {
         return (uv.to_vec(), pairs);

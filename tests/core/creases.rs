@@ -1,0 +1,159 @@
+//! Hard surfaces, cut along their creases.
+
+use crate::zoo::{self, Mesh};
+use unwrapd::certificate::{Claims, certify};
+use unwrapd::charts::{Bound, MappedChart, Observer, charts_under_bound};
+use unwrapd::embed::Options;
+use unwrapd::energy::EnergyKind;
+use unwrapd::mesh::Surface;
+use unwrapd::numerics::vec3::distance;
+use unwrapd::solver::{Control, Iterate};
+
+struct Unobserved;
+
+impl Observer for Unobserved {
+    fn iterate(&self, _: usize, _: &Iterate) -> Control {
+        Control::Continue
+    }
+    fn control(&self) -> Control {
+        Control::Continue
+    }
+    fn elapsed(&self) -> std::time::Duration {
+        std::time::Duration::ZERO
+    }
+}
+
+fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Mesh {
+    Mesh {
+        positions,
+        triangles,
+        ..Mesh::default()
+    }
+}
+
+fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
+    let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
+    let options = Options {
+        energy: EnergyKind::SymmetricDirichlet,
+        ..Options::default()
+    };
+    let bound = Bound {
+        mean: 4.1,
+        stretch: None,
+    };
+    charts_under_bound(&surface, &bound, &options, &Unobserved)
+}
+
+/// Every edge of a chart is as long in its map as on the surface, and the judge finds neither flips nor overlaps.
+#[track_caller]
+fn assert_unfolded(charts: &[MappedChart]) {
+    for MappedChart {
+        chart, embedding, ..
+    } in charts
+    {
+        let uv = |v: u32| embedding.uv[v as usize];
+        for triangle in &chart.disk.triangles {
+            for k in 0..3 {
+                let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
+                let [p, q] = [a, b].map(|v| chart.positions[v as usize]);
+                let [[x, y], [z, w]] = [uv(a), uv(b)];
+                let ratio = (z - x).hypot(w - y) / distance(p, q);
+                assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
+            }
+        }
+        let corners: Vec<_> = (chart.disk.triangles.iter())
+            .map(|triangle| triangle.map(uv))
+            .collect();
+        let certificate = certify(
+            &chart.positions,
+            &chart.disk.triangles,
+            &corners,
+            &Claims::default(),
+        );
+        assert!(certificate.is_valid(), "{certificate:?}");
+    }
+}
+
+/// A prism with `n` sides, closed by two discs.
+fn cylinder(n: u32, height: f32) -> Mesh {
+    let at = |i: u32, z: f32| {
+        let angle = std::f32::consts::TAU * i as f32 / n as f32;
+        [angle.cos(), angle.sin(), z]
+    };
+    let rings = (0..n)
+        .map(|i| at(i, 0.0))
+        .chain((0..n).map(|i| at(i, height)));
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        let j = (i + 1) % n;
+        triangles.extend([[i, j, n + j], [i, n + j, n + i]]);
+    }
+    for i in 1..n - 1 {
+        triangles.extend([[0, i + 1, i], [n, n + i, n + i + 1]]);
+    }
+    mesh(rings.collect(), triangles)
+}
+
+#[test]
+fn a_cube_becomes_a_cross() {
+    let charts = unfolded(&zoo::voxels(&[[0, 0, 0]]));
+    assert_eq!(charts.len(), 1);
+    assert_unfolded(&charts);
+}
+
+#[test]
+fn a_cylinder_becomes_a_rectangle_and_two_discs() {
+    for n in [16, 64] {
+        let charts = unfolded(&cylinder(n, 3.0));
+        assert_unfolded(&charts);
+        let mut sizes: Vec<usize> = charts
+            .iter()
+            .map(|c| c.chart.disk.triangles.len())
+            .collect();
+        sizes.sort_unstable();
+        let disc = n as usize - 2;
+        assert_eq!(sizes, [disc, disc, 2 * n as usize]);
+    }
+}
+
+#[test]
+fn a_bent_sheet_becomes_its_blank() {
+    // Two plates and the quarter of a cylinder between them.
+    let (n, radius, length) = (8_u16, 0.5_f32, 2.0_f32);
+    let mut profile = vec![[-length, 0.0]];
+    profile.extend((0..=n).map(|i| {
+        let angle = std::f32::consts::FRAC_PI_2 * f32::from(i) / f32::from(n);
+        [radius * angle.sin(), radius * (1.0 - angle.cos())]
+    }));
+    profile.push([radius, radius + length]);
+    let rows = profile.len() as u32;
+    let positions = (profile.iter().map(|&[x, z]| [x, 0.0, z]))
+        .chain(profile.iter().map(|&[x, z]| [x, 1.0, z]))
+        .collect();
+    let triangles = (0..rows - 1)
+        .flat_map(|i| [[i, i + 1, rows + i + 1], [i, rows + i + 1, rows + i]])
+        .collect();
+    let charts = unfolded(&mesh(positions, triangles));
+    assert_eq!(charts.len(), 1);
+    assert_unfolded(&charts);
+}
+
+#[test]
+fn walls_of_many_steps_are_not_stretched() {
+    let staircase: Vec<[i32; 3]> = (0..5)
+        .flat_map(|x| (0..=x).map(move |z| [x, 0, z]))
+        .collect();
+    let charts = unfolded(&zoo::voxels(&staircase));
+    assert_unfolded(&charts);
+    assert!(charts.len() <= 3, "{} charts", charts.len());
+}
+
+#[test]
+fn what_is_round_is_not_taken_to_be_hard() {
+    let charts = unfolded(&zoo::sphere(24, 12));
+    let stretched = charts.iter().any(|chart| {
+        let ratio = chart.area() / chart.surface_area();
+        (ratio - 1.0).abs() > 1e-3
+    });
+    assert!(stretched, "a sphere cannot be unfolded");
+}
