@@ -176,6 +176,14 @@ fn charts_come_as_near_as_they_may() {
         let gap = smallest_gap(&charts, &atlas, 1024);
         let wanted = f64::from(padding_texels);
         assert!((wanted..wanted + 0.2).contains(&gap), "{gap}");
+        let side = f64::from(1 << GRID_BITS);
+        let border = wanted / 2.0 / 1024.0 * side;
+        let mut grid = atlas
+            .placed
+            .iter()
+            .flat_map(|placed| &placed.grid)
+            .flatten();
+        assert!(grid.all(|&x| (border..=side - border).contains(&f64::from(x))));
     }
 }
 

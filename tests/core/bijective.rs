@@ -4,15 +4,16 @@ use std::cell::Cell;
 
 use faer::Side;
 use unwrapd::barrier::BarrierKind;
-use unwrapd::certificate::boundary_crossings;
+use unwrapd::certificate::{Claims, Padding, boundary_crossings, certify, certify_planar};
 use unwrapd::deform::boundary_barrier::BoundaryBarrier;
 use unwrapd::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
 use unwrapd::energy::Term;
-use unwrapd::mesh::PlanarMesh;
+use unwrapd::mesh::{PlanarMesh, Resolution};
 use unwrapd::solver::{Control, Iterate, Settings, Status, Watch};
 
 use crate::random::Random;
 use crate::terms::{assert_term_taylor, derivatives};
+use crate::uv_meshes::UvMesh;
 
 const TWO: [[u32; 3]; 2] = [[0, 1, 2], [5, 3, 4]];
 /// Two triangles well apart.
@@ -65,6 +66,36 @@ fn nothing_is_felt_at_the_start_and_contact_is_infinite() {
     // Vertex 3 comes upon vertex 2.
     (x[6], x[7]) = (x[4], x[5]);
     assert_eq!(barrier.value(&x), f64::INFINITY);
+}
+
+#[test]
+fn what_lies_beside_is_felt_at_the_distance_that_the_judge_measures() {
+    let triangles = [[0, 1, 2], [3, 4, 5]];
+    let at = |x: f64| {
+        let left = [[0.0, 0.0], [0.25, 0.0], [0.25, 0.25]];
+        let right = [[x, 0.0], [x + 0.25, 0.0], [x, 0.25]];
+        [left, right].concat()
+    };
+    let barrier = BoundaryBarrier::new(&triangles, at(0.75).as_flattened()).with_beta(1.0);
+    let support = 0.25 * 0.25 * (2.0 + 2.0_f64.sqrt()) / 3.0;
+    for gap in [0.05, 0.01, 0.001] {
+        let vertices = at(0.25 + gap);
+        let mesh = UvMesh::planar(&vertices, &triangles);
+        let claims = Claims {
+            padding: Some(Padding {
+                texels: 1,
+                resolution: Resolution::square(1024),
+            }),
+            ..Claims::default()
+        };
+        let verdict = certify(&mesh.positions, &mesh.triangles, &mesh.uvs, &claims).padding;
+        let reached = verdict.and_then(|verdict| verdict.reached_texels);
+        let y = reached.expect("two charts") / 1024.0 / support;
+        // Each end of the two sides is as near to the other side and to the edge that goes on there.
+        let expected = 8.0 * (1.0 / (y * y * y - 3.0 * y * y + 3.0 * y) - 1.0);
+        let value = barrier.value(vertices.as_flattened());
+        assert!((value / expected - 1.0).abs() < 1e-6, "{value} {expected}");
+    }
 }
 
 #[test]
@@ -251,6 +282,12 @@ fn what_cannot_be_kept_bijective_is_refused() {
     for by in [1.0, 0.5] {
         assert_eq!(of(beside(by), &model), Err(ProblemError::OverlappingStart));
     }
+    // One lies within the other: no boundary is near.
+    let within = corner.map(|p| p.map(|x| 0.25 + 0.25 * x));
+    let nested = [corner, within].concat();
+    let judged = certify_planar(&nested, &[[0, 1, 2], [3, 4, 5]]);
+    assert!(judged.is_valid() && !judged.is_bijective());
+    assert_eq!(of(nested, &model), Err(ProblemError::OverlappingStart));
     let free = Model {
         barrier: BarrierKind::None,
         ..model

@@ -4,11 +4,17 @@ use unwrapd::atlas::{ChartMap, cleared};
 use unwrapd::certificate::{Certificate, Claims, certify};
 use unwrapd::mesh::Resolution;
 use unwrapd::pipeline::{Layout, Mapping, Settings, Unobserved, unwrap};
+use unwrapd::plane::keep_apart;
 
 use crate::uv_meshes::UvMesh;
 use crate::zoo;
 
 const BITS: u32 = 12;
+
+/// What two places may come nearer to each other by when the certificate moves both.
+fn clearance() -> f64 {
+    8.0_f64.sqrt() * (0.5 / 4095.0 + 1.0 / 65_536.0)
+}
 
 /// Two prongs on a base, a quarter of a unit wide, whose faces are all fat: the tip of one comes
 /// near the other's side.
@@ -61,8 +67,6 @@ fn at_bits(positions: &[[f64; 3]], triangles: &[[u32; 3]], uvs: &[[[f64; 2]; 3]]
 
 #[test]
 fn narrow_gaps_are_opened_on_either_side() {
-    // What the certificate lets each coordinate move by, at both sides of a gap.
-    let clearance = 8.0_f64.sqrt() * (0.5 / 4095.0 + 1.0 / 65_536.0);
     for is_mirrored in [false, true] {
         for gap in [1e-5, 4e-4] {
             let (uv, triangles) = fork(gap, is_mirrored);
@@ -72,9 +76,44 @@ fn narrow_gaps_are_opened_on_either_side() {
                 uv: &uv,
                 triangles: &triangles,
             };
-            let opened = cleared(&map, clearance).expect("a gap to be opened");
+            let opened = cleared(&map, clearance()).expect("a gap to be opened");
             let after = judged(&opened, &triangles).bits.expect("asked for");
             assert!(after.hold, "{gap}: {after:?}");
+        }
+    }
+}
+
+#[test]
+fn gaps_are_opened_however_vertices_are_numbered() {
+    let (uv, triangles) = fork(1e-5, false);
+    for first in 1..uv.len() {
+        let mut turned = uv.clone();
+        turned.rotate_right(first);
+        let number = |v: u32| (v + first as u32) % uv.len() as u32;
+        let triangles: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(number)).collect();
+        let map = ChartMap {
+            uv: &turned,
+            triangles: &triangles,
+        };
+        let opened = cleared(&map, clearance()).expect("a gap to be opened");
+        let after = judged(&opened, &triangles).bits.expect("asked for");
+        assert!(after.hold, "{first}: {after:?}");
+    }
+}
+
+#[test]
+fn a_boundary_keeps_apart_from_itself_where_the_judge_says_so() {
+    // The boundary of a fork, its area on the left.
+    let around = [0, 1, 5, 9, 8, 4, 3, 7, 6, 2];
+    for gap in [1e-5, 4e-4, 3e-3, 0.1] {
+        let (uv, triangles) = fork(gap, false);
+        let holds = judged(&uv, &triangles).bits.expect("asked for").hold;
+        let mut boundary = around.map(|v: usize| uv[v]).to_vec();
+        for first in 0..around.len() {
+            // The fork is half a unit wide and high.
+            let is_apart = keep_apart(std::slice::from_ref(&boundary), clearance() / 0.5);
+            assert_eq!(is_apart, holds, "{gap} from {first}");
+            boundary.rotate_left(1);
         }
     }
 }

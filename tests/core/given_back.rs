@@ -130,6 +130,39 @@ fn a_chart_seen_from_behind_is_turned_over() {
     assert!((0..chart.corners.len()).all(|t| chart.is_wound_as_surface(t)));
 }
 
+#[test]
+fn a_chart_that_lies_turned_is_turned_back() {
+    let surface = surface(&flat());
+    let charts = regions(&surface, |[x, ..]| usize::from(x < 4.0));
+    for angle in [1.0_f64, -2.0, 3.0] {
+        let mut maps: Vec<MappedChart> = charts.iter().cloned().map(mapped).collect();
+        let (sin, cos) = angle.sin_cos();
+        for p in &mut maps[0].embedding.uv {
+            *p = [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]];
+        }
+        assert_eq!(checked(&surface, maps, &balanced()).len(), 1, "{angle}");
+    }
+}
+
+#[test]
+fn what_would_be_flipped_beside_its_neighbor_is_not_glued_so() {
+    let surface = surface(&flat());
+    let charts = regions(&surface, |[x, ..]| usize::from(x < 4.0));
+    // Each second row of one chart is shifted, so far that its inner vertices lie beyond the border
+    // once that is straight again.
+    let lies = |chart: Chart| {
+        let shift = if chart.corners.len() < 300 { 3.0 } else { 0.0 };
+        let place = |p: &[f64; 3]| [p[0] + shift * (p[1] % 2.0), p[1]];
+        let uv = chart.positions.iter().map(place).collect();
+        MappedChart::given(chart, uv)
+    };
+    let anything = Bound {
+        mean: 1e9,
+        stretch: None,
+    };
+    checked(&surface, charts.into_iter().map(lies).collect(), &anything);
+}
+
 /// A square of 24 by 24 cells whose middle third is a box that stands on the plane.
 fn box_on_a_plane() -> Mesh {
     let mut mesh = flat();

@@ -72,6 +72,7 @@ mod taylor;
 mod terms;
 mod texture_mapping;
 mod threads;
+mod unfolding;
 mod untangle;
 #[cfg(feature = "files")]
 mod unwrapped_polygons;

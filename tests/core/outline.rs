@@ -1,6 +1,6 @@
 //! Planar meshes from pictures and drawings.
 
-use unwrapd::certificate::certify_planar;
+use unwrapd::certificate::{boundary_crossings, certify_planar};
 use unwrapd::deform::outline::{
     ImageSettings, MeshSettings, Outline, OutlineError, Resolution, SvgSettings, of_image, of_svg,
     triangulate,
@@ -130,6 +130,24 @@ fn pieces_that_touch_at_a_corner_stay_apart_or_join_but_never_touch() {
         let outline = of_image(&image, &settings).expect("no touching");
         assert!((1..=2).contains(&outline.loops().len()));
         triangulate(&outline, &MeshSettings::default()).expect("triangles");
+    }
+}
+
+#[test]
+fn polygons_that_the_judge_finds_crossed_are_no_outline() {
+    let square =
+        |by: f64| [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]].map(|p| p.map(|x| x + by));
+    for (by, is_crossed) in [(1.0, true), (4.0, true), (5.0, false)] {
+        let squares = [square(0.0), square(by)];
+        let halves = [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]];
+        assert_eq!(
+            boundary_crossings(&squares.concat(), &halves) > 0,
+            is_crossed
+        );
+        let made = code(Outline::new(
+            squares.map(|polygon| polygon.to_vec()).to_vec(),
+        ));
+        assert_eq!(made == "self_intersecting_outline", is_crossed, "{by}");
     }
 }
 

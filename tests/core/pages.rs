@@ -118,6 +118,28 @@ fn half_of_the_padding_is_kept_to_the_borders_of_pages() {
 }
 
 #[test]
+fn the_page_that_grows_most_decides_how_far_charts_are_apart_on_all() {
+    // Squeezed one by one, two pages are not as large as each other.
+    for (n, pages) in [(4, 2), (5, 2), (9, 1)] {
+        let charts = fans(n);
+        let options = AtlasOptions {
+            padding_texels: 16,
+            search_words: 20_000_000,
+            ..options(512, 512, pages)
+        };
+        let atlas = pack(&maps(&charts), &options).expect("a layout");
+        let mesh = mesh(&charts, &atlas);
+        let certificate = judged(&mesh, options.texture, 16);
+        let padding = certificate.padding.expect("asked for");
+        assert!(padding.kept, "{padding:?}");
+        for uv in mesh.uvs.as_flattened() {
+            let nearest = [uv[0].fract(), uv[1]].map(|x| x.min(1.0 - x));
+            assert!(nearest.iter().all(|x| 512.0 * x >= 8.0), "{uv:?}");
+        }
+    }
+}
+
+#[test]
 fn texels_are_square_on_the_surface() {
     let charts = fans(7);
     for (width, height, pages) in TEXTURES {

@@ -5,8 +5,8 @@ use unwrapd::mesh::Resolution;
 use unwrapd::numerics::bounds::{Bounds, bounds_of, touch, widened};
 use unwrapd::numerics::random::Random;
 use unwrapd::plane::{
-    BoxIndex, Visit, are_disjoint, interiors_intersect, meeting_point, overlapping_pairs,
-    search_budget, segment_distance,
+    BoxIndex, Visit, are_disjoint, interiors_intersect, keep_apart, meeting_point,
+    overlapping_pairs, search_budget, segment_distance,
 };
 
 use crate::uv_meshes::UvMesh;
@@ -43,7 +43,8 @@ fn boxes_that_meet_one_are_found_once_each() {
     for n in [0, 1, 8, 9, 300] {
         let all = boxes(n);
         let index = BoxIndex::new(&all);
-        for one in boxes(20) {
+        let around = bounds_of(all.as_flattened());
+        for one in boxes(20).into_iter().chain([around]) {
             let mut found = Vec::new();
             index.meeting(&one, |i| found.push(i));
             found.sort_unstable();
@@ -169,11 +170,91 @@ fn polygons_meet_where_the_judge_says_so() {
 }
 
 #[test]
+fn polygons_meet_each_other_where_the_judge_says_so() {
+    let mut random = Random::new(4);
+    let mut n_of = [0; 2];
+    for run in 0..600 {
+        let polygons = [0, 1].map(|_| corners(3 + run % 3, 24, &mut random));
+        if (polygons.iter()).any(|polygon| meeting_point(std::slice::from_ref(polygon)).is_some()) {
+            continue;
+        }
+        let mut fans: Vec<[u32; 3]> = Vec::new();
+        for polygon in &polygons {
+            let first = fans.last().map_or(0, |fan| fan[2] + 1);
+            fans.extend((2..polygon.len() as u32).map(|k| [first, first + k - 1, first + k]));
+        }
+        let do_cross = boundary_crossings(&polygons.concat(), &fans) > 0;
+        assert_eq!(meeting_point(&polygons).is_some(), do_cross, "{polygons:?}");
+        n_of[usize::from(do_cross)] += 1;
+    }
+    assert!(n_of.iter().all(|&n| n > 50), "{n_of:?}");
+}
+
+#[test]
+fn the_first_edge_that_meets_another_is_named() {
+    let crossed = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, -1.0]];
+    for (turns, at) in [
+        (0, [0.0, 0.0]),
+        (1, [4.0, 4.0]),
+        (2, [4.0, 4.0]),
+        (3, [0.0, 0.0]),
+    ] {
+        let mut polygon = crossed.to_vec();
+        polygon.rotate_left(turns);
+        assert_eq!(meeting_point(&[polygon]), Some(at), "{turns}");
+    }
+}
+
+/// Triangles as wide as each other, one above the other, shifted so that an index by places has
+/// nodes that all meet; no two boxes do.
+fn slivers(n: u32) -> Vec<[[f64; 2]; 3]> {
+    let mut random = Random::new(5);
+    (0..n)
+        .map(|k| {
+            let (x, y) = (random.unit(), f64::from(k));
+            [[x, y], [x + 1.0, y], [x + 0.5, y + 0.5]].map(|[x, y]| [x, y / f64::from(n)])
+        })
+        .collect()
+}
+
+/// The same and one more, which comes upon the one at `part` of their height.
+fn heap(n: u32, part: f64) -> Vec<[[f64; 2]; 3]> {
+    let mut heap = slivers(n);
+    let covered = heap[(part * f64::from(n - 1)) as usize];
+    heap.push(covered.map(|[x, y]| [x + 0.25, y + 0.1 / f64::from(n)]));
+    heap
+}
+
+#[test]
+fn what_is_not_found_in_a_heap_is_taken_to_be_there() {
+    // Parts to which the searches do not come before they end.
+    let slivers = heap(150_000, 0.5);
+    let vertices = slivers.as_flattened();
+    let triangles: Vec<[u32; 3]> = (0..slivers.len() as u32)
+        .map(|t| [0, 1, 2].map(|k| 3 * t + k))
+        .collect();
+    let mut n_found = 0;
+    let visit = overlapping_pairs(&slivers, |_| n_found += 1);
+    assert_eq!((n_found, visit), (0, Visit::Truncated));
+    assert!(!certify_planar(vertices, &triangles).is_bijective());
+    assert!(!are_disjoint(vertices, &triangles));
+    let polygons: Vec<_> = (heap(60_000, 0.375).iter()).map(|t| t.to_vec()).collect();
+    assert!(meeting_point(&polygons).is_some());
+}
+
+#[test]
 fn segments_are_as_far_apart_as_the_judge_measures() {
     let mut random = Random::new(3);
-    for _ in 0..300 {
+    for run in 0..300 {
         let mut mesh = UvMesh::default();
-        let vertices = corners(6, 64, &mut random);
+        let mut vertices = corners(6, 64, &mut random);
+        if run % 10 == 0 {
+            // Two edges on one line, apart.
+            let by = [0, 1].map(|k| 2.0 * (vertices[1][k] - vertices[0][k]));
+            let first = [0, 1, 2].map(|v| vertices[v]);
+            vertices.truncate(3);
+            vertices.extend(first.map(|[x, y]| [x + by[0], y + by[1]]));
+        }
         for side in 0..2 {
             let mut chart = UvMesh::grid(1);
             chart.triangles.truncate(1);
@@ -203,5 +284,10 @@ fn segments_are_as_far_apart_as_the_judge_measures() {
         };
         let reached = verdict.reached_texels.expect("two charts");
         assert!((found - reached).abs() < 1e-9, "{found} {reached}");
+        let [low, high] = bounds_of(&vertices);
+        let part = reached / (high[0] - low[0]).max(high[1] - low[1]);
+        let polygons = [0, 3].map(|first| vertices[first..first + 3].to_vec());
+        assert!(!keep_apart(&polygons, 1.001 * part + 1e-9));
+        assert!(reached == 0.0 || keep_apart(&polygons, 0.999 * part));
     }
 }

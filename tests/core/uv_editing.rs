@@ -156,20 +156,10 @@ fn a_chart_that_shall_stay_bijective_does() {
     assert_eq!(judged(&kept), (true, 0));
 }
 
-/// Pieces of which some faces are wound the other way, and one falls apart along a seam.
-#[test]
-fn charts_are_those_of_the_certificate() {
-    let mut mesh = uv_meshes::UvMesh::grid(2);
-    for k in 1..4 {
-        let mut piece = uv_meshes::UvMesh::grid(2).map_uvs(|[u, v]| [u + 2.0 * f64::from(k), v]);
-        piece.reverse(k as usize);
-        mesh.add(&piece);
-    }
-    for uv in mesh.uvs[12..16].as_flattened_mut() {
-        uv[1] += 2.0;
-    }
+/// Pulls a little at every face of a mesh: its chart is that of the certificate, which finds as many after it and no flip.
+fn assert_charts_of_the_certificate(mesh: &uv_meshes::UvMesh, n_charts: usize) {
     let numbers = chart_ids(&mesh.positions, &mesh.triangles, &mesh.uvs);
-    assert_eq!(numbers.iter().max(), Some(&4));
+    assert_eq!(numbers.iter().max(), Some(&(n_charts as u32 - 1)));
     let arrays = UvMesh {
         positions: &mesh.positions,
         triangles: &mesh.triangles,
@@ -186,14 +176,94 @@ fn charts_are_those_of_the_certificate() {
         )
         .expect("a chart that can be pulled");
         assert_eq!(edited.charts[0].chart, number);
+        assert_eq!(edited.charts[0].untangled, 0);
         let judged = certify(
             &mesh.positions,
             &mesh.triangles,
             &edited.uvs,
             &Overlap::Test.into(),
         );
-        assert!(judged.is_valid() && judged.charts == 5);
+        assert!(judged.is_valid() && judged.charts == n_charts);
     }
+}
+
+/// Pieces of which some faces are wound the other way, and one falls apart along a seam.
+#[test]
+fn charts_are_those_of_the_certificate() {
+    let mut mesh = uv_meshes::UvMesh::grid(2);
+    for k in 1..4 {
+        let mut piece = uv_meshes::UvMesh::grid(2).map_uvs(|[u, v]| [u + 2.0 * f64::from(k), v]);
+        piece.reverse(k as usize);
+        mesh.add(&piece);
+    }
+    for uv in mesh.uvs[12..16].as_flattened_mut() {
+        uv[1] += 2.0;
+    }
+    assert_charts_of_the_certificate(&mesh, 5);
+}
+
+#[test]
+fn pages_of_a_book_are_joined_where_the_certificate_joins_them() {
+    // Three pages on the edge from 0 to 1; the UVs of the first and the last agree there.
+    let mesh = uv_meshes::UvMesh {
+        positions: vec![
+            [0.0; 3],
+            [0.0, 1.0, 0.0],
+            [-1.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0],
+        ],
+        triangles: vec![[0, 1, 2], [0, 4, 1], [0, 3, 1]],
+        uvs: vec![
+            [[2.0, 0.0], [2.0, 1.0], [1.0, 0.0]],
+            [[4.0, 0.0], [5.0, 0.0], [4.0, 1.0]],
+            [[2.0, 0.0], [3.0, 0.0], [2.0, 1.0]],
+        ],
+    };
+    assert_charts_of_the_certificate(&mesh, 2);
+}
+
+#[test]
+fn uvs_that_differ_by_rounding_alone_are_joined_as_the_certificate_joins_them() {
+    let mut mesh = uv_meshes::UvMesh::grid(2);
+    for (k, uv) in mesh.uvs.as_flattened_mut().iter_mut().enumerate() {
+        uv[k % 2] += 1e-9 * (k % 5) as f64;
+    }
+    assert_charts_of_the_certificate(&mesh, 1);
+}
+
+#[test]
+fn most_of_the_area_decides_what_is_flipped_in_a_chart() {
+    // One large face, and three small ones inside out.
+    let places = [
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [0.0, 4.0],
+        [3.0, 0.5],
+        [0.5, 3.0],
+        [0.5, 0.5],
+    ];
+    let mut mesh =
+        uv_meshes::UvMesh::planar(&places, &[[0, 1, 2], [1, 0, 3], [2, 1, 4], [0, 2, 5]]);
+    for (vertex, outside) in [(3, [2.0, -2.0]), (4, [4.0, 4.0]), (5, [-2.0, 2.0])] {
+        mesh.positions[vertex] = [outside[0], outside[1], 0.0];
+    }
+    let judged = mesh.certify(Overlap::Test);
+    assert_eq!((judged.charts, judged.flipped), (1, 3));
+    let arrays = UvMesh {
+        positions: &mesh.positions,
+        triangles: &mesh.triangles,
+        uvs: &mesh.uvs,
+    };
+    let pulled = [to(1, [4.5, 0.0])];
+    let edited = edit_uvs(&arrays, &pulled, &UvEditOptions::edit(), &go_on).expect("untangled");
+    assert_eq!(edited.charts[0].untangled, 3);
+    mesh.uvs = edited.uvs;
+    let judged = mesh.certify(Overlap::Test);
+    assert!(
+        judged.is_valid() && judged.mirrored_charts == 0,
+        "{judged:?}"
+    );
 }
 
 #[test]
