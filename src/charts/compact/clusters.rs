@@ -28,7 +28,7 @@ pub struct Clusters {
 
 impl Clusters {
     /// The clusters of a sheet with vertices at `uv`; `cost` is that of a seam along each halfedge.
-    /// Where a seam is cheap, on a crease, clusters end.
+    /// Between planes clusters end at creases.
     pub fn new(sheet: &Sheet, uv: &[[f64; 2]], cost: &[f64]) -> Self {
         let corners =
             |f: usize| [3 * f, 3 * f + 1, 3 * f + 2].map(|c| uv[sheet.vertex[c] as usize]);
@@ -41,10 +41,11 @@ impl Clusters {
             .collect();
         let cell = area.iter().sum::<f64>().max(f64::MIN_POSITIVE).sqrt() / CELLS;
         let place = |f: usize| centre(corners(f)).map(|x| (x / cell).floor() as i64);
+        let has_planes = (0u32..).zip(cost).any(|(h, &cost)| cost > sheet.length(h));
+        let is_crease = |h: u32| has_planes && cost[h as usize] < CREASE * sheet.length(h);
         let mut sets = UnionFind::new(n_faces);
         for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
-            let is_crease = cost[h as usize] < CREASE * sheet.length(h);
-            if !is_crease && place(h as usize / 3) == place(t as usize / 3) {
+            if !is_crease(h) && place(h as usize / 3) == place(t as usize / 3) {
                 sets.unite(h / 3, t / 3);
             }
         }

@@ -1,7 +1,7 @@
 //! Which components of a surface are hard, and their charts.
 
 use super::joined::joined;
-use super::smooth_regions::smooth_regions;
+use super::smooth_regions::Creases;
 use crate::charts::bound::pending_chart::Piece;
 use crate::charts::bound::quality::Bound;
 use crate::charts::bound::rounds::rounds;
@@ -10,17 +10,18 @@ use crate::charts::mapped::{MappedChart, Observer};
 use crate::cut::Branches;
 use crate::embed;
 use crate::mesh::Surface;
+use crate::numerics::vec3::{area_vector, norm};
 use rayon::prelude::*;
 
 /// A region is developable if the predicted excess of its map over the area is no more than this;
 /// a sheet with dents of a degree has 1e-4.
 const DEVELOPABLE: f64 = 5e-3;
 
-/// The share of a component's area that must be developable.
-const HARD_SHARE: f64 = 0.8;
+/// The shares of a component's area that must be developable, and that must lie in polygons of more
+/// than three corners: a coarse model of an animal consists of triangles, each a plane of its own.
+const HARD_SHARES: [f64; 2] = [0.8, 0.6];
 
-/// Regions at most, and faces at least for each of them on average: a sponge of a thousand walls is
-/// no machine part.
+/// Regions at most: a sponge of a thousand walls is no machine part.
 const MOST_REGIONS: usize = 2_000;
 
 /// What developable charts may cost.
@@ -29,7 +30,7 @@ const WITHOUT_DISTORTION: Bound = Bound {
     stretch: None,
 };
 
-/// Some charts of a surface, opened along creases, and the label of its other faces.
+/// A surface with its hard components divided at their creases.
 pub struct Divided {
     /// The charts of hard components.
     pub hard: Vec<Piece>,
@@ -43,28 +44,15 @@ pub fn hard_components(surface: &Surface) -> Divided {
         hard: Vec::new(),
         is_hard: vec![false; surface.triangles.len()],
     };
-    let (region, n_regions) = smooth_regions(surface);
+    let creases = Creases::new(surface);
+    let (region, n_regions) = creases.smooth_regions();
     if n_regions > MOST_REGIONS {
         return none;
     }
     let charts = charts_of_regions(surface, &region, n_regions, Branches::None);
     let pieces: Vec<Piece> = charts.into_par_iter().map(Piece::unmapped).collect();
     let component = &surface.adjacency().component;
-    let n_components = surface.adjacency().n_components;
-    let mut areas = vec![[0.0; 2]; n_components];
-    for piece in &pieces {
-        let of = &mut areas[component[piece.first_face() as usize] as usize];
-        of[0] += piece.area;
-        of[1] += if is_developable(piece) {
-            piece.area
-        } else {
-            0.0
-        };
-    }
-    let hard: Vec<bool> = areas
-        .iter()
-        .map(|[all, developable]| *developable >= HARD_SHARE * all)
-        .collect();
+    let hard = are_hard(surface, &pieces, &creases.in_planes());
     let is_hard: Vec<bool> = component.iter().map(|&c| hard[c as usize]).collect();
     Divided {
         hard: (pieces.into_iter())
@@ -72,6 +60,26 @@ pub fn hard_components(surface: &Surface) -> Divided {
             .collect(),
         is_hard,
     }
+}
+
+/// For each component of a surface whether it is hard.
+fn are_hard(surface: &Surface, pieces: &[Piece], is_in_plane: &[bool]) -> Vec<bool> {
+    let component = &surface.adjacency().component;
+    let mut areas = vec![[0.0; 3]; surface.adjacency().n_components];
+    for (face, &of_polygon) in is_in_plane.iter().enumerate() {
+        let [a, b, c] = surface.corners(face);
+        let area = norm(area_vector(a, b, c)) / 2.0;
+        let of = &mut areas[component[face] as usize];
+        of[0] += area;
+        of[2] += if of_polygon { area } else { 0.0 };
+    }
+    for piece in pieces.iter().filter(|piece| is_developable(piece)) {
+        areas[component[piece.first_face() as usize] as usize][1] += piece.area;
+    }
+    let [developable, of_polygons] = HARD_SHARES;
+    (areas.iter())
+        .map(|of| of[1] >= developable * of[0] && of[2] >= of_polygons * of[0])
+        .collect()
 }
 
 fn is_developable(piece: &Piece) -> bool {

@@ -1,4 +1,4 @@
-//! The regions between the creases of a surface.
+//! The creases of a surface, and the regions between them.
 
 use crate::charts::regions::facets::{consistent_normals, crossings};
 use crate::mesh::{CUT, Surface, UnionFind, next, origin};
@@ -12,28 +12,11 @@ const CREASE_COS: f64 = 0.866;
 /// rounding to `f32` tilts a lower one by half a degree or more.
 const LEAST_HEIGHT: f64 = 1e-5;
 
-/// Labels the connected regions that creases part, and says how many there are.
-///
-/// A face too thin for a normal belongs to the region across its longest edge, so that it bridges
-/// no crease. O(n α(n)).
-pub fn smooth_regions(surface: &Surface) -> (Vec<u32>, usize) {
-    let faces = Faces::new(surface);
-    let mut regions = UnionFind::new(surface.triangles.len());
-    for (h, &t) in (0u32..).zip(&faces.across) {
-        if t != CUT && h < t && faces.are_smooth(h / 3, t / 3) {
-            regions.unite(h / 3, t / 3);
-        }
-    }
-    for face in (0..surface.triangles.len() as u32).filter(|&f| !faces.has_normal(f)) {
-        if let Some(other) = faces.across_longest(face, |_| true) {
-            regions.unite(face, other);
-        }
-    }
-    faces.attach_thin_regions(&mut regions);
-    regions.labels()
-}
+/// The cosine of the angle within which two faces lie in one plane: 1°.
+const PLANE_COS: f64 = 0.999_85;
 
-struct Faces<'a> {
+/// The faces of a surface and how they meet.
+pub struct Creases<'a> {
     surface: &'a Surface,
     across: Vec<u32>,
     /// Area vectors, and their lengths where the face has a normal.
@@ -41,8 +24,9 @@ struct Faces<'a> {
     lengths: Vec<Option<f64>>,
 }
 
-impl<'a> Faces<'a> {
-    fn new(surface: &'a Surface) -> Self {
+impl<'a> Creases<'a> {
+    /// Of all faces. O(n).
+    pub fn new(surface: &'a Surface) -> Self {
         let coordinates = surface.positions.as_flattened().iter();
         let least = LEAST_HEIGHT * coordinates.fold(0.0, |most: f64, x| most.max(x.abs()));
         let normals = consistent_normals(surface);
@@ -60,25 +44,57 @@ impl<'a> Faces<'a> {
         }
     }
 
+    /// Labels the connected regions that creases part, and says how many there are.
+    ///
+    /// A face too thin for a normal belongs to the region across its longest edge, so that it
+    /// bridges no crease. O(n α(n)).
+    pub fn smooth_regions(&self) -> (Vec<u32>, usize) {
+        let n_faces = self.lengths.len();
+        let mut regions = UnionFind::new(n_faces);
+        for (h, &t) in (0u32..).zip(&self.across) {
+            if t != CUT && h < t && self.are_within(CREASE_COS, h / 3, t / 3) {
+                regions.unite(h / 3, t / 3);
+            }
+        }
+        for face in (0..n_faces as u32).filter(|&f| !self.has_normal(f)) {
+            if let Some(other) = self.across_longest(face) {
+                regions.unite(face, other);
+            }
+        }
+        self.attach_thin_regions(&mut regions);
+        regions.labels()
+    }
+
+    /// For each face whether one of its neighbors lies in its plane, as in any polygon of a
+    /// modeler but a triangle.
+    pub fn in_planes(&self) -> Vec<bool> {
+        let is_beside = |h: u32| {
+            let t = self.across[h as usize];
+            t != CUT && self.are_within(PLANE_COS, h / 3, t / 3)
+        };
+        let n_faces = self.lengths.len() as u32;
+        (0..n_faces)
+            .map(|f| (3 * f..3 * f + 3).any(is_beside))
+            .collect()
+    }
+
     fn has_normal(&self, face: u32) -> bool {
         self.lengths[face as usize].is_some()
     }
 
-    fn are_smooth(&self, a: u32, b: u32) -> bool {
+    fn are_within(&self, cos: f64, a: u32, b: u32) -> bool {
         let [a, b] = [a, b].map(|face| face as usize);
         match (self.lengths[a], self.lengths[b]) {
-            (Some(of_a), Some(of_b)) => {
-                dot(self.normals[a], self.normals[b]) > CREASE_COS * of_a * of_b
-            }
+            (Some(of_a), Some(of_b)) => dot(self.normals[a], self.normals[b]) > cos * of_a * of_b,
             _ => false,
         }
     }
 
-    /// The face beyond the longest edge of a face, of those that may be chosen.
-    fn across_longest(&self, face: u32, may_be: impl Fn(u32) -> bool) -> Option<u32> {
+    /// The face beyond the longest edge of a face that is not a border.
+    fn across_longest(&self, face: u32) -> Option<u32> {
         let beyond = (3 * face..3 * face + 3).filter_map(|h| {
             let t = self.across[h as usize];
-            (t != CUT && may_be(t / 3)).then(|| (self.length(h), t / 3))
+            (t != CUT).then(|| (self.length(h), t / 3))
         });
         let longest = beyond.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
         longest.map(|(_, other)| other)
