@@ -3,6 +3,7 @@
 use crate::cut::Sheet;
 use crate::mesh::{CUT, spread};
 use crate::numerics::vec3::{area_vector, dot, norm};
+use std::collections::BTreeSet;
 
 /// What a seam on the sharpest crease costs, as a share of what it costs where the surface is bent
 /// a little.
@@ -16,7 +17,12 @@ const PLANE_COS: f64 = 0.999_85;
 
 /// The least area of a plane, as a share of the whole. On a round surface the faces within a degree
 /// have less.
-const LEAST_PLANE: f64 = 0.004;
+const LEAST_PLANE: f64 = 0.01;
+
+/// The share of its border at which a plane must end: at a seam, or with a bend of 8° or more. A
+/// round surface goes on in all directions.
+const LEAST_END: f64 = 0.6;
+const END_COS: f64 = 0.99;
 
 /// For each halfedge what a seam along it costs: its length, less where the surface is bent there,
 /// and more inside a plane.
@@ -71,11 +77,28 @@ fn planes(sheet: &Sheet, normals: &[[f64; 3]], areas: &[f64]) -> Vec<u32> {
             is_like && !std::mem::replace(&mut is_seen[face], true)
         });
         let area: f64 = faces.iter().map(|&f| areas[f as usize]).sum();
-        if area > least {
+        if area > least && ends(sheet, normals, &faces) {
             for &face in &faces {
                 plane[face as usize] = seed;
             }
         }
     }
     plane
+}
+
+/// Whether most of the border of some faces is a seam or bent.
+fn ends(sheet: &Sheet, normals: &[[f64; 3]], faces: &[u32]) -> bool {
+    let is_inside: BTreeSet<u32> = faces.iter().copied().collect();
+    let (mut border, mut ending) = (0.0, 0.0);
+    for h in faces.iter().flat_map(|&f| 3 * f..3 * f + 3) {
+        let t = sheet.twin[h as usize];
+        if t != CUT && is_inside.contains(&(t / 3)) {
+            continue;
+        }
+        let length = sheet.length(h);
+        let is_end = t == CUT || dot(normals[h as usize / 3], normals[t as usize / 3]) < END_COS;
+        border += length;
+        ending += if is_end { length } else { 0.0 };
+    }
+    ending >= LEAST_END * border
 }
