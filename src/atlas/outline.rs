@@ -62,6 +62,17 @@ impl Outline {
         turned
     }
 
+    /// Turned upright, if it has an upright position in which it is no longer than this. Otherwise
+    /// it has none from now on.
+    pub(super) fn upright_within(&self, side: f64) -> Self {
+        let upright = self.upright.map(|axis| self.turned(axis));
+        let fits = |outline: &Self| outline.extent[0].max(outline.extent[1]) <= side;
+        upright.filter(fits).unwrap_or_else(|| Self {
+            upright: None,
+            ..self.clone()
+        })
+    }
+
     /// Turned counter-clockwise by an angle.
     pub(super) fn rotated(&self, angle: f64) -> Self {
         let ([c, s], (sin, cos)) = (self.axis, angle.sin_cos());

@@ -5,6 +5,9 @@ use super::texture::Texture;
 use super::{AtlasOptions, Turns};
 use crate::numerics::hull::convex_hull;
 
+/// The share of a page that charts are hoped to fill.
+const HOPE: f64 = 0.75;
+
 /// What a layout is made from.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
@@ -60,12 +63,17 @@ impl Plan {
     }
 }
 
-/// A chart turned upright, or else to its smallest rectangle; one that is most of a page with charts of an area of `total` decides its side, and is
+/// A chart turned upright, or else to its smallest rectangle; one that is longer than the side of a
+/// page with charts of an area of `total` may lie across it. One that is most of such a page decides its side, and is
 /// turned to the smallest page.
 pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     let is_most = 2.0 * outline.size * outline.size > total;
+    let outline = outline.upright_within((total / HOPE).sqrt());
+    if outline.upright.is_some() {
+        return outline;
+    }
     turned(
-        outline,
+        &outline,
         if is_most {
             Bounds::Page(texture.resolution.halvings())
         } else {
@@ -75,9 +83,6 @@ pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline 
 }
 
 fn turned(outline: &Outline, bounds: Bounds) -> Outline {
-    if let (Some(axis), true) = (outline.upright, bounds != Bounds::Given) {
-        return outline.turned(axis);
-    }
     let hull = convex_hull(outline.corners());
     outline.turned(orientation::direction(&hull, bounds))
 }

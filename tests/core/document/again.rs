@@ -60,7 +60,16 @@ fn unwrapping_again_adds_nothing() {
             let first = unwrapped(&input, options);
             let second = unwrapped(&Upload::single("a.glb", first.clone()), options);
             // Vertices that were split are joined before they are split anew.
-            assert_eq!(size(&first), size(&second), "{}", input.name);
+            let (sets, lengths, bytes) = size(&first);
+            let (sets_again, lengths_again, bytes_again) = size(&second);
+            let name = &input.name;
+            assert_eq!((sets, lengths), (sets_again, lengths_again), "{name}");
+            // What stays where the input has it may begin anywhere; what is moved begins at a
+            // multiple of four bytes.
+            assert!(
+                bytes_again <= bytes + 3 * lengths.iter().sum::<usize>(),
+                "{name}"
+            );
         }
     }
 }

@@ -191,7 +191,9 @@ fn a_normal_map_gets_its_tangents() {
     builder.json["materials"][0]["normalTexture"] = json!({"index": 1, "scale": 0.5});
     let outcome = rebaked(&builder);
     let (json, colors) = written(&outcome);
-    assert_eq!(colors(0, "/normalTexture"), [FLAT]);
+    // Of a value between two steps either is right, as the frame is turned.
+    let close = |color: &[u8; 4]| color.iter().zip(FLAT).all(|(a, b)| a.abs_diff(b) <= 1);
+    assert!(colors(0, "/normalTexture").iter().all(close));
     assert!(json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"].is_u64());
     assert_eq!(json["materials"][0]["normalTexture"]["scale"], 0.5);
 }
