@@ -80,6 +80,17 @@ pub(super) struct Args {
         value_parser = seconds
     )]
     synchronous_seconds: f64,
+    /// Maximum size of the files of all jobs together, in MiB [default: no limit]
+    #[arg(long, value_name = "MIB", env = "UNWRAPD_QUOTA_MIB")]
+    quota_mib: Option<u64>,
+    /// Free disk space below which no job is accepted or started, in MiB
+    #[arg(
+        long,
+        value_name = "MIB",
+        env = "UNWRAPD_MIN_FREE_MIB",
+        default_value_t = 64
+    )]
+    min_free_mib: u64,
     /// Days to keep a job and its files after it ended
     #[arg(
         long,
@@ -123,6 +134,8 @@ impl Args {
             time: Duration::from_secs_f64(self.job_seconds),
             memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory())),
             triangles: self.max_triangles,
+            quota: self.quota_mib.map(|mib| mib.saturating_mul(1 << 20)),
+            min_free: self.min_free_mib.saturating_mul(1 << 20),
             retention: Duration::from_secs_f64(self.retain_days * DAY_SECONDS),
         })
     }

@@ -51,6 +51,8 @@ impl IntoResponses for CallProblems {
             Code::Stopping,
             Code::WorkerLost,
             Code::TimedOut,
+            Code::StoreUnavailable,
+            Code::StorageFull,
         ]);
         let unusable = "The mesh cannot be used; the code names the cause";
         answers.insert("422".to_owned(), problem(unusable.to_owned()));

@@ -50,7 +50,8 @@ const MAX_KEY: usize = 255;
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "`unknown_format`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "`queue_full`, `stopping`: try again later", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "`queue_full`, `store_unavailable`: try again later", body = Problem, content_type = "application/problem+json"),
+        (status = 507, description = "`storage_full`: delete jobs, or try again later", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn create_job(

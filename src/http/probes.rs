@@ -19,30 +19,34 @@ pub(super) async fn healthz() -> &'static str {
 }
 
 /// Check whether the service accepts jobs.
+///
+/// It does when records can be written, the disks have as much free space as the service asks for,
+/// and the quota is not used up.
 #[utoipa::path(
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses(
         (status = 200, description = "The service accepts jobs", body = String, content_type = "text/plain"),
-        (status = 500, description = "`internal_error`: the job database failed", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "`stopping`", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "`not_ready`, with the reason; `stopping`", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn readyz(State(app): Shared) -> Result<&'static str, Problem> {
-    app.jobs.counts().await?;
     if app.stop.is_cancelled() {
         return Err(Problem::new(
             Code::Stopping,
             "the service accepts no new jobs",
         ));
     }
-    Ok("ready\n")
+    match app.jobs.check().await {
+        Ok(()) => Ok("ready\n"),
+        Err(error) => Err(Problem::new(Code::NotReady, error.to_string())),
+    }
 }
 
 /// Get metrics in the Prometheus text format.
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "service",
     responses(
-        (status = 200, description = "Jobs by state", body = String, content_type = "text/plain"),
+        (status = 200, description = "Jobs by state, bytes stored and free", body = String, content_type = "text/plain"),
         (status = 500, description = "`internal_error`: the job database failed", body = Problem, content_type = "application/problem+json"),
     )
 )]
@@ -52,6 +56,25 @@ pub(super) async fn metrics(State(app): Shared) -> Result<Response, Problem> {
     );
     for (state, count) in app.jobs.counts().await? {
         let _ = writeln!(text, "unwrapd_jobs{{state=\"{}\"}} {count}", state.word());
+    }
+    let usage = app.jobs.usage().await?;
+    let gauges = [
+        ("stored", "of the files of all jobs", Some(usage.stored)),
+        ("quota", "that they may take together", usage.quota),
+        ("free", "free where files of jobs lie", usage.free),
+        (
+            "scratch_free",
+            "free where uploads and attempts lie",
+            Some(usage.scratch_free),
+        ),
+    ];
+    for (name, meaning, bytes) in gauges {
+        let Some(bytes) = bytes else { continue };
+        let name = format!("unwrapd_{name}_bytes");
+        let _ = writeln!(
+            text,
+            "# HELP {name} Bytes {meaning}.\n# TYPE {name} gauge\n{name} {bytes}"
+        );
     }
     let content_type = [(header::CONTENT_TYPE, "text/plain; version=0.0.4")];
     Ok((content_type, text).into_response())

@@ -41,6 +41,7 @@ pub(super) enum Code {
     NotFinished,
     AlreadyFinished,
     NoResult,
+    Conflict,
     UploadTooLarge,
     UnsupportedMediaType,
     RangeNotSatisfiable,
@@ -53,12 +54,15 @@ pub(super) enum Code {
     Crashed,
     QueueFull,
     Stopping,
+    NotReady,
+    StoreUnavailable,
     WorkerLost,
     TimedOut,
+    StorageFull,
 }
 
 impl Code {
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 29] = [
         Self::InvalidRequest,
         Self::InvalidOptions,
         Self::MissingMesh,
@@ -70,6 +74,7 @@ impl Code {
         Self::NotFinished,
         Self::AlreadyFinished,
         Self::NoResult,
+        Self::Conflict,
         Self::UploadTooLarge,
         Self::UnsupportedMediaType,
         Self::RangeNotSatisfiable,
@@ -82,8 +87,11 @@ impl Code {
         Self::Crashed,
         Self::QueueFull,
         Self::Stopping,
+        Self::NotReady,
+        Self::StoreUnavailable,
         Self::WorkerLost,
         Self::TimedOut,
+        Self::StorageFull,
     ];
 
     /// Its word, its status, and what it says.
@@ -112,6 +120,7 @@ impl Code {
             Self::NotFinished => ("not_finished", 409, "The job is not finished"),
             Self::AlreadyFinished => ("already_finished", 409, "The job has already ended"),
             Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
+            Self::Conflict => ("conflict", 409, "Another request changed it meanwhile"),
             Self::UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),
             Self::UnsupportedMediaType => (
                 "unsupported_media_type",
@@ -148,12 +157,23 @@ impl Code {
             Self::Crashed => ("crashed", 500, "A bug in the service ended the computation"),
             Self::QueueFull => ("queue_full", 503, "The queue is full"),
             Self::Stopping => ("stopping", 503, "The service is shutting down"),
+            Self::NotReady => ("not_ready", 503, "The service would not accept a job now"),
+            Self::StoreUnavailable => (
+                "store_unavailable",
+                503,
+                "The job database or the files cannot be reached",
+            ),
             Self::WorkerLost => (
                 "worker_lost",
                 503,
                 "The computation was terminated from outside",
             ),
             Self::TimedOut => ("timed_out", 504, "The computation exceeded its time limit"),
+            Self::StorageFull => (
+                "storage_full",
+                507,
+                "The disk is full, or the quota is used up",
+            ),
         }
     }
 }
@@ -207,13 +227,22 @@ impl Problem {
 
 impl From<StoreError> for Problem {
     fn from(error: StoreError) -> Self {
-        Self::internal(&error)
+        tracing::error!(%error, "store");
+        match error {
+            StoreError::Full(why) => Self::new(
+                Code::StorageFull,
+                format!("delete jobs, or try again later: {why}"),
+            ),
+            StoreError::Conflict(_) => Self::new(Code::Conflict, "look again, then try again"),
+            StoreError::Unavailable(_) => Self::new(Code::StoreUnavailable, "try again later"),
+            StoreError::Other(_) => Self::internal(&error),
+        }
     }
 }
 
 impl From<std::io::Error> for Problem {
     fn from(error: std::io::Error) -> Self {
-        Self::internal(&error)
+        StoreError::from(error).into()
     }
 }
 

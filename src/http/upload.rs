@@ -62,12 +62,13 @@ pub(super) async fn receive(
             .unwrap_or_else(PoisonError::into_inner)
             .poll_next_unpin(context)
     });
-    let received = parse(
-        app,
-        kind,
-        Request::from_parts(head, Body::from_stream(reader)),
-    )
-    .await;
+    let received = match app.jobs.has_room() {
+        Ok(()) => {
+            let request = Request::from_parts(head, Body::from_stream(reader));
+            parse(app, kind, request).await
+        }
+        Err(error) => Err(error.into()),
+    };
     if received.is_err() {
         let drained = async { while let Some(Ok(_)) = rest.next().await {} };
         let _ = tokio::time::timeout(DRAIN_TIME, drained).await;

@@ -12,8 +12,8 @@ use super::job::{Failure, Job};
 use super::keys::{input_key, output_key};
 use super::queue::Jobs;
 use super::state::State;
-use super::storage::StoreResult;
-use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
+use super::store_error::{StoreError, StoreResult};
+use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, TASK, Task};
 use super::timestamp::Timestamp;
 use crate::pipeline::Limits;
 
@@ -29,8 +29,8 @@ enum Ending {
     Succeeded(Outcome),
     Failed(Failure),
     Cancelled,
-    /// The server stops; the job shall run again.
-    ServerStops,
+    /// The server stops, or has no space for it; the job shall run again.
+    Waits,
 }
 
 /// Runs a claimed job to its end and records it.
@@ -47,6 +47,9 @@ pub(super) async fn run(jobs: &Jobs, mut job: Job, control: &Control, stop: &Can
     };
     let ending = ending.unwrap_or_else(|error| {
         tracing::error!(job = %job.id, %error, "attempt failed");
+        if error.is_passing() {
+            return Ending::Waits;
+        }
         Ending::Failed(Failure::new(
             "internal_error",
             "the server could not run it",
@@ -101,6 +104,9 @@ async fn compute(
         }
         return Ok(Ending::Succeeded(outcome));
     }
+    if matches!(exit, Exit::Code(NO_SPACE)) {
+        return Err(StoreError::Full("an attempt's folder".to_owned()));
+    }
     let said = task::read_json::<Failure>(folder, ERROR).ok();
     Ok(Ending::Failed(said.unwrap_or_else(|| exit.cause())))
 }
@@ -135,7 +141,7 @@ async fn watch(
                 }
             },
             () = control.cancel.cancelled() => return Some(Ending::Cancelled),
-            () = stop.cancelled() => return Some(Ending::ServerStops),
+            () = stop.cancelled() => return Some(Ending::Waits),
             () = tokio::time::sleep_until(deadline) => {
                 let seconds = limits.time.as_secs_f64();
                 let detail = format!("not finished within {seconds} s");
@@ -191,7 +197,7 @@ async fn conclude(jobs: &Jobs, mut job: Job, ending: Ending) {
             });
         }
         Ending::Cancelled => job.state = State::Cancelled,
-        Ending::ServerStops => job.state = State::Queued,
+        Ending::Waits => job.state = State::Queued,
     }
     job.seq += 1;
     if job.state.is_final() {

@@ -18,7 +18,8 @@ use nix::sys::signal::{SigSet, Signal};
 use super::frames::Frames;
 use super::job::{Failure, OutputFile};
 use super::progress::Progress;
-use super::task::{self, ERROR, Message, OUTCOME, Outcome, TASK, Task};
+use super::store_error::StoreError;
+use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, TASK, Task};
 use super::work::Work;
 use crate::document::Upload;
 use crate::pipeline::{self, Observer, PipelineError, Stage};
@@ -33,8 +34,10 @@ pub fn run(folder: &Path) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err((exit_code, failure)) => {
             eprintln!("{}: {}", failure.code, failure.detail);
-            let written = task::write_json(folder, ERROR, &failure);
-            ExitCode::from(written.map_or(1, |()| exit_code))
+            match task::write_json(folder, ERROR, &failure) {
+                Ok(()) => ExitCode::from(exit_code),
+                Err(error) => ExitCode::from(unwritten(error).0),
+            }
         }
     }
 }
@@ -62,7 +65,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
         .map_err(|e| refusal(&e))?;
     let mut output = Vec::new();
     for (index, (role, name, bytes)) in made.files.into_iter().enumerate() {
-        std::fs::write(folder.join(task::output_file(index)), &bytes).map_err(internal)?;
+        std::fs::write(folder.join(task::output_file(index)), &bytes).map_err(unwritten)?;
         output.push(OutputFile {
             role,
             name,
@@ -71,9 +74,9 @@ fn attempt(folder: &Path) -> Attempt<()> {
     }
     let frames = reporter.frames.into_inner();
     let frames = frames.unwrap_or_else(PoisonError::into_inner);
-    frames.into_output(&mut output).map_err(internal)?;
+    frames.into_output(&mut output).map_err(unwritten)?;
     let verdict = made.verdict;
-    task::write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(internal)
+    task::write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(unwritten)
 }
 
 /// Starts the threads that hear the end of standard input and SIGINT. Called before any other thread exists, since a
@@ -118,6 +121,17 @@ fn refusal(error: &PipelineError) -> (u8, Failure) {
         error.exit_code(),
         Failure::new(error.code(), error.to_string()),
     )
+}
+
+/// A file could not be written.
+fn unwritten(error: std::io::Error) -> (u8, Failure) {
+    match StoreError::from(error) {
+        error @ StoreError::Full(_) => {
+            let failure = Failure::new("storage_full", error.to_string());
+            (NO_SPACE as u8, failure)
+        }
+        error => internal(error),
+    }
 }
 
 fn internal(error: impl std::fmt::Display) -> (u8, Failure) {

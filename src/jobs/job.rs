@@ -207,6 +207,15 @@ impl Job {
         }
     }
 
+    /// Bytes of the files that are kept of it.
+    pub fn stored_bytes(&self) -> u64 {
+        if self.state == State::Cancelled {
+            return 0;
+        }
+        let input = self.input.iter().map(|file| file.bytes);
+        input.chain(self.output.iter().map(|file| file.bytes)).sum()
+    }
+
     /// The output found under a role.
     pub fn output(&self, role: &str) -> Option<&OutputFile> {
         self.output.iter().find(|file| file.role == role)

@@ -20,6 +20,7 @@
 //! Where records, files and events live is not decided here: [`JobStore`], [`Blobs`] and [`Events`] are traits.
 
 mod attempt;
+mod capacity;
 mod child;
 pub mod compute;
 mod control;
@@ -32,23 +33,26 @@ mod queue;
 mod retention;
 mod runner;
 mod settings;
+mod space;
 mod state;
 mod storage;
+mod store_error;
 mod submit;
 mod subscription;
 mod task;
 mod timestamp;
 mod work;
 
+pub use capacity::Usage;
 pub use events::LocalEvents;
 pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, Verdict};
 pub use progress::{Event, Progress, next_attempt_seq};
 pub use queue::{Ended, Jobs};
 pub use settings::Settings;
+pub use space::free_bytes;
 pub use state::State;
-pub use storage::{
-    Blobs, Enqueued, Events, IdempotencyKey, JobStore, Listing, StoreError, StoreResult, Wish,
-};
+pub use storage::{Blobs, Capacity, Enqueued, Events, IdempotencyKey, JobStore, Listing, Wish};
+pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;
 pub use timestamp::Timestamp;

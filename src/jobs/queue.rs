@@ -12,7 +12,8 @@ use super::job::{Failure, Job, JobId, OutputFile};
 use super::keys::output_key;
 use super::settings::Settings;
 use super::state::State;
-use super::storage::{Blobs, Events, JobStore, Listing, StoreResult, Wish};
+use super::storage::{Blobs, Events, JobStore, Listing, Wish};
+use super::store_error::StoreResult;
 use super::subscription::Subscription;
 use super::timestamp::Timestamp;
 

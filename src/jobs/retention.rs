@@ -5,7 +5,7 @@ use std::time::Duration;
 use tokio_util::sync::CancellationToken;
 
 use super::queue::Jobs;
-use super::storage::StoreResult;
+use super::store_error::StoreResult;
 use super::timestamp::Timestamp;
 
 /// Searches for expired jobs per retention time: a job outlives it by a tenth at most,

@@ -43,14 +43,18 @@ impl Jobs {
             () = stop.cancelled() => return None,
         };
         while !stop.is_cancelled() {
-            match self.store.claim().await {
+            let claimed = match self.has_room() {
+                Ok(()) => self.store.claim().await,
+                Err(error) => Err(error),
+            };
+            match claimed {
                 Ok(Some(job)) => return Some((slot, job)),
                 Ok(None) => tokio::select! {
                     () = self.wake.notified() => {}
                     () = stop.cancelled() => return None,
                 },
                 Err(error) => {
-                    tracing::error!(%error, "no job could be claimed");
+                    tracing::error!(%error, "no job claimed");
                     tokio::select! {
                         () = tokio::time::sleep(STORE_RETRY) => {}
                         () = stop.cancelled() => return None,

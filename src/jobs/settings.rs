@@ -22,6 +22,10 @@ pub struct Settings {
     pub memory: u64,
     /// Triangles of a mesh.
     pub triangles: u64,
+    /// Bytes that the files of all jobs may take together.
+    pub quota: Option<u64>,
+    /// Bytes that must be free for a job to be accepted or started.
+    pub min_free: u64,
     /// How long a job is kept after its end, with its files.
     pub retention: Duration,
 }

@@ -7,22 +7,9 @@ use futures_util::future::BoxFuture;
 use super::job::{Job, JobId};
 use super::progress::Event;
 use super::state::State;
+use super::store_error::StoreResult;
 use super::subscription::Subscription;
 use super::timestamp::Timestamp;
-
-/// The store did not do what it was asked; one line.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct StoreError(pub String);
-
-impl From<std::io::Error> for StoreError {
-    fn from(error: std::io::Error) -> Self {
-        Self(error.to_string())
-    }
-}
-
-/// What store operations return.
-pub type StoreResult<T> = Result<T, StoreError>;
 
 /// A client's promise that two submissions with the same key are one.
 #[derive(Clone, Debug)]
@@ -44,6 +31,17 @@ pub enum Enqueued {
     KeyReused,
     /// As many jobs wait as may wait.
     Full,
+    /// The files of all jobs together would take more than they may.
+    OverQuota,
+}
+
+/// How much may be stored.
+#[derive(Clone, Copy, Debug)]
+pub struct Capacity {
+    /// Jobs that may wait.
+    pub depth: u32,
+    /// Bytes that the files of all jobs may take when one more is accepted.
+    pub bytes: Option<u64>,
 }
 
 /// Which jobs to list, the newest first.
@@ -68,12 +66,12 @@ pub enum Wish {
 
 /// Records of jobs. Every call is one transaction.
 pub trait JobStore: Send + Sync {
-    /// Stores a queued job, unless `depth` jobs are queued already or its key has been used.
+    /// Stores a queued job, unless that would exceed the capacity or its key has been used.
     fn enqueue<'a>(
         &'a self,
         job: &'a Job,
         key: Option<&'a IdempotencyKey>,
-        depth: u32,
+        capacity: Capacity,
     ) -> BoxFuture<'a, StoreResult<Enqueued>>;
 
     /// The record of a job.
@@ -111,6 +109,12 @@ pub trait JobStore: Send + Sync {
 
     /// How many jobs there are in each state.
     fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>>;
+
+    /// Bytes of the files of all jobs.
+    fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>>;
+
+    /// Writes something, so that whoever asks knows that records can be written.
+    fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
 }
 
 /// Files of jobs, under keys such as `ID/input/0`. A file is there completely or not at all.
@@ -126,6 +130,9 @@ pub trait Blobs: Send + Sync {
 
     /// The jobs that have files.
     fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
+
+    /// Bytes that may still be written; `None` where nobody counts.
+    fn free_bytes(&self) -> StoreResult<Option<u64>>;
 
     /// Removes all files of a job.
     fn remove(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>>;

@@ -7,7 +7,8 @@ use super::keys::input_key;
 use super::progress::Progress;
 use super::queue::Jobs;
 use super::state::State;
-use super::storage::{Enqueued, IdempotencyKey, StoreError};
+use super::storage::{Enqueued, IdempotencyKey};
+use super::store_error::StoreError;
 use super::timestamp::Timestamp;
 
 /// A wish for a job, checked as far as that is possible without computing.
@@ -54,7 +55,9 @@ impl Jobs {
         let outcome = self.store_submission(id, submission).await;
         if !matches!(outcome, Ok(Submitted::New(_))) {
             self.forget_live(id);
-            self.blobs.remove(id).await?;
+            if let Err(error) = self.blobs.remove(id).await {
+                tracing::warn!(job = %id, %error, "files of a refused job not removed");
+            }
         }
         outcome
     }
@@ -64,6 +67,7 @@ impl Jobs {
         id: JobId,
         submission: Submission,
     ) -> Result<Submitted, SubmitError> {
+        self.has_room()?;
         for (index, (_, path)) in submission.files.iter().enumerate() {
             self.blobs.put(&input_key(id, index), path).await?;
         }
@@ -88,10 +92,10 @@ impl Jobs {
             finished: None,
         };
         self.make_live(&job);
-        let depth = self.settings.queue_depth;
+        let capacity = self.capacity();
         match self
             .store
-            .enqueue(&job, submission.key.as_ref(), depth)
+            .enqueue(&job, submission.key.as_ref(), capacity)
             .await?
         {
             Enqueued::New => {
@@ -101,6 +105,10 @@ impl Jobs {
             Enqueued::Replay(earlier) => Ok(Submitted::Replay(*earlier)),
             Enqueued::KeyReused => Err(SubmitError::KeyReused),
             Enqueued::Full => Err(SubmitError::QueueFull),
+            Enqueued::OverQuota => {
+                let detail = "the files of all jobs would take more than they may".to_owned();
+                Err(StoreError::Full(detail).into())
+            }
         }
     }
 }

@@ -16,6 +16,9 @@ pub(super) const TASK: &str = "job.json";
 pub(super) const OUTCOME: &str = "outcome.json";
 pub(super) const ERROR: &str = "error.json";
 
+/// Exit code of a child that has no space to write what it made. It may not even be able to say so in a file.
+pub(super) const NO_SPACE: i32 = 75;
+
 /// Name of the n-th input file in the attempt's folder.
 pub(super) fn input_file(index: usize) -> String {
     format!("input-{index}")

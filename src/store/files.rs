@@ -7,7 +7,7 @@ use futures_util::FutureExt;
 use futures_util::future::BoxFuture;
 use tokio::fs;
 
-use crate::jobs::{Blobs, JobId, StoreError, StoreResult};
+use crate::jobs::{Blobs, JobId, StoreError, StoreResult, free_bytes};
 
 /// A folder with one subfolder per job. It must be on one file system with the folder files come from.
 pub struct FileBlobs {
@@ -70,6 +70,10 @@ impl Blobs for FileBlobs {
             Ok(owners)
         }
         .boxed()
+    }
+
+    fn free_bytes(&self) -> StoreResult<Option<u64>> {
+        free_bytes(&self.root).map(Some)
     }
 
     fn remove(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>> {

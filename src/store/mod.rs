@@ -10,8 +10,10 @@
 //! ```
 
 mod database;
+mod errors;
 mod files;
 mod idempotency;
+mod reserve;
 mod rows;
 mod sqlite;
 

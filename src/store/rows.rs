@@ -14,8 +14,8 @@ pub(super) async fn insert(
 ) -> StoreResult<()> {
     sqlx::query(
         "INSERT INTO job (id, kind, state, options, input, output, attempt, lost, finish_early,
-                          ephemeral, seq, progress, failure, created, started, finished)
-         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?, NULL, NULL)",
+                          ephemeral, seq, progress, failure, created, started, finished, bytes)
+         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?, NULL, NULL, ?)",
     )
     .bind(job.id.to_string())
     .bind(job.kind.word())
@@ -30,6 +30,7 @@ pub(super) async fn insert(
     .bind(job.seq as i64)
     .bind(json(&job.progress)?)
     .bind(job.created.0)
+    .bind(job.stored_bytes() as i64)
     .execute(&mut **transaction)
     .await?;
     Ok(())
@@ -42,7 +43,7 @@ pub(super) fn json<T: Serialize>(value: &T) -> StoreResult<String> {
 
 /// A record that cannot be read is reported, never guessed at.
 fn damaged(error: impl std::fmt::Display) -> StoreError {
-    StoreError(format!("a record is damaged: {error}"))
+    StoreError::Other(format!("a record is damaged: {error}"))
 }
 
 /// The id that a row holds.

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use futures_util::FutureExt;
 use futures_util::future::BoxFuture;
-use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
+use sqlx::{Row, SqliteConnection};
 
 use super::database::Database;
-use super::{idempotency, rows};
+use super::{idempotency, reserve, rows};
 use crate::jobs::{
-    Enqueued, Event, IdempotencyKey, Job, JobId, JobStore, Listing, State, StoreResult, Timestamp,
-    Wish, next_attempt_seq,
+    Capacity, Enqueued, Event, IdempotencyKey, Job, JobId, JobStore, Listing, State, StoreResult,
+    Timestamp, Wish, next_attempt_seq,
 };
 
 /// Records in a database file. Every method is one transaction, durable when it returns.
@@ -32,7 +32,7 @@ impl JobStore for SqliteStore {
         &'a self,
         job: &'a Job,
         key: Option<&'a IdempotencyKey>,
-        depth: u32,
+        capacity: Capacity,
     ) -> BoxFuture<'a, StoreResult<Enqueued>> {
         async move {
             let mut transaction = self.database.begin().await?;
@@ -46,8 +46,13 @@ impl JobStore for SqliteStore {
                 .fetch_one(&mut *transaction)
                 .await?
                 .try_get(0)?;
-            if i64::from(depth) <= queued {
+            if i64::from(capacity.depth) <= queued {
                 return Ok(Enqueued::Full);
+            }
+            if let Some(bytes) = capacity.bytes
+                && bytes < stored_bytes(&mut transaction).await? + job.stored_bytes()
+            {
+                return Ok(Enqueued::OverQuota);
             }
             rows::insert(job, &mut transaction).await?;
             if let Some(key) = key {
@@ -143,7 +148,7 @@ impl JobStore for SqliteStore {
         async move {
             let failure = job.failure.as_ref().map(rows::json).transpose()?;
             let changed = sqlx::query(
-                "UPDATE job SET state = ?, output = ?, verdict = ?, seq = ?, progress = ?, failure = ?, finished = ?
+                "UPDATE job SET state = ?, output = ?, verdict = ?, seq = ?, progress = ?, failure = ?, finished = ?, bytes = ?
                  WHERE id = ? AND attempt = ? AND state IN ('queued', 'running')",
             )
             .bind(job.state.word())
@@ -153,6 +158,7 @@ impl JobStore for SqliteStore {
             .bind(rows::json(&job.progress)?)
             .bind(failure)
             .bind(job.finished.map(|time| time.0))
+            .bind(job.stored_bytes() as i64)
             .bind(job.id.to_string())
             .bind(i64::from(job.attempt))
             .execute(&self.database.pool)
@@ -169,6 +175,7 @@ impl JobStore for SqliteStore {
                 Wish::Cancel => {
                     "UPDATE job SET cancel = 1, seq = seq + (state = 'queued'),
                                     finished = iif(state = 'queued', ?2, NULL),
+                                    bytes = iif(state = 'queued', 0, bytes),
                                     state = iif(state = 'queued', 'cancelled', state)
                      WHERE id = ?1 AND state IN ('queued', 'running')"
                 }
@@ -196,7 +203,7 @@ impl JobStore for SqliteStore {
         async move {
             let mut transaction = self.database.begin().await?;
             sqlx::query(
-                "UPDATE job SET state = 'cancelled', seq = seq + 1, finished = ?
+                "UPDATE job SET state = 'cancelled', seq = seq + 1, bytes = 0, finished = ?
                  WHERE state IN ('queued', 'running') AND cancel",
             )
             .bind(Timestamp::now().0)
@@ -254,6 +261,30 @@ impl JobStore for SqliteStore {
         }
         .boxed()
     }
+
+    fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>> {
+        async move {
+            let mut connection = self.database.pool.acquire().await?;
+            stored_bytes(&mut connection).await
+        }
+        .boxed()
+    }
+
+    fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
+        async move {
+            reserve::write(&self.database.pool).await?;
+            reserve::keep(&self.database.pool).await
+        }
+        .boxed()
+    }
+}
+
+async fn stored_bytes(connection: &mut SqliteConnection) -> StoreResult<u64> {
+    let sum: i64 = sqlx::query("SELECT coalesce(sum(bytes), 0) FROM job")
+        .fetch_one(connection)
+        .await?
+        .try_get(0)?;
+    Ok(sum as u64)
 }
 
 fn jobs(found: &[SqliteRow]) -> StoreResult<Vec<Job>> {

@@ -3,6 +3,7 @@
 mod applications;
 mod bad_inputs;
 mod failures;
+mod full_disk;
 mod idle_options;
 mod jobs;
 mod progress;
@@ -47,7 +48,14 @@ impl Server {
 
     /// Starts one with these environment variables.
     pub fn with(settings: &[(&'static str, &'static str)]) -> Self {
-        let data = tempfile::tempdir().expect("a folder for the data");
+        Self::on(
+            tempfile::tempdir().expect("a folder for the data"),
+            settings,
+        )
+    }
+
+    /// Starts one on this folder.
+    pub fn on(data: TempDir, settings: &[(&'static str, &'static str)]) -> Self {
         let (process, stdout, address) = spawn(data.path(), settings);
         Self {
             process,

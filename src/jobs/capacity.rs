@@ -1,0 +1,64 @@
+//! Whether there is room for more jobs.
+
+use super::queue::Jobs;
+use super::space::free_bytes;
+use super::storage::Capacity;
+use super::store_error::{StoreError, StoreResult};
+
+/// How much is stored, and how much more may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Usage {
+    /// Bytes of the files of all jobs.
+    pub stored: u64,
+    /// Bytes that they may take together; `None` for as much as there is.
+    pub quota: Option<u64>,
+    /// Free bytes where they lie; `None` where nobody counts.
+    pub free: Option<u64>,
+    /// Free bytes where uploads and attempts lie.
+    pub scratch_free: u64,
+}
+
+impl Jobs {
+    /// How much may be stored.
+    pub(super) fn capacity(&self) -> Capacity {
+        Capacity {
+            depth: self.settings.queue_depth,
+            bytes: self.settings.quota,
+        }
+    }
+
+    /// What is stored, and what is free.
+    pub async fn usage(&self) -> StoreResult<Usage> {
+        Ok(Usage {
+            stored: self.store.stored_bytes().await?,
+            quota: self.settings.quota,
+            free: self.blobs.free_bytes()?,
+            scratch_free: free_bytes(&self.settings.scratch)?,
+        })
+    }
+
+    /// Whether the disks have room for what a job needs. Refusing early leaves room for the ends of those that run.
+    pub fn has_room(&self) -> StoreResult<()> {
+        let scratch = free_bytes(&self.settings.scratch)?;
+        let free = self.blobs.free_bytes()?.unwrap_or(scratch).min(scratch);
+        if free < self.settings.min_free {
+            let (free, least) = (free >> 20, self.settings.min_free >> 20);
+            let detail = format!("{free} MiB are free, and {least} MiB must be");
+            return Err(StoreError::Full(detail));
+        }
+        Ok(())
+    }
+
+    /// Whether a job would be accepted now: records can be written, disks have room, and the quota is not used up.
+    pub async fn check(&self) -> StoreResult<()> {
+        self.store.check().await?;
+        self.has_room()?;
+        match self.settings.quota {
+            Some(quota) if quota <= self.store.stored_bytes().await? => {
+                let detail = format!("the jobs use all of their {} MiB", quota >> 20);
+                Err(StoreError::Full(detail))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Free space of file systems.
+
+use std::path::Path;
+
+use nix::sys::statvfs::statvfs;
+
+use super::store_error::StoreResult;
+
+/// Bytes that may still be written where a file or folder lies.
+pub fn free_bytes(path: &Path) -> StoreResult<u64> {
+    let system = statvfs(path).map_err(std::io::Error::from)?;
+    Ok(system.blocks_available() * system.fragment_size())
+}

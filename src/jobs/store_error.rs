@@ -1,0 +1,39 @@
+//! Why a store did not do what it was asked.
+
+use std::io::{Error, ErrorKind};
+
+/// The store did not do what it was asked. Each holds one line for the log.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StoreError {
+    /// There is no space for it. Deleting still works.
+    #[error("no space left: {0}")]
+    Full(String),
+    /// Somebody else changed what it was to change.
+    #[error("changed meanwhile: {0}")]
+    Conflict(String),
+    /// It cannot be reached, or it is too busy. The same may work later.
+    #[error("not available: {0}")]
+    Unavailable(String),
+    /// Nothing that waiting would mend.
+    #[error("{0}")]
+    Other(String),
+}
+
+/// What store operations return.
+pub type StoreResult<T> = Result<T, StoreError>;
+
+impl StoreError {
+    /// Whether the same may work later without anybody changing the request.
+    pub fn is_passing(&self) -> bool {
+        matches!(self, Self::Full(_) | Self::Unavailable(_))
+    }
+}
+
+impl From<Error> for StoreError {
+    fn from(error: Error) -> Self {
+        match error.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Self::Full(error.to_string()),
+            _ => Self::Other(error.to_string()),
+        }
+    }
+}
