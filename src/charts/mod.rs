@@ -10,6 +10,9 @@
 //! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
 //! With a large disk a chart of fewer faces goes that way first, and the disk begins with its slits.
 //!
+//! Before that [`Cut::Auto`] looks for components that can be laid flat in a few pieces, such as machine parts and sheet metal:
+//! they are cut along their creases and keep all lengths ([`creases`]).
+//!
 //! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
 //!
 //! Few charts are spiky, and spiky charts leave much of a square empty. [`MappedChart::best_split`] says where to cut one so that

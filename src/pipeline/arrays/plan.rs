@@ -19,10 +19,12 @@ pub struct Plan {
     /// How charts are mapped.
     pub embedding: embed::Options,
     /// Whether the result must be valid.
+    #[cfg(feature = "files")]
     pub is_promised: bool,
     /// The distortion that charts may have.
     pub bound: Bound,
     /// The same, if the report says whether it is kept.
+    #[cfg(feature = "files")]
     pub reported_bound: Option<Bound>,
     /// What happens to charts beyond their first cut.
     pub refinement: Refinement,
@@ -92,8 +94,10 @@ impl Plan {
             cut,
             start,
             embedding: embedding(mapping),
+            #[cfg(feature = "files")]
             is_promised,
             bound: cutting.bound(),
+            #[cfg(feature = "files")]
             reported_bound: (cut == Cut::Auto).then(|| cutting.bound()),
             refinement: match cut {
                 Cut::Auto if has_barrier => Refinement::UnderBound,
