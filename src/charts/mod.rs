@@ -11,7 +11,7 @@
 //! With a large disk a chart of fewer faces goes that way first, and the disk begins with its slits.
 //!
 //! Before that [`Cut::Auto`] looks for components that can be laid flat in a few pieces, such as machine parts and sheet metal:
-//! they are cut along their creases and keep all lengths ([`creases`]).
+//! they are cut along their creases and keep all lengths (`creases`).
 //!
 //! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
 //!
