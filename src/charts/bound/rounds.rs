@@ -94,6 +94,7 @@ fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
     }
 }
 
+/// The excess of all pieces over their area.
 pub fn mean_excess(pieces: &[Piece]) -> f64 {
     let excess: f64 = pieces.iter().map(|piece| piece.excess).sum();
     excess / total_area(pieces)

@@ -13,8 +13,7 @@ use crate::mesh::Surface;
 use crate::numerics::vec3::{area_vector, norm};
 use rayon::prelude::*;
 
-/// A region is developable if the predicted excess of its map over the area is no more than this;
-/// a sheet with dents of a degree has 1e-4.
+/// A region is developable if the predicted excess of its map, per area, is no more than this.
 const DEVELOPABLE: f64 = 5e-3;
 
 /// The shares of a component's area that must be developable, and that must lie in polygons of more

@@ -5,7 +5,7 @@ use crate::mesh::{CUT, Surface, UnionFind, next, origin};
 use crate::numerics::vec3::{distance, dot, norm};
 
 /// The cosine of the angle between the normals of two faces from which on their edge is a crease:
-/// 30°. The sides of a cylinder with 13 or more corners are smooth.
+/// 30°. The side of a cylinder with 16 corners is smooth.
 const CREASE_COS: f64 = 0.866;
 
 /// A face has a normal if each of its heights is at least this part of the farthest coordinate:
