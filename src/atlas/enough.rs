@@ -9,7 +9,7 @@ use super::outline::outlines;
 use super::pack::{best, searched};
 use super::plan::Plan;
 use super::texture::Texture;
-use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale};
+use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale, UNHEARD};
 use crate::mesh::Resolution;
 
 /// By how much a larger texture exceeds what the best layout needs: searches in two textures differ.
@@ -54,8 +54,8 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let draft = Draft::new(charts, &largest)?;
-    let drafts = searched(draft.as_ref(), &largest, &|_| ());
-    let fullest = best(&first, &drafts, &slack, &largest, &|_| ());
+    let drafts = searched(draft.as_ref(), &largest, UNHEARD);
+    let fullest = best(&first, &drafts, &slack, &largest, UNHEARD);
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {
@@ -88,7 +88,7 @@ fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
         },
         ..options.clone()
     };
-    let layout = layout(first, slack, &many, &|_| ())?;
+    let layout = layout(first, slack, &many, UNHEARD)?;
     let pages = layout.charts.iter().map(|(spot, _)| spot.corner.page + 1);
     pages.max()
 }

@@ -9,6 +9,7 @@ use super::attempt::{Attempt, Extent, Packing, SLACK};
 use super::plan::Plan;
 use super::spot::Spot;
 use super::{AtlasOptions, OnRead, Scale};
+use crate::solver::Control;
 
 /// Where all charts lie.
 #[derive(Clone, Debug)]
@@ -151,8 +152,9 @@ fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
             }
         };
         if let Some((good, _)) = best {
+            let is_ended = (packing.on_read)(0) == Control::Finish;
             let enough = tried >= ATTEMPTS[0] || work > search_words || failed < good * near;
-            if enough || packing.plan.order.len() <= 1 {
+            if enough || is_ended || packing.plan.order.len() <= 1 {
                 break;
             }
             if scale >= failed || scale <= good {

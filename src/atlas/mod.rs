@@ -32,6 +32,7 @@ mod outline;
 mod pack;
 mod plan;
 mod poses;
+mod read_limit;
 mod relax;
 mod sheet;
 mod snap;
@@ -49,8 +50,13 @@ pub use pack::{fits, pack, pack_draft};
 pub use texture::Texture;
 
 /// Is told how many words a search has read since it was told last, from several threads at once.
-pub type OnRead<'a> = dyn Fn(u64) + Sync + 'a;
+/// [`Control::Finish`] ends the search with what it has found.
+pub type OnRead<'a> = dyn Fn(u64) -> Control + Sync + 'a;
 
+/// Neither listens nor interferes.
+pub(crate) const UNHEARD: &OnRead<'static> = &|_| Control::Continue;
+
+use crate::solver::Control;
 use thiserror::Error;
 
 /// Atlas coordinates are integers, the side of a page is 2^GRID_BITS: in the unit square those are the steps `f32` represents.

@@ -10,9 +10,10 @@ use super::plan::Plan;
 use super::snap::{self, Snapped};
 use super::spot::{Corner, Spot};
 use super::{
-    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale,
+    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale, UNHEARD,
     doubled_area,
 };
+use crate::solver::Control;
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
@@ -23,7 +24,7 @@ const ROUNDS: usize = 6;
 /// input gives the same atlas for any number of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
     let draft = Draft::new(charts, options)?;
-    pack_draft(charts, draft.as_ref(), options, &|_| ())
+    pack_draft(charts, draft.as_ref(), options, UNHEARD)
 }
 
 /// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on. A scale that is given is
@@ -44,7 +45,9 @@ pub fn pack_draft(
         },
     };
     if found.is_none()
-        && let Some((outlines, layout)) = drafts.first().and_then(|draft| draft.tight(options))
+        && let Some((outlines, layout)) = drafts
+            .first()
+            .and_then(|draft| draft.tight(options, on_read))
     {
         let snapped = snapped(charts, &outlines, &layout)?;
         if cramped(&snapped, &layout, &mut slack.clone()).is_none() {
@@ -91,7 +94,7 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     let slack = vec![SLACK; charts.len()];
     Ok(
         options.scale != Scale::Largest
-            && layout::layout(&plan, &slack, options, &|_| ()).is_some(),
+            && layout::layout(&plan, &slack, options, UNHEARD).is_some(),
     )
 }
 
@@ -113,7 +116,11 @@ pub(super) fn best(
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Option<(Plan, Layout)> {
-    let mut plans: Vec<Plan> = drafts.iter().map(Draft::plan).collect();
+    let tried = match on_read(0) {
+        Control::Continue => drafts.len(),
+        Control::Finish => 1,
+    };
+    let mut plans: Vec<Plan> = drafts.iter().take(tried).map(Draft::plan).collect();
     plans.push(first.clone());
     let shared = AtlasOptions {
         search_words: options.search_words / 2 / plans.len() as u64,

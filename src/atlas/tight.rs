@@ -7,7 +7,7 @@ use super::layout::Layout;
 use super::outline::Outline;
 use super::spot::{Corner, Spot};
 use super::squeeze::{Body, Squeezed};
-use super::{AtlasOptions, Scale};
+use super::{AtlasOptions, OnRead, Scale};
 use crate::numerics::bounds::{Bounds, bounds_of};
 use crate::plane::{BoxIndex, Visit, search_budget, segment_distance};
 use rayon::prelude::*;
@@ -40,12 +40,13 @@ pub(super) fn layout(
     level: &[&Outline],
     pages: &[Page],
     scale: f64,
-    options: &AtlasOptions,
+    (options, on_read): (&AtlasOptions, &OnRead),
 ) -> Option<(Vec<Outline>, Layout)> {
     let tight = Tight {
         level,
         scale,
         options,
+        on_read,
     };
     let placed = (0..pages.len()).map(|i| {
         let others = pages.iter().enumerate().filter(|&(j, _)| j != i);
@@ -61,6 +62,7 @@ struct Tight<'a> {
     /// Cells to the mesh unit.
     scale: f64,
     options: &'a AtlasOptions,
+    on_read: &'a OnRead<'a>,
 }
 
 impl Tight<'_> {
@@ -74,7 +76,8 @@ impl Tight<'_> {
             .collect();
         let (mut room, mut best) = (0.0, None);
         for _ in 0..ROUNDS {
-            if !squeezed.loosen(&bodies, room, self.options.search_words / SHARE) {
+            let words = self.options.search_words / SHARE;
+            if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
                 break;
             }
             let places = Places::new(&level, &squeezed, self.scale);

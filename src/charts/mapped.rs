@@ -29,6 +29,8 @@ pub trait Observer: Sync {
     fn iterate(&self, faces: usize, iterate: &Iterate) -> Control;
     /// Work that no iterate shows, as long as one iteration of so many faces takes.
     fn worked(&self, _faces: usize) {}
+    /// So many more charts are mapped, of so many more that are known; fewer where negative.
+    fn charted(&self, _mapped: isize, _known: isize) {}
     /// Whether to go on, asked between maps.
     fn control(&self) -> Control;
     /// Time since the work began.

@@ -138,8 +138,8 @@ fn stage_text(progress: &Progress) -> String {
             charts => format!("map {charts} charts"),
         },
         Stage::Map if progress.charts == 0 => format!(
-            "map, {} charts done, iteration {}, energy {:.6}",
-            progress.chart, progress.iteration, progress.energy
+            "map, iteration {}, energy {:.6}",
+            progress.iteration, progress.energy
         ),
         Stage::Map => format!(
             "map chart {} of {}, iteration {}, energy {:.6}",

@@ -5,28 +5,23 @@
 //! its standard input closes, the server is gone, and so is it.
 
 use std::collections::BTreeMap;
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
 
 use nix::sys::resource::{Resource, setrlimit};
 use nix::sys::signal::{SigSet, Signal};
 
 use super::frames::Frames;
 use super::job::{Failure, OutputFile};
-use super::progress::Progress;
+use super::reporter::Reporter;
 use super::store_error::StoreError;
-use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, TASK, Task};
+use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, TASK, Task};
 use super::work::Work;
 use crate::document::Upload;
-use crate::pipeline::{self, Observer, PipelineError, Stage};
-use crate::solver::Control;
-
-/// At most so often progress is told within a stage.
-const TELL_INTERVAL: Duration = Duration::from_millis(25);
+use crate::pipeline::PipelineError;
 
 /// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
 pub fn run(folder: &Path) -> ExitCode {
@@ -51,13 +46,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
     setrlimit(Resource::RLIMIT_DATA, task.memory, task.memory).map_err(internal)?;
     // A crash is reported by its signal; an image of the memory would only fill the disk.
     setrlimit(Resource::RLIMIT_CORE, 0, 0).map_err(internal)?;
-    let reporter = Reporter {
-        start: Instant::now(),
-        finish,
-        told: Mutex::new(None),
-        frames: Mutex::new(Frames::new(folder)),
-    };
-    tell(&Message::Ready);
+    let reporter = Reporter::start(finish, Frames::new(folder)).map_err(internal)?;
     let upload = read_upload(folder, &task.input).map_err(internal)?;
     let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
     let made = work
@@ -72,8 +61,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
             bytes: bytes.len() as u64,
         });
     }
-    let frames = reporter.frames.into_inner();
-    let frames = frames.unwrap_or_else(PoisonError::into_inner);
+    let frames = reporter.into_frames();
     frames.into_output(&mut output).map_err(unwritten)?;
     let verdict = made.verdict;
     task::write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(unwritten)
@@ -136,60 +124,4 @@ fn unwritten(error: std::io::Error) -> (u8, Failure) {
 
 fn internal(error: impl std::fmt::Display) -> (u8, Failure) {
     (1, Failure::new("internal_error", error.to_string()))
-}
-
-/// Tells the server how far it is, and the pipeline how late it is.
-struct Reporter {
-    start: Instant,
-    finish: Arc<AtomicBool>,
-    /// When something was told last, and of which stage.
-    told: Mutex<Option<(Instant, Stage)>>,
-    frames: Mutex<Frames>,
-}
-
-/// Writes one line to the server. Nobody listens any more if this fails: there is no reason to go on.
-fn tell(message: &Message) {
-    let mut line = serde_json::to_vec(message).unwrap_or_default();
-    line.push(b'\n');
-    let mut out = std::io::stdout().lock();
-    if out.write_all(&line).and_then(|()| out.flush()).is_err() {
-        std::process::exit(1);
-    }
-}
-
-impl Observer for Reporter {
-    fn progress(&self, progress: &pipeline::Progress) -> Control {
-        let stage = progress.stage;
-        let progress = Progress {
-            stage: Some(stage),
-            fraction: progress.fraction,
-            chart: progress.chart as u64,
-            charts: progress.charts as u64,
-            iteration: progress.iteration as u64,
-            energy: Some(progress.energy).filter(|e| e.is_finite()),
-            smallest: Some(progress.smallest).filter(|s| s.is_finite()),
-        };
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_due = told
-            .as_ref()
-            .is_none_or(|(when, last)| TELL_INTERVAL <= when.elapsed() || *last != stage);
-        if is_due {
-            *told = Some((Instant::now(), stage));
-            tell(&Message::Progress(progress));
-        }
-        if self.finish.load(Ordering::Relaxed) {
-            Control::Finish
-        } else {
-            Control::Continue
-        }
-    }
-
-    fn elapsed(&self) -> Duration {
-        self.start.elapsed()
-    }
-
-    fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
-        let mut frames = self.frames.lock().unwrap_or_else(PoisonError::into_inner);
-        frames.add(number, file);
-    }
 }

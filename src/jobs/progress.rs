@@ -14,9 +14,9 @@ pub struct Progress {
     /// How much is done, from 0 to 1. It never falls.
     #[schema(minimum = 0, maximum = 1)]
     pub fraction: f64,
-    /// Charts finished so far.
+    /// Charts mapped so far. Those that are cut again count again once they are mapped.
     pub chart: u64,
-    /// Charts known so far.
+    /// Charts known so far. With `cut` `auto` cuts add some, and some are joined.
     pub charts: u64,
     /// Iteration of the solver on the chart at hand.
     pub iteration: u64,

@@ -21,6 +21,7 @@ mod error;
 mod observer;
 mod options;
 mod portion;
+mod tracker;
 
 #[cfg(feature = "files")]
 mod deform;

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use super::observer::Tracker;
+use super::tracker::Tracker;
 use crate::charts;
 use crate::solver::{Control, Iterate};
 
@@ -18,6 +18,8 @@ pub(super) struct Portion<'a> {
     /// Work that it is expected to take, in a unit of its own.
     expected: f64,
     done: Mutex<f64>,
+    /// Charts that are mapped, and charts that are known.
+    charts: Mutex<[isize; 2]>,
 }
 
 /// Newton steps that a surface takes, and a chart.
@@ -49,7 +51,21 @@ impl<'a> Portion<'a> {
             weight,
             expected: expected.max(f64::MIN_POSITIVE),
             done: Mutex::new(0.0),
+            charts: Mutex::default(),
         }
+    }
+
+    /// So many more words are read; whether to go on.
+    pub fn read(&self, words: u64) -> Control {
+        let gained = self.weight * self.gained(words as f64);
+        self.tracker.advance(gained)
+    }
+
+    /// All is mapped: that many charts came of it.
+    pub fn all_mapped(&self, charts: usize) {
+        let [mapped, known] = *self.charts.lock().unwrap_or_else(PoisonError::into_inner);
+        let n = charts as isize;
+        charts::Observer::charted(self, n - mapped, n - known);
     }
 
     /// So much more work is done.
@@ -89,6 +105,12 @@ impl charts::Observer for Portion<'_> {
 
     fn worked(&self, faces: usize) {
         self.advance(faces as f64);
+    }
+
+    fn charted(&self, mapped: isize, known: isize) {
+        let mut charts = self.charts.lock().unwrap_or_else(PoisonError::into_inner);
+        *charts = [charts[0] + mapped, charts[1] + known];
+        self.tracker.charted(mapped, known);
     }
 
     fn control(&self) -> Control {

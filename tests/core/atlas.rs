@@ -1,6 +1,7 @@
 //! Packing: positive on the grid, inside the square, apart, the same every time.
 use proptest::prelude::*;
 use unwrapd::atlas::{AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, Texture, pack};
+use unwrapd::solver::Control;
 
 use crate::layouts::{Chart, assert_positive_and_inside, bar, blob, disk, maps, smallest_gap};
 
@@ -208,17 +209,17 @@ fn a_draft_becomes_fuller_when_a_chart_is_cut() {
     let mut draft = Draft::new(&maps(&[bar(1), whole, bar(1)]), &options)
         .unwrap()
         .unwrap();
-    draft.improve(20_000_000, 1);
+    draft.improve(20_000_000, 1, &|_| Control::Continue);
     // The bar lies across the square, whose side is 5 / √2: 6 of 12.5.
     assert!((0.46..0.48).contains(&draft.fill()), "{}", draft.fill());
     let parts = [bar(2), bar(2)];
     let mut cut = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
-    cut.improve(20_000_000, 1);
+    cut.improve(20_000_000, 1, &|_| Control::Continue);
     // 6 of 9.
     assert!(cut.fill() > 0.55, "{}", cut.fill());
     let again = {
         let mut again = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
-        again.improve(20_000_000, 1);
+        again.improve(20_000_000, 1, &|_| Control::Continue);
         again.fill()
     };
     assert!(again == cut.fill());

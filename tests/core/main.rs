@@ -24,6 +24,7 @@ mod disks;
 #[cfg(feature = "files")]
 mod document;
 #[cfg(feature = "files")]
+mod early_end;
 mod elements;
 mod embed;
 mod energy;

@@ -88,3 +88,16 @@ fn what_takes_longer_has_more_of_the_whole() {
     let (small, large) = (share(&zoo::sphere(16, 10)), share(&zoo::sphere(120, 80)));
     assert!(small < large, "{small} {large}");
 }
+
+#[test]
+fn charts_are_counted_while_they_are_mapped() {
+    for mesh in [zoo::sphere(48, 31), zoo::torus(48, 32)] {
+        let reports = reports(&mesh, Cut::Auto);
+        let mapping = || reports.iter().filter(|report| report.stage == Stage::Map);
+        assert!(mapping().any(|report| 0 < report.charts));
+        assert!(mapping().all(|report| report.chart <= report.charts));
+        let packing = reports.iter().find(|report| report.stage == Stage::Pack);
+        let packing = packing.expect("charts are packed");
+        assert!(0 < packing.chart && packing.chart == packing.charts);
+    }
+}

@@ -11,6 +11,7 @@ mod deforming;
 mod materials;
 mod meshes;
 mod openapi;
+mod pace;
 mod pages;
 #[path = "../places.rs"]
 mod places;

@@ -1,6 +1,5 @@
 //! Layouts in other terms: places and angles, a plan, grid units.
 use super::Draft;
-use crate::atlas::AtlasOptions;
 use crate::atlas::arrangement::Arrangement;
 use crate::atlas::layout::Layout;
 use crate::atlas::outline::Outline;
@@ -8,6 +7,7 @@ use crate::atlas::plan::{Near, Plan, QuarterTurns};
 use crate::atlas::poses::Poses;
 use crate::atlas::squeeze::{Pose, Squeezed};
 use crate::atlas::tight::{self, Page};
+use crate::atlas::{AtlasOptions, OnRead};
 
 /// Cells of a finer raster for each of those, where few words may be read and where many.
 const FINE: [f64; 2] = [1.0, 4.0];
@@ -52,14 +52,18 @@ impl Draft {
     }
 
     /// The charts turned, and a layout in which they lie as near to each other as they may; none where that is not found.
-    pub(in crate::atlas) fn tight(&self, options: &AtlasOptions) -> Option<(Vec<Outline>, Layout)> {
+    pub(in crate::atlas) fn tight(
+        &self,
+        options: &AtlasOptions,
+        on_read: &OnRead,
+    ) -> Option<(Vec<Outline>, Layout)> {
         let fine = FINE[usize::from(options.search_words >= MANY_WORDS)];
         let mut pages = self.pages.clone();
         for page in &mut pages {
             page.squeezed.scale(fine);
         }
         let level: Vec<&Outline> = self.poses.iter().map(|poses| poses.outline(0)).collect();
-        tight::layout(&level, &pages, fine * self.raster.scale, options)
+        tight::layout(&level, &pages, fine * self.raster.scale, (options, on_read))
     }
 
     /// The arrangement as a plan for a fine raster.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::{Draft, squeezed_side};
 use crate::atlas::OnRead;
 use crate::atlas::arrangement::Arrangement;
+use crate::atlas::read_limit::ReadLimit;
 use crate::atlas::squeeze::Body;
 use crate::numerics::random::Random;
 
@@ -25,8 +26,7 @@ impl Draft {
         let mut drafts: Vec<Self> = seeds
             .map(|seed| {
                 let mut draft = self.clone();
-                draft.improve(words / 4, seed as u64);
-                on_read(words / 4);
+                draft.improve(words / 4, seed as u64, on_read);
                 draft.relocate(words / 4 * 3, seed as u64, on_read);
                 draft
             })
@@ -39,11 +39,11 @@ impl Draft {
     ///
     /// The squeezed layout never gets worse, on pages that are not square the arrangement does not; the arrangement from which a
     /// squeezed layout comes may, so that searches that follow each other begin at different ones.
-    pub fn improve(&mut self, words: u64, seed: u64) {
+    pub fn improve(&mut self, words: u64, seed: u64, on_read: &OnRead) {
         if self.state.order.is_empty() {
             return;
         }
-        let found = self.annealed(words, &mut Random::new(seed));
+        let found = self.annealed(words, &mut Random::new(seed), on_read);
         if !self.raster.is_square() {
             if found.cost < self.state.cost {
                 self.state = found;
@@ -54,7 +54,8 @@ impl Draft {
         let mut pages = self.loose();
         let each = words / 2 / pages.len() as u64;
         for page in &mut pages {
-            page.squeezed.settle(&self.bodies(&page.charts), each);
+            page.squeezed
+                .settle(&self.bodies(&page.charts), each, on_read);
         }
         if squeezed_side(&pages) < squeezed_side(&self.pages) {
             self.pages = pages;
@@ -62,7 +63,7 @@ impl Draft {
     }
 
     /// The best arrangement that is found while about so many words are read.
-    fn annealed(&self, words: u64, random: &mut Random) -> Arrangement {
+    fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> Arrangement {
         // A few charts have few layouts.
         let n = (self.poses.len() as u64).min(MANY);
         let words = words * n * n / (MANY * MANY);
@@ -71,7 +72,8 @@ impl Draft {
         let mut state = self.state.clone();
         let mut best: Option<Arrangement> = None;
         let [first, last] = TEMPERATURES;
-        while sheet.work < words {
+        let mut limit = ReadLimit::new(words, on_read);
+        while limit.admits(sheet.work) {
             let progress = sheet.work as f64 / words as f64;
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();

@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use super::body::{Body, Pose};
 use super::contour::{RUN, Run};
+use crate::atlas::read_limit::ReadLimit;
 
 /// What looking up a distance costs, in the words that other searches read.
 const WORDS_PER_LOOKUP: u64 = 8;
@@ -27,9 +28,10 @@ pub(super) struct Scene<'a> {
     pub room: f64,
     /// Weights of the overlaps.
     pub weights: Pairs,
-    /// What looking cost so far, in words, and may cost.
+    /// What looking cost so far, in words.
     pub work: u64,
-    pub words: u64,
+    /// What it may cost.
+    pub limit: ReadLimit<'a>,
 }
 
 /// A number for each two bodies, and for each body and the border: those at equal indices.

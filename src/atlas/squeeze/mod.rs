@@ -23,6 +23,7 @@ pub(super) use body::{Body, Pose};
 use contacts::{Pairs, Scene};
 
 use super::OnRead;
+use super::read_limit::ReadLimit;
 use crate::numerics::random::Random;
 
 /// By how much the square's side shrinks at a time, at first and at last, as a share.
@@ -51,15 +52,22 @@ pub(super) struct Squeezed {
 
 impl Squeezed {
     /// Shrinks the square as far as charts make room for each other where they are; reads about so many words at most.
-    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64) {
-        let mut scene = Scene::new(bodies, self.side, 0.0, words);
+    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) {
+        let limit = ReadLimit::new(words, on_read);
+        let mut scene = Scene::new(bodies, self.side, 0.0, limit);
         self.shrink(&mut scene, SHRINKS[0]);
     }
 
     /// Makes charts keep `room` more than before, the square as small as is found while about so many words are read; whether
     /// they do.
-    pub(super) fn loosen(&mut self, bodies: &[Arc<Body>], room: f64, words: u64) -> bool {
-        let mut scene = Scene::new(bodies, self.side, room, words);
+    pub(super) fn loosen(
+        &mut self,
+        bodies: &[Arc<Body>],
+        room: f64,
+        (words, on_read): (u64, &OnRead),
+    ) -> bool {
+        let limit = ReadLimit::new(words, on_read);
+        let mut scene = Scene::new(bodies, self.side, room, limit);
         for _ in 0..MOST_GROWTHS {
             if scene.separate(&mut self.poses, STEPS).1 {
                 self.shrink(&mut scene, LEAP);
@@ -74,10 +82,10 @@ impl Squeezed {
     /// Shrinks the square as far as is found while about so many words are read.
     pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64, on_read: &OnRead) {
         let mut random = Random::new(seed);
-        let mut scene = Scene::new(bodies, self.side, 0.0, words);
+        let limit = ReadLimit::new(words, on_read);
+        let mut scene = Scene::new(bodies, self.side, 0.0, limit);
         let mut is_stuck = false;
         while scene.may_read() {
-            let before = scene.work;
             let mut trial = self.clone();
             if is_stuck {
                 trial.swap(&mut random);
@@ -88,7 +96,6 @@ impl Squeezed {
                 trial.shrink(&mut scene, LEAP);
                 *self = trial;
             }
-            on_read(scene.work - before);
         }
     }
 
@@ -141,20 +148,25 @@ impl Squeezed {
 }
 
 impl<'a> Scene<'a> {
-    fn new(bodies: &'a [Arc<Body>], side: f64, room: f64, words: u64) -> Self {
+    fn new(bodies: &'a [Arc<Body>], side: f64, room: f64, limit: ReadLimit<'a>) -> Self {
         Self {
             bodies,
             side,
             room,
             weights: Pairs::new(bodies.len(), 1.0),
             work: 0,
-            words,
+            limit,
         }
     }
 
-    /// Whether fewer words were read than may be.
-    fn may_read(&self) -> bool {
-        self.work < self.words
+    /// Whether the search goes on.
+    fn may_read(&mut self) -> bool {
+        self.limit.admits(self.work)
+    }
+
+    /// Whether the caller has ended it.
+    fn is_ended(&mut self) -> bool {
+        self.limit.is_ended(self.work)
     }
 
     /// Makes overlaps count more that are there still.

@@ -25,7 +25,8 @@ impl Scene<'_> {
         let mut damping = DAMPING;
         let mut slow = 0;
         for _ in 0..most_steps {
-            if now.deepest < TOLERANCE || slow == MOST_SLOW || damping > MOST_DAMPING {
+            let is_over = now.deepest < TOLERANCE || slow == MOST_SLOW || damping > MOST_DAMPING;
+            if is_over || self.is_ended() {
                 break;
             }
             let trial = now.step(damping).map(|step| self.stepped(poses, &step));

@@ -139,8 +139,11 @@ fn slit_as_simplified(
     };
     let mut tips = Vec::new();
     let pieces = vec![Piece::unmapped(simple.chart.clone())];
-    rounds(pieces, bound, options, observer, |slits| {
+    let mapped = rounds(pieces, bound, options, observer, |slits| {
         tips.extend(slits.tips().map(|corner| simple.vertex(corner)));
     });
+    // Only those of the chart itself count.
+    let n_mapped = mapped.len() as isize;
+    observer.charted(-n_mapped, -n_mapped);
     Slits::from_tips(chart, &tips).opened()
 }

@@ -74,20 +74,30 @@ impl Piece {
     /// Mapped, unless it is and no slit is new.
     pub fn mapped(self, options: &embed::Options, observer: &dyn Observer) -> Vec<Self> {
         match self.slits {
-            Some(Predicted { slits, .. }) if self.map.is_none() || slits.is_cut() => slits
-                .opened()
-                .into_iter()
-                .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
-                .map(|map| Self {
+            Some(Predicted { slits, .. }) if self.map.is_none() || slits.is_cut() => {
+                let mapped = |map| Self {
                     ratio: self.ratio,
                     ..Self::of(map)
-                })
-                .collect(),
+                };
+                let charts = slits.opened().into_iter();
+                let pieces: Vec<Self> = charts
+                    .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
+                    .map(mapped)
+                    .collect();
+                let n = pieces.len() as isize;
+                observer.charted(n, n - 1);
+                pieces
+            }
             _ => vec![Self {
                 slits: None,
                 ..self
             }],
         }
+    }
+
+    /// Whether it is mapped, but slits are new.
+    pub fn is_mapped_again(&self) -> bool {
+        self.map.is_some() && self.slits().is_some_and(Slits::is_cut)
     }
 
     /// What the predictor says of a chart that is not mapped, with the slits that are planned.

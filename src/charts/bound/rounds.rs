@@ -38,9 +38,12 @@ pub fn rounds(
     let budget = bound.budget();
     let mut wanted = budget;
     let mut before = f64::INFINITY;
+    observer.charted(0, pieces.len() as isize);
     for round in 0..MOST_ROUNDS {
         slit(&mut pieces, wanted, observer);
         pieces.iter().filter_map(Piece::slits).for_each(&mut see);
+        let again = pieces.iter().filter(|piece| piece.is_mapped_again());
+        observer.charted(-(again.count() as isize), 0);
         pieces = pieces
             .into_par_iter()
             .with_max_len(1)

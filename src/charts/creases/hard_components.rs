@@ -104,6 +104,6 @@ impl Divided {
             pieces.into_iter().filter_map(|piece| piece.map)
         };
         let charts = self.hard.into_par_iter().with_max_len(1);
-        joined(surface, charts.flat_map_iter(mapped).collect())
+        joined(surface, charts.flat_map_iter(mapped).collect(), observer)
     }
 }

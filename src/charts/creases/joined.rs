@@ -3,10 +3,11 @@
 use crate::charts::give_back::border::{Borders, Run};
 use crate::charts::give_back::laid::Laid;
 use crate::charts::give_back::occupied::Ground;
-use crate::charts::mapped::MappedChart;
+use crate::charts::mapped::{MappedChart, Observer};
 use crate::mesh::Surface;
 use crate::numerics::vec2::{cross, dot, sub};
 use crate::plane::keep_apart;
+use crate::solver::Control;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A border along which charts are joined has at least this share of the outline of the smaller: a
@@ -26,7 +27,13 @@ const APART: f64 = 1e-6;
 /// Charts with maps that keep lengths, joined along straight borders where none covers another.
 ///
 /// The smallest comes first, and its longest border. Maps stay as they are but for their place.
-pub fn joined(surface: &Surface, charts: Vec<MappedChart>) -> Vec<MappedChart> {
+///
+/// Ends early when the observer wants the work to end.
+pub fn joined(
+    surface: &Surface,
+    charts: Vec<MappedChart>,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
     if charts.len() < 2 {
         return charts;
     }
@@ -35,6 +42,7 @@ pub fn joined(surface: &Surface, charts: Vec<MappedChart>) -> Vec<MappedChart> {
         borders: Borders::new(surface, charts.iter().map(|(&n, map)| (n, &map.chart))),
         charts,
         grounds: BTreeMap::new(),
+        observer,
     };
     while joining.pass() {}
     joining.charts.into_values().collect()
@@ -45,6 +53,7 @@ struct Joining<'a> {
     charts: BTreeMap<u32, MappedChart>,
     /// The faces of charts next to which others were laid.
     grounds: BTreeMap<u32, Ground>,
+    observer: &'a dyn Observer,
 }
 
 impl Joining<'_> {
@@ -54,7 +63,9 @@ impl Joining<'_> {
         let all = self.charts.iter();
         let mut queue: BTreeSet<(u64, u32)> = all.map(|(&n, map)| size(n, map)).collect();
         let n_before = queue.len();
-        while let Some((_, number)) = queue.pop_first() {
+        while self.observer.control() == Control::Continue
+            && let Some((_, number)) = queue.pop_first()
+        {
             if let Some(neighbor) = self.join(number) {
                 queue.retain(|&(_, other)| other != neighbor);
                 queue.insert(size(neighbor, &self.charts[&neighbor]));
@@ -66,6 +77,7 @@ impl Joining<'_> {
     /// Joins a chart to a neighbor, which is returned.
     fn join(&mut self, number: u32) -> Option<u32> {
         let map = &self.charts[&number];
+        self.observer.worked(map.chart.disk.triangles.len());
         let outline = outline(map);
         let mut runs: Vec<Run> = (self.borders.runs(number, &self.charts).iter())
             .flat_map(|run| straight_parts(run, &map.embedding.uv))

@@ -136,6 +136,7 @@ impl<'a> Giving<'a> {
     fn give_back(&mut self, number: u32, most_pushed: usize) -> Option<u32> {
         let runs = self.borders.runs(number, &self.charts);
         let map = &self.charts[&number];
+        self.observer.worked(map.chart.disk.triangles.len());
         let mut pushed: Vec<(usize, Run)> = Vec::new();
         for run in parts_of_runs(&runs, &map.embedding.uv) {
             let neighbor = &self.charts[&run.neighbor];

@@ -3,6 +3,7 @@
 use super::chart_maps::chart_maps;
 use crate::atlas::{AtlasError, AtlasOptions, Draft, OnRead, Scale, Texture};
 use crate::charts::{MappedChart, Split, seam_length};
+use crate::solver::Control;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -127,7 +128,10 @@ fn candidates(
     };
     let mut splits = best_splits(&candidate.charts, of_page);
     let mut candidates = vec![candidate.clone()];
-    while candidates.len() <= most_cuts && candidate.cost < MOST_COST {
+    while candidates.len() <= most_cuts
+        && candidate.cost < MOST_COST
+        && on_read(WORDS_PER_CUT) == Control::Continue
+    {
         let Some((chart, split)) = most_worth(&splits) else {
             break;
         };
@@ -143,7 +147,6 @@ fn candidates(
         splits.extend(best_splits(&parts, of_page));
         candidate.charts.extend(parts);
         candidates.push(candidate.clone());
-        on_read(WORDS_PER_CUT);
     }
     Ok(candidates)
 }
@@ -158,8 +161,7 @@ fn fullest(mut candidates: Vec<Candidate>, words: u64, on_read: &OnRead) -> Cand
         let share = words / rounds / candidates.len() as u64;
         let each = candidates.par_iter_mut().with_max_len(1);
         each.for_each(|candidate| {
-            candidate.draft.improve(share, round);
-            on_read(share);
+            candidate.draft.improve(share, round, on_read);
         });
         candidates.sort_by(|a, b| b.value().total_cmp(&a.value()));
         candidates.truncate(candidates.len().div_ceil(2));

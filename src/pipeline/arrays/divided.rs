@@ -13,7 +13,7 @@ use super::soup::{Piece, Soup};
 use crate::charts::MappedChart;
 use crate::mesh::{Defects, Surface};
 use crate::pipeline::PipelineError;
-use crate::pipeline::observer::Tracker;
+use crate::pipeline::tracker::Tracker;
 
 /// How much a size may differ from 1 where a density is given.
 const SAME_SIZE: f64 = 1e-6;

@@ -10,8 +10,8 @@ use crate::charts::{
     given_back, map_chart, map_chart_from,
 };
 use crate::mesh::{CornerUvs, Surface};
-use crate::pipeline::observer::Tracker;
 use crate::pipeline::portion::Portion;
+use crate::pipeline::tracker::Tracker;
 
 /// The charts of every surface with their maps.
 pub fn mapped_charts(
@@ -27,11 +27,10 @@ pub fn mapped_charts(
             .map(|surface| {
                 let portion = Portion::of_surface(tracker, surface.triangles.len());
                 let charts = under_bound(surface, plan, &portion);
-                tracker.charts_done(charts.len());
+                portion.all_mapped(charts.len());
                 charts
             })
             .collect();
-        tracker.all_mapped();
         return charts;
     }
     let charts: Vec<Vec<Chart>> = surfaces

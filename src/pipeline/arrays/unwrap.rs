@@ -14,9 +14,10 @@ use crate::atlas::{self, Atlas};
 use crate::charts::MappedChart;
 use crate::mesh::Defects;
 use crate::pipeline::PipelineError;
-use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::Workers;
 use crate::pipeline::portion::Portion;
+use crate::pipeline::tracker::Tracker;
 use crate::solver::Summary;
 
 /// An unwrapped mesh.
@@ -138,7 +139,7 @@ pub fn unwrap_all(
             let charts = weighted(charts, meshes[index].seams);
             let expected = expected_words(&plan, &options, charts.len());
             let portion = Portion::of_atlas(tracker, options.search_words, expected);
-            let on_read = |words| portion.advance(words as f64);
+            let on_read = |words| portion.read(words);
             packed(charts, &options, &plan, &on_read).map(Some)
         })
         .collect::<Result<_, PipelineError>>()?;

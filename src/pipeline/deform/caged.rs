@@ -13,8 +13,9 @@ use crate::mesh::io::Format;
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::limits::Limits;
-use crate::pipeline::observer::{Stage, Tracker};
+use crate::pipeline::observer::Stage;
 use crate::pipeline::options::DeformOptions;
+use crate::pipeline::tracker::Tracker;
 use crate::solver::Watch;
 
 /// A document with all its triangles in one cage.
@@ -96,7 +97,7 @@ pub fn deform(
     tracker.stage(Stage::Write);
     let (written, cage) = caged.write(&solved.solution)?;
     let mut report = solved.report;
-    report.warnings.clone_from(&cage.warnings);
+    report.warnings.extend_from_slice(&cage.warnings);
     report.cage = Some(cage);
     Ok(Deformed {
         files: written.files,

@@ -7,8 +7,9 @@ use crate::deform::Problem;
 use crate::document::Upload;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
-use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, DeformOptions};
+use crate::pipeline::tracker::Tracker;
 
 /// Pulls a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a barrier no
 /// element is inverted in any iterate.

@@ -11,7 +11,7 @@ use crate::certificate::boundary_crossings;
 use crate::deform::{BodyElements, Method, Problem, Solution, Worth};
 use crate::document::Warning;
 use crate::pipeline::PipelineError;
-use crate::pipeline::observer::Tracker;
+use crate::pipeline::tracker::Tracker;
 use crate::solver::{Control, Iterate, Settings, Summary, Watch};
 
 /// What a body became.
@@ -113,7 +113,7 @@ pub fn solve(
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,
         solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
-        warnings: Vec::new(),
+        warnings: tracker.warning().into_iter().collect(),
         cage: None,
     };
     Ok(Solved {

@@ -7,8 +7,9 @@ use crate::mesh::io::{ElementFormat, Elements};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::limits::Limits;
-use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, SolveOptions};
+use crate::pipeline::tracker::Tracker;
 
 /// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in any iterate.
 pub fn solve_file(

@@ -11,8 +11,9 @@ use crate::document::{Upload, Warning};
 use crate::picture::Image;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
-use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, WarpOptions};
+use crate::pipeline::tracker::Tracker;
 
 /// A warped picture.
 #[derive(Clone, Debug)]
@@ -71,7 +72,7 @@ pub fn warp_file(
             files: vec![(format!("{stem}.png"), warped.picture.image.png())],
             report: WarpReport {
                 certified,
-                warnings: Vec::new(),
+                warnings: tracker.warning().into_iter().collect(),
                 origin: warped.picture.origin,
                 map,
             },

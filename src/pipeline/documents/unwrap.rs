@@ -17,9 +17,10 @@ use crate::pipeline::judge::bound_report::BoundReport;
 use crate::pipeline::judge::groups::WrittenUvs;
 use crate::pipeline::judge::report::{AtlasReport, GroupReport, Report, Seconds};
 use crate::pipeline::judge::shortfalls::shortfalls;
-use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, Options};
 use crate::pipeline::rebake::{self, rebaked};
+use crate::pipeline::tracker::Tracker;
 
 /// Everything that comes out of unwrapping a document.
 #[derive(Clone, Debug)]
@@ -106,8 +107,9 @@ fn unwrap_in_pool(
         let messages: Vec<&str> = missing.iter().map(|w| w.message.as_str()).collect();
         return Err(PipelineError::NotValid(messages.join("; ")));
     }
-    let warnings = [noticed, written.notes.warnings.clone(), missing].concat();
-    let mut report = Report::new(groups, warnings);
+    let warnings = [noticed, written.notes.warnings.clone(), missing];
+    let warnings = warnings.into_iter().flatten().chain(tracker.warning());
+    let mut report = Report::new(groups, warnings.collect());
     report.options = Some(Options {
         group_by: Some(group_by),
         ..options.clone()

@@ -13,8 +13,9 @@ use crate::mesh::CornerUvs;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::deform::pull_report::PullReport;
-use crate::pipeline::observer::{Observer, Stage, Tracker};
+use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, EditOptions, Editing};
+use crate::pipeline::tracker::Tracker;
 
 /// A document with edited UVs.
 #[derive(Clone, Debug)]
@@ -86,7 +87,8 @@ pub fn edit_document(
         let again = written.read_again()?;
         let found = Whole::gather(&again, options.texcoord)?;
         let places = places(&written, edited.uvs.len());
-        let warnings = [document.warnings(), &written.notes.warnings].concat();
+        let mut warnings = [document.warnings(), &written.notes.warnings].concat();
+        warnings.extend(tracker.warning());
         let report = judge(
             &edited,
             (&document, &again),

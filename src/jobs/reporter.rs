@@ -1,0 +1,140 @@
+//! What the compute child tells the server.
+
+use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::frames::Frames;
+use super::pace::Pace;
+use super::progress::Progress;
+use super::task::Message;
+use crate::pipeline::{self, Observer};
+use crate::solver::Control;
+
+/// Least time between two reports of one stage.
+const TELL_INTERVAL: Duration = Duration::from_millis(25);
+
+/// Silence after which an estimate is told: clients see the share move at least once a second.
+const SILENCE: Duration = Duration::from_millis(500);
+
+/// Tells the server how far the work is, and the pipeline how long it has taken.
+pub(super) struct Reporter {
+    start: Instant,
+    finish: Arc<AtomicBool>,
+    told: Arc<Mutex<Told>>,
+    frames: Mutex<Frames>,
+}
+
+/// What was told last, and when.
+#[derive(Default)]
+struct Told {
+    progress: Progress,
+    at: Duration,
+    pace: Pace,
+}
+
+impl Reporter {
+    /// Says that the child is ready, and starts the thread that tells estimates.
+    pub(super) fn start(finish: Arc<AtomicBool>, frames: Frames) -> std::io::Result<Self> {
+        tell(&Message::Ready);
+        let reporter = Self {
+            start: Instant::now(),
+            finish,
+            told: Arc::default(),
+            frames: Mutex::new(frames),
+        };
+        let (start, told) = (reporter.start, Arc::clone(&reporter.told));
+        std::thread::Builder::new().spawn(move || {
+            loop {
+                std::thread::sleep(SILENCE);
+                lock(&told).estimate(start.elapsed());
+            }
+        })?;
+        Ok(reporter)
+    }
+
+    /// The frames that were shown.
+    pub(super) fn into_frames(self) -> Frames {
+        let frames = self.frames.into_inner();
+        frames.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Told {
+    /// Tells a report, unless one of its stage was told just now.
+    fn report(&mut self, progress: Progress, now: Duration) {
+        let is_due = self.progress.stage != progress.stage || self.at + TELL_INTERVAL <= now;
+        if is_due {
+            let fraction = self.pace.reported(progress.fraction, now);
+            self.tell(
+                Progress {
+                    fraction,
+                    ..progress
+                },
+                now,
+            );
+        }
+    }
+
+    /// Tells an estimate, if nothing was told for a while.
+    fn estimate(&mut self, now: Duration) {
+        if self.progress.stage.is_some() && self.at + SILENCE <= now {
+            let fraction = self.pace.estimated(now);
+            self.tell(
+                Progress {
+                    fraction,
+                    ..self.progress
+                },
+                now,
+            );
+        }
+    }
+
+    fn tell(&mut self, progress: Progress, now: Duration) {
+        (self.progress, self.at) = (progress, now);
+        tell(&Message::Progress(progress));
+    }
+}
+
+impl Observer for Reporter {
+    fn progress(&self, progress: &pipeline::Progress) -> Control {
+        let progress = Progress {
+            stage: Some(progress.stage),
+            fraction: progress.fraction,
+            chart: progress.chart as u64,
+            charts: progress.charts as u64,
+            iteration: progress.iteration as u64,
+            energy: Some(progress.energy).filter(|e| e.is_finite()),
+            smallest: Some(progress.smallest).filter(|s| s.is_finite()),
+        };
+        lock(&self.told).report(progress, self.start.elapsed());
+        if self.finish.load(Ordering::Relaxed) {
+            Control::Finish
+        } else {
+            Control::Continue
+        }
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.start.elapsed()
+    }
+
+    fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
+        lock(&self.frames).add(number, file);
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Writes one line to the server. Nobody listens any more if this fails: there is no reason to go on.
+fn tell(message: &Message) {
+    let mut line = serde_json::to_vec(message).unwrap_or_default();
+    line.push(b'\n');
+    let mut out = std::io::stdout().lock();
+    if out.write_all(&line).and_then(|()| out.flush()).is_err() {
+        std::process::exit(1);
+    }
+}
