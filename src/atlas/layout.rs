@@ -6,7 +6,7 @@
 //! What an attempt costs is counted in words read, not in seconds, so the result is the same on
 //! every machine.
 use super::attempt::{Attempt, Extent, Packing, SLACK};
-use super::plan::Plan;
+use super::plan::{HOPE, Plan};
 use super::spot::Spot;
 use super::{AtlasOptions, OnRead, Scale};
 use crate::solver::Control;
@@ -37,8 +37,6 @@ const NEAR_IF_MANY: f64 = 1.015;
 /// The same for a layout that is known from a coarser raster, and by how much the scale is lowered should it not fit.
 const NEAR_IF_KNOWN: f64 = 1.0005;
 const LOWERED: f64 = 0.993;
-/// The share of the square that the first attempt hopes to fill.
-const HOPE: f64 = 0.75;
 
 /// Cells along a side of a square, of which each chart has some 16 along its own.
 fn raster(n_charts: usize, most_cells: u32) -> u32 {

@@ -6,7 +6,7 @@ use super::{AtlasOptions, Turns};
 use crate::numerics::hull::convex_hull;
 
 /// The share of a page that charts are hoped to fill.
-const HOPE: f64 = 0.75;
+pub(super) const HOPE: f64 = 0.75;
 
 /// What a layout is made from.
 #[derive(Clone, Debug)]

@@ -1,5 +1,6 @@
 //! Charts with their maps.
 
+use super::observer::Observer;
 use super::parts::{parted, parts};
 use super::unfold::overlaps::{lengths, one_side, overlaps};
 use super::unfold::push_apart::pushed_apart;
@@ -8,8 +9,7 @@ use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};
 use crate::numerics::vec2::doubled_area;
 use crate::numerics::vec3::{area_vector, norm};
-use crate::solver::{Control, Iterate, Summary, Watch};
-use std::time::Duration;
+use crate::solver::{Iterate, Summary, Watch};
 
 /// A chart, its map and how long the map took.
 #[derive(Clone, Debug)]
@@ -21,20 +21,6 @@ pub struct MappedChart {
     /// Seconds on the observer's clock for the map of the chart that this one was cut from, its
     /// cutting included. Attempts that gave no valid map are not counted.
     pub seconds: f64,
-}
-
-/// Sees charts being mapped, tells the time, and may end the work early.
-pub trait Observer: Sync {
-    /// An iterate of a chart of so many faces.
-    fn iterate(&self, faces: usize, iterate: &Iterate) -> Control;
-    /// Work that no iterate shows, as long as one iteration of so many faces takes.
-    fn worked(&self, _faces: usize) {}
-    /// So many more charts are mapped, of so many more that are known; fewer where negative.
-    fn charted(&self, _mapped: isize, _known: isize) {}
-    /// Whether to go on, asked between maps.
-    fn control(&self) -> Control;
-    /// Time since the work began.
-    fn elapsed(&self) -> Duration;
 }
 
 /// What becomes of a chart whose map overlaps itself.

@@ -34,6 +34,7 @@ mod give_back;
 mod halves;
 mod mapped;
 mod min_cut;
+mod observer;
 mod parts;
 mod regions;
 mod unfold;
@@ -44,8 +45,9 @@ pub use chart::{Chart, Cut, charts};
 pub use compact::best_split::{Split, seam_length};
 pub use give_back::given_back::given_back;
 pub use halves::halves;
-pub use mapped::{Folds, MappedChart, Observer, map_chart, map_chart_from};
+pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
 pub use min_cut::min_cut;
+pub use observer::{Observer, Unobserved};
 
 #[cfg(doc)]
 use crate::mesh::Disk;

@@ -2,26 +2,11 @@
 
 use crate::zoo::{self, Mesh};
 use unwrapd::certificate::{Claims, certify};
-use unwrapd::charts::{Bound, MappedChart, Observer, charts_under_bound};
+use unwrapd::charts::{Bound, MappedChart, Unobserved, charts_under_bound};
 use unwrapd::embed::Options;
 use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::Surface;
 use unwrapd::numerics::vec3::distance;
-use unwrapd::solver::{Control, Iterate};
-
-struct Unobserved;
-
-impl Observer for Unobserved {
-    fn iterate(&self, _: usize, _: &Iterate) -> Control {
-        Control::Continue
-    }
-    fn control(&self) -> Control {
-        Control::Continue
-    }
-    fn elapsed(&self) -> std::time::Duration {
-        std::time::Duration::ZERO
-    }
-}
 
 fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Mesh {
     Mesh {

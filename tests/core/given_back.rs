@@ -3,25 +3,10 @@
 use crate::zoo::{self, Mesh};
 use unwrapd::certificate::{Claims, certify};
 use unwrapd::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Observer, charts, given_back, map_chart,
+    Bound, Chart, Cut, Folds, MappedChart, Unobserved, charts, given_back, map_chart,
 };
 use unwrapd::embed::Options;
 use unwrapd::mesh::Surface;
-use unwrapd::solver::{Control, Iterate};
-
-struct Unobserved;
-
-impl Observer for Unobserved {
-    fn iterate(&self, _: usize, _: &Iterate) -> Control {
-        Control::Continue
-    }
-    fn control(&self) -> Control {
-        Control::Continue
-    }
-    fn elapsed(&self) -> std::time::Duration {
-        std::time::Duration::ZERO
-    }
-}
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")

@@ -8,7 +8,7 @@ use super::arrangement::Arrangement;
 use super::layout::padding;
 use super::mask::Distances;
 use super::outline::{Outline, outlines};
-use super::plan::{Plan, by_size, level};
+use super::plan::{HOPE, Plan, by_size, level};
 use super::poses::Poses;
 use super::sheet::Sheet;
 use super::spot::Corner;
@@ -19,8 +19,6 @@ use super::{AtlasError, AtlasOptions, ChartMap, Turns};
 /// Cells along the side of the square page that the charts are expected to need. With 128 a cell is too much for the gaps that
 /// matter; with 512 a trial costs four times as much, and less is found in the same time.
 const RASTER: u32 = 256;
-/// The share of that page that they are expected to fill.
-const HOPE: f64 = 0.75;
 /// Sides of squares in which all charts are first placed.
 const SIDES: [u32; 3] = [RASTER, 2 * RASTER, 4 * RASTER];
 /// Charts at most: of more the large ones leave room enough for the small ones.

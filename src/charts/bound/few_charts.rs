@@ -1,6 +1,5 @@
 //! Few charts under a bound on their distortion.
 
-use super::distortion::excess_and_area;
 use super::pending_chart::Piece;
 use super::quality::Bound;
 use super::rounds::{mean_excess, rounds};
@@ -9,7 +8,8 @@ use super::slits::Slits;
 use crate::charts::chart::{Chart, Cut, charts};
 use crate::charts::creases::hard_components::hard_components;
 use crate::charts::give_back::given_back::given_back;
-use crate::charts::mapped::{Folds, MappedChart, Observer, map_chart};
+use crate::charts::mapped::{Folds, MappedChart, map_chart};
+use crate::charts::observer::Observer;
 use crate::embed::{self, is_needle};
 use crate::mesh::Surface;
 use crate::numerics::vec3::{area_vector, norm};
@@ -44,17 +44,20 @@ pub fn charts_under_bound(
     }
     let divided = hard_components(surface);
     let mut is_hard = divided.is_hard.clone();
-    let mut hard = divided.mapped(surface, bound, options, observer);
-    let [excess, area] = (hard.iter().map(excess_and_area))
-        .fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
-    if excess > bound.budget() * area {
+    let hard = divided.mapped(surface, bound, options, observer);
+    let mut hard: Vec<Piece> = hard.into_iter().map(Piece::of).collect();
+    if mean_excess(&hard) > bound.budget() {
         is_hard.fill(false);
         hard.clear();
     }
     let is_soft = |chart: &Chart| !is_hard[chart.corners[0][0] as usize / 3];
     let soft = |cut| charts(surface, cut).into_iter().filter(is_soft).collect();
-    hard.extend(soft_charts(surface, &soft, bound, options, observer));
-    hard
+    let soft = soft_charts(surface, &soft, bound, options, observer);
+    maps(hard).chain(soft).collect()
+}
+
+fn maps(pieces: Vec<Piece>) -> impl Iterator<Item = MappedChart> {
+    pieces.into_iter().filter_map(|piece| piece.map)
 }
 
 /// The charts of those components that are not hard; `divided` cuts them.
@@ -70,12 +73,9 @@ fn soft_charts(
         return Vec::new();
     }
     let slit = slit_and_mapped(pieces, bound, options, observer);
-    let maps = |pieces: Vec<Piece>| {
-        let maps = pieces.into_iter().filter_map(|piece| piece.map).collect();
-        given_back(surface, maps, bound, options, observer)
-    };
+    let given_back = |pieces| given_back(surface, maps(pieces).collect(), bound, options, observer);
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
-        return maps(slit);
+        return given_back(slit);
     }
     let divided = map_all(divided(Cut::Fast), options, observer);
     let divided: Vec<Piece> = divided.into_iter().map(Piece::of).collect();
@@ -84,7 +84,7 @@ fn soft_charts(
     } else {
         slit
     };
-    maps(better)
+    given_back(better)
 }
 
 fn map_all(

@@ -4,7 +4,8 @@ use super::distortion::excess_and_area;
 use super::predicted_slits::Predicted;
 use super::slits::Slits;
 use crate::charts::Chart;
-use crate::charts::mapped::{Folds, MappedChart, Observer, map_chart};
+use crate::charts::mapped::{Folds, MappedChart, map_chart};
+use crate::charts::observer::Observer;
 use crate::embed;
 
 /// Mapped excess over predicted, before a chart has been mapped: a map trades angles for areas and does better than the

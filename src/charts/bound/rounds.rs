@@ -4,7 +4,7 @@ use super::distortion::stretched_area;
 use super::pending_chart::Piece;
 use super::quality::Bound;
 use super::slits::Slits;
-use crate::charts::mapped::Observer;
+use crate::charts::observer::Observer;
 use crate::embed;
 use crate::solver::Control;
 use rayon::prelude::*;

@@ -3,7 +3,8 @@
 use crate::charts::give_back::border::{Borders, Run};
 use crate::charts::give_back::laid::Laid;
 use crate::charts::give_back::occupied::Ground;
-use crate::charts::mapped::{MappedChart, Observer};
+use crate::charts::mapped::MappedChart;
+use crate::charts::observer::Observer;
 use crate::mesh::Surface;
 use crate::numerics::vec2::{cross, dot, sub};
 use crate::plane::keep_apart;
