@@ -361,3 +361,47 @@ proptest! {
         prop_assert!(gap > 0.0);
     }
 }
+
+/// A staircase of unit squares turned by an angle: its outline runs along two directions, and the
+/// smallest rectangle around it along neither.
+fn staircase(steps: u32, angle: f64) -> Chart {
+    let (sin, cos) = angle.sin_cos();
+    let mut uv = Vec::new();
+    let mut triangles = Vec::new();
+    let mut id = std::collections::HashMap::new();
+    let mut vertex = |x: u32, y: u32| {
+        *id.entry((x, y)).or_insert_with(|| {
+            let (x, y) = (f64::from(x), f64::from(y));
+            uv.push([cos * x - sin * y, sin * x + cos * y]);
+            uv.len() as u32 - 1
+        })
+    };
+    for step in 0..steps {
+        for x in [step, step + 1] {
+            let [a, b] = [vertex(x, step), vertex(x + 1, step)];
+            let [c, d] = [vertex(x + 1, step + 1), vertex(x, step + 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    (uv, triangles)
+}
+
+#[test]
+fn charts_with_straight_outlines_are_packed_upright() {
+    let square = |side: f64| -> Chart {
+        let uv = [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]];
+        (uv.to_vec(), vec![[0, 1, 2], [0, 2, 3]])
+    };
+    for angle in [0.0, 0.3, 1.0, 2.5] {
+        let charts = [staircase(5, angle), square(6.0), square(6.0), square(6.0)];
+        let atlas = pack(&maps(&charts), &AtlasOptions::default()).expect("it packs");
+        assert_positive_and_inside(&charts, &atlas);
+        let grid = &atlas.placed[0].grid;
+        // The first edge of every square is a side, the last of its first triangle a diagonal.
+        for [a, b, _] in charts[0].1.iter().step_by(2) {
+            let [p, q] = [a, b].map(|v| grid[*v as usize]);
+            let off = [0, 1].map(|k| (q[k] - p[k]).abs());
+            assert!(off[0].min(off[1]) <= 4, "{angle}: {off:?}");
+        }
+    }
+}

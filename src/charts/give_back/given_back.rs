@@ -140,6 +140,9 @@ impl<'a> Giving<'a> {
         self.observer.worked(map.chart.disk.triangles.len());
         let mut pushed: Vec<(usize, Run)> = Vec::new();
         for run in parts_of_runs(&runs, &map.embedding.uv) {
+            if self.observer.control() == Control::Finish {
+                return None;
+            }
             let neighbor = &self.charts[&run.neighbor];
             let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run) else {
                 continue;
@@ -160,7 +163,8 @@ impl<'a> Giving<'a> {
         pushed.truncate(most_pushed);
         for (_, run) in pushed {
             let neighbor = &self.charts[&run.neighbor];
-            if let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run)
+            if self.observer.control() == Control::Continue
+                && let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run)
                 && self.join(number, laid, &run)
             {
                 return Some(run.neighbor);
