@@ -58,8 +58,8 @@ pub(super) struct Args {
         default_value_t = 5_000_000
     )]
     max_triangles: u64,
-    /// Wall-clock limit of a job, in seconds. After 80 % of it the job ends with its current valid
-    /// map
+    /// Time limit of a job, in seconds. When it is reached, the job ends with its current valid map.
+    /// A job that has none is terminated after a quarter of the limit more, or 10 s if that is longer
     #[arg(
         long,
         value_name = "S",

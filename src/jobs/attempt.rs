@@ -21,8 +21,10 @@ use crate::pipeline::Limits;
 const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 /// How often its progress is recorded.
 const RECORD_INTERVAL: Duration = Duration::from_secs(1);
-/// The share of its time after which a job is asked to finish with the map it has, rather than be ended without one.
-const BUDGET_SHARE: f64 = 0.8;
+/// How much longer than its time limit a job may take to finish with the map it has before it is
+/// terminated without one: this share of the limit, or this time if that is longer.
+const GRACE_SHARE: f64 = 0.25;
+const LEAST_GRACE: Duration = Duration::from_secs(10);
 
 /// How an attempt ended.
 enum Ending {
@@ -75,7 +77,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
         limits: Limits {
             triangles: Some(settings.triangles),
             threads: Some(settings.threads),
-            seconds: Some(settings.time.as_secs_f64() * BUDGET_SHARE),
+            seconds: Some(settings.time.as_secs_f64()),
         },
         memory: settings.memory,
     };
@@ -120,7 +122,8 @@ async fn watch(
     stop: &CancellationToken,
 ) -> Option<Ending> {
     let limits = &jobs.settings;
-    let deadline = Instant::now() + limits.time;
+    let grace = limits.time.mul_f64(GRACE_SHARE).max(LEAST_GRACE);
+    let deadline = Instant::now() + limits.time + grace;
     let mut interval = tokio::time::interval(WATCH_INTERVAL);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
     // The disk may be slow: a wish must not wait for a record.
@@ -144,7 +147,7 @@ async fn watch(
             () = stop.cancelled() => return Some(Ending::Waits),
             () = tokio::time::sleep_until(deadline) => {
                 let seconds = limits.time.as_secs_f64();
-                let detail = format!("not finished within {seconds} s");
+                let detail = format!("no valid map within the time limit of {seconds} s");
                 return Some(Ending::Failed(Failure::new("timed_out", detail)));
             }
             () = control.finish.cancelled(), if is_ready && !is_told => {

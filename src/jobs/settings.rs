@@ -16,7 +16,7 @@ pub struct Settings {
     pub threads: usize,
     /// Jobs that may wait.
     pub queue_depth: u32,
-    /// Wall-clock time of an attempt.
+    /// Wall-clock time after which an attempt ends with the map it has.
     pub time: Duration,
     /// Memory of a job, in bytes.
     pub memory: u64,

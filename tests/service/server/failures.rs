@@ -44,11 +44,25 @@ async fn a_mesh_that_needs_too_much_memory_fails_alone() {
 }
 
 #[tokio::test]
-async fn a_mesh_that_takes_too_long_fails() {
+async fn a_mesh_that_takes_too_long_ends_with_the_map_it_has() {
     let server = Server::with(&[("UNWRAPD_JOB_SECONDS", "0.05")]);
     let job = server.submit(meshes::large(), "cut=disk").await;
     let job = server.ended(&job).await;
-    assert_eq!(job["error"]["code"], "timed_out", "{job}");
+    assert_eq!(job["state"], "succeeded", "{job}");
+    let warnings = job["warnings"].as_array().expect("a list");
+    let is_told = |warning: &serde_json::Value| warning["code"] == "ended_early";
+    assert!(warnings.iter().any(is_told), "{job}");
+}
+
+#[tokio::test]
+async fn a_mesh_without_a_map_fails_some_time_after_the_limit() {
+    let server = Server::with(&[("UNWRAPD_JOB_SECONDS", "1")]);
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    server.mapping(&job).await;
+    for child in server.children() {
+        kill(Pid::from_raw(child), Signal::SIGSTOP).expect("a child of ours");
+    }
+    assert_failed(&server, &job, "timed_out").await;
 }
 
 #[tokio::test]
