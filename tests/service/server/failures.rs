@@ -58,8 +58,12 @@ async fn a_mesh_that_takes_too_long_ends_with_the_map_it_has() {
 async fn a_mesh_without_a_map_fails_some_time_after_the_limit() {
     let server = Server::with(&[("UNWRAPD_JOB_SECONDS", "1")]);
     let job = server.submit(meshes::large(), "cut=disk").await;
-    server.mapping(&job).await;
-    for child in server.children() {
+    let mut children = server.children();
+    while children.is_empty() {
+        tokio::task::yield_now().await;
+        children = server.children();
+    }
+    for child in children {
         kill(Pid::from_raw(child), Signal::SIGSTOP).expect("a child of ours");
     }
     assert_failed(&server, &job, "timed_out").await;
