@@ -13,7 +13,7 @@ use super::keys::{input_key, output_key};
 use super::queue::Jobs;
 use super::state::State;
 use super::store_error::{StoreError, StoreResult};
-use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, TASK, Task};
+use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::timestamp::Timestamp;
 use crate::pipeline::Limits;
 
@@ -22,7 +22,7 @@ const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 /// How often its progress is recorded.
 const RECORD_INTERVAL: Duration = Duration::from_secs(1);
 /// The share of its time after which a job is asked to finish with the map it has, rather than be ended without one.
-const BUDGET_SHARE: f64 = 0.8;
+pub(super) const BUDGET_SHARE: f64 = 0.8;
 
 /// How an attempt ended.
 enum Ending {
@@ -78,6 +78,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
             seconds: Some(settings.time.as_secs_f64() * BUDGET_SHARE),
         },
         memory: settings.memory,
+        pictures: Pictures::Drawn,
     };
     Ok(task::write_json(folder, TASK, &task)?)
 }

@@ -23,6 +23,7 @@ mod attempt;
 mod capacity;
 mod child;
 pub mod compute;
+mod contained;
 mod control;
 mod events;
 mod frames;
@@ -44,6 +45,7 @@ mod timestamp;
 mod work;
 
 pub use capacity::Usage;
+pub use contained::Contained;
 pub use events::LocalEvents;
 pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, Verdict};
 pub use progress::{Event, Progress, next_attempt_seq};
@@ -55,5 +57,6 @@ pub use storage::{Blobs, Capacity, Enqueued, Events, IdempotencyKey, JobStore, L
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;
+pub use task::{Pictures, output_file};
 pub use timestamp::Timestamp;
 pub use work::Work;

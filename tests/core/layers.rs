@@ -75,6 +75,11 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         &["sqlx", "tokio", "serde_json", "futures_util"],
     ),
     (
+        "bulk",
+        &["jobs"],
+        &["tokio", "serde_json", "sha2", "csv", "uuid"],
+    ),
+    (
         "http",
         &["jobs"],
         &[
@@ -92,7 +97,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "cli",
-        &["http", "store"],
+        &["http", "store", "bulk"],
         &[
             "clap",
             "clap_complete",
