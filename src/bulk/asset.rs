@@ -29,9 +29,15 @@ impl Asset {
         Self {
             input: root.join(path),
             name: path.to_string_lossy().into_owned(),
-            output: within.with_extension(format.extension()),
+            output: plain(within).with_extension(format.extension()),
         }
     }
+}
+
+/// A path without `.` in it.
+pub(super) fn plain(path: &Path) -> PathBuf {
+    let is_name = |part: &Component| *part != Component::CurDir;
+    path.components().filter(is_name).collect()
 }
 
 /// Whether a path stays within the folder that it counts from.

@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
 
-use super::asset::{self, Asset, is_inside};
+use super::asset::{self, Asset, is_inside, plain};
 use super::list_error::ListError;
 use crate::document::OutputFormat;
 
@@ -71,7 +71,7 @@ fn of_line(line: &[u8], root: &Path, format: OutputFormat) -> Result<Asset, Stri
         ));
     }
     Ok(Asset {
-        output: output.components().collect(),
+        output: plain(output),
         ..mirrored
     })
 }

@@ -16,8 +16,6 @@ use crate::jobs::{Contained, Pictures};
 /// The arguments of `batch`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    #[command(flatten)]
-    bulk: BulkArgs,
     /// Number of assets unwrapped at the same time [default: the number of cores]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
@@ -26,8 +24,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = seconds)]
     asset_seconds: f64,
     /// Memory limit of an asset, in MiB [default: 8192, or an equal part of the machine's if less]
-    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(16..))]
     asset_memory_mib: Option<u64>,
+    #[command(flatten)]
+    bulk: BulkArgs,
 }
 
 impl Args {

@@ -14,6 +14,8 @@ pub(super) struct BulkDisplay<'a> {
     n_assets: usize,
     n_kept: usize,
     n_done: usize,
+    /// Outputs of this run.
+    n_made: usize,
     begin: Instant,
     bar: Option<ProgressBar>,
     is_quiet: bool,
@@ -34,6 +36,7 @@ impl<'a> BulkDisplay<'a> {
             n_assets,
             n_kept: 0,
             n_done: 0,
+            n_made: 0,
             begin: Instant::now(),
             bar,
             is_quiet,
@@ -46,6 +49,7 @@ impl<'a> BulkDisplay<'a> {
             Fate::Kept => self.n_kept += 1,
             Fate::Done => self.n_done += 1,
         }
+        self.n_made += usize::from(fate == Fate::Done && matches!(row.status, Status::Written(_)));
         let is_accepted = self.gates.accept(row);
         let is_told = match fate {
             Fate::Kept => false,
@@ -71,9 +75,9 @@ impl<'a> BulkDisplay<'a> {
             bar.finish_and_clear();
         }
         let hours = self.begin.elapsed().as_secs_f64() / 3600.0;
-        let speed = match self.n_done {
+        let speed = match self.n_made {
             0 => String::new(),
-            done => format!(", {:.0} an hour", done as f64 / hours),
+            made => format!(", {:.0} an hour", made as f64 / hours),
         };
         say(format_args!(
             "{} assets: {} written, {} failed, {} missing, {} accepted; {} done now, {} before{speed}",
