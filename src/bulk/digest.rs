@@ -13,15 +13,15 @@ use crate::pipeline::{Options, Workers};
 pub(super) struct Recipe(Sha256);
 
 impl Recipe {
-    /// The version of this program, the options, and what is written beside the output. The number of
+    /// The version of what works, the options, and what is written beside the output. The number of
     /// threads does not count: the output does not depend on it.
-    pub fn new(options: &Options, extras: &[Extra]) -> serde_json::Result<Self> {
+    pub fn new(version: &str, options: &Options, extras: &[Extra]) -> serde_json::Result<Self> {
         let options = Options {
             workers: Workers::default(),
             ..options.clone()
         };
         let mut hash = Sha256::new();
-        hash.update(env!("CARGO_PKG_VERSION"));
+        add(&mut hash, version.as_bytes());
         add(&mut hash, &serde_json::to_vec(&options)?);
         for extra in extras {
             add(&mut hash, extra.suffix().as_bytes());

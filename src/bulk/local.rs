@@ -13,6 +13,10 @@ pub struct Local {
 }
 
 impl Worker for Local {
+    fn version(&self) -> &str {
+        env!("CARGO_PKG_VERSION")
+    }
+
     async fn work(&self, task: Task<'_>) -> Result<Vec<OutputFile>, Failure> {
         let (kind, options) = (Kind::Unwrap, &self.options);
         let contained = &self.contained;

@@ -17,7 +17,7 @@
 //! The summary is made from the rows of a run, kept ones included. So a run without a shard after all
 //! shards does what is missing and summarizes everything.
 //!
-//! The work itself is a [`Worker`]: a child process ([`Local`]), or a service.
+//! The work itself is a [`Worker`]: a child process ([`Local`]), or a service ([`Remote`]).
 
 mod asset;
 mod digest;
@@ -29,6 +29,7 @@ mod manifest;
 mod place;
 mod publish;
 mod record;
+mod remote;
 mod row;
 mod run;
 mod scratch;
@@ -45,6 +46,7 @@ pub use manifest::assets_of;
 pub use place::Place;
 pub use publish::write_whole;
 pub use record::Record;
+pub use remote::{Remote, RemoteError};
 pub use row::{Figures, Row, Status};
 pub use run::{Fate, Order, Seen, recorded, run};
 pub use scratch::Scratch;

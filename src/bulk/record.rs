@@ -15,6 +15,9 @@ use super::row::{Row, Status};
 pub struct Record {
     /// Digest of input, options and version.
     pub(super) digest: String,
+    /// How often the work on that has failed before.
+    #[serde(default)]
+    pub(super) attempt: u32,
     /// Path within the output folder, and size, of each file that was written.
     pub(super) files: Vec<(PathBuf, u64)>,
     /// What became of it.
@@ -23,11 +26,15 @@ pub struct Record {
 }
 
 /// Codes of failures that another run may not meet: they are not those of the input and its options.
-const PASSING: [&str; 11] = [
+const PASSING: [&str; 15] = [
     "cancelled",
+    "conflict",
     "crashed",
     "input_unreadable",
     "internal_error",
+    "job_expired",
+    "job_not_found",
+    "no_such_file",
     "out_of_memory",
     "output_conflict",
     "output_unwritable",
@@ -35,6 +42,14 @@ const PASSING: [&str; 11] = [
     "storage_full",
     "timed_out",
     "worker_lost",
+];
+
+/// Codes of failures before or after the work itself, which may have been done or still go on.
+const AROUND: [&str; 4] = [
+    "output_conflict",
+    "output_unwritable",
+    "server_unavailable",
+    "storage_full",
 ];
 
 impl Record {
@@ -62,6 +77,14 @@ impl Record {
         match &self.row.status {
             Status::Failed { code, .. } => PASSING.contains(&code.as_str()),
             Status::Written(_) | Status::Missing => false,
+        }
+    }
+
+    /// The number of the next attempt. What failed before or after the work itself is not one more.
+    pub(super) fn next_attempt(&self) -> u32 {
+        match &self.row.status {
+            Status::Failed { code, .. } if !AROUND.contains(&code.as_str()) => self.attempt + 1,
+            _ => self.attempt,
         }
     }
 

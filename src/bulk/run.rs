@@ -50,13 +50,14 @@ pub enum Fate {
 pub type Seen<'a> = &'a mut (dyn FnMut(&Row, Fate) + Send);
 
 impl Order {
-    /// All assets at the same time, with nothing beside outputs.
+    /// One asset at a time, by a worker of this version.
     ///
     /// # Errors
     /// If the options cannot be written as JSON.
     pub fn new(
         assets: Vec<Asset>,
         place: Place,
+        version: &str,
         options: &Options,
         extras: Vec<Extra>,
     ) -> io::Result<Self> {
@@ -64,7 +65,7 @@ impl Order {
             assets,
             place,
             scratch: Scratch::new()?,
-            recipe: Recipe::new(options, &extras)?,
+            recipe: Recipe::new(version, options, &extras)?,
             extras,
             retries: false,
             concurrency: 1,
@@ -131,9 +132,9 @@ async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate
     let old = Record::load(&order.place, asset);
     let old_files = old.as_ref().map_or(Vec::new(), |old| old.files.clone());
     let same = old.filter(|old| old.digest == digest && old.is_whole(&order.place));
-    let is_repeated = same.as_ref().is_some_and(Record::has_failed);
+    let attempt = same.as_ref().map_or(0, Record::next_attempt);
     if let Some(old) = same
-        && !(old.may_pass() || (order.retries && is_repeated))
+        && !(old.may_pass() || (order.retries && old.has_failed()))
     {
         // It may have been recorded under another name.
         return (
@@ -146,7 +147,7 @@ async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate
             let task = Task {
                 upload: &upload,
                 digest: &digest,
-                is_repeated,
+                attempt,
                 folder: &folder,
             };
             let made = worker.work(task).await;
@@ -165,6 +166,7 @@ async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate
     };
     let mut record = Record {
         digest,
+        attempt,
         files,
         row: order.row(index, begin.elapsed().as_secs_f64(), status),
     };

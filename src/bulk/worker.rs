@@ -42,14 +42,17 @@ pub struct Task<'a> {
     pub upload: &'a Upload,
     /// Digest of the files, the options and the version.
     pub digest: &'a str,
-    /// Whether it shall be done again although it has failed before.
-    pub is_repeated: bool,
+    /// How often it was worked on before without success, the digest being the same.
+    pub attempt: u32,
     /// An empty folder for what is made of it.
     pub folder: &'a Path,
 }
 
 /// Unwraps assets.
 pub trait Worker: Send + Sync + 'static {
+    /// Version of what unwraps: outputs of another one are made again.
+    fn version(&self) -> &str;
+
     /// Unwraps an asset. The n-th file that it makes is left in the task's folder as
     /// [`output_file`](crate::jobs::output_file)`(n)`. Dropped before its end, it stops.
     fn work(&self, task: Task<'_>)

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use tokio::runtime::Runtime;
 use tokio::signal::unix::{SignalKind, signal};
 
 use super::bulk_args::{BulkArgs, Work};
@@ -66,7 +67,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         options: serde_json::to_value(&options)
             .map_err(|error| Failure::other(error.to_string()))?,
     };
-    run_with(&args.bulk, args.concurrency(), worker)
+    run_with(&args.bulk, args.concurrency(), worker, &runtime()?)
+}
+
+/// What tasks run on.
+pub(super) fn runtime() -> Result<Runtime, Failure> {
+    Runtime::new().map_err(|error| Failure::other(error.to_string()))
 }
 
 /// Does what the arguments ask for, by whatever worker.
@@ -74,6 +80,7 @@ pub(super) fn run_with<W: Worker>(
     args: &BulkArgs,
     concurrency: usize,
     worker: W,
+    runtime: &Runtime,
 ) -> Result<(), Failure> {
     if args.quiet || args.json {
         console::direct(Lines::None);
@@ -87,13 +94,18 @@ pub(super) fn run_with<W: Worker>(
     let rows = if args.summary_only {
         bulk::recorded(&assets, &place)
     } else {
-        let order = Order::new(assets, place.clone(), &options, args.extras());
+        let order = Order::new(
+            assets,
+            place.clone(),
+            worker.version(),
+            &options,
+            args.extras(),
+        );
         let mut order = order.map_err(unwritable)?;
         order.retries = args.retry_failed;
         order.concurrency = concurrency;
-        until_signal(bulk::run(order, worker, &mut |row, fate| {
-            display.see(row, fate);
-        }))?
+        let mut see = |row: &Row, fate| display.see(row, fate);
+        runtime.block_on(until_signal(bulk::run(order, worker, &mut see)))?
     };
     let totals = Totals::of(&rows, &args.accept);
     display.finish(&totals);
@@ -125,18 +137,14 @@ fn conclude(
 }
 
 /// Ends the work on SIGTERM or SIGINT: what is finished stays, and children end.
-fn until_signal(work: impl Future<Output = Vec<Row>>) -> Result<Vec<Row>, Failure> {
+async fn until_signal(work: impl Future<Output = Vec<Row>>) -> Result<Vec<Row>, Failure> {
     let failed = |error: std::io::Error| Failure::other(error.to_string());
-    let runtime = tokio::runtime::Runtime::new().map_err(failed)?;
-    runtime.block_on(async {
-        let mut terminate = signal(SignalKind::terminate()).map_err(failed)?;
-        let mut interrupt = signal(SignalKind::interrupt()).map_err(failed)?;
-        let stopped =
-            || Failure::other("stopped by a signal; the same command goes on where it was");
-        tokio::select! {
-            rows = work => Ok(rows),
-            _ = terminate.recv() => Err(stopped()),
-            _ = interrupt.recv() => Err(stopped()),
-        }
-    })
+    let mut terminate = signal(SignalKind::terminate()).map_err(failed)?;
+    let mut interrupt = signal(SignalKind::interrupt()).map_err(failed)?;
+    let stopped = || Failure::other("stopped by a signal; the same command goes on where it was");
+    tokio::select! {
+        rows = work => Ok(rows),
+        _ = terminate.recv() => Err(stopped()),
+        _ = interrupt.recv() => Err(stopped()),
+    }
 }

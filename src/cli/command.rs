@@ -4,8 +4,8 @@ use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    batch, completions, deform, edit_uv, health, man, measure, repack, serve, solve, unwrap_args,
-    verify, warp,
+    batch, completions, deform, edit_uv, health, man, measure, repack, serve, solve, submit,
+    unwrap_args, verify, warp,
 };
 use crate::options::as_typed;
 
@@ -42,6 +42,14 @@ pub(super) enum Command {
     /// usage error, 3 nothing to read, 1 any other error, such as a stop by a signal. A mesh that
     /// cannot be unwrapped never stops the others; its line in the summary has a code.
     Batch(Box<batch::Args>),
+    /// Unwrap many meshes by a service: like `batch`, over HTTP
+    ///
+    /// Each mesh becomes a job of the service, which computes it; its output is fetched. A run that
+    /// was killed finds its jobs again. If the service is busy, full or restarting, the command
+    /// waits as long as it is asked to, and gives up after ten minutes without an answer.
+    ///
+    /// Outputs, shards, summary and exit statuses are those of `batch`.
+    Submit(Box<submit::Args>),
     /// Measure the UVs of a file: distortion, seams, packing, overlaps
     Measure(measure::Args),
     /// Prove that the UVs of a file have no flipped or degenerate face: exit 0 if so, 4 if not

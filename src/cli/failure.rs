@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use crate::bulk::ListError;
+use crate::bulk::{ListError, RemoteError};
 use crate::deform::ProblemError;
 use crate::deform::uv::EditError;
 use crate::deform::warp::WarpError;
@@ -76,6 +76,15 @@ impl Failure {
         Self {
             message: format!("{} ({code})", typed(&error.to_string())),
             ..error.into()
+        }
+    }
+}
+
+impl From<RemoteError> for Failure {
+    fn from(error: RemoteError) -> Self {
+        match error {
+            RemoteError::Address { .. } => Self::usage(error.to_string()),
+            RemoteError::NoService { .. } => Self::other(error.to_string()),
         }
     }
 }

@@ -28,6 +28,7 @@ mod records;
 mod repack;
 mod serve;
 mod solve;
+mod submit;
 mod table;
 mod unwrap;
 mod unwrap_args;
@@ -68,6 +69,7 @@ fn run_typed(command: Command) -> Result<(), Failure> {
         Command::Solve(args) => solve::run(&args),
         Command::Warp(args) => warp::run(&args),
         Command::Batch(args) => batch::run(&args),
+        Command::Submit(args) => submit::run(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Openapi => {
             console::print(crate::http::openapi());

@@ -77,7 +77,15 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     (
         "bulk",
         &["jobs"],
-        &["tokio", "serde_json", "sha2", "csv", "uuid"],
+        &[
+            "tokio",
+            "serde_json",
+            "sha2",
+            "csv",
+            "uuid",
+            "reqwest",
+            "rustls",
+        ],
     ),
     (
         "http",

@@ -57,12 +57,12 @@ fn a_bad_mesh_is_a_row_with_its_code_and_stops_nothing() {
 #[test]
 fn a_lack_of_memory_or_time_is_a_row_and_is_tried_again() {
     let folders = Folders::of(1);
-    fs::write(folders.path("in/large.glb"), meshes::hills(150)).expect("a file");
+    fs::write(folders.path("in/large.glb"), meshes::large()).expect("a file");
     for (limit, code) in [
         (["--asset-memory-mib", "64"], "out_of_memory"),
         (["--asset-seconds", "0.01"], "timed_out"),
     ] {
-        let run = folders.batch(&limit);
+        let run = folders.batch(&[&limit[..], &["--cut", "disk"]].concat());
         assert_status(&run, 4);
         assert_eq!(folders.summary("summary.csv")["large.glb"]["code"], code);
     }

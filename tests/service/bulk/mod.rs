@@ -7,6 +7,8 @@ mod lists;
 mod resumed;
 mod schedulers;
 mod shards;
+mod submitted;
+mod unwilling;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -66,6 +68,24 @@ impl Folders {
         fs::create_dir_all(self.path("tmp")).expect("a folder");
         command.env("TMPDIR", self.path("tmp"));
         command
+    }
+
+    /// `unwrapd submit in -o out --server …` with more arguments, not yet started.
+    pub fn submission(&self, server: &str, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_unwrapd"));
+        command.args(["submit", &self.text("in"), "-o", &self.text("out")]);
+        command
+            .args(["--server", server])
+            .args(QUICK)
+            .args(arguments);
+        fs::create_dir_all(self.path("tmp")).expect("a folder");
+        command.env("TMPDIR", self.path("tmp"));
+        command
+    }
+
+    pub fn submit(&self, server: &str, arguments: &[&str]) -> Output {
+        let output = self.submission(server, arguments).output();
+        output.expect("the binary runs")
     }
 
     pub fn batch(&self, arguments: &[&str]) -> Output {

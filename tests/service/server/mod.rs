@@ -58,6 +58,8 @@ impl Server {
 
     /// Starts one on this folder.
     pub fn on(data: TempDir, settings: &[(&'static str, &'static str)]) -> Self {
+        // Another test of this process may have chosen already.
+        let _ = rustls::crypto::ring::default_provider().install_default();
         let (process, stdout, address) = spawn(data.path(), settings);
         Self {
             process,
