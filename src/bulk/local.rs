@@ -13,7 +13,7 @@ pub struct Local {
 }
 
 impl Worker for Local {
-    fn version(&self) -> &str {
+    fn version(&self) -> &'static str {
         env!("CARGO_PKG_VERSION")
     }
 

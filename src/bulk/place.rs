@@ -9,7 +9,7 @@ use super::asset::Asset;
 use super::publish::write_whole;
 
 /// What is older was left by a process that was killed.
-const PART_AGE: Duration = Duration::from_secs(24 * 3600);
+const PART_AGE: Duration = Duration::from_hours(24);
 
 /// An output folder, with what runs know of it in `.unwrapd`.
 #[derive(Clone, Debug)]

@@ -1,5 +1,6 @@
 //! One computation in a child process of its own, without a queue: for commands that have many to do.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -51,18 +52,18 @@ impl Contained {
             memory: self.memory,
             pictures: self.pictures,
         };
-        prepare(&task, upload, folder).await.map_err(unwritten)?;
-        let mut child = Child::start(&self.program, folder).map_err(unwritten)?;
+        prepare(&task, upload, folder).await?;
+        let mut child = Child::start(&self.program, folder)?;
         let heard = async { while child.next_message().await.is_some() {} };
         if tokio::time::timeout(self.time, heard).await.is_err() {
-            child.terminate().await.map_err(unwritten)?;
+            child.terminate().await?;
             let detail = format!("not finished within {} s", self.time.as_secs_f64());
             return Err(Failure::new("timed_out", detail));
         }
-        let exit = child.wait().await.map_err(unwritten)?;
+        let exit = child.wait().await?;
         match exit {
             Exit::Code(0) => {
-                let outcome: Outcome = task::read_json(folder, OUTCOME).map_err(unwritten)?;
+                let outcome: Outcome = task::read_json(folder, OUTCOME)?;
                 Ok(outcome.output)
             }
             Exit::OutOfMemory => Err(out_of_memory(self.memory)),
@@ -89,10 +90,13 @@ async fn prepare(task: &Task, upload: &Upload, folder: &Path) -> std::io::Result
     task::write_json(folder, TASK, task)
 }
 
-fn unwritten(error: std::io::Error) -> Failure {
-    let code = match error.kind() {
-        std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => "storage_full",
-        _ => "internal_error",
-    };
-    Failure::new(code, error.to_string())
+/// The folder of a computation, or its process, could not be used.
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        let code = match error.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "storage_full",
+            _ => "internal_error",
+        };
+        Self::new(code, error.to_string())
+    }
 }
