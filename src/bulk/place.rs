@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use super::asset::Asset;
-use super::publish::write_whole;
+use super::whole::write_whole;
 
 /// What is older was left by a process that was killed.
 const PART_AGE: Duration = Duration::from_hours(24);
@@ -49,9 +49,9 @@ impl Place {
         self.root.join(within)
     }
 
-    /// Where the record of an asset lies.
-    pub(super) fn record(&self, asset: &Asset) -> PathBuf {
-        let mut path = self.root.join(".unwrapd/records").join(&asset.output);
+    /// Where the record of an asset lies within the folder.
+    pub(super) fn record(asset: &Asset) -> PathBuf {
+        let mut path = Path::new(".unwrapd/records").join(&asset.output);
         path.as_mut_os_string().push(".json");
         path
     }
@@ -60,9 +60,18 @@ impl Place {
     ///
     /// # Errors
     /// If it cannot be written; then an old one is as it was.
-    pub fn write(&self, path: &Path, content: &[u8]) -> io::Result<()> {
+    pub fn write(&self, within: &Path, content: &[u8]) -> io::Result<()> {
+        let path = self.path(within);
         fs::create_dir_all(path.parent().unwrap_or(&self.root))?;
-        write_whole(path, &self.part(), content)
+        write_whole(&path, &self.part(), content)
+    }
+
+    /// Removes a file if it is there.
+    pub(super) fn remove(&self, within: &Path) -> io::Result<()> {
+        match fs::remove_file(self.path(within)) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            removed => removed,
+        }
     }
 
     fn parts(&self) -> PathBuf {

@@ -55,13 +55,13 @@ const AROUND: [&str; 4] = [
 impl Record {
     /// The record of an asset, if there is one that can be read.
     pub(super) fn load(place: &Place, asset: &Asset) -> Option<Self> {
-        let bytes = fs::read(place.record(asset)).ok()?;
+        let bytes = fs::read(place.path(&Place::record(asset))).ok()?;
         serde_json::from_slice(&bytes).ok()
     }
 
     /// Writes it.
     pub(super) fn store(&self, place: &Place, asset: &Asset) -> io::Result<()> {
-        place.write(&place.record(asset), &serde_json::to_vec_pretty(self)?)
+        place.write(&Place::record(asset), &serde_json::to_vec_pretty(self)?)
     }
 
     /// Whether all the files are there, as far as their sizes tell.

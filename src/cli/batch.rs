@@ -117,11 +117,12 @@ fn conclude(
     args: &BulkArgs,
     place: &Place,
     (rows, totals): (&[Row], &Totals),
-    summary: &Path,
+    summary: &str,
 ) -> Result<(), Failure> {
     let table = bulk::csv(rows, &args.accept);
-    let written = table.and_then(|table| place.write(summary, &table));
-    let name = summary.display();
+    let written = table.and_then(|table| place.write(Path::new(summary), &table));
+    let path = place.path(Path::new(summary));
+    let name = path.display();
     written.map_err(|error| Failure::other(format!("cannot write {name}: {error}")))?;
     say(format_args!("summary: {name}"));
     if args.json {

@@ -87,8 +87,8 @@ pub(super) struct BulkArgs {
 /// The assets of a run, and its place among others.
 pub(super) struct Work {
     pub(super) assets: Vec<Asset>,
-    /// Where the summary goes.
-    pub(super) summary: PathBuf,
+    /// Name of the summary.
+    pub(super) summary: String,
 }
 
 impl BulkArgs {
@@ -125,17 +125,16 @@ impl BulkArgs {
                     "{name} is set, but without --shard auto every task does all assets"
                 ));
             }
-            let summary = self.output.join("summary.csv");
+            let summary = "summary.csv".to_owned();
             return Ok(Work { assets, summary });
         };
         let shard = choice.resolved(variable);
         let shard = shard.map_err(|error| Failure::usage(format!("--shard: {error}")))?;
         let own = assets.into_iter().enumerate();
         let own = own.filter_map(|(place, asset)| shard.contains(place).then_some(asset));
-        let name = format!("summary-{}-of-{}.csv", shard.number(), shard.count());
         Ok(Work {
             assets: own.collect(),
-            summary: self.output.join(name),
+            summary: format!("summary-{}-of-{}.csv", shard.number(), shard.count()),
         })
     }
 

@@ -65,6 +65,18 @@ fn what_changed_or_went_away_is_done_again_and_nothing_else() {
 }
 
 #[test]
+fn an_output_does_not_outlive_its_input() {
+    let folders = Folders::of(2);
+    assert_status(&folders.batch(&[]), 0);
+    folders.write("in/001.obj", "v 0 0 0\n");
+    assert_status(&folders.batch(&[]), 4);
+    assert_eq!(folders.outputs(), ["000.glb"]);
+    folders.write("in/001.obj", &mesh(1));
+    assert_status(&folders.batch(&[]), 0);
+    assert_eq!(folders.outputs(), ["000.glb", "001.glb"]);
+}
+
+#[test]
 fn files_that_belong_to_an_output_count_as_its_input() {
     let folders = Folders::with(&[]);
     let text = |color: &str| format!("newmtl m\nKd {color}\n");
