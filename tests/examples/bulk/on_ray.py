@@ -9,6 +9,8 @@ missing, writes DIR/summary.csv and decides the exit status.
 """
 
 import argparse
+import ctypes
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -16,9 +18,13 @@ from pathlib import Path
 import ray
 
 
+def end_with_worker() -> None:
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
 @ray.remote(num_cpus=1, max_retries=3)
 def unwrap(command: list[str]) -> int:
-    return subprocess.run(command, capture_output=True).returncode
+    return subprocess.run(command, capture_output=True, preexec_fn=end_with_worker).returncode
 
 
 def main() -> int:

@@ -142,10 +142,13 @@ fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, u64>) {
         if path.is_dir() {
             collect(root, &path, found);
         } else {
-            let name = path.strip_prefix(root).expect("inside");
+            // What a run at work has moved away is not there.
+            let Ok(of) = fs::metadata(&path) else {
+                continue;
+            };
             // A file that is written anew has another inode while the old one is still there.
-            let inode = fs::metadata(&path).expect("a file").ino();
-            found.insert(name.to_string_lossy().into_owned(), inode);
+            let name = path.strip_prefix(root).expect("inside");
+            found.insert(name.to_string_lossy().into_owned(), of.ino());
         }
     }
 }
