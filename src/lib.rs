@@ -37,6 +37,7 @@
 //!                            report, pictures ◄─ measure, certificate ◄─ document::read again
 //!
 //!  http ─► jobs (queue, attempts, events) ─► compute child process ─► pipeline
+//!  cli ─► bulk (lists, records, summaries) ─► compute child process ─► pipeline
 //!  cli  ───────────────────────────────────────────────────────────► pipeline
 //! ```
 //!
@@ -81,6 +82,10 @@
 #![cfg_attr(
     feature = "service",
     doc = "| [`jobs`], [`store`], [`http`] | queue and compute child, SQLite and blob files, routes |"
+)]
+#![cfg_attr(
+    feature = "service",
+    doc = "| [`bulk`] | many files in one run: lists, shards, records, gates, summaries |"
 )]
 #![cfg_attr(feature = "service", doc = "| [`cli`] | commands |")]
 //!
@@ -212,6 +217,9 @@ pub mod pipeline;
 pub mod jobs;
 #[cfg(feature = "service")]
 pub mod store;
+
+#[cfg(feature = "service")]
+pub mod bulk;
 
 #[cfg(feature = "service")]
 pub mod http;

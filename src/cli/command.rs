@@ -4,8 +4,8 @@ use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    completions, deform, edit_uv, health, man, measure, repack, serve, solve, unwrap_args, verify,
-    warp,
+    batch, completions, deform, edit_uv, health, man, measure, repack, serve, solve, submit,
+    unwrap_args, verify, warp,
 };
 use crate::options::as_typed;
 
@@ -30,6 +30,26 @@ pub(super) enum Command {
     /// Other statuses: 2 usage error, 3 unusable input, 1 any other error. Distortion above the
     /// bound of `quality` is only a warning.
     Unwrap(Box<unwrap_args::Args>),
+    /// Unwrap many meshes: a folder, a list, or a shard of either
+    ///
+    /// Outputs mirror the input directory. Each is complete or absent. A run skips what an earlier
+    /// one did, as long as input, options and version are the same, so it can be repeated after
+    /// any failure. Finished runs write DIR/summary.csv, a line per asset.
+    ///
+    /// Run every shard, then once without `shard`: that does what is missing and summarizes all.
+    ///
+    /// Exit status 0 means that all assets are accepted, 4 that some are not. Other statuses: 2
+    /// usage error, 3 nothing to read, 1 any other error, such as a stop by a signal. A mesh that
+    /// cannot be unwrapped never stops the others; its line in the summary has a code.
+    Batch(Box<batch::Args>),
+    /// Unwrap many meshes by a service: like `batch`, over HTTP
+    ///
+    /// Each mesh becomes a job of the service, which computes it; its output is fetched. A run that
+    /// was killed finds its jobs again. If the service is busy, full or restarting, the command
+    /// waits as long as it is asked to, and gives up after ten minutes without an answer.
+    ///
+    /// Outputs, shards, summary and exit statuses are those of `batch`.
+    Submit(Box<submit::Args>),
     /// Measure the UVs of a file: distortion, seams, packing, overlaps
     Measure(measure::Args),
     /// Prove that the UVs of a file have no flipped or degenerate face: exit 0 if so, 4 if not

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use crate::bulk::{ListError, RemoteError};
 use crate::deform::ProblemError;
 use crate::deform::uv::EditError;
 use crate::deform::warp::WarpError;
@@ -75,6 +76,24 @@ impl Failure {
         Self {
             message: format!("{} ({code})", typed(&error.to_string())),
             ..error.into()
+        }
+    }
+}
+
+impl From<RemoteError> for Failure {
+    fn from(error: RemoteError) -> Self {
+        match error {
+            RemoteError::Address { .. } => Self::usage(error.to_string()),
+            RemoteError::NoService { .. } => Self::other(error.to_string()),
+        }
+    }
+}
+
+impl From<ListError> for Failure {
+    fn from(error: ListError) -> Self {
+        Self {
+            exit_code: error.exit_code(),
+            message: error.to_string(),
         }
     }
 }

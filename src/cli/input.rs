@@ -1,6 +1,6 @@
 //! Files in: each is opened and read once, so that it may be a pipe; `-` is standard input.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -37,27 +37,10 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
     read.map_err(|error| Failure::input(format!("{name}: {error}")))
 }
 
-/// Reads a file and the files that it references by relative URI. A missing one is left to the
-/// document, which knows whether it is needed.
+/// Reads a file and the files that it references by relative URI.
 pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
-    let mut upload = upload(path, read_file(path)?, []);
-    let folder = folder(path);
-    let mut tried = BTreeSet::new();
-    // What is found may refer to more.
-    while let new = (upload.references())
-        .difference(&tried)
-        .cloned()
-        .collect::<Vec<_>>()
-        && !new.is_empty()
-    {
-        for reference in new {
-            if let Ok(content) = fs::read(folder.join(&reference)) {
-                upload.resources.insert(reference.clone(), content);
-            }
-            tried.insert(reference);
-        }
-    }
-    Ok(upload)
+    let (upload, folder) = (upload(path, read_file(path)?, []), folder(path));
+    Ok(upload.with_references(|reference| fs::read(folder.join(reference)).ok()))
 }
 
 /// A file that was read, with those of the files that it references that are there.

@@ -7,6 +7,9 @@
 //! be written. Each input is opened once (`input`).
 #![doc = include_str!("guide.md")]
 
+mod batch;
+mod bulk_args;
+mod bulk_display;
 mod command;
 mod completions;
 mod console;
@@ -25,6 +28,7 @@ mod records;
 mod repack;
 mod serve;
 mod solve;
+mod submit;
 mod table;
 mod unwrap;
 mod unwrap_args;
@@ -64,6 +68,8 @@ fn run_typed(command: Command) -> Result<(), Failure> {
         Command::Deform(args) => deform::run(&args),
         Command::Solve(args) => solve::run(&args),
         Command::Warp(args) => warp::run(&args),
+        Command::Batch(args) => batch::run(&args),
+        Command::Submit(args) => submit::run(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Openapi => {
             console::print(crate::http::openapi());

@@ -109,7 +109,7 @@ fn days(text: &str) -> Result<f64, String> {
     }
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(seconds) if (0.001..=1e6).contains(&seconds) => Ok(seconds),
         _ => Err("expected a number of seconds between 0.001 and 1000000".to_owned()),
@@ -118,7 +118,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 
 const DAY_SECONDS: f64 = 86_400.0;
 /// Default memory of a job, in bytes.
-const JOB_MEMORY: u64 = 8 << 30;
+pub(super) const JOB_MEMORY: u64 = 8 << 30;
 
 impl Args {
     fn job_settings(&self) -> std::io::Result<jobs::Settings> {
@@ -149,7 +149,7 @@ impl Args {
 }
 
 /// Memory of the machine or of the container, in bytes; `u64::MAX` if neither can be read.
-fn machine_memory() -> u64 {
+pub(super) fn machine_memory() -> u64 {
     let read = |path| std::fs::read_to_string(path).unwrap_or_default();
     let total = read("/proc/meminfo")
         .lines()

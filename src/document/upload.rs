@@ -23,6 +23,27 @@ impl Upload {
         }
     }
 
+    /// With the files it refers to, and those that these refer to, as far as `read` finds them.
+    /// Whether a missing one is needed the document knows.
+    #[must_use]
+    pub fn with_references(mut self, read: impl Fn(&str) -> Option<Vec<u8>>) -> Self {
+        let mut tried = BTreeSet::new();
+        while let new = (self.references())
+            .difference(&tried)
+            .cloned()
+            .collect::<Vec<_>>()
+            && !new.is_empty()
+        {
+            for reference in new {
+                if let Some(content) = read(&reference) {
+                    self.resources.insert(reference.clone(), content);
+                }
+                tried.insert(reference);
+            }
+        }
+        self
+    }
+
     /// Paths that the main file, and the material files among the others, may refer to: those of buffers, images, material files
     /// and their pictures. None is absolute or climbs out of the folder.
     pub fn references(&self) -> BTreeSet<String> {

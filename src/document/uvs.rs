@@ -1,5 +1,6 @@
 use super::{Document, DocumentError, Primitive, Terms, Upload, WriteNotes};
 use crate::mesh::VAxis;
+use crate::mesh::io::Format;
 use serde::{Deserialize, Serialize};
 
 /// The UVs of each face's three corners.
@@ -75,6 +76,17 @@ pub enum OutputFormat {
     Gltf,
     /// Wavefront OBJ.
     Obj,
+}
+
+impl OutputFormat {
+    /// The extension of its main file.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Glb => Format::Glb.extension(),
+            Self::Gltf => Format::Gltf.extension(),
+            Self::Obj => Format::Obj.extension(),
+        }
+    }
 }
 
 /// How to write a document.

@@ -8,12 +8,13 @@ use tokio_util::sync::CancellationToken;
 
 use super::child::{Child, Exit};
 use super::control::Control;
+use super::deadline::{given_up_after, timed_out};
 use super::job::{Failure, Job};
 use super::keys::{input_key, output_key};
 use super::queue::Jobs;
 use super::state::State;
 use super::store_error::{StoreError, StoreResult};
-use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, TASK, Task};
+use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::timestamp::Timestamp;
 use crate::pipeline::Limits;
 
@@ -21,10 +22,6 @@ use crate::pipeline::Limits;
 const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 /// How often its progress is recorded.
 const RECORD_INTERVAL: Duration = Duration::from_secs(1);
-/// How much longer than its time limit a job may take to finish with the map it has before it is
-/// terminated without one: this share of the limit, or this time if that is longer.
-const GRACE_SHARE: f64 = 0.25;
-const LEAST_GRACE: Duration = Duration::from_secs(10);
 
 /// How an attempt ended.
 enum Ending {
@@ -80,6 +77,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
             seconds: Some(settings.time.as_secs_f64()),
         },
         memory: settings.memory,
+        pictures: Pictures::Drawn,
     };
     Ok(task::write_json(folder, TASK, &task)?)
 }
@@ -122,8 +120,7 @@ async fn watch(
     stop: &CancellationToken,
 ) -> Option<Ending> {
     let limits = &jobs.settings;
-    let grace = limits.time.mul_f64(GRACE_SHARE).max(LEAST_GRACE);
-    let deadline = Instant::now() + limits.time + grace;
+    let deadline = Instant::now() + given_up_after(limits.time);
     let mut interval = tokio::time::interval(WATCH_INTERVAL);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
     // The disk may be slow: a wish must not wait for a record.
@@ -146,9 +143,7 @@ async fn watch(
             () = control.cancel.cancelled() => return Some(Ending::Cancelled),
             () = stop.cancelled() => return Some(Ending::Waits),
             () = tokio::time::sleep_until(deadline) => {
-                let seconds = limits.time.as_secs_f64();
-                let detail = format!("no valid map within the time limit of {seconds} s");
-                return Some(Ending::Failed(Failure::new("timed_out", detail)));
+                return Some(Ending::Failed(timed_out(limits.time)));
             }
             () = control.finish.cancelled(), if is_ready && !is_told => {
                 child.interrupt();

@@ -18,7 +18,7 @@ use super::frames::Frames;
 use super::job::{Failure, OutputFile};
 use super::reporter::Reporter;
 use super::store_error::StoreError;
-use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, TASK, Task};
+use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::work::Work;
 use crate::document::Upload;
 use crate::pipeline::PipelineError;
@@ -49,9 +49,12 @@ fn attempt(folder: &Path) -> Attempt<()> {
     let reporter = Reporter::start(finish, Frames::new(folder)).map_err(internal)?;
     let upload = read_upload(folder, &task.input).map_err(internal)?;
     let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
-    let made = work
+    let mut made = work
         .run(&upload, task.limits, &reporter)
         .map_err(|e| refusal(&e))?;
+    if task.pictures == Pictures::Drawn {
+        made.draw().map_err(|e| refusal(&e))?;
+    }
     let mut output = Vec::new();
     for (index, (role, name, bytes)) in made.files.into_iter().enumerate() {
         std::fs::write(folder.join(task::output_file(index)), &bytes).map_err(unwritten)?;

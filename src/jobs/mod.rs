@@ -23,7 +23,9 @@ mod attempt;
 mod capacity;
 mod child;
 pub mod compute;
+mod contained;
 mod control;
+mod deadline;
 mod events;
 mod frames;
 mod job;
@@ -46,6 +48,7 @@ mod timestamp;
 mod work;
 
 pub use capacity::Usage;
+pub use contained::Contained;
 pub use events::LocalEvents;
 pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, Verdict};
 pub use pace::Pace;
@@ -58,5 +61,6 @@ pub use storage::{Blobs, Capacity, Enqueued, Events, IdempotencyKey, JobStore, L
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;
+pub use task::{Pictures, output_file};
 pub use timestamp::Timestamp;
 pub use work::Work;

@@ -24,8 +24,8 @@ pub(super) fn input_file(index: usize) -> String {
     format!("input-{index}")
 }
 
-/// Name of the n-th output file in the attempt's folder.
-pub(super) fn output_file(index: usize) -> String {
+/// Name of the n-th output file in the folder of an attempt.
+pub fn output_file(index: usize) -> String {
     format!("output-{index}")
 }
 
@@ -39,6 +39,16 @@ pub(super) struct Task {
     pub limits: Limits,
     /// Bytes.
     pub memory: u64,
+    pub pictures: Pictures,
+}
+
+/// Whether an atlas is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Pictures {
+    /// Its layout and its distortion.
+    Drawn,
+    /// Not at all: for a small mesh that takes longer than unwrapping it.
+    LeftOut,
 }
 
 /// One line of a child's standard output.

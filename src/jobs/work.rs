@@ -15,6 +15,8 @@ use crate::pipeline::{
 pub(super) struct Made {
     /// Role, name and content of each file.
     pub files: Vec<(String, String, Vec<u8>)>,
+    /// What an atlas can be drawn from.
+    pictures: Option<pipeline::Pictures>,
     /// What is known of them.
     pub verdict: Verdict,
 }
@@ -74,21 +76,19 @@ impl Work {
 }
 
 fn unwrap(upload: &Upload, options: &Options, observer: &dyn Observer) -> Ended {
-    drawn(pipeline::unwrap_document(upload, options, observer)?)
+    pipeline::unwrap_document(upload, options, observer).map(atlas)
 }
 
 fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> Ended {
-    drawn(pipeline::repack_document(upload, options, observer)?)
+    pipeline::repack_document(upload, options, observer).map(atlas)
 }
 
-/// An atlas with its pictures and its report.
-fn drawn(outcome: pipeline::Outcome) -> Ended {
-    let drawn = outcome.pictures.draw()?;
+/// An atlas with its report.
+fn atlas(outcome: pipeline::Outcome) -> Made {
     let report = &outcome.report;
     let mut made = Made::new(outcome.files);
-    made.add("layout.png", "layout.png", drawn.layout_png);
-    made.add("heatmap.png", "heatmap.png", drawn.heatmap_png);
-    Ok(made.reported(report, Some(report.certified), &report.warnings))
+    made.pictures = Some(outcome.pictures);
+    made.reported(report, Some(report.certified), &report.warnings)
 }
 
 fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended {
@@ -148,8 +148,19 @@ impl Made {
         };
         Self {
             files: files.into_iter().enumerate().map(with_role).collect(),
+            pictures: None,
             verdict: Verdict::default(),
         }
+    }
+
+    /// Adds the pictures of an atlas. For a small mesh this takes longer than unwrapping it.
+    pub fn draw(&mut self) -> Result<(), PipelineError> {
+        if let Some(pictures) = self.pictures.take() {
+            let drawn = pictures.draw()?;
+            self.add("layout.png", "layout.png", drawn.layout_png);
+            self.add("heatmap.png", "heatmap.png", drawn.heatmap_png);
+        }
+        Ok(())
     }
 
     fn add(&mut self, role: &str, name: &str, bytes: Vec<u8>) {

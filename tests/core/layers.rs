@@ -75,6 +75,19 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         &["sqlx", "tokio", "serde_json", "futures_util"],
     ),
     (
+        "bulk",
+        &["jobs"],
+        &[
+            "tokio",
+            "serde_json",
+            "sha2",
+            "csv",
+            "uuid",
+            "reqwest",
+            "rustls",
+        ],
+    ),
+    (
         "http",
         &["jobs"],
         &[
@@ -92,7 +105,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "cli",
-        &["http", "store"],
+        &["http", "store", "bulk"],
         &[
             "clap",
             "clap_complete",

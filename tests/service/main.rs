@@ -2,7 +2,9 @@
 
 mod benches;
 mod browser;
+mod bulk;
 mod certified;
+mod children;
 mod cli;
 mod cli_options;
 mod cli_outputs;

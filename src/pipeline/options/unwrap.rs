@@ -26,7 +26,7 @@ pub enum GivenSeams {
 
 /// Seams that the document itself defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum NamedSeams {
     /// Hard edges: those where the normals of two faces differ.

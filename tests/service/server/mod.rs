@@ -27,6 +27,8 @@ use tempfile::TempDir;
 
 pub use applications::{ended, form};
 
+use crate::children;
+
 /// For what must happen soon, on however busy a machine.
 pub const SOON: Duration = Duration::from_mins(1);
 
@@ -56,6 +58,8 @@ impl Server {
 
     /// Starts one on this folder.
     pub fn on(data: TempDir, settings: &[(&'static str, &'static str)]) -> Self {
+        // Another test of this process may have chosen already.
+        let _ = rustls::crypto::ring::default_provider().install_default();
         let (process, stdout, address) = spawn(data.path(), settings);
         Self {
             process,
@@ -95,15 +99,7 @@ impl Server {
 
     /// Process ids of the compute children of this server.
     pub fn children(&self) -> Vec<i32> {
-        let folder = self.data.path().to_string_lossy().into_owned();
-        let is_child = |pid: &i32| {
-            let command = std::fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
-            let command = String::from_utf8_lossy(&command).replace('\0', " ");
-            command.contains(" compute ") && command.contains(&folder)
-        };
-        let entries = std::fs::read_dir("/proc").expect("/proc");
-        let names = entries.filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok());
-        names.filter(is_child).collect()
+        children::within(self.data.path())
     }
 
     pub fn data(&self) -> &Path {

@@ -1,0 +1,25 @@
+//! Work done by child processes on this machine.
+
+use super::worker::{Task, Worker};
+use crate::jobs::{Contained, Failure, Kind, OutputFile};
+
+/// Unwraps each asset in a child process.
+#[derive(Clone, Debug)]
+pub struct Local {
+    /// What contains it.
+    pub contained: Contained,
+    /// How it is unwrapped.
+    pub options: serde_json::Value,
+}
+
+impl Worker for Local {
+    fn version(&self) -> &'static str {
+        env!("CARGO_PKG_VERSION")
+    }
+
+    async fn work(&self, task: Task<'_>) -> Result<Vec<OutputFile>, Failure> {
+        let (kind, options) = (Kind::Unwrap, &self.options);
+        let contained = &self.contained;
+        contained.run(kind, options, task.upload, task.folder).await
+    }
+}

@@ -1,0 +1,56 @@
+//! Many files through one command, without a queue of our own.
+//!
+//! A run is a stateless task over a list of assets, or over one shard of it, so that whatever starts
+//! processes can drive it: a shell, HyperQueue, Ray, Slurm, a Kubernetes Indexed Job. What it needs to
+//! know lies beside the outputs:
+//!
+//! - **Complete or absent.** A file is written under another name, synced, and renamed into place,
+//!   the main output last.
+//! - **Nothing twice.** After its files an asset gets a [`Record`] in `DIR/.unwrapd`, which names the
+//!   digest of input, options and version. A run keeps what has a record of its digest and all its
+//!   files. A kill between the files and the record costs that asset's time again, and changes nothing.
+//! - **No coordination.** Each asset has a record of its own, so that shards share nothing. Two
+//!   processes that do the same asset write the same bytes.
+//! - **One bad mesh is one row.** Assets are computed in child processes with limits, like the jobs of
+//!   the service; whatever happens to one ends as a row of the summary with its code.
+//!
+//! The summary is made from the rows of a run, kept ones included. So a run without a shard after all
+//! shards does what is missing and summarizes everything.
+//!
+//! The work itself is a [`Worker`]: a child process ([`Local`]), or a service ([`Remote`]).
+
+mod asset;
+mod digest;
+mod folder;
+mod gates;
+mod list_error;
+mod local;
+mod manifest;
+mod one;
+mod place;
+mod publish;
+mod record;
+mod remote;
+mod row;
+mod run;
+mod scratch;
+mod shard;
+mod summary;
+mod whole;
+mod worker;
+
+pub use asset::Asset;
+pub use folder::{Listing, assets_in};
+pub use gates::{Gate, GateError, Gates};
+pub use list_error::ListError;
+pub use local::Local;
+pub use manifest::assets_of;
+pub use place::Place;
+pub use record::Record;
+pub use remote::{Remote, RemoteError};
+pub use row::{Figures, Row, Status};
+pub use run::{Fate, Order, Seen, recorded, run};
+pub use scratch::Scratch;
+pub use shard::{Shard, ShardChoice, ShardError, array_variable};
+pub use summary::{Totals, csv};
+pub use worker::{Extra, Task, Worker};

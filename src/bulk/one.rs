@@ -1,0 +1,109 @@
+//! One asset of a run: read, looked up, done, published, recorded.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::time::Instant;
+
+use tokio::task::block_in_place;
+
+use super::asset::Asset;
+use super::publish::{Published, published, unwritten};
+use super::record::Record;
+use super::row::{Row, Status};
+use super::run::{Fate, Order};
+use super::worker::{Task, Worker};
+use crate::document::Upload;
+use crate::jobs::Failure;
+
+/// Does an asset unless that was done before.
+pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate) {
+    let (begin, asset) = (Instant::now(), &order.assets[index]);
+    let row = |seconds, status| Row::new(asset, seconds, status);
+    let upload = match block_in_place(|| read(asset)) {
+        Ok(upload) => upload,
+        Err(error) => {
+            let failure = Failure::new("input_unreadable", error.to_string());
+            return (row(0.0, failure.into()), Fate::Done);
+        }
+    };
+    let digest = block_in_place(|| order.recipe.with(&upload));
+    let old = Record::load(&order.place, asset);
+    let same = old.as_ref().filter(|old| old.digest == digest);
+    if let Some(same) = same.filter(|same| same.is_whole(&order.place))
+        && !(same.may_pass() || (order.retries && same.has_failed()))
+    {
+        // The record may have another name of the input.
+        let Row {
+            seconds, status, ..
+        } = same.row.clone();
+        return (row(seconds, status), Fate::Kept);
+    }
+    let attempt = same.map_or(0, Record::next_attempt);
+    let work = (&upload, digest.as_str(), attempt);
+    let made = done(order, worker, index, work, old.as_ref()).await;
+    let (status, files) = match made {
+        Ok((figures, files)) => (Status::Written(figures), files),
+        Err(failure) => (failure.into(), Vec::new()),
+    };
+    let mut record = Record {
+        digest,
+        attempt,
+        files,
+        row: row(begin.elapsed().as_secs_f64(), status),
+    };
+    if let Err(error) = block_in_place(|| settle(order, asset, &record, old.as_ref())) {
+        record.row.status = unwritten(&error).into();
+    }
+    (record.row, Fate::Done)
+}
+
+/// The outputs of an asset, in their places.
+async fn done<W: Worker>(
+    order: &Order,
+    worker: &W,
+    index: usize,
+    (upload, digest, attempt): (&Upload, &str, u32),
+    old: Option<&Record>,
+) -> Result<Published, Failure> {
+    let folder = order.scratch.folder(index);
+    let folder = folder.map_err(|error| unwritten(&error))?;
+    let task = Task {
+        upload,
+        digest,
+        attempt,
+        folder: &folder,
+    };
+    let made = worker.work(task).await.and_then(|made| {
+        let asset = &order.assets[index];
+        block_in_place(|| published(order, asset, (&folder, &made), old))
+    });
+    // What stays there takes space only until the end of the run.
+    let _ = fs::remove_dir_all(&folder);
+    made
+}
+
+/// Records what became of an asset. An output of another input, or made with other options, does not
+/// outlive the failure of this one.
+fn settle(order: &Order, asset: &Asset, record: &Record, old: Option<&Record>) -> io::Result<()> {
+    let is_outdated = old.is_some_and(|old| old.digest != record.digest && !old.has_failed());
+    if is_outdated && record.has_failed() {
+        order.place.remove(&asset.output)?;
+    }
+    record.store(&order.place, asset)
+}
+
+/// The files of an asset. The main one is named like the output, since files that belong to an
+/// output are named after its input.
+fn read(asset: &Asset) -> io::Result<Upload> {
+    let bytes = fs::read(&asset.input)?;
+    let stem = asset.output.file_stem().unwrap_or_default();
+    let mut name = Path::new(stem).to_path_buf();
+    if let Some(extension) = asset.input.extension() {
+        name.as_mut_os_string().push(".");
+        name.as_mut_os_string().push(extension);
+    }
+    let folder = asset.input.parent().unwrap_or(Path::new(""));
+    let upload = Upload::single(name.to_string_lossy(), bytes);
+    Ok(upload.with_references(|reference| fs::read(folder.join(reference)).ok()))
+}

@@ -1,0 +1,95 @@
+//! What a run leaves about an asset for later runs.
+
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::asset::Asset;
+use super::place::Place;
+use super::row::{Row, Status};
+
+/// What became of an asset, and of what that holds. It is written after the files that it lists.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Digest of input, options and version.
+    pub(super) digest: String,
+    /// How often the work on that has failed before.
+    #[serde(default)]
+    pub(super) attempt: u32,
+    /// Path within the output folder, and size, of each file that was written.
+    pub(super) files: Vec<(PathBuf, u64)>,
+    /// What became of it.
+    #[serde(flatten)]
+    pub(super) row: Row,
+}
+
+/// Codes of failures that another run may not meet: they are not those of the input and its options.
+const PASSING: [&str; 15] = [
+    "cancelled",
+    "conflict",
+    "crashed",
+    "input_unreadable",
+    "internal_error",
+    "job_expired",
+    "job_not_found",
+    "no_such_file",
+    "out_of_memory",
+    "output_conflict",
+    "output_unwritable",
+    "server_unavailable",
+    "storage_full",
+    "timed_out",
+    "worker_lost",
+];
+
+/// Codes of failures before or after the work itself, which may have been done or still go on.
+const AROUND: [&str; 4] = [
+    "output_conflict",
+    "output_unwritable",
+    "server_unavailable",
+    "storage_full",
+];
+
+impl Record {
+    /// The record of an asset, if there is one that can be read.
+    pub(super) fn load(place: &Place, asset: &Asset) -> Option<Self> {
+        let bytes = fs::read(place.path(&Place::record(asset))).ok()?;
+        serde_json::from_slice(&bytes).ok()
+    }
+
+    /// Writes it.
+    pub(super) fn store(&self, place: &Place, asset: &Asset) -> io::Result<()> {
+        place.write(&Place::record(asset), &serde_json::to_vec_pretty(self)?)
+    }
+
+    /// Whether all the files are there, as far as their sizes tell.
+    pub(super) fn is_whole(&self, place: &Place) -> bool {
+        let is_there = |(path, bytes): &(PathBuf, u64)| {
+            fs::metadata(place.path(path)).is_ok_and(|of| of.len() == *bytes)
+        };
+        self.files.iter().all(is_there)
+    }
+
+    /// Whether doing it again may end otherwise.
+    pub(super) fn may_pass(&self) -> bool {
+        match &self.row.status {
+            Status::Failed { code, .. } => PASSING.contains(&code.as_str()),
+            Status::Written(_) | Status::Missing => false,
+        }
+    }
+
+    /// The number of the next attempt. What failed before or after the work itself is not one more.
+    pub(super) fn next_attempt(&self) -> u32 {
+        match &self.row.status {
+            Status::Failed { code, .. } if !AROUND.contains(&code.as_str()) => self.attempt + 1,
+            _ => self.attempt,
+        }
+    }
+
+    /// Whether it ended without an output.
+    pub(super) fn has_failed(&self) -> bool {
+        !matches!(self.row.status, Status::Written(_))
+    }
+}

@@ -1,0 +1,69 @@
+//! What is read of a job.
+
+use serde::Deserialize;
+
+use crate::jobs::Failure;
+
+/// A job as the service tells it.
+#[derive(Deserialize)]
+pub(super) struct Job {
+    pub id: String,
+    pub state: State,
+    error: Option<Problem>,
+    links: Links,
+}
+
+/// Where a job stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum State {
+    Succeeded,
+    Failed,
+    Cancelled,
+    /// Queued, running, or whatever else is not an end.
+    #[serde(other)]
+    Live,
+}
+
+/// Why something failed (RFC 9457).
+#[derive(Deserialize)]
+pub(super) struct Problem {
+    pub code: String,
+    pub detail: String,
+}
+
+#[derive(Deserialize)]
+struct Links {
+    #[serde(rename = "self")]
+    itself: String,
+    files: Vec<File>,
+}
+
+/// A file that a job made.
+#[derive(Deserialize)]
+pub(super) struct File {
+    href: String,
+    pub name: String,
+}
+
+impl State {
+    pub fn is_final(self) -> bool {
+        self != Self::Live
+    }
+}
+
+impl Job {
+    /// Its files with their roles, which are the ends of their paths.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &File)> {
+        let own = format!("{}/", self.links.itself);
+        let files = self.links.files.iter();
+        files.filter_map(move |file| Some((file.href.strip_prefix(&own)?, file)))
+    }
+
+    /// Why it failed.
+    pub fn failure(self) -> Failure {
+        let unknown = || Failure::new("internal_error", "the service gives no reason");
+        self.error
+            .map_or_else(unknown, |error| Failure::new(&error.code, error.detail))
+    }
+}

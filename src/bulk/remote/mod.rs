@@ -1,0 +1,144 @@
+//! Work done by a service, over HTTP.
+//!
+//! A submission is named by the digest of what it asks for and the number of the attempt
+//! (`Idempotency-Key`), so that a run that was killed while its jobs were in work finds these jobs
+//! again instead of making new ones.
+
+mod client;
+mod job;
+
+use std::path::Path;
+
+use reqwest::multipart::{Form, Part};
+use reqwest::{Method, Url};
+
+use super::worker::{Extra, Task, Worker};
+use crate::document::Upload;
+use crate::jobs::{Failure, OutputFile, output_file};
+
+pub use client::RemoteError;
+use client::{Client, answered, unreadable};
+use job::{Job, State};
+
+/// Seconds for which an answer about a job may be held back.
+const WAIT_SECONDS: u8 = 30;
+
+/// Unwraps each asset as a job of a service.
+pub struct Remote {
+    client: Client,
+    /// How it is unwrapped, as JSON.
+    options: String,
+    /// What is fetched beside outputs and reports.
+    extras: Vec<Extra>,
+    /// Version of the service.
+    version: String,
+}
+
+impl Remote {
+    /// Looks whether a service answers at an address, which may have a path.
+    ///
+    /// # Errors
+    /// If the address is none, or nothing of this kind answers there.
+    pub async fn connect(
+        server: &str,
+        options: &serde_json::Value,
+        extras: Vec<Extra>,
+    ) -> Result<Self, RemoteError> {
+        let client = Client::new(server)?;
+        let version = client.version().await?;
+        Ok(Self {
+            client,
+            options: options.to_string(),
+            extras,
+            version,
+        })
+    }
+
+    /// The job of an asset: a new one, or the one that an earlier submission made.
+    async fn submitted(&self, task: &Task<'_>) -> Result<Job, Failure> {
+        let url = self.client.url(&["v1", "jobs"]);
+        let key = format!("{}-{}", task.digest, task.attempt);
+        let answer = self.client.answer(|http| {
+            http.post(url.clone())
+                .header("idempotency-key", &key)
+                .multipart(form(task.upload, &self.options))
+        });
+        let answer = answer.await?;
+        answer.json().await.map_err(|error| unreadable(&error))
+    }
+
+    /// The job after its end.
+    async fn ended(&self, mut job: Job) -> Result<Job, Failure> {
+        let mut url = self.client.url(&["v1", "jobs", &job.id]);
+        url.query_pairs_mut()
+            .append_pair("wait", &WAIT_SECONDS.to_string());
+        while !job.state.is_final() {
+            let answer = self.client.answer(|http| http.get(url.clone())).await?;
+            job = answer.json().await.map_err(|error| unreadable(&error))?;
+        }
+        Ok(job)
+    }
+
+    /// Fetches a file of a job.
+    async fn fetch(&self, job: &Job, role: &str, to: &Path) -> Result<u64, Failure> {
+        let segments: Vec<&str> = ["v1", "jobs", &job.id]
+            .into_iter()
+            .chain(role.split('/'))
+            .collect();
+        let url: Url = self.client.url(&segments);
+        let content = answered(&self.client, Method::GET, &url).await?;
+        let written = tokio::fs::write(to, &content).await;
+        written.map_err(|error| Failure::new("output_unwritable", error.to_string()))?;
+        Ok(content.len() as u64)
+    }
+
+    fn is_wanted(&self, role: &str) -> bool {
+        let is_extra = |extra: &Extra| extra.role() == role;
+        role == "result"
+            || role.starts_with("files/")
+            || role == Extra::Report.role()
+            || self.extras.iter().any(is_extra)
+    }
+}
+
+impl Worker for Remote {
+    fn version(&self) -> &str {
+        &self.version
+    }
+
+    async fn work(&self, task: Task<'_>) -> Result<Vec<OutputFile>, Failure> {
+        let job = self.ended(self.submitted(&task).await?).await?;
+        match job.state {
+            State::Succeeded => {}
+            State::Cancelled => {
+                let detail = format!("job {} was cancelled", job.id);
+                return Err(Failure::new("cancelled", detail));
+            }
+            _ => return Err(job.failure()),
+        }
+        let mut files = Vec::new();
+        for (role, file) in job.files() {
+            if self.is_wanted(role) {
+                let to = task.folder.join(output_file(files.len()));
+                files.push(OutputFile {
+                    role: role.to_owned(),
+                    name: file.name.clone(),
+                    bytes: self.fetch(&job, role, &to).await?,
+                });
+            }
+        }
+        Ok(files)
+    }
+}
+
+fn form(upload: &Upload, options: &str) -> Form {
+    let part = |bytes: &[u8], name: &str| Part::bytes(bytes.to_vec()).file_name(name.to_owned());
+    let mut form = Form::new()
+        .text("kind", "unwrap")
+        .text("options", options.to_owned())
+        .part("mesh", part(&upload.bytes, &upload.name));
+    for (name, bytes) in &upload.resources {
+        form = form.part("resource", part(bytes, name));
+    }
+    form
+}

@@ -1,0 +1,118 @@
+//! A run over assets: what is recorded is kept, the rest is done, several at once.
+
+use std::collections::HashMap;
+use std::io;
+use std::sync::Arc;
+
+use tokio::task::{JoinError, JoinSet};
+
+use super::asset::Asset;
+use super::digest::Recipe;
+use super::one;
+use super::place::Place;
+use super::record::Record;
+use super::row::{Row, Status};
+use super::scratch::Scratch;
+use super::worker::{Extra, Worker};
+use crate::jobs::Failure;
+use crate::pipeline::Options;
+
+/// What a run does.
+pub struct Order {
+    /// The assets, of this shard only.
+    pub assets: Vec<Asset>,
+    /// Where outputs go.
+    pub place: Place,
+    /// Where they are made.
+    pub scratch: Scratch,
+    /// What is written beside outputs.
+    pub extras: Vec<Extra>,
+    /// Whether assets that failed for good are done again.
+    pub retries: bool,
+    /// Assets in work at once.
+    pub concurrency: usize,
+    pub(super) recipe: Recipe,
+}
+
+/// How a run came to a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// An earlier run did the work.
+    Kept,
+    /// This one did it.
+    Done,
+}
+
+/// Told of every row as it comes.
+pub type Seen<'a> = &'a mut (dyn FnMut(&Row, Fate) + Send);
+
+impl Order {
+    /// One asset at a time, by a worker of this version.
+    ///
+    /// # Errors
+    /// If the options cannot be written as JSON.
+    pub fn new(
+        assets: Vec<Asset>,
+        place: Place,
+        version: &str,
+        options: &Options,
+        extras: Vec<Extra>,
+    ) -> io::Result<Self> {
+        Ok(Self {
+            assets,
+            place,
+            scratch: Scratch::new()?,
+            recipe: Recipe::new(version, options, &extras)?,
+            extras,
+            retries: false,
+            concurrency: 1,
+        })
+    }
+}
+
+/// Does what an order asks for; the rows are in the order of the assets. Dropped before its end, it
+/// stops all work.
+pub async fn run<W: Worker>(order: Order, worker: W, seen: Seen<'_>) -> Vec<Row> {
+    let (order, worker) = (Arc::new(order), Arc::new(worker));
+    let mut rows: Vec<Option<Row>> = vec![None; order.assets.len()];
+    let mut waiting = 0..order.assets.len();
+    let mut running = JoinSet::new();
+    let mut places = HashMap::new();
+    loop {
+        while running.len() < order.concurrency.max(1)
+            && let Some(index) = waiting.next()
+        {
+            let (order, worker) = (Arc::clone(&order), Arc::clone(&worker));
+            let handle = running.spawn(async move { one::asset(&order, &*worker, index).await });
+            places.insert(handle.id(), index);
+        }
+        let Some(ended) = running.join_next_with_id().await else {
+            break;
+        };
+        let (id, (row, fate)) = ended.unwrap_or_else(|error| {
+            let asset = &order.assets[places[&error.id()]];
+            let row = Row::new(asset, 0.0, broken(&error).into());
+            (error.id(), (row, Fate::Done))
+        });
+        seen(&row, fate);
+        rows[places[&id]] = Some(row);
+    }
+    rows.into_iter().flatten().collect()
+}
+
+/// The rows that earlier runs have recorded.
+pub fn recorded(assets: &[Asset], place: &Place) -> Vec<Row> {
+    let row = |asset| {
+        let record = Record::load(place, asset).filter(|record| record.is_whole(place));
+        record.map_or_else(
+            || Row::new(asset, 0.0, Status::Missing),
+            |Record { row, .. }| Row::new(asset, row.seconds, row.status),
+        )
+    };
+    assets.iter().map(row).collect()
+}
+
+/// A mistake of this program that one asset brought to light.
+fn broken(error: &JoinError) -> Failure {
+    Failure::new("crashed", format!("{error}, which is a bug"))
+}

@@ -1,0 +1,182 @@
+//! Which part of a list a process does.
+
+use std::str::FromStr;
+
+/// One of several parts of a list, of equal size but for one asset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Its number, from 0.
+    index: u64,
+    count: u64,
+}
+
+/// The shard that was asked for: `I/N`, or `auto` and `auto/N`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShardChoice {
+    /// This one.
+    Fixed(Shard),
+    /// The one that the scheduler's environment tells, of so many if it does not tell that.
+    Auto(Option<u64>),
+}
+
+/// Why there is no shard.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ShardError {
+    /// It is written in another way.
+    #[error("{0:?} is not a shard: expected I/N, auto or auto/N")]
+    Form(String),
+    /// A number is none, or 0.
+    #[error("{0:?} is not a number from 1 on")]
+    Number(String),
+    /// There are not so many.
+    #[error("there is no shard {index} of {count}")]
+    Beyond {
+        /// The shard asked for, from 1.
+        index: u64,
+        /// How many there are.
+        count: u64,
+    },
+    /// No scheduler told an index.
+    #[error("auto requires one of the variables {}", names().join(", "))]
+    NoIndex,
+    /// A variable has no number.
+    #[error("{name} is {value:?}, not a number")]
+    Variable {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: String,
+    },
+    /// The scheduler does not tell how many shards there are, or not all are there.
+    #[error("{0} does not tell the number of shards: give it as auto/N")]
+    NoCount(&'static str),
+    /// The index is not one of a shard; indices count from 0.
+    #[error("{name} is {index}, but with {count} shards it must be less than {count}")]
+    Index {
+        /// Variable of the index.
+        name: &'static str,
+        /// Its value.
+        index: u64,
+        /// How many shards there are.
+        count: u64,
+    },
+}
+
+/// How a scheduler tells its tasks apart.
+struct Scheduler {
+    /// Variable of the index, from 0.
+    index: &'static str,
+    /// Variable of the number of tasks.
+    count: Option<&'static str>,
+    /// Variables of the least and the greatest index: an array may have gaps.
+    range: Option<[&'static str; 2]>,
+}
+
+const SCHEDULERS: [Scheduler; 3] = [
+    // Kubernetes Indexed Job.
+    Scheduler {
+        index: "JOB_COMPLETION_INDEX",
+        count: None,
+        range: None,
+    },
+    Scheduler {
+        index: "SLURM_ARRAY_TASK_ID",
+        count: Some("SLURM_ARRAY_TASK_COUNT"),
+        range: Some(["SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX"]),
+    },
+    Scheduler {
+        index: "AWS_BATCH_JOB_ARRAY_INDEX",
+        count: Some("AWS_BATCH_JOB_ARRAY_SIZE"),
+        range: None,
+    },
+];
+
+fn names() -> Vec<&'static str> {
+    SCHEDULERS.iter().map(|it| it.index).collect()
+}
+
+/// The variable by which a scheduler tells the tasks of an array apart, if this is one.
+pub fn array_variable(variable: impl Fn(&str) -> Option<String>) -> Option<&'static str> {
+    names().into_iter().find(|name| variable(name).is_some())
+}
+
+impl Shard {
+    /// Whether the asset at a place of the list belongs to this shard.
+    pub fn contains(self, place: usize) -> bool {
+        place as u64 % self.count == self.index
+    }
+
+    /// Its number, from 1.
+    pub fn number(self) -> u64 {
+        self.index + 1
+    }
+
+    /// How many there are.
+    pub fn count(self) -> u64 {
+        self.count
+    }
+}
+
+impl FromStr for ShardChoice {
+    type Err = ShardError;
+
+    fn from_str(text: &str) -> Result<Self, ShardError> {
+        let number = |text: &str| match text.parse() {
+            Ok(number @ 1..) => Ok(number),
+            _ => Err(ShardError::Number(text.to_owned())),
+        };
+        match text.split_once('/') {
+            None if text == "auto" => Ok(Self::Auto(None)),
+            None => Err(ShardError::Form(text.to_owned())),
+            Some(("auto", count)) => Ok(Self::Auto(Some(number(count)?))),
+            Some((index, count)) => {
+                let (index, count): (u64, u64) = (number(index)?, number(count)?);
+                if count < index {
+                    return Err(ShardError::Beyond { index, count });
+                }
+                let index = index - 1;
+                Ok(Self::Fixed(Shard { index, count }))
+            }
+        }
+    }
+}
+
+impl ShardChoice {
+    /// The shard, of which `variable` reads what the environment tells.
+    pub fn resolved(self, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, ShardError> {
+        let given = match self {
+            Self::Fixed(shard) => return Ok(shard),
+            Self::Auto(given) => given,
+        };
+        let number = |name: &'static str| match variable(name).map(|value| (value.parse(), value)) {
+            None => Ok(None),
+            Some((Ok(number), _)) => Ok(Some(number)),
+            Some((Err(_), value)) => Err(ShardError::Variable { name, value }),
+        };
+        for Scheduler {
+            index: name,
+            count,
+            range,
+        } in SCHEDULERS
+        {
+            let Some(index) = number(name)? else {
+                continue;
+            };
+            let told = count.map(number).transpose()?.flatten();
+            // Of an array with gaps, or one that does not begin at 0, the count is not that of the shards.
+            let is_whole = match range.map(|names| names.map(number)) {
+                Some([least, greatest]) => {
+                    least? == Some(0) && greatest?.map(|greatest: u64| greatest + 1) == told
+                }
+                None => true,
+            };
+            let count = given.or(told.filter(|_| is_whole));
+            let count = count.ok_or(ShardError::NoCount(name))?;
+            if count <= index {
+                return Err(ShardError::Index { name, index, count });
+            }
+            return Ok(Shard { index, count });
+        }
+        Err(ShardError::NoIndex)
+    }
+}

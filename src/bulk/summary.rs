@@ -1,0 +1,102 @@
+//! The rows of a run as a table, and their totals.
+
+use serde::Serialize;
+
+use super::gates::Gates;
+use super::row::{Row, Status};
+
+/// Names of the columns.
+const HEADER: [&str; 13] = [
+    "input",
+    "output",
+    "status",
+    "code",
+    "accepted",
+    "certified",
+    "faces",
+    "charts",
+    "distortion",
+    "stretch",
+    "warnings",
+    "seconds",
+    "detail",
+];
+
+/// How many assets ended how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Totals {
+    /// All.
+    pub assets: usize,
+    /// Those with an output.
+    pub written: usize,
+    /// Those without one, for a reason.
+    pub failed: usize,
+    /// Those of which nothing is known.
+    pub missing: usize,
+    /// Those that meet the gates.
+    pub accepted: usize,
+}
+
+impl Totals {
+    /// Counts rows.
+    pub fn of(rows: &[Row], gates: &Gates) -> Self {
+        let count = |is: fn(&Status) -> bool| rows.iter().filter(|row| is(&row.status)).count();
+        Self {
+            assets: rows.len(),
+            written: count(|status| matches!(status, Status::Written(_))),
+            failed: count(|status| matches!(status, Status::Failed { .. })),
+            missing: count(|status| matches!(status, Status::Missing)),
+            accepted: rows.iter().filter(|row| gates.accept(row)).count(),
+        }
+    }
+}
+
+/// Rows as CSV (RFC 4180), with a line of names.
+///
+/// # Errors
+/// None that occurs: it is written to memory.
+pub fn csv(rows: &[Row], gates: &Gates) -> std::io::Result<Vec<u8>> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(HEADER)?;
+    for row in rows {
+        table.write_record(cells(row, gates))?;
+    }
+    table.into_inner().map_err(csv::IntoInnerError::into_error)
+}
+
+fn cells(row: &Row, gates: &Gates) -> [String; 13] {
+    let number = |number: Option<f64>| number.map_or(String::new(), |x| format!("{x:.4}"));
+    let common = |status: &str, code: &str, figures: [String; 6], detail: &str| {
+        let [certified, faces, charts, distortion, stretch, warnings] = figures;
+        [
+            row.input.clone(),
+            row.output.clone(),
+            status.to_owned(),
+            code.to_owned(),
+            gates.accept(row).to_string(),
+            certified,
+            faces,
+            charts,
+            distortion,
+            stretch,
+            warnings,
+            format!("{:.3}", row.seconds),
+            detail.to_owned(),
+        ]
+    };
+    match &row.status {
+        Status::Written(it) => {
+            let figures = [
+                it.certified.to_string(),
+                it.faces.to_string(),
+                it.charts.to_string(),
+                number(it.distortion),
+                number(it.stretch),
+                it.warnings.to_string(),
+            ];
+            common("written", "", figures, "")
+        }
+        Status::Failed { code, detail } => common("failed", code, Default::default(), detail),
+        Status::Missing => common("missing", "", Default::default(), ""),
+    }
+}

@@ -1,0 +1,27 @@
+//! Files that are complete or absent, also after a crash of the machine.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes a file as `part` and moves it to `path`. The content reaches the disk before the name does,
+/// and the name before this returns.
+///
+/// # Errors
+/// If it cannot be written; then what was at `path` is as it was.
+pub(super) fn write_whole(path: &Path, part: &Path, content: &[u8]) -> io::Result<()> {
+    let written = written(part, content).and_then(|()| fs::rename(part, path));
+    if let Err(error) = written {
+        // The first error is the one to tell.
+        let _ = fs::remove_file(part);
+        return Err(error);
+    }
+    let folder = path.parent().filter(|folder| folder != &Path::new(""));
+    File::open(folder.unwrap_or(Path::new(".")))?.sync_all()
+}
+
+fn written(part: &Path, content: &[u8]) -> io::Result<()> {
+    let mut file = File::create_new(part)?;
+    file.write_all(content)?;
+    file.sync_all()
+}

@@ -1,0 +1,105 @@
+//! One computation in a child process of its own, without a queue: for commands that have many to do.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::attempt::out_of_memory;
+use super::child::{Child, Exit};
+use super::deadline::{given_up_after, timed_out};
+use super::job::{Failure, Kind, OutputFile};
+use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
+use crate::document::Upload;
+use crate::pipeline::Limits;
+
+/// What contains a computation: a process that ends with its own failure, and limits.
+#[derive(Clone, Debug)]
+pub struct Contained {
+    /// The binary that is started as compute child.
+    pub program: PathBuf,
+    /// Threads at most.
+    pub threads: usize,
+    /// Wall-clock time after which the present valid map becomes the result.
+    pub time: Duration,
+    /// Memory, in bytes.
+    pub memory: u64,
+    /// Whether an atlas is drawn.
+    pub pictures: Pictures,
+}
+
+impl Contained {
+    /// Does what a job of this kind does. The n-th file that it makes is left in `folder`, which
+    /// exists and is empty, as [`output_file`](super::output_file)`(n)`. Dropped before its end, it
+    /// kills the child.
+    ///
+    /// # Errors
+    /// What the computation says of the input and the options, or why it could not say anything.
+    pub async fn run(
+        &self,
+        kind: Kind,
+        options: &serde_json::Value,
+        upload: &Upload,
+        folder: &Path,
+    ) -> Result<Vec<OutputFile>, Failure> {
+        let task = Task {
+            kind,
+            input: names(upload).map(str::to_owned).collect(),
+            options: options.clone(),
+            limits: Limits {
+                triangles: None,
+                threads: Some(self.threads),
+                seconds: Some(self.time.as_secs_f64()),
+            },
+            memory: self.memory,
+            pictures: self.pictures,
+        };
+        prepare(&task, upload, folder).await?;
+        let mut child = Child::start(&self.program, folder)?;
+        let heard = async { while child.next_message().await.is_some() {} };
+        if tokio::time::timeout(given_up_after(self.time), heard)
+            .await
+            .is_err()
+        {
+            child.terminate().await?;
+            return Err(timed_out(self.time));
+        }
+        let exit = child.wait().await?;
+        match exit {
+            Exit::Code(0) => {
+                let outcome: Outcome = task::read_json(folder, OUTCOME)?;
+                Ok(outcome.output)
+            }
+            Exit::OutOfMemory => Err(out_of_memory(self.memory)),
+            Exit::Code(NO_SPACE) => {
+                let detail = format!("no space left in {}", folder.display());
+                Err(Failure::new("storage_full", detail))
+            }
+            _ => Err(task::read_json(folder, ERROR).unwrap_or_else(|_| exit.cause())),
+        }
+    }
+}
+
+/// The mesh first, then what it refers to.
+fn names(upload: &Upload) -> impl Iterator<Item = &str> {
+    let resources = upload.resources.keys().map(String::as_str);
+    std::iter::once(upload.name.as_str()).chain(resources)
+}
+
+async fn prepare(task: &Task, upload: &Upload, folder: &Path) -> std::io::Result<()> {
+    let contents = std::iter::once(&upload.bytes).chain(upload.resources.values());
+    for (index, content) in contents.enumerate() {
+        tokio::fs::write(folder.join(task::input_file(index)), content).await?;
+    }
+    task::write_json(folder, TASK, task)
+}
+
+/// The folder of a computation, or its process, could not be used.
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        let code = match error.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "storage_full",
+            _ => "internal_error",
+        };
+        Self::new(code, error.to_string())
+    }
+}
