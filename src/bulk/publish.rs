@@ -10,7 +10,7 @@ use super::record::Record;
 use super::row::Figures;
 use super::run::Order;
 use super::worker::Extra;
-use crate::jobs::{Failure, OutputFile, output_file};
+use crate::jobs::{Failure, output_file};
 
 /// What outputs are worth, and the paths and sizes of what was written.
 pub(super) type Published = (Figures, Vec<(PathBuf, u64)>);
@@ -19,7 +19,7 @@ pub(super) type Published = (Figures, Vec<(PathBuf, u64)>);
 pub(super) fn published(
     order: &Order,
     asset: &Asset,
-    (folder, made): (&Path, &[OutputFile]),
+    (folder, made): (&Path, &[String]),
     old: Option<&Record>,
 ) -> Result<Published, Failure> {
     // A record holds for files as it lists them: from here on they change.
@@ -27,13 +27,13 @@ pub(super) fn published(
     forgotten.map_err(|error| unwritten(&error))?;
     let mut figures = None;
     let mut files = Vec::new();
-    for (index, file) in made.iter().enumerate().rev() {
+    for (index, role) in made.iter().enumerate().rev() {
         let content = fs::read(folder.join(output_file(index))).map_err(|e| unwritten(&e))?;
-        if file.role == Extra::Report.role() {
+        if role == Extra::Report.role() {
             let read = Figures::of_report(&content);
             figures = Some(read.map_err(|e| Failure::new("internal_error", e.to_string()))?);
         }
-        let Some(path) = destination(order, asset, &file.role)? else {
+        let Some(path) = destination(order, asset, role)? else {
             continue;
         };
         let is_own = is_named_like(&path, &asset.output)

@@ -20,8 +20,10 @@ pub(super) struct Args {
     /// Number of assets unwrapped at the same time [default: the number of cores]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// Wall-clock limit of an asset, in seconds. After 80 % of it the current valid map becomes the
+    /// Time limit of an asset, in seconds. When it is reached, the current valid map becomes the
     /// result
+    ///
+    /// A later run keeps such a result, also with a higher limit.
     #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = seconds)]
     asset_seconds: f64,
     /// Memory limit of an asset, in MiB [default: 8192, or an equal part of the machine's if less]
@@ -101,7 +103,8 @@ pub(super) fn run_with<W: Worker>(
             &options,
             args.extras(),
         );
-        let mut order = order.map_err(unwritable)?;
+        let no_scratch = |error| Failure::other(format!("cannot make temporary files: {error}"));
+        let mut order = order.map_err(no_scratch)?;
         order.retries = args.retry_failed;
         order.concurrency = concurrency;
         let mut see = |row: &Row, fate| display.see(row, fate);

@@ -22,7 +22,7 @@ const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 /// How often its progress is recorded.
 const RECORD_INTERVAL: Duration = Duration::from_secs(1);
 /// The share of its time after which a job is asked to finish with the map it has, rather than be ended without one.
-pub(super) const BUDGET_SHARE: f64 = 0.8;
+const BUDGET_SHARE: f64 = 0.8;
 
 /// How an attempt ended.
 enum Ending {

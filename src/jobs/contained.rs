@@ -4,12 +4,16 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::attempt::{BUDGET_SHARE, out_of_memory};
 use super::child::{Child, Exit};
-use super::job::{Failure, Kind, OutputFile};
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
+use super::{Failure, Kind, OutputFile};
 use crate::document::Upload;
 use crate::pipeline::Limits;
+
+/// How much longer than its time a computation may take to finish with the map it has: this share of
+/// it, or this time if that is longer.
+const GRACE_SHARE: f64 = 0.25;
+const LEAST_GRACE: Duration = Duration::from_secs(10);
 
 /// What contains a computation: a process that ends with its own failure, and limits.
 #[derive(Clone, Debug)]
@@ -18,7 +22,7 @@ pub struct Contained {
     pub program: PathBuf,
     /// Threads at most.
     pub threads: usize,
-    /// Wall-clock time. After 80 % of it the present valid map becomes the result.
+    /// Wall-clock time, after which the present valid map becomes the result.
     pub time: Duration,
     /// Memory, in bytes.
     pub memory: u64,
@@ -47,7 +51,7 @@ impl Contained {
             limits: Limits {
                 triangles: None,
                 threads: Some(self.threads),
-                seconds: Some(self.time.as_secs_f64() * BUDGET_SHARE),
+                seconds: Some(self.time.as_secs_f64()),
             },
             memory: self.memory,
             pictures: self.pictures,
@@ -55,9 +59,14 @@ impl Contained {
         prepare(&task, upload, folder).await?;
         let mut child = Child::start(&self.program, folder)?;
         let heard = async { while child.next_message().await.is_some() {} };
-        if tokio::time::timeout(self.time, heard).await.is_err() {
+        let grace = self.time.mul_f64(GRACE_SHARE).max(LEAST_GRACE);
+        if tokio::time::timeout(self.time + grace, heard)
+            .await
+            .is_err()
+        {
             child.terminate().await?;
-            let detail = format!("not finished within {} s", self.time.as_secs_f64());
+            let seconds = self.time.as_secs_f64();
+            let detail = format!("no valid map within the time limit of {seconds} s");
             return Err(Failure::new("timed_out", detail));
         }
         let exit = child.wait().await?;
@@ -66,7 +75,6 @@ impl Contained {
                 let outcome: Outcome = task::read_json(folder, OUTCOME)?;
                 Ok(outcome.output)
             }
-            Exit::OutOfMemory => Err(out_of_memory(self.memory)),
             Exit::Code(NO_SPACE) => {
                 let detail = format!("no space left in {}", folder.display());
                 Err(Failure::new("storage_full", detail))
