@@ -12,6 +12,7 @@ use std::path::Path;
 use reqwest::multipart::{Form, Part};
 use reqwest::{Method, Url};
 
+use super::trouble::Trouble;
 use super::worker::{Extra, Task, Worker};
 use crate::document::Upload;
 use crate::jobs::{Failure, output_file};
@@ -88,7 +89,7 @@ impl Remote {
         let url: Url = self.client.url(&segments);
         let content = answered(&self.client, Method::GET, &url).await?;
         let written = tokio::fs::write(to, &content).await;
-        written.map_err(|error| Failure::new("output_unwritable", error.to_string()))
+        written.map_err(|error| Trouble::OutputUnwritable.with(error.to_string()))
     }
 
     fn is_wanted(&self, role: &str) -> bool {
@@ -111,7 +112,7 @@ impl Worker for Remote {
             State::Succeeded => {}
             State::Cancelled => {
                 let detail = format!("job {} was cancelled", job.id);
-                return Err(Failure::new("cancelled", detail));
+                return Err(Trouble::Cancelled.with(detail));
             }
             _ => return Err(job.failure()),
         }
