@@ -108,7 +108,12 @@ pub(super) fn run_with<W: Worker>(
         order.retries = args.retry_failed;
         order.concurrency = concurrency;
         let mut see = |row: &Row, fate| display.see(row, fate);
-        runtime.block_on(until_signal(bulk::run(order, worker, &mut see)))?
+        runtime.block_on(async {
+            let rows = bulk::run(order, worker, &mut see, stop_signal()?).await;
+            rows.ok_or_else(|| {
+                Failure::other("stopped by a signal; the same command goes on where it was")
+            })
+        })?
     };
     let totals = Totals::of(&rows, &args.accept);
     display.finish(&totals);
@@ -140,15 +145,15 @@ fn conclude(
     }
 }
 
-/// Ends the work on SIGTERM or SIGINT: what is finished stays, and children end.
-async fn until_signal(work: impl Future<Output = Vec<Row>>) -> Result<Vec<Row>, Failure> {
-    let failed = |error: std::io::Error| Failure::other(error.to_string());
-    let mut terminate = signal(SignalKind::terminate()).map_err(failed)?;
-    let mut interrupt = signal(SignalKind::interrupt()).map_err(failed)?;
-    let stopped = || Failure::other("stopped by a signal; the same command goes on where it was");
-    tokio::select! {
-        rows = work => Ok(rows),
-        _ = terminate.recv() => Err(stopped()),
-        _ = interrupt.recv() => Err(stopped()),
-    }
+/// Ends with SIGTERM or SIGINT.
+fn stop_signal() -> Result<impl Future<Output = ()>, Failure> {
+    let listen = |kind| signal(kind).map_err(|error| Failure::other(error.to_string()));
+    let mut terminate = listen(SignalKind::terminate())?;
+    let mut interrupt = listen(SignalKind::interrupt())?;
+    Ok(async move {
+        tokio::select! {
+            _ = terminate.recv() => {}
+            _ = interrupt.recv() => {}
+        }
+    })
 }
