@@ -1,7 +1,7 @@
 //! Work done by child processes on this machine.
 
 use super::worker::{Task, Worker};
-use crate::jobs::{Contained, Failure, Kind, OutputFile};
+use crate::jobs::{Contained, Failure, Kind};
 
 /// Unwraps each asset in a child process.
 #[derive(Clone, Debug)]
@@ -17,9 +17,9 @@ impl Worker for Local {
         env!("CARGO_PKG_VERSION")
     }
 
-    async fn work(&self, task: Task<'_>) -> Result<Vec<OutputFile>, Failure> {
+    async fn work(&self, task: Task<'_>) -> Result<Vec<String>, Failure> {
         let (kind, options) = (Kind::Unwrap, &self.options);
-        let contained = &self.contained;
-        contained.run(kind, options, task.upload, task.folder).await
+        let made = (self.contained).run(kind, options, task.upload, task.folder);
+        Ok(made.await?.into_iter().map(|file| file.role).collect())
     }
 }

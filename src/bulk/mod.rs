@@ -36,6 +36,7 @@ mod run;
 mod scratch;
 mod shard;
 mod summary;
+mod trouble;
 mod whole;
 mod worker;
 

@@ -8,10 +8,11 @@ use std::time::Instant;
 use tokio::task::block_in_place;
 
 use super::asset::Asset;
-use super::publish::{Published, published, unwritten};
+use super::publish::{Published, published};
 use super::record::Record;
 use super::row::{Row, Status};
 use super::run::{Fate, Order};
+use super::trouble::{Trouble, unwritten};
 use super::worker::{Task, Worker};
 use crate::document::Upload;
 use crate::jobs::Failure;
@@ -23,7 +24,7 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
     let upload = match block_in_place(|| read(asset)) {
         Ok(upload) => upload,
         Err(error) => {
-            let failure = Failure::new("input_unreadable", error.to_string());
+            let failure = Trouble::InputUnreadable.with(error.to_string());
             return (row(0.0, failure.into()), Fate::Done);
         }
     };

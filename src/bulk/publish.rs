@@ -1,7 +1,6 @@
 //! What was made of an asset, moved to where it belongs.
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use super::asset::{Asset, is_inside};
@@ -9,8 +8,9 @@ use super::place::Place;
 use super::record::Record;
 use super::row::Figures;
 use super::run::Order;
+use super::trouble::{Trouble, unwritten};
 use super::worker::Extra;
-use crate::jobs::{Failure, OutputFile, output_file};
+use crate::jobs::{Failure, output_file};
 
 /// What outputs are worth, and the paths and sizes of what was written.
 pub(super) type Published = (Figures, Vec<(PathBuf, u64)>);
@@ -19,7 +19,7 @@ pub(super) type Published = (Figures, Vec<(PathBuf, u64)>);
 pub(super) fn published(
     order: &Order,
     asset: &Asset,
-    (folder, made): (&Path, &[OutputFile]),
+    (folder, made): (&Path, &[String]),
     old: Option<&Record>,
 ) -> Result<Published, Failure> {
     // A record holds for files as it lists them: from here on they change.
@@ -27,13 +27,13 @@ pub(super) fn published(
     forgotten.map_err(|error| unwritten(&error))?;
     let mut figures = None;
     let mut files = Vec::new();
-    for (index, file) in made.iter().enumerate().rev() {
+    for (index, role) in made.iter().enumerate().rev() {
         let content = fs::read(folder.join(output_file(index))).map_err(|e| unwritten(&e))?;
-        if file.role == Extra::Report.role() {
+        if role == Extra::Report.role() {
             let read = Figures::of_report(&content);
             figures = Some(read.map_err(|e| Failure::new("internal_error", e.to_string()))?);
         }
-        let Some(path) = destination(order, asset, &file.role)? else {
+        let Some(path) = destination(order, asset, role)? else {
             continue;
         };
         let is_own = is_named_like(&path, &asset.output)
@@ -52,7 +52,7 @@ fn put(place: &Place, path: &Path, content: &[u8], is_own: bool) -> Result<(), F
         Ok(there) if there == content => Ok(()),
         Ok(_) if !is_own => {
             let detail = format!("{} is there and belongs to something else", path.display());
-            Err(Failure::new("output_conflict", detail))
+            Err(Trouble::OutputConflict.with(detail))
         }
         _ => place
             .write(path, content)
@@ -75,20 +75,11 @@ fn destination(order: &Order, asset: &Asset, role: &str) -> Result<Option<PathBu
     if let Some(name) = role.strip_prefix("files/") {
         if !is_inside(Path::new(name)) {
             let detail = format!("{name} is outside the folder of the output");
-            return Err(Failure::new("output_unwritable", detail));
+            return Err(Trouble::OutputUnwritable.with(detail));
         }
         return Ok(Some(asset.output.with_file_name(name)));
     }
     let mut extras = order.extras.iter();
     let extra = extras.find(|extra| extra.role() == role);
     Ok(extra.map(|extra| asset.output.with_extension(extra.suffix())))
-}
-
-/// Why a file is not in its place.
-pub(super) fn unwritten(error: &io::Error) -> Failure {
-    let code = match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "storage_full",
-        _ => "output_unwritable",
-    };
-    Failure::new(code, error.to_string())
 }

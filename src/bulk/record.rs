@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::asset::Asset;
 use super::place::Place;
 use super::row::{Row, Status};
+use super::trouble::Trouble;
 
 /// What became of an asset, and of what that holds. It is written after the files that it lists.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,31 +26,19 @@ pub struct Record {
     pub(super) row: Row,
 }
 
-/// Codes of failures that another run may not meet: they are not those of the input and its options.
-const PASSING: [&str; 15] = [
-    "cancelled",
+/// Codes of the service that another run may not meet: they are not those of the input and its
+/// options.
+const PASSING: [&str; 10] = [
     "conflict",
     "crashed",
-    "input_unreadable",
     "internal_error",
     "job_expired",
     "job_not_found",
     "no_such_file",
     "out_of_memory",
-    "output_conflict",
-    "output_unwritable",
-    "server_unavailable",
     "storage_full",
     "timed_out",
     "worker_lost",
-];
-
-/// Codes of failures before or after the work itself, which may have been done or still go on.
-const AROUND: [&str; 4] = [
-    "output_conflict",
-    "output_unwritable",
-    "server_unavailable",
-    "storage_full",
 ];
 
 impl Record {
@@ -75,7 +64,9 @@ impl Record {
     /// Whether doing it again may end otherwise.
     pub(super) fn may_pass(&self) -> bool {
         match &self.row.status {
-            Status::Failed { code, .. } => PASSING.contains(&code.as_str()),
+            Status::Failed { code, .. } => {
+                PASSING.contains(&code.as_str()) || Trouble::of(code).is_some()
+            }
             Status::Written(_) | Status::Missing => false,
         }
     }
@@ -83,7 +74,7 @@ impl Record {
     /// The number of the next attempt. What failed before or after the work itself is not one more.
     pub(super) fn next_attempt(&self) -> u32 {
         match &self.row.status {
-            Status::Failed { code, .. } if !AROUND.contains(&code.as_str()) => self.attempt + 1,
+            Status::Failed { code, .. } if is_of_work(code) => self.attempt + 1,
             _ => self.attempt,
         }
     }
@@ -92,4 +83,9 @@ impl Record {
     pub(super) fn has_failed(&self) -> bool {
         !matches!(self.row.status, Status::Written(_))
     }
+}
+
+/// Whether the work itself has failed, so that it is over.
+fn is_of_work(code: &str) -> bool {
+    code != "storage_full" && Trouble::of(code).is_none_or(|it| it == Trouble::Cancelled)
 }

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::io;
+use std::pin::pin;
 use std::sync::Arc;
 
 use tokio::task::{JoinError, JoinSet};
@@ -70,9 +71,15 @@ impl Order {
     }
 }
 
-/// Does what an order asks for; the rows are in the order of the assets. Dropped before its end, it
-/// stops all work.
-pub async fn run<W: Worker>(order: Order, worker: W, seen: Seen<'_>) -> Vec<Row> {
+/// Does what an order asks for; the rows are in the order of the assets. `None` if `stop` ended first:
+/// then nothing is in work any more, and what was is not recorded.
+pub async fn run<W: Worker>(
+    order: Order,
+    worker: W,
+    seen: Seen<'_>,
+    stop: impl Future<Output = ()>,
+) -> Option<Vec<Row>> {
+    let mut stop = pin!(stop);
     let (order, worker) = (Arc::new(order), Arc::new(worker));
     let mut rows: Vec<Option<Row>> = vec![None; order.assets.len()];
     let mut waiting = 0..order.assets.len();
@@ -86,7 +93,14 @@ pub async fn run<W: Worker>(order: Order, worker: W, seen: Seen<'_>) -> Vec<Row>
             let handle = running.spawn(async move { one::asset(&order, &*worker, index).await });
             places.insert(handle.id(), index);
         }
-        let Some(ended) = running.join_next_with_id().await else {
+        let ended = tokio::select! {
+            ended = running.join_next_with_id() => ended,
+            () = &mut stop => {
+                running.shutdown().await;
+                return None;
+            }
+        };
+        let Some(ended) = ended else {
             break;
         };
         let (id, (row, fate)) = ended.unwrap_or_else(|error| {
@@ -97,7 +111,7 @@ pub async fn run<W: Worker>(order: Order, worker: W, seen: Seen<'_>) -> Vec<Row>
         seen(&row, fate);
         rows[places[&id]] = Some(row);
     }
-    rows.into_iter().flatten().collect()
+    Some(rows.into_iter().flatten().collect())
 }
 
 /// The rows that earlier runs have recorded.

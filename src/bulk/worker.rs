@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::document::Upload;
-use crate::jobs::{Failure, OutputFile};
+use crate::jobs::Failure;
 
 /// What is written beside an output if it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,8 +53,8 @@ pub trait Worker: Send + Sync + 'static {
     /// Version of what unwraps: outputs of another one are made again.
     fn version(&self) -> &str;
 
-    /// Unwraps an asset. The n-th file that it makes is left in the task's folder as
-    /// [`output_file`](crate::jobs::output_file)`(n)`. Dropped before its end, it stops.
-    fn work(&self, task: Task<'_>)
-    -> impl Future<Output = Result<Vec<OutputFile>, Failure>> + Send;
+    /// Unwraps an asset, and gives the roles of the files that it made. The n-th is left in the
+    /// task's folder as [`output_file`](crate::jobs::output_file)`(n)`. Dropped before its end, it
+    /// stops.
+    fn work(&self, task: Task<'_>) -> impl Future<Output = Result<Vec<String>, Failure>> + Send;
 }

@@ -23,6 +23,8 @@ pub(super) struct Args {
     /// Time limit of an asset, in seconds. When it is reached, the current valid map becomes the
     /// result. An asset that has none fails after a quarter of the limit more, or 10 s if that is
     /// longer
+    ///
+    /// A later run keeps such a result, also with a higher limit.
     #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = seconds)]
     asset_seconds: f64,
     /// Memory limit of an asset, in MiB [default: 8192, or an equal part of the machine's if less]
@@ -102,11 +104,17 @@ pub(super) fn run_with<W: Worker>(
             &options,
             args.extras(),
         );
-        let mut order = order.map_err(unwritable)?;
+        let no_scratch = |error| Failure::other(format!("cannot make temporary files: {error}"));
+        let mut order = order.map_err(no_scratch)?;
         order.retries = args.retry_failed;
         order.concurrency = concurrency;
         let mut see = |row: &Row, fate| display.see(row, fate);
-        runtime.block_on(until_signal(bulk::run(order, worker, &mut see)))?
+        runtime.block_on(async {
+            let rows = bulk::run(order, worker, &mut see, stop_signal()?).await;
+            rows.ok_or_else(|| {
+                Failure::other("stopped by a signal; the same command goes on where it was")
+            })
+        })?
     };
     let totals = Totals::of(&rows, &args.accept);
     display.finish(&totals);
@@ -138,15 +146,15 @@ fn conclude(
     }
 }
 
-/// Ends the work on SIGTERM or SIGINT: what is finished stays, and children end.
-async fn until_signal(work: impl Future<Output = Vec<Row>>) -> Result<Vec<Row>, Failure> {
-    let failed = |error: std::io::Error| Failure::other(error.to_string());
-    let mut terminate = signal(SignalKind::terminate()).map_err(failed)?;
-    let mut interrupt = signal(SignalKind::interrupt()).map_err(failed)?;
-    let stopped = || Failure::other("stopped by a signal; the same command goes on where it was");
-    tokio::select! {
-        rows = work => Ok(rows),
-        _ = terminate.recv() => Err(stopped()),
-        _ = interrupt.recv() => Err(stopped()),
-    }
+/// Ends with SIGTERM or SIGINT.
+fn stop_signal() -> Result<impl Future<Output = ()>, Failure> {
+    let listen = |kind| signal(kind).map_err(|error| Failure::other(error.to_string()));
+    let mut terminate = listen(SignalKind::terminate())?;
+    let mut interrupt = listen(SignalKind::interrupt())?;
+    Ok(async move {
+        tokio::select! {
+            _ = terminate.recv() => {}
+            _ = interrupt.recv() => {}
+        }
+    })
 }

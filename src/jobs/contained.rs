@@ -4,13 +4,17 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::attempt::out_of_memory;
 use super::child::{Child, Exit};
 use super::deadline::{given_up_after, timed_out};
-use super::job::{Failure, Kind, OutputFile};
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
+use super::{Failure, Kind, OutputFile};
 use crate::document::Upload;
 use crate::pipeline::Limits;
+
+/// How much longer than its time a computation may take to finish with the map it has: this share of
+/// it, or this time if that is longer.
+const GRACE_SHARE: f64 = 0.25;
+const LEAST_GRACE: Duration = Duration::from_secs(10);
 
 /// What contains a computation: a process that ends with its own failure, and limits.
 #[derive(Clone, Debug)]
@@ -19,7 +23,7 @@ pub struct Contained {
     pub program: PathBuf,
     /// Threads at most.
     pub threads: usize,
-    /// Wall-clock time after which the present valid map becomes the result.
+    /// Wall-clock time, after which the present valid map becomes the result.
     pub time: Duration,
     /// Memory, in bytes.
     pub memory: u64,
@@ -69,7 +73,6 @@ impl Contained {
                 let outcome: Outcome = task::read_json(folder, OUTCOME)?;
                 Ok(outcome.output)
             }
-            Exit::OutOfMemory => Err(out_of_memory(self.memory)),
             Exit::Code(NO_SPACE) => {
                 let detail = format!("no space left in {}", folder.display());
                 Err(Failure::new("storage_full", detail))

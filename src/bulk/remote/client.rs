@@ -8,6 +8,7 @@ use reqwest::{Method, RequestBuilder, Response, StatusCode, Url};
 use serde::Deserialize;
 
 use super::job::Problem;
+use crate::bulk::trouble::Trouble;
 use crate::jobs::Failure;
 
 /// Between the first two tries; then twice as long each time.
@@ -130,7 +131,7 @@ impl Client {
             let is_over = PATIENCE <= begin.elapsed() || self.is_given_up.load(Ordering::Relaxed);
             if is_over {
                 self.is_given_up.store(true, Ordering::Relaxed);
-                return Err(Failure::new("server_unavailable", cause));
+                return Err(Trouble::ServerUnavailable.with(cause));
             }
             tokio::time::sleep(told.unwrap_or(pause)).await;
             pause = LONGEST_PAUSE.min(2 * pause);
@@ -180,13 +181,13 @@ async fn refusal(answer: Response) -> Failure {
     let status = answer.status();
     match answer.json::<Problem>().await {
         Ok(problem) => Failure::new(&problem.code, problem.detail),
-        Err(_) => Failure::new("server_unavailable", format!("the server answers {status}")),
+        Err(_) => Trouble::ServerUnavailable.with(format!("the server answers {status}")),
     }
 }
 
 /// An answer that is not what it should be.
 pub(super) fn unreadable(error: &reqwest::Error) -> Failure {
-    Failure::new("server_unavailable", text(error))
+    Trouble::ServerUnavailable.with(text(error))
 }
 
 /// An error with its causes, on one line.

@@ -39,11 +39,9 @@ struct Links {
     files: Vec<File>,
 }
 
-/// A file that a job made.
 #[derive(Deserialize)]
-pub(super) struct File {
+struct File {
     href: String,
-    pub name: String,
 }
 
 impl State {
@@ -53,11 +51,11 @@ impl State {
 }
 
 impl Job {
-    /// Its files with their roles, which are the ends of their paths.
-    pub fn files(&self) -> impl Iterator<Item = (&str, &File)> {
+    /// The roles of its files, which are the ends of their paths.
+    pub fn roles(&self) -> impl Iterator<Item = &str> {
         let own = format!("{}/", self.links.itself);
         let files = self.links.files.iter();
-        files.filter_map(move |file| Some((file.href.strip_prefix(&own)?, file)))
+        files.filter_map(move |file| file.href.strip_prefix(&own))
     }
 
     /// Why it failed.

@@ -12,9 +12,10 @@ use std::path::Path;
 use reqwest::multipart::{Form, Part};
 use reqwest::{Method, Url};
 
+use super::trouble::Trouble;
 use super::worker::{Extra, Task, Worker};
 use crate::document::Upload;
-use crate::jobs::{Failure, OutputFile, output_file};
+use crate::jobs::{Failure, output_file};
 
 pub use client::RemoteError;
 use client::{Client, answered, unreadable};
@@ -80,7 +81,7 @@ impl Remote {
     }
 
     /// Fetches a file of a job.
-    async fn fetch(&self, job: &Job, role: &str, to: &Path) -> Result<u64, Failure> {
+    async fn fetch(&self, job: &Job, role: &str, to: &Path) -> Result<(), Failure> {
         let segments: Vec<&str> = ["v1", "jobs", &job.id]
             .into_iter()
             .chain(role.split('/'))
@@ -88,8 +89,7 @@ impl Remote {
         let url: Url = self.client.url(&segments);
         let content = answered(&self.client, Method::GET, &url).await?;
         let written = tokio::fs::write(to, &content).await;
-        written.map_err(|error| Failure::new("output_unwritable", error.to_string()))?;
-        Ok(content.len() as u64)
+        written.map_err(|error| Trouble::OutputUnwritable.with(error.to_string()))
     }
 
     fn is_wanted(&self, role: &str) -> bool {
@@ -106,28 +106,23 @@ impl Worker for Remote {
         &self.version
     }
 
-    async fn work(&self, task: Task<'_>) -> Result<Vec<OutputFile>, Failure> {
+    async fn work(&self, task: Task<'_>) -> Result<Vec<String>, Failure> {
         let job = self.ended(self.submitted(&task).await?).await?;
         match job.state {
             State::Succeeded => {}
             State::Cancelled => {
                 let detail = format!("job {} was cancelled", job.id);
-                return Err(Failure::new("cancelled", detail));
+                return Err(Trouble::Cancelled.with(detail));
             }
             _ => return Err(job.failure()),
         }
-        let mut files = Vec::new();
-        for (role, file) in job.files() {
-            if self.is_wanted(role) {
-                let to = task.folder.join(output_file(files.len()));
-                files.push(OutputFile {
-                    role: role.to_owned(),
-                    name: file.name.clone(),
-                    bytes: self.fetch(&job, role, &to).await?,
-                });
-            }
+        let mut made = Vec::new();
+        for role in job.roles().filter(|role| self.is_wanted(role)) {
+            let to = task.folder.join(output_file(made.len()));
+            self.fetch(&job, role, &to).await?;
+            made.push(role.to_owned());
         }
-        Ok(files)
+        Ok(made)
     }
 }
 

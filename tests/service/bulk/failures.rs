@@ -2,9 +2,12 @@
 
 use std::fs;
 
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
 use unwrapd::picture::Image;
 
 use super::{Folders, mesh};
+use crate::children;
 use crate::cli::{assert_status, last_error, unwrapd};
 use crate::meshes;
 
@@ -58,18 +61,35 @@ fn a_bad_mesh_is_a_row_with_its_code_and_stops_nothing() {
 fn a_lack_of_memory_is_a_row_and_is_tried_again() {
     let folders = Folders::of(1);
     fs::write(folders.path("in/large.glb"), meshes::large()).expect("a file");
-    let run = folders.batch(&["--asset-memory-mib", "64", "--cut", "disk"]);
-    assert_status(&run, 4);
+    let limited = ["--asset-memory-mib", "64", "--cut", "disk"];
+    assert_status(&folders.batch(&limited), 4);
     let summary = folders.summary("summary.csv");
     assert_eq!(summary["large.glb"]["code"], "out_of_memory");
-    // The same without that limit; a limit on the time ends with the map there is.
-    let run = folders.batch(&["--asset-seconds", "0.01", "--cut", "disk"]);
-    assert_status(&run, 0);
+    assert_eq!(summary["000.obj"]["status"], "written");
+    let again = folders.batch(&limited);
+    let said = String::from_utf8_lossy(&again.stdout).into_owned();
+    assert!(said.contains("1 done now, 1 before"), "{said}");
+}
+
+#[test]
+fn a_child_that_does_not_end_is_a_row_and_is_tried_again() {
+    let folders = Folders::with(&[]);
+    fs::write(folders.path("in/large.glb"), meshes::large()).expect("a file");
+    let mut command = folders.command(&["--asset-seconds", "1", "--quiet"]);
+    let mut run = command.spawn().expect("the binary runs");
+    let children = || children::within(&folders.path("tmp"));
+    while children().is_empty() {
+        std::thread::yield_now();
+    }
+    for child in children() {
+        kill(Pid::from_raw(child), Signal::SIGSTOP).expect("it runs");
+    }
+    assert_eq!(run.wait().expect("an end").code(), Some(4));
     let summary = folders.summary("summary.csv");
-    assert_eq!(summary["large.glb"]["status"], "written");
-    fs::write(folders.path("in/large.glb"), meshes::hills(2)).expect("a file");
+    assert_eq!(summary["large.glb"]["code"], "timed_out");
+    assert!(folders.outputs().is_empty() && children().is_empty());
+    fs::write(folders.path("in/large.glb"), meshes::hills(1)).expect("a file");
     assert_status(&folders.batch(&[]), 0);
-    assert_eq!(folders.outputs(), ["000.glb", "large.glb"]);
 }
 
 #[test]
