@@ -20,6 +20,7 @@ mod listen;
 mod man;
 mod measure;
 mod output;
+mod process;
 mod progress;
 mod records;
 mod repack;
@@ -30,6 +31,8 @@ mod unwrap;
 mod unwrap_args;
 mod verify;
 mod warp;
+mod work_args;
+mod worker;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -65,6 +68,7 @@ fn run_typed(command: Command) -> Result<(), Failure> {
         Command::Solve(args) => solve::run(&args),
         Command::Warp(args) => warp::run(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
+        Command::Worker(args) => worker::run(&args).map_err(Failure::other),
         Command::Openapi => {
             console::print(crate::http::openapi());
             Ok(())

@@ -15,8 +15,10 @@ use std::time::{Duration, Instant};
 use nix::sys::resource::{Resource, setrlimit};
 use nix::sys::signal::{SigSet, Signal};
 
+use super::checksum::sha256;
 use super::frames::Frames;
-use super::job::{Failure, OutputFile};
+use super::input_output::OutputFile;
+use super::job::Failure;
 use super::progress::Progress;
 use super::store_error::StoreError;
 use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, TASK, Task};
@@ -70,6 +72,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
             role,
             name,
             bytes: bytes.len() as u64,
+            sha256: Some(sha256(&bytes)),
         });
     }
     let frames = reporter.frames.into_inner();

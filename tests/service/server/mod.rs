@@ -6,7 +6,7 @@ mod failures;
 mod full_disk;
 mod idle_options;
 mod jobs;
-mod progress;
+pub mod progress;
 mod requests;
 mod restarts;
 mod results;
@@ -35,7 +35,7 @@ pub struct Server {
     process: Child,
     /// Kept open: a server that cannot print ends.
     stdout: BufReader<ChildStdout>,
-    settings: Vec<(&'static str, &'static str)>,
+    settings: Vec<(String, String)>,
     data: TempDir,
     address: String,
     client: Client,
@@ -47,15 +47,13 @@ impl Server {
     }
 
     /// Starts one with these environment variables.
-    pub fn with(settings: &[(&'static str, &'static str)]) -> Self {
-        Self::on(
-            tempfile::tempdir().expect("a folder for the data"),
-            settings,
-        )
+    pub fn with(settings: &[(&str, &str)]) -> Self {
+        let data = tempfile::tempdir().expect("a folder for the data");
+        Self::on(data, &owned(settings))
     }
 
     /// Starts one on this folder.
-    pub fn on(data: TempDir, settings: &[(&'static str, &'static str)]) -> Self {
+    pub fn on(data: TempDir, settings: &[(String, String)]) -> Self {
         let (process, stdout, address) = spawn(data.path(), settings);
         Self {
             process,
@@ -63,7 +61,7 @@ impl Server {
             settings: settings.to_vec(),
             data,
             address,
-            client: Client::new(),
+            client: client(),
         }
     }
 
@@ -83,8 +81,8 @@ impl Server {
     }
 
     /// Starts it again on the same data, with other environment variables.
-    pub fn restart_with(&mut self, settings: &[(&'static str, &'static str)]) {
-        self.settings = settings.to_vec();
+    pub fn restart_with(&mut self, settings: &[(&str, &str)]) {
+        self.settings = owned(settings);
         self.restart();
     }
 
@@ -95,15 +93,7 @@ impl Server {
 
     /// Process ids of the compute children of this server.
     pub fn children(&self) -> Vec<i32> {
-        let folder = self.data.path().to_string_lossy().into_owned();
-        let is_child = |pid: &i32| {
-            let command = std::fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
-            let command = String::from_utf8_lossy(&command).replace('\0', " ");
-            command.contains(" compute ") && command.contains(&folder)
-        };
-        let entries = std::fs::read_dir("/proc").expect("/proc");
-        let names = entries.filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok());
-        names.filter(is_child).collect()
+        children_below(self.data.path())
     }
 
     pub fn data(&self) -> &Path {
@@ -188,14 +178,37 @@ impl Drop for Server {
     }
 }
 
-fn spawn(
-    data: &Path,
-    settings: &[(&'static str, &'static str)],
-) -> (Child, BufReader<ChildStdout>, String) {
+/// Variables of the environment.
+pub fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
+    let owned = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
+    settings.iter().map(owned).collect()
+}
+
+/// Process ids of the compute children that work below a folder.
+pub fn children_below(folder: &Path) -> Vec<i32> {
+    let folder = folder.to_string_lossy().into_owned();
+    let is_child = |pid: &i32| {
+        let command = std::fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
+        let command = String::from_utf8_lossy(&command).replace('\0', " ");
+        command.contains(" compute ") && command.contains(&folder)
+    };
+    let entries = std::fs::read_dir("/proc").expect("/proc");
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok());
+    names.filter(is_child).collect()
+}
+
+/// A client. The service chooses its TLS itself, and so must whoever is built with it.
+pub fn client() -> Client {
+    // Another client of this process may have done it.
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    Client::new()
+}
+
+fn spawn(data: &Path, settings: &[(String, String)]) -> (Child, BufReader<ChildStdout>, String) {
     let mut process = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
         .args(["serve", "--listen", "127.0.0.1:0", "--data"])
         .arg(data)
-        .envs(settings.iter().copied())
+        .envs(settings.iter().cloned())
         .stdout(Stdio::piped())
         .spawn()
         .expect("the server starts");
