@@ -36,9 +36,10 @@
 //!                                                                              │
 //!                            report, pictures ◄─ measure, certificate ◄─ document::read again
 //!
-//!  http ─► jobs (queue, attempts, events) ─► compute child process ─► pipeline
-//!  cli ─► bulk (lists, records, summaries) ─► compute child process ─► pipeline
-//!  cli  ───────────────────────────────────────────────────────────► pipeline
+//!  http ─► jobs ─► store (records, files) ◄─ jobs ─► compute child process ─► pipeline
+//!      unwrapd serve                    unwrapd worker, or the same serve
+//!  cli ─► bulk (lists, records, summaries) ────────► compute child process ─► pipeline
+//!  cli  ──────────────────────────────────────────────────────────────────► pipeline
 //! ```
 //!
 //! The geometry is a pure library: no I/O, no clock of its own, no logging, no global state. Options, threads and the
@@ -81,7 +82,7 @@
 //! | [`pipeline`] | every application as a function from arrays or a file's bytes to files' bytes and a report |
 #![cfg_attr(
     feature = "service",
-    doc = "| [`jobs`], [`store`], [`http`] | queue and compute child, SQLite and blob files, routes |"
+    doc = "| [`jobs`], [`store`], [`http`] | queue and compute child; records in SQLite or PostgreSQL, files in a folder or S3; routes |"
 )]
 #![cfg_attr(
     feature = "service",
@@ -149,6 +150,13 @@
 //! - A chart of which floating point finds no valid map is cut into halves, even where one chart per component was asked
 //!   for: a valid atlas with a seam more is worth more than none.
 //!
+//! - Jobs are queued in tables of our own, by four operations (claim, beat, sweep, end), because the
+//!   record that clients read, its fence and its result must change in one transaction. Of 200 jobs
+//!   under workers killed every 2 s these lost none and had no effect twice; `graphile_worker` lost
+//!   one in each run, `apalis` had up to 27 effects twice and never parked a job that kills its
+//!   workers, and Temporal needs our row beside its own. PostgreSQL, which most operators run, does
+//!   830 of them a second (SQLite 2,800), a thousand times more than jobs of seconds need.
+//!
 //! - A density is three functions of the signed singular values, and the smallest of these is found from the determinant:
 //!   one definition serves plane and space, and loses nothing where areas span thirty orders of magnitude.
 //! - Handles are held exactly, by elimination, where the paper has soft constraints; points inside elements are soft and harden
@@ -172,7 +180,8 @@
 //!    exact on the written bytes.
 //! 2. Same input bytes and options, same output bytes, for any number of threads, on one processor type.
 //! 3. Everything in a document that a job was not asked to change is still there.
-//! 4. An accepted job is never lost: it ends succeeded, failed with a cause, or cancelled, over any crash or restart.
+//! 4. An accepted job is never lost: it ends succeeded, failed with a cause, or cancelled, over any
+//!    crash or restart, and what an outdated attempt says or writes changes nothing.
 //! 5. No input makes the process panic, hang, read a file or open a connection it was not given, or exceed its memory.
 
 pub mod options;

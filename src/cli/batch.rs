@@ -10,7 +10,7 @@ use super::bulk_args::{BulkArgs, Work};
 use super::bulk_display::BulkDisplay;
 use super::console::{self, Lines, print_json, say};
 use super::failure::Failure;
-use super::serve::{JOB_MEMORY, machine_memory, seconds};
+use super::work_args::{JOB_MEMORY, machine_memory, seconds};
 use crate::bulk::{self, Extra, Local, Order, Place, Row, Totals, Worker};
 use crate::jobs::{Contained, Pictures};
 

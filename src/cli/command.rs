@@ -5,7 +5,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
     batch, completions, deform, edit_uv, health, man, measure, repack, serve, solve, submit,
-    unwrap_args, verify, warp,
+    unwrap_args, verify, warp, worker,
 };
 use crate::options::as_typed;
 
@@ -80,6 +80,12 @@ pub(super) enum Command {
     /// It ends on SIGTERM or SIGINT. Every option can also be set by the environment variable that
     /// its help names. RUST_LOG sets the log level, for example `warn` or `unwrapd=debug`.
     Serve(Box<serve::Args>),
+    /// Compute jobs that services on other machines accept
+    ///
+    /// It shares a database and a place for files with them and with other workers. It ends on
+    /// SIGTERM or SIGINT. Every option can also be set by the environment variable that its help
+    /// names.
+    Worker(Box<worker::Args>),
     /// Print the OpenAPI document of the service
     Openapi,
     /// Check whether a running service is ready: exit 0 if so, 1 if not

@@ -23,6 +23,7 @@ mod listen;
 mod man;
 mod measure;
 mod output;
+mod process;
 mod progress;
 mod records;
 mod repack;
@@ -34,6 +35,8 @@ mod unwrap;
 mod unwrap_args;
 mod verify;
 mod warp;
+mod work_args;
+mod worker;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -71,6 +74,7 @@ fn run_typed(command: Command) -> Result<(), Failure> {
         Command::Batch(args) => batch::run(&args),
         Command::Submit(args) => submit::run(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
+        Command::Worker(args) => worker::run(&args).map_err(Failure::other),
         Command::Openapi => {
             console::print(crate::http::openapi());
             Ok(())

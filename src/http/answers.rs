@@ -20,6 +20,7 @@ impl IntoResponses for FileAnswers {
     fn responses() -> Responses {
         let mut answers = problems(&[
             Code::JobNotFound,
+            Code::JobExpired,
             Code::NoSuchFile,
             Code::NotFinished,
             Code::NoResult,

@@ -5,11 +5,11 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::Response;
 
 use super::extract::preferred_wait;
-use super::jobs::wait_for;
+use super::jobs::{view, wait_for};
 use super::problem::{Code, Problem};
 use super::upload;
 use super::view::{JobView, job_path};
-use super::{Shared, json};
+use super::{App, Shared, json};
 use crate::jobs::{Ended, Job, SubmitError, Submitted};
 
 /// Longest Idempotency-Key.
@@ -66,11 +66,11 @@ pub(super) async fn create_job(
         Submitted::New(job) | Submitted::Replay(job) => job,
     };
     let Some(wait) = preferred_wait(&headers) else {
-        return Ok(located(StatusCode::ACCEPTED, &job));
+        return Ok(located(&app, StatusCode::ACCEPTED, &job));
     };
     let mut response = match wait_for(&app, job.id, wait).await? {
-        Ended::Yes(job) => located(StatusCode::OK, &job),
-        Ended::NotYet(job) => located(StatusCode::ACCEPTED, &job),
+        Ended::Yes(job) => located(&app, StatusCode::OK, &job),
+        Ended::NotYet(job) => located(&app, StatusCode::ACCEPTED, &job),
     };
     let applied = format!("wait={}", wait.as_secs());
     if let Ok(applied) = HeaderValue::from_str(&applied) {
@@ -105,8 +105,8 @@ fn idempotency_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
     }
 }
 
-fn located(status: StatusCode, job: &Job) -> Response {
-    let mut response = json(status, &JobView::from(job));
+fn located(app: &App, status: StatusCode, job: &Job) -> Response {
+    let mut response = json(status, &view(app, job));
     if let Ok(path) = HeaderValue::from_str(&job_path(job)) {
         response.headers_mut().insert(header::LOCATION, path);
     }

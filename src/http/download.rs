@@ -1,13 +1,10 @@
 //! A stored file as an answer: whole, a range of it, or unchanged (RFC 9110).
 
-use std::io::SeekFrom;
 use std::ops::Range;
 
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use tokio::io::{AsyncReadExt, AsyncSeekExt};
-use tokio_util::io::ReaderStream;
 
 use super::App;
 use super::problem::{Code, Problem};
@@ -25,7 +22,7 @@ const TYPED: [Format; 7] = [
     Format::Csv,
 ];
 
-/// A file that a job made, or what of it was asked for. The name of its version is job, attempt and role: files never
+/// A file that a job made, or what of it was asked for. The name of its version is job, token and role: files never
 /// change.
 pub(super) async fn answer(
     app: &App,
@@ -36,7 +33,7 @@ pub(super) async fn answer(
     let tag = format!(
         "\"{}-{}-{}\"",
         job.id,
-        job.attempt,
+        job.token,
         file.role.replace('/', "-")
     );
     if names(headers, header::IF_NONE_MATCH, &tag) {
@@ -54,11 +51,9 @@ pub(super) async fn answer(
         return Ok((size, problem).into_response());
     };
     let part = range.clone().unwrap_or(0..file.bytes);
-    let mut content = app.jobs.open(job, file).await?;
-    content.seek(SeekFrom::Start(part.start)).await?;
+    let content = app.jobs.read(job, file, part.clone()).await?;
     let length = part.end - part.start;
-    let body = Body::from_stream(ReaderStream::new(content.take(length)));
-    let mut response = body.into_response();
+    let mut response = Body::from_stream(content).into_response();
     let headers = response.headers_mut();
     let mut set = |name, value: &str| {
         if let Ok(value) = HeaderValue::from_str(value) {

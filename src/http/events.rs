@@ -13,10 +13,11 @@ use axum::response::{IntoResponse, Response};
 use futures_util::{StreamExt, stream};
 use serde::Deserialize;
 
-use super::extract::{Parameters, PathId, job_not_found};
+use super::extract::{Parameters, PathId};
+use super::missing::missing;
 use super::problem::{Code, Problem};
 use super::{App, Shared};
-use crate::jobs::{Event, JobId, Subscription};
+use crate::jobs::Subscription;
 
 /// Between signs of life on a quiet connection.
 const KEEP_ALIVE: Duration = Duration::from_secs(15);
@@ -54,6 +55,7 @@ pub(super) struct EventsQuery {
         (status = 200, description = "Server-sent events; the data of each is an Event", body = String, content_type = "text/event-stream"),
         (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 410, description = "`job_expired`", body = Problem, content_type = "application/problem+json"),
         (status = 426, description = "`upgrade_required`: the request asks for neither", body = Problem, content_type = "application/problem+json"),
     )
 )]
@@ -71,7 +73,10 @@ pub(super) async fn watch_job(
     let resumed = headers
         .get("last-event-id")
         .and_then(|id| id.to_str().ok()?.parse().ok());
-    let events = Events::of(&app, id, query.after.or(resumed)).await?;
+    let Some(events) = app.jobs.subscribe(id).await? else {
+        return Err(missing(&app, id).await);
+    };
+    let events = events.after(query.after.or(resumed));
     if let Ok(upgrade) = upgrade {
         let sockets = app.sockets.clone();
         let relayed = move |socket| sockets.track_future(relay(socket, events, app));
@@ -87,32 +92,7 @@ pub(super) async fn watch_job(
     Err(Problem::new(Code::UpgradeRequired, detail))
 }
 
-/// The events of a job, live or just the last one.
-enum Events {
-    Live(Subscription),
-    Ended(Option<Event>),
-}
-
-impl Events {
-    /// A job that is not live when one subscribes has a final record, or none, from then on.
-    async fn of(app: &App, id: JobId, after: Option<u64>) -> Result<Self, Problem> {
-        let live = app.jobs.subscribe(id);
-        let job = app.jobs.get(id).await?.ok_or_else(job_not_found)?;
-        Ok(match live {
-            Some(events) => Self::Live(events.after(after)),
-            None => Self::Ended(Some(job.event())),
-        })
-    }
-
-    async fn next(&mut self) -> Option<Event> {
-        match self {
-            Self::Live(events) => events.next().await,
-            Self::Ended(event) => event.take(),
-        }
-    }
-}
-
-fn server_sent(events: Events, app: &Arc<App>) -> Response {
+fn server_sent(events: Subscription, app: &Arc<App>) -> Response {
     let stream = stream::unfold(events, async |mut events| {
         let event = events.next().await?;
         let sent = sse::Event::default()
@@ -128,7 +108,7 @@ fn server_sent(events: Events, app: &Arc<App>) -> Response {
 }
 
 /// Sends events until the last one, the client's goodbye, or the stop of the service.
-async fn relay(mut socket: WebSocket, mut events: Events, app: Arc<App>) {
+async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>) {
     let mut quiet = tokio::time::interval(KEEP_ALIVE);
     let code = loop {
         let message = tokio::select! {

@@ -7,6 +7,7 @@ use axum::http::HeaderMap;
 use axum::http::request::Parts;
 use serde::de::DeserializeOwned;
 
+use super::missing::job_not_found;
 use super::problem::{Code, Problem};
 use crate::jobs::JobId;
 
@@ -47,14 +48,6 @@ impl<S: Send + Sync> FromRequestParts<S> for PathName {
             Err(_) => Err(Problem::new(Code::NotFound, "the name is not UTF-8")),
         }
     }
-}
-
-/// The answer to an id that is not known.
-pub(super) fn job_not_found() -> Problem {
-    Problem::new(
-        Code::JobNotFound,
-        "it never existed, or it has been deleted",
-    )
 }
 
 /// Query parameters; unknown ones are refused where `T` does so.

@@ -7,11 +7,12 @@ use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 
-use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId, job_not_found};
+use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId};
+use super::missing::{existing, missing};
 use super::problem::{Code, Problem};
 use super::view::{JobPage, JobView};
 use super::{App, Shared, json};
-use crate::jobs::{Ended, JobId, Listing, Wish};
+use crate::jobs::{Changed, Ended, Job, JobId, Listing, Reason, Refusal, Wish};
 
 const DEFAULT_PAGE: u32 = 50;
 const MAX_PAGE: u32 = 200;
@@ -64,7 +65,7 @@ pub(super) async fn list_jobs(
         .last()
         .filter(|_| !is_last)
         .map(|job| job.id.to_string());
-    let jobs = jobs.iter().map(JobView::from).collect();
+    let jobs = jobs.iter().map(|job| view(&app, job)).collect();
     Ok(json(StatusCode::OK, &JobPage { jobs, next }))
 }
 
@@ -86,6 +87,7 @@ pub(super) struct GetQuery {
         (status = 200, description = "The job", body = JobView),
         (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 410, description = "`job_expired`", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn get_job(
@@ -99,13 +101,13 @@ pub(super) async fn get_job(
         return Err(Problem::new(Code::InvalidRequest, detail));
     }
     let job = if wait == 0 {
-        app.jobs.get(id).await?.ok_or_else(job_not_found)?
+        existing(&app, id).await?
     } else {
         match wait_for(&app, id, Duration::from_secs(wait)).await? {
             Ended::Yes(job) | Ended::NotYet(job) => job,
         }
     };
-    Ok(json(StatusCode::OK, &JobView::from(&job)))
+    Ok(json(StatusCode::OK, &view(&app, &job)))
 }
 
 /// Cancel a live job, or delete one that has ended.
@@ -119,23 +121,18 @@ pub(super) async fn get_job(
         (status = 202, description = "The live job, which is being cancelled", body = JobView),
         (status = 204, description = "The job had ended and is removed"),
         (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 410, description = "`job_expired`", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn delete_job(
     State(app): Shared,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
-    let job = app.jobs.get(id).await?.ok_or_else(job_not_found)?;
-    if job.state.is_final() {
-        app.jobs.remove(id).await?;
+    if app.jobs.remove(id, Reason::Deleted).await? {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let job = app
-        .jobs
-        .wish(id, Wish::Cancel)
-        .await?
-        .ok_or_else(job_not_found)?;
-    Ok(json(StatusCode::ACCEPTED, &JobView::from(&job)))
+    let (job, _) = wished(&app, id, Wish::Cancel).await?;
+    Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
 }
 
 /// Finish a live job early.
@@ -149,22 +146,56 @@ pub(super) async fn delete_job(
         (status = 202, description = "The job, which is finishing", body = JobView),
         (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "`already_finished`", body = Problem, content_type = "application/problem+json"),
+        (status = 410, description = "`job_expired`", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn finish_job(
     State(app): Shared,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
-    let job = app
-        .jobs
-        .wish(id, Wish::FinishEarly)
-        .await?
-        .ok_or_else(job_not_found)?;
-    if job.state.is_final() {
+    let (job, refusal) = wished(&app, id, Wish::FinishEarly).await?;
+    if refusal.is_some() {
         let detail = format!("the job has already {}", job.state.word());
         return Err(Problem::new(Code::AlreadyFinished, detail));
     }
-    Ok(json(StatusCode::ACCEPTED, &JobView::from(&job)))
+    Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
+}
+
+/// Try a failed job again.
+///
+/// The job is queued with its input and its options, under the same id. Its error is forgotten.
+/// `GET /v1/jobs?state=failed` lists the failed jobs with their errors.
+#[utoipa::path(
+    post, path = "/v1/jobs/{id}/retry", operation_id = "retryJob", tag = "jobs",
+    params(("id" = String, Path, format = "uuid", description = "The job")),
+    responses(
+        (status = 202, description = "The job, which is queued", body = JobView),
+        (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "`not_failed`", body = Problem, content_type = "application/problem+json"),
+        (status = 410, description = "`job_expired`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn retry_job(State(app): Shared, PathId(id): PathId) -> Result<Response, Problem> {
+    let (job, refusal) = wished(&app, id, Wish::Retry).await?;
+    if refusal.is_some() {
+        let detail = format!("the job is {}", job.state.word());
+        return Err(Problem::new(Code::NotFailed, detail));
+    }
+    Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
+}
+
+/// The job after a wish, and why the wish was refused.
+async fn wished(app: &App, id: JobId, wish: Wish) -> Result<(Job, Option<Refusal>), Problem> {
+    match app.jobs.wish(id, wish).await? {
+        Changed::Yes(job) => Ok((*job, None)),
+        Changed::No(job, refusal) => Ok((*job, Some(refusal))),
+        Changed::Missing => Err(missing(app, id).await),
+    }
+}
+
+/// A job as clients of this service see it.
+pub(super) fn view(app: &App, job: &Job) -> JobView {
+    JobView::new(job, app.jobs.settings())
 }
 
 /// Waits for the end of a job, or for the stop of the service.
@@ -173,5 +204,8 @@ pub(super) async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<End
         ended = app.jobs.wait(id, wait) => ended?,
         () = app.stop.cancelled() => app.jobs.get(id).await?.map(Ended::NotYet),
     };
-    ended.ok_or_else(job_not_found)
+    match ended {
+        Some(ended) => Ok(ended),
+        None => Err(missing(app, id).await),
+    }
 }

@@ -12,6 +12,7 @@ mod events;
 mod extract;
 mod framing;
 mod jobs;
+mod missing;
 mod openapi;
 mod options;
 mod page;
@@ -66,6 +67,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(create::create_job, jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::delete_job))
         .routes(routes!(jobs::finish_job))
+        .routes(routes!(jobs::retry_job))
         .routes(routes!(events::watch_job))
         .routes(routes!(results::get_result))
         .routes(routes!(results::get_report))

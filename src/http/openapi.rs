@@ -114,6 +114,7 @@ fn links() -> Value {
         "getJob",
         "watchJob",
         "finishJob",
+        "retryJob",
         "getResult",
         "getReport",
         "getLayout",

@@ -41,7 +41,9 @@ pub(super) enum Code {
     NotFinished,
     AlreadyFinished,
     NoResult,
+    NotFailed,
     Conflict,
+    JobExpired,
     UploadTooLarge,
     UnsupportedMediaType,
     RangeNotSatisfiable,
@@ -52,6 +54,7 @@ pub(super) enum Code {
     OutOfMemory,
     InternalError,
     Crashed,
+    DamagedFile,
     QueueFull,
     Stopping,
     NotReady,
@@ -62,7 +65,7 @@ pub(super) enum Code {
 }
 
 impl Code {
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 32] = [
         Self::InvalidRequest,
         Self::InvalidOptions,
         Self::MissingMesh,
@@ -74,7 +77,9 @@ impl Code {
         Self::NotFinished,
         Self::AlreadyFinished,
         Self::NoResult,
+        Self::NotFailed,
         Self::Conflict,
+        Self::JobExpired,
         Self::UploadTooLarge,
         Self::UnsupportedMediaType,
         Self::RangeNotSatisfiable,
@@ -85,6 +90,7 @@ impl Code {
         Self::OutOfMemory,
         Self::InternalError,
         Self::Crashed,
+        Self::DamagedFile,
         Self::QueueFull,
         Self::Stopping,
         Self::NotReady,
@@ -120,6 +126,8 @@ impl Code {
             Self::NotFinished => ("not_finished", 409, "The job is not finished"),
             Self::AlreadyFinished => ("already_finished", 409, "The job has already ended"),
             Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
+            Self::NotFailed => ("not_failed", 409, "Only failed jobs can be tried again"),
+            Self::JobExpired => ("job_expired", 410, "The job was removed after its time"),
             Self::Conflict => ("conflict", 409, "Another request changed it meanwhile"),
             Self::UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),
             Self::UnsupportedMediaType => (
@@ -155,6 +163,7 @@ impl Code {
             ),
             Self::InternalError => ("internal_error", 500, "The service failed"),
             Self::Crashed => ("crashed", 500, "A bug in the service ended the computation"),
+            Self::DamagedFile => ("damaged_file", 500, "A stored file is damaged"),
             Self::QueueFull => ("queue_full", 503, "The queue is full"),
             Self::Stopping => ("stopping", 503, "The service is shutting down"),
             Self::NotReady => ("not_ready", 503, "The service would not accept a job now"),
@@ -235,6 +244,7 @@ impl From<StoreError> for Problem {
             ),
             StoreError::Conflict(_) => Self::new(Code::Conflict, "look again, then try again"),
             StoreError::Unavailable(_) => Self::new(Code::StoreUnavailable, "try again later"),
+            StoreError::Damaged(what) => Self::new(Code::DamagedFile, what),
             StoreError::Other(_) => Self::internal(&error),
         }
     }

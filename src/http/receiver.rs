@@ -169,7 +169,14 @@ impl Receiver {
             file.write_all(chunk).await?;
         }
         file.flush().await?;
-        Ok((InputFile { name, bytes }, path, hash.finalize().into()))
+        let hash = hash.finalize();
+        let sha256 = Some(format!("{hash:x}"));
+        let file = InputFile {
+            name,
+            bytes,
+            sha256,
+        };
+        Ok((file, path, hash.into()))
     }
 
     /// Checks what came. The query wins over the form, and `kind` over both.

@@ -5,7 +5,8 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 
 use super::answers::FileAnswers;
-use super::extract::{PathId, PathName, job_not_found};
+use super::extract::{PathId, PathName};
+use super::missing::existing;
 use super::problem::{Code, Problem};
 use super::{App, Shared, download};
 use crate::jobs::{JobId, State as JobState};
@@ -108,7 +109,7 @@ pub(super) async fn get_file(
 }
 
 async fn file(app: &App, id: JobId, role: &str, headers: &HeaderMap) -> Result<Response, Problem> {
-    let job = app.jobs.get(id).await?.ok_or_else(job_not_found)?;
+    let job = existing(app, id).await?;
     match job.state {
         JobState::Succeeded => {}
         JobState::Queued | JobState::Running => {

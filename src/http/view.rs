@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::problem::Problem;
 use crate::document::Warning;
-use crate::jobs::{Event, Job, Kind, Timestamp};
+use crate::jobs::{Event, Job, Kind, Settings, Timestamp};
 
 /// A job: request, state and outcome.
 #[derive(Serialize, utoipa::ToSchema)]
@@ -36,6 +36,9 @@ pub(super) struct JobView {
     /// Time of the final state.
     #[schema(value_type = Option<String>, format = DateTime)]
     finished_at: Option<Timestamp>,
+    /// Time after which the job and its files are removed; null until the final state.
+    #[schema(value_type = Option<String>, format = DateTime)]
+    expires_at: Option<Timestamp>,
     /// Whether everything requested is proven on the bytes written. Null until the job succeeded, and
     /// for kinds that prove nothing. If false there is a result, and `warnings` name what is missing.
     certified: Option<bool>,
@@ -76,8 +79,9 @@ pub(super) fn job_path(job: &Job) -> String {
     format!("/v1/jobs/{}", job.id)
 }
 
-impl From<&Job> for JobView {
-    fn from(job: &Job) -> Self {
+impl JobView {
+    /// A job as clients of a service with these settings see it.
+    pub fn new(job: &Job, settings: &Settings) -> Self {
         let path = job_path(job);
         let files = job.output.iter().map(|file| FileLink {
             href: format!("{path}/{}", file.role),
@@ -98,6 +102,10 @@ impl From<&Job> for JobView {
             created_at: job.created,
             started_at: job.started,
             finished_at: job.finished,
+            expires_at: job
+                .finished
+                .zip(settings.retention)
+                .map(|(end, kept)| end.later(kept)),
             certified: job.verdict.certified,
             warnings: job.verdict.warnings.clone(),
             error: job.failure.as_ref().map(Problem::of_failure),

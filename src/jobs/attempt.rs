@@ -1,60 +1,58 @@
-//! One attempt at one job, seen from the server.
+//! One attempt at one job, seen from the worker.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 
+use super::cgroup::Kills;
+use super::checksum;
 use super::child::{Child, Exit};
-use super::control::Control;
 use super::deadline::{given_up_after, timed_out};
 use super::job::{Failure, Job};
-use super::keys::{input_key, output_key};
+use super::keys::{input_key, output_folder, output_key};
+use super::progress::Event;
 use super::queue::Jobs;
-use super::state::State;
+use super::running::Attempt;
+use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
 use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
-use super::timestamp::Timestamp;
+use super::transition::{Ending, Happening};
 use crate::pipeline::Limits;
 
-/// How often the child's memory is looked at.
+/// How often the child's memory and the lease are looked at.
 const WATCH_INTERVAL: Duration = Duration::from_millis(250);
-/// How often its progress is recorded.
-const RECORD_INTERVAL: Duration = Duration::from_secs(1);
+/// After which a job is tried again that could not be computed for want of space or of files.
+const PAUSE: Duration = Duration::from_secs(1);
 
-/// How an attempt ended.
-enum Ending {
-    Succeeded(Outcome),
-    Failed(Failure),
-    Cancelled,
-    /// The server stops, or has no space for it; the job shall run again.
-    Waits,
-}
-
-/// Runs a claimed job to its end and records it.
-pub(super) async fn run(jobs: &Jobs, mut job: Job, control: &Control, stop: &CancellationToken) {
-    let folder = jobs
-        .settings
-        .scratch
-        .join(format!("attempt-{}-{}", job.id, job.attempt));
-    tracing::info!(job = %job.id, attempt = job.attempt, "started");
-    jobs.events.publish(job.id, job.event());
-    let ending = match prepare(jobs, &job, &folder).await {
-        Ok(()) => compute(jobs, &mut job, &folder, control, stop).await,
-        Err(error) => Err(error),
+/// Runs a claimed job to its end and records it. `leave` asks to hand it back.
+pub(super) async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) {
+    let name = format!("attempt-{}-{}", job.id, job.token);
+    let folder = jobs.settings.scratch.join(name);
+    tracing::info!(job = %job.id, attempt = job.attempt, worker = %jobs.worker, "started");
+    jobs.live.publish(job.id, job.event());
+    let ending = async {
+        prepare(jobs, &job, &folder).await?;
+        compute(jobs, &job, attempt, &folder, leave).await
     };
-    let ending = ending.unwrap_or_else(|error| {
+    let ending = ending.await.unwrap_or_else(|error| {
         tracing::error!(job = %job.id, %error, "attempt failed");
-        if error.is_passing() {
-            return Ending::Waits;
-        }
-        Ending::Failed(Failure::new(
-            "internal_error",
-            "the server could not run it",
-        ))
+        Some(match error {
+            StoreError::Damaged(what) => Ending::Failed(Failure::new("damaged_file", what)),
+            _ if error.is_passing() => Ending::HandedBack(PAUSE),
+            _ => Ending::Failed(Failure::new(
+                "internal_error",
+                "the service could not run it",
+            )),
+        })
     });
-    conclude(jobs, job, ending).await;
+    match ending {
+        Some(ending) => conclude(jobs, &job, attempt, ending).await,
+        None => disown(jobs, &job).await,
+    }
+    jobs.running.end(job.id, job.token);
     if let Err(error) = tokio::fs::remove_dir_all(&folder).await {
         tracing::warn!(%error, "folder of an attempt not removed");
     }
@@ -62,9 +60,10 @@ pub(super) async fn run(jobs: &Jobs, mut job: Job, control: &Control, stop: &Can
 
 async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
     tokio::fs::create_dir_all(folder).await?;
-    for index in 0..job.input.len() {
+    for (index, file) in job.input.iter().enumerate() {
         let to = folder.join(task::input_file(index));
         jobs.blobs.fetch(&input_key(job.id, index), &to).await?;
+        checksum::check(&to, file.sha256.as_deref()).await?;
     }
     let settings = &jobs.settings;
     let task = Task {
@@ -82,89 +81,121 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
     Ok(task::write_json(folder, TASK, &task)?)
 }
 
+/// How the attempt ended; `None` if the job is somebody else's by now.
 async fn compute(
     jobs: &Jobs,
-    job: &mut Job,
+    job: &Job,
+    attempt: &Attempt,
     folder: &Path,
-    control: &Control,
-    stop: &CancellationToken,
-) -> StoreResult<Ending> {
+    leave: &CancellationToken,
+) -> StoreResult<Option<Ending>> {
+    let kills = Kills::so_far();
     let mut child = Child::start(&jobs.settings.program, folder)?;
-    let ended_by_us = watch(jobs, job, &mut child, control, stop).await;
-    if let Some(ending) = ended_by_us {
+    let watched = watch(jobs, job, attempt, &mut child, leave).await;
+    if !matches!(watched, Watched::Silent) {
         child.terminate().await?;
-        return Ok(ending);
+    }
+    match watched {
+        Watched::EndedBy(ending) => return Ok(Some(ending)),
+        Watched::Outdated => return Ok(None),
+        Watched::Silent => {}
     }
     let exit = child.wait().await?;
     if matches!(exit, Exit::Code(0)) {
         let outcome: Outcome = task::read_json(folder, OUTCOME)?;
         for index in 0..outcome.output.len() {
-            let from: PathBuf = folder.join(task::output_file(index));
-            jobs.blobs.put(&output_key(job.id, index), &from).await?;
+            let key = output_key(job.id, attempt.token, index);
+            let from = folder.join(task::output_file(index));
+            jobs.blobs.put(&key, &from).await?;
         }
-        return Ok(Ending::Succeeded(outcome));
+        return Ok(Some(Ending::Succeeded(outcome.output, outcome.verdict)));
     }
     if matches!(exit, Exit::Code(NO_SPACE)) {
         return Err(StoreError::Full("an attempt's folder".to_owned()));
     }
+    if exit.is_from_outside() {
+        let is_out_of_memory = exit.is_kill() && kills.is_one_more();
+        let cause = if is_out_of_memory {
+            killed_for_memory()
+        } else {
+            exit.cause()
+        };
+        return Ok(Some(Ending::Lost(cause)));
+    }
     let said = task::read_json::<Failure>(folder, ERROR).ok();
-    Ok(Ending::Failed(said.unwrap_or_else(|| exit.cause())))
+    let failure = said.unwrap_or_else(|| exit.cause());
+    Ok(Some(Ending::Failed(if failure.code == "out_of_memory" {
+        out_of_memory(jobs.settings.memory)
+    } else {
+        failure
+    })))
 }
 
-/// Passes on progress and wishes until the child's output ends (`None`) or there is a reason to end it.
+/// Why a child is not watched any more.
+enum Watched {
+    /// Its output ended.
+    Silent,
+    /// There is a reason to end it.
+    EndedBy(Ending),
+    /// The job is somebody else's.
+    Outdated,
+}
+
+/// Passes on progress and wishes.
 async fn watch(
     jobs: &Jobs,
-    job: &mut Job,
+    job: &Job,
+    attempt: &Attempt,
     child: &mut Child,
-    control: &Control,
-    stop: &CancellationToken,
-) -> Option<Ending> {
+    leave: &CancellationToken,
+) -> Watched {
     let limits = &jobs.settings;
     let deadline = Instant::now() + given_up_after(limits.time);
     let mut interval = tokio::time::interval(WATCH_INTERVAL);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    // The disk may be slow: a wish must not wait for a record.
-    let mut recording = jobs.tasks.spawn(async {});
-    let mut recorded = (job.seq, Instant::now());
-    if job.finish_early {
-        control.finish.cancel();
-    }
+    let mut event = attempt.event();
     let (mut is_ready, mut is_told) = (false, false);
     loop {
         tokio::select! {
-            message = child.next_message() => match message? {
-                Message::Ready => is_ready = true,
-                Message::Progress(progress) => {
-                    job.progress.advance(progress);
-                    job.seq += 1;
-                    jobs.events.publish(job.id, job.event());
+            message = child.next_message() => match message {
+                None => return Watched::Silent,
+                Some(Message::Ready) => is_ready = true,
+                Some(Message::Progress(progress)) => {
+                    event.progress.advance(progress);
+                    event = Event { seq: event.seq + 1, ..job_event(job, event) };
+                    attempt.set_event(event);
+                    jobs.live.publish(job.id, event);
                 }
             },
-            () = control.cancel.cancelled() => return Some(Ending::Cancelled),
-            () = stop.cancelled() => return Some(Ending::Waits),
-            () = tokio::time::sleep_until(deadline) => {
-                return Some(Ending::Failed(timed_out(limits.time)));
+            () = attempt.outdated.cancelled() => return Watched::Outdated,
+            () = attempt.cancel.cancelled() => return Watched::EndedBy(Ending::Cancelled),
+            () = leave.cancelled() => {
+                return Watched::EndedBy(Ending::HandedBack(Duration::ZERO));
             }
-            () = control.finish.cancelled(), if is_ready && !is_told => {
+            () = tokio::time::sleep_until(deadline) => {
+                return Watched::EndedBy(Ending::Failed(timed_out(limits.time)));
+            }
+            () = attempt.finish.cancelled(), if is_ready && !is_told => {
                 child.interrupt();
                 is_told = true;
             }
             _ = interval.tick() => {
-                if limits.memory < child.resident_bytes() {
-                    return Some(Ending::Failed(out_of_memory(limits.memory)));
+                if attempt.has_lapsed() {
+                    return Watched::Outdated;
                 }
-                let is_due = recorded.0 < job.seq && RECORD_INTERVAL <= recorded.1.elapsed();
-                if is_due && recording.is_finished() {
-                    recorded = (job.seq, Instant::now());
-                    let record = jobs.store.record_progress(job.id, job.attempt, job.event());
-                    recording = jobs.tasks.spawn(async {
-                        if let Err(error) = record.await {
-                            tracing::warn!(%error, "progress not recorded");
-                        }
-                    });
+                if limits.memory < child.resident_bytes() {
+                    return Watched::EndedBy(Ending::Failed(out_of_memory(limits.memory)));
                 }
             }
         }
+    }
+}
+
+/// An event with the time since the attempt started.
+fn job_event(job: &Job, event: Event) -> Event {
+    Event {
+        elapsed_ms: job.event().elapsed_ms,
+        ..event
     }
 }
 
@@ -177,36 +208,47 @@ pub(super) fn out_of_memory(limit: u64) -> Failure {
     Failure::new("out_of_memory", detail)
 }
 
-async fn conclude(jobs: &Jobs, mut job: Job, ending: Ending) {
-    match ending {
-        Ending::Succeeded(Outcome { output, verdict }) => {
-            job.state = State::Succeeded;
-            job.progress.stage = None;
-            job.progress.fraction = 1.0;
-            job.output = output;
-            job.verdict = verdict;
+/// What a job is told that the system ended for the memory of all.
+fn killed_for_memory() -> Failure {
+    let detail = "the system ended it because the memory of the container or machine was used up";
+    Failure::new("out_of_memory", detail)
+}
+
+/// Records how an attempt ended, however long that takes: what it made is not thrown away because
+/// the store is away for a while. If the job went to another worker meanwhile, the store says so.
+async fn conclude(jobs: &Jobs, job: &Job, attempt: &Attempt, ending: Ending) {
+    let happening = Happening::Ended(attempt.token, attempt.saying(), ending);
+    loop {
+        match jobs.store.change(job.id, &happening).await {
+            Ok(Changed::Yes(job)) => {
+                let failure = job.failure.as_ref();
+                let code = failure.map(|failure| failure.code.as_str());
+                tracing::info!(job = %job.id, state = job.state.word(), code, "ended");
+                return jobs.tell(&job).await;
+            }
+            Ok(Changed::No(..) | Changed::Missing) => return disown(jobs, job).await,
+            Err(error) if error.is_passing() => {
+                tracing::warn!(job = %job.id, %error, "end not recorded yet");
+                tokio::time::sleep(PAUSE).await;
+            }
+            Err(error) => {
+                tracing::error!(job = %job.id, %error, "end not recorded");
+                return;
+            }
         }
-        Ending::Failed(failure) => {
-            job.state = State::Failed;
-            job.failure = Some(if failure.code == "out_of_memory" {
-                out_of_memory(jobs.settings.memory)
-            } else {
-                failure
-            });
-        }
-        Ending::Cancelled => job.state = State::Cancelled,
-        Ending::Waits => job.state = State::Queued,
     }
-    job.seq += 1;
-    if job.state.is_final() {
-        job.finished = Some(Timestamp::now());
+}
+
+/// Removes what an outdated attempt made.
+async fn disown(jobs: &Jobs, job: &Job) {
+    tracing::warn!(job = %job.id, attempt = job.attempt, "outdated attempt");
+    let folder = output_folder(job.id, job.token);
+    if let Err(error) = jobs.blobs.remove(&folder).await {
+        tracing::warn!(job = %job.id, %error, "files of an outdated attempt not removed");
     }
-    let code = job.failure.as_ref().map(|failure| failure.code.as_str());
-    tracing::info!(job = %job.id, state = job.state.word(), code, "ended");
-    match jobs.store.update(&job).await {
-        Ok(true) if job.state.is_final() => jobs.end(&job).await,
-        Ok(true) => jobs.events.publish(job.id, job.event()),
-        Ok(false) => tracing::warn!(job = %job.id, attempt = job.attempt, "outdated attempt"),
-        Err(error) => tracing::error!(job = %job.id, %error, "end not recorded"),
-    }
+}
+
+/// An attempt at a job that was just claimed; its lease counts from before the claim was sent.
+pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
+    jobs.running.start(job, sent + jobs.settings.rules.lease)
 }

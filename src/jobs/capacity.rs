@@ -49,9 +49,11 @@ impl Jobs {
         Ok(())
     }
 
-    /// Whether a job would be accepted now: records can be written, disks have room, and the quota is not used up.
+    /// Whether a job would be accepted now: records and files can be written,
+    /// disks have room, and the quota is not used up.
     pub async fn check(&self) -> StoreResult<()> {
         self.store.check().await?;
+        self.blobs.check().await?;
         self.has_room()?;
         match self.settings.quota {
             Some(quota) if quota <= self.store.stored_bytes().await? => {

@@ -145,6 +145,17 @@ fn exit(status: ExitStatus, stderr: &str) -> Exit {
 }
 
 impl Exit {
+    /// Whether somebody ended it who was not this program and not the child itself.
+    pub fn is_from_outside(&self) -> bool {
+        let outside = [Signal::SIGKILL, Signal::SIGTERM, Signal::SIGINT];
+        matches!(self, Self::Signal(number) if outside.iter().any(|it| *it as i32 == *number))
+    }
+
+    /// Whether it was ended by force, as the system does for want of memory.
+    pub fn is_kill(&self) -> bool {
+        matches!(self, Self::Signal(number) if *number == Signal::SIGKILL as i32)
+    }
+
     /// Why a child ended that could not say so itself.
     pub fn cause(&self) -> Failure {
         match *self {
@@ -160,18 +171,14 @@ impl Exit {
             Self::Signal(number) => {
                 let signal = Signal::try_from(number).ok();
                 let name = signal.map_or_else(|| number.to_string(), |s| s.to_string());
-                match signal {
-                    Some(Signal::SIGKILL | Signal::SIGTERM | Signal::SIGINT) => Failure::new(
-                        "worker_lost",
-                        format!("the computation was terminated from outside by {name}"),
-                    ),
-                    _ => Failure::new(
-                        "crashed",
-                        format!(
-                            "the computation was terminated by {name}, which is a bug in the service"
-                        ),
-                    ),
+                if self.is_from_outside() {
+                    let detail = format!("the computation was terminated from outside by {name}");
+                    return Failure::new("worker_lost", detail);
                 }
+                let detail = format!(
+                    "the computation was terminated by {name}, which is a bug in the service"
+                );
+                Failure::new("crashed", detail)
             }
         }
     }

@@ -14,8 +14,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use nix::sys::resource::{Resource, setrlimit};
 use nix::sys::signal::{SigSet, Signal};
 
+use super::checksum::sha256;
 use super::frames::Frames;
-use super::job::{Failure, OutputFile};
+use super::input_output::OutputFile;
+use super::job::Failure;
 use super::reporter::Reporter;
 use super::store_error::StoreError;
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
@@ -62,6 +64,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
             role,
             name,
             bytes: bytes.len() as u64,
+            sha256: Some(sha256(&bytes)),
         });
     }
     let frames = reporter.into_frames();

@@ -11,11 +11,6 @@ use super::{Failure, Kind, OutputFile};
 use crate::document::Upload;
 use crate::pipeline::Limits;
 
-/// How much longer than its time a computation may take to finish with the map it has: this share of
-/// it, or this time if that is longer.
-const GRACE_SHARE: f64 = 0.25;
-const LEAST_GRACE: Duration = Duration::from_secs(10);
-
 /// What contains a computation: a process that ends with its own failure, and limits.
 #[derive(Clone, Debug)]
 pub struct Contained {

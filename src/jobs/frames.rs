@@ -4,7 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::job::OutputFile;
+use super::checksum::sha256;
+use super::input_output::OutputFile;
 use super::task::output_file;
 
 /// Bytes of all frames of a job together; there are as many as fit.
@@ -13,8 +14,8 @@ const MOST_BYTES: u64 = 256 << 20;
 /// The frames of an attempt.
 pub(super) struct Frames {
     folder: PathBuf,
-    /// Number and size of each.
-    written: Vec<(usize, u64)>,
+    /// Number, size and checksum of each.
+    written: Vec<(usize, u64, String)>,
     failure: Option<io::Error>,
 }
 
@@ -30,13 +31,16 @@ impl Frames {
 
     /// Writes one, as long as there is room.
     pub fn add(&mut self, number: usize, file: &dyn Fn() -> Vec<u8>) {
-        let bytes: u64 = self.written.iter().map(|(_, bytes)| bytes).sum();
+        let bytes: u64 = self.written.iter().map(|(_, bytes, _)| bytes).sum();
         if self.failure.is_some() || MOST_BYTES <= bytes {
             return;
         }
         let file = file();
         match fs::write(self.path(number), &file) {
-            Ok(()) => self.written.push((number, file.len() as u64)),
+            Ok(()) => {
+                let bytes = file.len() as u64;
+                self.written.push((number, bytes, sha256(&file)));
+            }
             Err(error) => self.failure = Some(error),
         }
     }
@@ -48,7 +52,7 @@ impl Frames {
         }
         let result = output.first().map_or("", |file| file.name.as_str());
         let extension = result.rsplit('.').next().unwrap_or_default().to_owned();
-        for &(number, bytes) in &self.written {
+        for (number, bytes, sha256) in std::mem::take(&mut self.written) {
             fs::rename(
                 self.path(number),
                 self.folder.join(output_file(output.len())),
@@ -58,6 +62,7 @@ impl Frames {
                 role: format!("files/{name}"),
                 name,
                 bytes,
+                sha256: Some(sha256),
             });
         }
         Ok(())

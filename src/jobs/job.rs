@@ -6,6 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize, Serializer};
 use uuid::Uuid;
 
+use super::input_output::{InputFile, OutputFile};
+use super::lease::{Token, WorkerId};
 use super::progress::{Event, Progress};
 use super::state::State;
 use super::timestamp::Timestamp;
@@ -20,6 +22,12 @@ impl JobId {
     /// A fresh id, later than every id this process made before.
     pub fn fresh() -> Self {
         Self(Uuid::now_v7())
+    }
+
+    /// When it was made, by the clock of the process that did.
+    pub fn made(self) -> Timestamp {
+        let (seconds, nanos) = self.0.get_timestamp().map_or((0, 0), |time| time.to_unix());
+        Timestamp(seconds as i64 * 1000 + i64::from(nanos) / 1_000_000)
     }
 }
 
@@ -125,26 +133,6 @@ impl Failure {
     }
 }
 
-/// One file of the input: the name it is referenced by and its size.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct InputFile {
-    /// File name of the mesh, or the relative path by which the mesh names a buffer or an image.
-    pub name: String,
-    /// Size in bytes.
-    pub bytes: u64,
-}
-
-/// One file that a job made.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct OutputFile {
-    /// Where it is found: `result`, `report`, `layout.png`, `heatmap.png`, or `files/NAME` for what belongs to the result.
-    pub role: String,
-    /// Name under which it should be saved.
-    pub name: String,
-    /// Size in bytes.
-    pub bytes: u64,
-}
-
 /// What is known of a result beside its files.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
@@ -172,10 +160,20 @@ pub struct Job {
     pub output: Vec<OutputFile>,
     /// What is known of that; empty until it succeeded.
     pub verdict: Verdict,
-    /// How often it was started; fences off what outdated attempts report.
+    /// How often it was started.
     pub attempt: u32,
-    /// How many attempts ended because the server was lost.
+    /// Names its present or last holder; fences off what former ones report.
+    pub token: Token,
+    /// Who has it.
+    pub worker: Option<WorkerId>,
+    /// When that worker must have given a sign of life, by the clock of the store.
+    pub lease: Option<Timestamp>,
+    /// When it may be started.
+    pub due: Timestamp,
+    /// How many attempts were ended from outside.
     pub lost: u32,
+    /// Whether it shall stop.
+    pub cancel: bool,
     /// Whether it shall end early with the map it has.
     pub finish_early: bool,
     /// Whether it belongs to a waiting call and is of no use without it.
@@ -198,12 +196,11 @@ impl Job {
     /// Its present state as an event.
     pub fn event(&self) -> Event {
         let until = self.finished.unwrap_or_else(Timestamp::now);
-        let elapsed = self.started.map_or(0, |started| until.0 - started.0);
         Event {
             seq: self.seq,
             state: self.state,
             progress: self.progress,
-            elapsed_ms: elapsed.max(0) as u64,
+            elapsed_ms: self.started.map_or(0, |started| until.since(started)),
         }
     }
 

@@ -1,11 +1,21 @@
 //! The names under which blobs of a job are stored.
 
 use super::job::JobId;
+use super::lease::Token;
 
 pub(super) fn input_key(id: JobId, index: usize) -> String {
     format!("{id}/input/{index}")
 }
 
-pub(super) fn output_key(id: JobId, index: usize) -> String {
-    format!("{id}/output/{index}")
+/// The folder of what one attempt made: an outdated one never touches the files of its successor.
+/// No attempt has the token 0; files of versions without tokens lie there.
+pub(super) fn output_folder(id: JobId, token: Token) -> String {
+    match token {
+        0 => format!("{id}/output"),
+        _ => format!("{id}/output-{token}"),
+    }
+}
+
+pub(super) fn output_key(id: JobId, token: Token, index: usize) -> String {
+    format!("{}/{index}", output_folder(id, token))
 }

@@ -4,38 +4,53 @@
 //! stored. From then on it ends succeeded, failed with a cause, or cancelled, despite any crash or restart:
 //!
 //! ```text
-//! queued ──claim──► running ──► succeeded | failed | cancelled
-//!    ▲                 │
-//!    └── server lost ──┘   (a new attempt, at most three lost ones)
+//!          ┌── retried ───────────┐
+//!          ▼                      │
+//! queued ──claimed──► running ──► succeeded | failed | cancelled
+//!    ▲                   │
+//!    └── worker lost ────┘   (at most three attempts are lost)
 //! ```
 //!
-//! The server itself computes nothing. Every attempt runs in a child process of the same binary (`unwrapd compute`),
-//! which gets a folder with the input and writes its results there. A mesh that exhausts memory, overflows a stack or
-//! finds a bug ends its own attempt; memory goes back to the system; a cancel always works, because it is a signal.
-//! The child ends when its standard input closes, so a killed server leaves no orphans; each attempt has its own
-//! folder and its own number, and what an outdated attempt reports changes no record.
+//! [`after`] is that picture as a function: what becomes of a record when something happens. A
+//! worker holds a job under a token and a lease by the store's clock, which its signs of life
+//! renew. Whoever finds a lease over puts the job back and raises the token, so that nothing that
+//! the former worker says changes the record any more, and its files have names of their own.
+//! One process or many, it is the same four operations: claim, beat, sweep, end.
 //!
-//! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its files.
+//! The worker itself computes nothing. Every attempt runs in a child process of the same binary
+//! (`unwrapd compute`), which gets a folder with the input and writes its results there. A mesh
+//! that exhausts memory, overflows a stack or finds a bug ends its own attempt; memory goes back to
+//! the system; a cancel always works, because it is a signal. The child ends when its standard
+//! input closes, so a killed worker leaves no orphans. A worker that cannot renew its lease in time
+//! ends its child.
 //!
-//! Where records, files and events live is not decided here: [`JobStore`], [`Blobs`] and [`Events`] are traits.
+//! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its
+//! files.
+//!
+//! Where records and files live is not decided here: [`JobStore`] and [`Blobs`] are traits.
 
 mod attempt;
 mod capacity;
+mod cgroup;
+mod checksum;
 mod child;
 pub mod compute;
 mod contained;
-mod control;
 mod deadline;
-mod events;
 mod frames;
+mod input_output;
 mod job;
 mod keys;
+mod lease;
+mod live;
+mod output;
 mod pace;
 mod progress;
 mod queue;
 mod reporter;
 mod retention;
 mod runner;
+mod running;
 mod settings;
 mod space;
 mod state;
@@ -45,22 +60,28 @@ mod submit;
 mod subscription;
 mod task;
 mod timestamp;
+mod transition;
 mod work;
 
 pub use capacity::Usage;
 pub use contained::Contained;
-pub use events::LocalEvents;
-pub use job::{Failure, InputFile, Job, JobId, Kind, OutputFile, Verdict};
+pub use input_output::{InputFile, OutputFile};
+pub use job::{Failure, Job, JobId, Kind, Verdict};
+pub use lease::{Rules, Token, WorkerId};
 pub use pace::Pace;
-pub use progress::{Event, Progress, next_attempt_seq};
+pub use progress::{Event, Progress, Saying};
 pub use queue::{Ended, Jobs};
-pub use settings::Settings;
+pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
-pub use storage::{Blobs, Capacity, Enqueued, Events, IdempotencyKey, JobStore, Listing, Wish};
+pub use storage::{
+    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing, Reason,
+    Sweep,
+};
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;
 pub use task::{Pictures, output_file};
 pub use timestamp::Timestamp;
+pub use transition::{Ending, Happening, Refusal, Wish, after};
 pub use work::Work;

@@ -34,6 +34,15 @@ impl Progress {
     }
 }
 
+/// How far an attempt is, as its worker says it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Saying {
+    /// Number of its latest event.
+    pub seq: u64,
+    /// How far it is.
+    pub progress: Progress,
+}
+
 /// One state of a job in its sequence. Events are snapshots: one that was missed is not needed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Event {

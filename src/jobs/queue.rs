@@ -1,35 +1,33 @@
-//! The queue: takes jobs in, starts attempts, lets clients watch, cancel and remove.
+//! The queue as clients see it: jobs are looked at, waited for, ended, tried again and removed.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::sync::Notify;
 use tokio_util::task::TaskTracker;
 
-use super::control::Control;
-use super::job::{Failure, Job, JobId, OutputFile};
-use super::keys::output_key;
+use super::job::{Job, JobId};
+use super::lease::WorkerId;
+use super::live::Live;
+use super::running::Running;
 use super::settings::Settings;
 use super::state::State;
-use super::storage::{Blobs, Events, JobStore, Listing, Wish};
+use super::storage::{Blobs, Changed, JobStore, Listing, Reason};
 use super::store_error::StoreResult;
-use super::subscription::Subscription;
-use super::timestamp::Timestamp;
+use super::transition::{Happening, Wish};
 
-/// After this many crashes of the server during its computation, a job is taken for the cause.
-const MAX_LOST: u32 = 3;
 /// For a job that nobody waits for to end.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
 
-/// The queue and all that belongs to it.
+/// The queue and all that belongs to it in this process.
 pub struct Jobs {
     pub(super) store: Arc<dyn JobStore>,
     pub(super) blobs: Arc<dyn Blobs>,
-    pub(super) events: Arc<dyn Events>,
     pub(super) settings: Settings,
+    pub(super) worker: WorkerId,
+    pub(super) live: Live,
+    pub(super) running: Running,
     pub(super) wake: Notify,
-    controls: Mutex<HashMap<JobId, Control>>,
     pub(super) tasks: TaskTracker,
 }
 
@@ -44,19 +42,15 @@ pub enum Ended {
 
 impl Jobs {
     /// A queue on these stores. Nothing runs before [`Jobs::recover`] and [`Jobs::run`].
-    pub fn new(
-        settings: Settings,
-        store: Arc<dyn JobStore>,
-        blobs: Arc<dyn Blobs>,
-        events: Arc<dyn Events>,
-    ) -> Self {
+    pub fn new(settings: Settings, store: Arc<dyn JobStore>, blobs: Arc<dyn Blobs>) -> Self {
         Self {
             store,
             blobs,
-            events,
             settings,
+            worker: WorkerId::fresh(),
+            live: Live::default(),
+            running: Running::default(),
             wake: Notify::new(),
-            controls: Mutex::default(),
             tasks: TaskTracker::new(),
         }
     }
@@ -66,44 +60,23 @@ impl Jobs {
         &self.settings
     }
 
-    /// Puts the house in order after a start: scratch is emptied, jobs that ran when the server was lost are queued
-    /// again (or failed, when that happened too often), calls that nobody waits for any more are forgotten, and files
-    /// without a job are removed.
-    pub async fn recover(&self) -> StoreResult<()> {
-        let scratch = &self.settings.scratch;
-        if tokio::fs::try_exists(scratch).await? {
-            tokio::fs::remove_dir_all(scratch).await?;
-        }
-        tokio::fs::create_dir_all(scratch).await?;
-        for mut job in self.store.recover().await? {
-            if job.ephemeral {
-                self.store.delete(job.id).await?;
-                self.blobs.remove(job.id).await?;
-            } else if job.lost >= MAX_LOST {
-                let detail = format!("the server stopped {MAX_LOST} times during the computation");
-                job.state = State::Failed;
-                job.failure = Some(Failure::new("worker_lost", detail));
-                job.finished = Some(Timestamp::now());
-                self.store.update(&job).await?;
-            } else {
-                self.make_live(&job);
-            }
-        }
-        self.remove_orphaned_files().await
-    }
-
-    /// The job as it is now, its progress included.
+    /// The job as it is now. Its progress is that of the moment if it runs in this process.
     pub async fn get(&self, id: JobId) -> StoreResult<Option<Job>> {
-        let live = self.events.subscribe(id);
+        let running = self.running.attempt(id);
         let mut job = self.store.get(id).await?;
-        if let (Some(job), Some(live)) = (&mut job, live) {
-            let event = live.latest();
-            if job.state == State::Running && job.seq < event.seq {
+        if let (Some(job), Some(running)) = (&mut job, running) {
+            let event = running.event();
+            if job.state == State::Running && job.token == running.token && job.seq < event.seq {
                 job.seq = event.seq;
                 job.progress = event.progress;
             }
         }
         Ok(job)
+    }
+
+    /// Whether there was such a job until its time was over.
+    pub async fn has_expired(&self, id: JobId) -> StoreResult<bool> {
+        self.store.has_expired(id).await
     }
 
     /// A page of jobs, the newest first.
@@ -116,17 +89,13 @@ impl Jobs {
         self.store.counts().await
     }
 
-    /// Watches a live job. `None`: its record is final, or there is none.
-    pub fn subscribe(&self, id: JobId) -> Option<Subscription> {
-        self.events.subscribe(id)
-    }
-
     /// Waits for the end of a job, but not longer than this.
     pub async fn wait(&self, id: JobId, at_most: Duration) -> StoreResult<Option<Ended>> {
-        if let Some(mut events) = self.events.subscribe(id) {
-            let end = async { while events.next().await.is_some() {} };
-            let _ = tokio::time::timeout(at_most, end).await;
-        }
+        let Some(mut events) = self.subscribe(id).await? else {
+            return Ok(None);
+        };
+        let end = async { while events.next().await.is_some() {} };
+        let _ = tokio::time::timeout(at_most, end).await;
         let job = self.get(id).await?;
         Ok(job.map(|job| {
             if job.state.is_final() {
@@ -137,29 +106,25 @@ impl Jobs {
         }))
     }
 
-    /// Cancels a job, or has it end early with the map it has. Returns the job after that; its state says whether it
-    /// was too late.
-    pub async fn wish(&self, id: JobId, wish: Wish) -> StoreResult<Option<Job>> {
-        // The running child first, it should not wait for the disk; a queued job is ended by the store.
-        if let Some(control) = self.control(id) {
-            match wish {
-                Wish::Cancel => control.cancel.cancel(),
-                Wish::FinishEarly => control.finish.cancel(),
-            }
+    /// Cancels a job, has it end early with the map it has, or tries it again, wherever it runs.
+    pub async fn wish(&self, id: JobId, wish: Wish) -> StoreResult<Changed> {
+        // The child of this process first, it should not wait for the disk.
+        self.running.wish(id, wish);
+        let changed = self.store.change(id, &Happening::Wished(wish)).await?;
+        if let Changed::Yes(job) = &changed {
+            self.tell(job).await;
         }
-        let Some(job) = self.store.wish(id, wish).await? else {
-            return Ok(None);
-        };
-        if job.state.is_final() {
-            self.end(&job).await;
-        }
-        Ok(Some(job))
+        Ok(changed)
     }
 
-    /// Removes a job in a final state, with its files.
-    pub async fn remove(&self, id: JobId) -> StoreResult<()> {
-        self.store.delete(id).await?;
-        self.blobs.remove(id).await
+    /// Removes a job in a final state, with its files. False: there is none.
+    pub async fn remove(&self, id: JobId, reason: Reason) -> StoreResult<bool> {
+        let removed = self.store.delete(id, reason).await?;
+        if removed {
+            self.blobs.remove(&id.to_string()).await?;
+            self.live.forget(id);
+        }
+        Ok(removed)
     }
 
     /// Ends a job and removes it, in the background: nobody waits for it any more.
@@ -169,7 +134,7 @@ impl Jobs {
             let dismissed = async {
                 jobs.wish(id, Wish::Cancel).await?;
                 jobs.wait(id, DISMISSAL_TIME).await?;
-                jobs.remove(id).await
+                jobs.remove(id, Reason::Deleted).await
             };
             if let Err(error) = dismissed.await {
                 tracing::error!(job = %id, %error, "not removed");
@@ -177,40 +142,17 @@ impl Jobs {
         });
     }
 
-    /// Opens a file that a job made.
-    pub async fn open(&self, job: &Job, file: &OutputFile) -> StoreResult<tokio::fs::File> {
-        let index = job.output.iter().position(|other| other == file);
-        self.blobs
-            .open(&output_key(job.id, index.unwrap_or_default()))
-            .await
-    }
-
-    pub(super) fn make_live(&self, job: &Job) {
-        self.controls().insert(job.id, Control::default());
-        self.events.announce(job.id, job.event());
-    }
-
-    /// Tells those who watch that a job has ended. Nothing but the record is kept of a cancelled one.
-    pub(super) async fn end(&self, job: &Job) {
+    /// Tells those who watch, and those who wait for work, of a record that changed. Nothing but
+    /// the record is kept of a cancelled job.
+    pub(super) async fn tell(&self, job: &Job) {
         if job.state == State::Cancelled
-            && let Err(error) = self.blobs.remove(job.id).await
+            && let Err(error) = self.blobs.remove(&job.id.to_string()).await
         {
             tracing::error!(job = %job.id, %error, "files of a cancelled job not removed");
         }
-        self.controls().remove(&job.id);
-        self.events.publish(job.id, job.event());
-    }
-
-    pub(super) fn forget_live(&self, id: JobId) {
-        self.controls().remove(&id);
-        self.events.forget(id);
-    }
-
-    pub(super) fn control(&self, id: JobId) -> Option<Control> {
-        self.controls().get(&id).cloned()
-    }
-
-    fn controls(&self) -> MutexGuard<'_, HashMap<JobId, Control>> {
-        self.controls.lock().unwrap_or_else(PoisonError::into_inner)
+        self.live.publish(job.id, job.event());
+        if job.state == State::Queued {
+            self.wake.notify_one();
+        }
     }
 }

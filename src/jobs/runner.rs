@@ -1,65 +1,95 @@
-//! Attempts started as jobs come.
+//! The worker: attempts started as jobs come.
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::sync::Semaphore;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
+use tokio_util::task::TaskTracker;
 
 use super::attempt;
 use super::job::Job;
 use super::queue::Jobs;
+use super::running::Attempt;
 
 /// Between two tries of a store that fails.
 const STORE_RETRY: Duration = Duration::from_secs(1);
 
+/// A claimed job with its slot.
+struct Claimed {
+    slot: OwnedSemaphorePermit,
+    job: Job,
+    attempt: Arc<Attempt>,
+}
+
 impl Jobs {
-    /// Starts attempts as jobs come and slots are free. When told to stop, ends the running attempts, puts their jobs
-    /// back in the queue and returns. Removes jobs whose time is over meanwhile.
+    /// Starts attempts as jobs come and slots are free, and keeps the store in order. When told to
+    /// stop, claims no more, lets running attempts go on for the time of grace, hands back the jobs
+    /// of those that are left, and returns.
     pub async fn run(self: Arc<Self>, stop: CancellationToken) {
-        let (jobs, stopped) = (Arc::clone(&self), stop.clone());
+        let upkeep = Arc::clone(&self);
+        let stopped = stop.clone();
         self.tasks
-            .spawn(async move { jobs.remove_expired_until(&stopped).await });
-        let slots = Arc::new(Semaphore::new(self.settings.concurrency));
-        while let Some((slot, job)) = self.next(&slots, &stop).await {
-            let (jobs, stop) = (Arc::clone(&self), stop.clone());
-            self.tasks.spawn(async move {
-                let control = jobs.control(job.id).unwrap_or_default();
-                attempt::run(&jobs, job, &control, &stop).await;
+            .spawn(async move { upkeep.keep_until(&stopped).await });
+        let watcher = Arc::clone(&self);
+        let stopped = stop.clone();
+        self.tasks
+            .spawn(async move { watcher.watch_until(&stopped).await });
+        let beater = Arc::clone(&self);
+        let pace = (self.settings.deployment).beat_interval(&self.settings.rules);
+        let beats = tokio::spawn(async move { beater.beat(pace).await });
+
+        let (leave, attempts) = (CancellationToken::new(), TaskTracker::new());
+        let slots = Arc::new(Semaphore::new(self.settings.workers));
+        while let Some(claimed) = self.next(&slots, &stop).await {
+            let (jobs, leave) = (Arc::clone(&self), leave.clone());
+            attempts.spawn(async move {
+                let Claimed { slot, job, attempt } = claimed;
+                attempt::run(&jobs, job, &attempt, &leave).await;
                 drop(slot);
             });
         }
+        attempts.close();
+        if tokio::time::timeout(self.settings.grace, attempts.wait())
+            .await
+            .is_err()
+        {
+            leave.cancel();
+            attempts.wait().await;
+        }
+        beats.abort();
         self.tasks.close();
         self.tasks.wait().await;
     }
 
-    async fn next(
-        &self,
-        slots: &Arc<Semaphore>,
-        stop: &CancellationToken,
-    ) -> Option<(tokio::sync::OwnedSemaphorePermit, Job)> {
+    /// The next job, when there are a slot, space and a job; `None` after a stop.
+    async fn next(&self, slots: &Arc<Semaphore>, stop: &CancellationToken) -> Option<Claimed> {
         let slot = tokio::select! {
             slot = Arc::clone(slots).acquire_owned() => slot.ok()?,
             () = stop.cancelled() => return None,
         };
         while !stop.is_cancelled() {
+            let sent = Instant::now();
             let claimed = match self.has_room() {
-                Ok(()) => self.store.claim().await,
+                Ok(()) => self.store.claim(self.worker).await,
                 Err(error) => Err(error),
             };
-            match claimed {
-                Ok(Some(job)) => return Some((slot, job)),
-                Ok(None) => tokio::select! {
-                    () = self.wake.notified() => {}
-                    () = stop.cancelled() => return None,
-                },
+            let pause = match claimed {
+                Ok(Some(job)) => {
+                    let attempt = attempt::started(self, &job, sent);
+                    return Some(Claimed { slot, job, attempt });
+                }
+                Ok(None) => self.settings.deployment.look_interval(),
                 Err(error) => {
                     tracing::error!(%error, "no job claimed");
-                    tokio::select! {
-                        () = tokio::time::sleep(STORE_RETRY) => {}
-                        () = stop.cancelled() => return None,
-                    }
+                    STORE_RETRY
                 }
+            };
+            tokio::select! {
+                () = self.wake.notified() => {}
+                () = tokio::time::sleep(pause) => {}
+                () = stop.cancelled() => return None,
             }
         }
         None

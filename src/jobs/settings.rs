@@ -3,15 +3,51 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use super::lease::Rules;
+
+/// Whether there are other processes on the same records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Deployment {
+    /// This is the only one.
+    Embedded,
+    /// There may be others, on other machines.
+    Shared,
+}
+
+impl Deployment {
+    /// How often a worker gives a sign of life. Others see its progress, and it hears their
+    /// wishes, no sooner.
+    pub(super) fn beat_interval(self, rules: &Rules) -> Duration {
+        match self {
+            Self::Embedded => rules.lease / 3,
+            Self::Shared => (rules.lease / 3).min(Duration::from_millis(400)),
+        }
+    }
+
+    /// How often an idle worker looks for jobs that nobody told it of, and a process at the
+    /// records of watched jobs.
+    pub(super) fn look_interval(self) -> Duration {
+        match self {
+            Self::Embedded => Duration::from_secs(1),
+            Self::Shared => Duration::from_millis(400),
+        }
+    }
+}
+
 /// Limits of the queue and of each job.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Folder for what is in the making: uploads being received and the folders of attempts. Emptied at the start.
+    /// Who else uses the records.
+    pub deployment: Deployment,
+    /// When a job changes hands.
+    pub rules: Rules,
+    /// Folder for what is in the making: uploads being received and the folders of attempts. It is
+    /// of this process alone, and emptied at the start.
     pub scratch: PathBuf,
     /// The binary that is started as compute child.
     pub program: PathBuf,
-    /// Jobs computed at the same time.
-    pub concurrency: usize,
+    /// Jobs that this process computes at the same time.
+    pub workers: usize,
     /// Threads of each job.
     pub threads: usize,
     /// Jobs that may wait.
@@ -26,6 +62,8 @@ pub struct Settings {
     pub quota: Option<u64>,
     /// Bytes that must be free for a job to be accepted or started.
     pub min_free: u64,
-    /// How long a job is kept after its end, with its files.
-    pub retention: Duration,
+    /// How long a job is kept after its end, with its files. `None`: another process sees to that.
+    pub retention: Option<Duration>,
+    /// How long attempts may go on after a stop, before their jobs are handed back.
+    pub grace: Duration,
 }

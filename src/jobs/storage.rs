@@ -1,15 +1,18 @@
-//! What the queue needs from the world: records, files, events.
+//! What the queue needs from the world: records and files.
 
+use std::ops::Range;
 use std::path::Path;
+use std::time::Duration;
 
 use futures_util::future::BoxFuture;
+use futures_util::stream::BoxStream;
 
 use super::job::{Job, JobId};
-use super::progress::Event;
+use super::lease::{Token, WorkerId};
+use super::progress::{Event, Saying};
 use super::state::State;
 use super::store_error::StoreResult;
-use super::subscription::Subscription;
-use super::timestamp::Timestamp;
+use super::transition::{Happening, Refusal};
 
 /// A client's promise that two submissions with the same key are one.
 #[derive(Clone, Debug)]
@@ -23,8 +26,8 @@ pub struct IdempotencyKey {
 /// What became of a submission.
 #[derive(Debug)]
 pub enum Enqueued {
-    /// It is a new job.
-    New,
+    /// It is a new job, as recorded.
+    New(Box<Job>),
     /// It was made before, under the same key.
     Replay(Box<Job>),
     /// The key was used for something else.
@@ -55,18 +58,43 @@ pub struct Listing {
     pub limit: u32,
 }
 
-/// What a client may ask of a live job.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wish {
-    /// Stop; nothing is kept but the record.
-    Cancel,
-    /// Stop iterating and write the map as it is.
-    FinishEarly,
+/// What became of a record.
+#[derive(Clone, Debug)]
+pub enum Changed {
+    /// It changed to this.
+    Yes(Box<Job>),
+    /// It is still this.
+    No(Box<Job>, Refusal),
+    /// There is none.
+    Missing,
 }
 
-/// Records of jobs. Every call is one transaction.
+/// A worker's sign of life for one job: which, as which holder, and how far it is.
+pub type Beat = (JobId, Token, Saying);
+
+/// Which running jobs to take from their workers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sweep {
+    /// Those whose workers have been silent for too long.
+    Overdue,
+    /// All: no worker of an earlier time can be alive.
+    Abandoned,
+}
+
+/// Why a record is removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// A client wished so.
+    Deleted,
+    /// Its time was over. That is remembered.
+    Expired,
+}
+
+/// Records of jobs. Every call is one transaction, durable when it returns. Times are those of the
+/// store's own clock, and what becomes of a record is decided by [`after`](super::after) alone.
 pub trait JobStore: Send + Sync {
-    /// Stores a queued job, unless that would exceed the capacity or its key has been used.
+    /// Stores a queued job, unless that would exceed the capacity or its key has been used. Its
+    /// times are set.
     fn enqueue<'a>(
         &'a self,
         job: &'a Job,
@@ -80,32 +108,37 @@ pub trait JobStore: Send + Sync {
     /// A page of the list.
     fn list(&self, listing: Listing) -> BoxFuture<'_, StoreResult<Vec<Job>>>;
 
-    /// Takes the oldest queued job, which becomes running with its next attempt.
-    fn claim(&self) -> BoxFuture<'_, StoreResult<Option<Job>>>;
+    /// The present states of those of these jobs that exist, in any order.
+    fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>>;
 
-    /// Writes how far a running attempt is, for those who look after a restart.
-    fn record_progress(
-        &self,
+    /// Gives the oldest queued job that may be started to a worker.
+    fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>>;
+
+    /// Changes a record as what happens demands.
+    fn change<'a>(
+        &'a self,
         id: JobId,
-        attempt: u32,
-        event: Event,
-    ) -> BoxFuture<'static, StoreResult<()>>;
+        happening: &'a Happening,
+    ) -> BoxFuture<'a, StoreResult<Changed>>;
 
-    /// Writes how an attempt ended; false if it is not the present one any more.
-    fn update<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<bool>>;
+    /// Records signs of life of one worker; what became of each record, in their order.
+    fn beat<'a>(&'a self, beats: &'a [Beat]) -> BoxFuture<'a, StoreResult<Vec<Changed>>>;
 
-    /// Records a wish and returns the job after it. A queued job that is cancelled is so at once.
-    fn wish(&self, id: JobId, wish: Wish) -> BoxFuture<'_, StoreResult<Option<Job>>>;
+    /// Takes running jobs from their workers. Returns those that changed.
+    fn sweep(&self, sweep: Sweep) -> BoxFuture<'_, StoreResult<Vec<Job>>>;
 
-    /// After a loss of the server: returns all jobs that are not in a final state, the running ones put back in the
-    /// queue with their `lost` counted.
-    fn recover(&self) -> BoxFuture<'_, StoreResult<Vec<Job>>>;
+    /// Removes a record in a final state and its idempotency key; false if there is none.
+    fn delete(&self, id: JobId, reason: Reason) -> BoxFuture<'_, StoreResult<bool>>;
 
-    /// Removes a record and its idempotency key.
-    fn delete(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>>;
+    /// Whether there was a job until its time was over. This is known for a year.
+    fn has_expired(&self, id: JobId) -> BoxFuture<'_, StoreResult<bool>>;
 
-    /// The jobs that ended before a moment.
-    fn ended_before(&self, moment: Timestamp) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
+    /// Some jobs that ended longer ago than this. A job that belongs to a call is of no use a few
+    /// minutes after its end.
+    fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
+
+    /// The jobs that belong to calls.
+    fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
     /// How many jobs there are in each state.
     fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>>;
@@ -117,7 +150,11 @@ pub trait JobStore: Send + Sync {
     fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
 }
 
-/// Files of jobs, under keys such as `ID/input/0`. A file is there completely or not at all.
+/// The content of a file as it is read.
+pub type Content = BoxStream<'static, StoreResult<Vec<u8>>>;
+
+/// Files of jobs, under keys such as `ID/input/0`. A file is there completely or not at all, and
+/// nobody writes to one.
 pub trait Blobs: Send + Sync {
     /// Stores a local file under a key, durably. The file may be moved away.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
@@ -125,8 +162,8 @@ pub trait Blobs: Send + Sync {
     /// Brings a file to a local path.
     fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// Opens a file for reading and seeking.
-    fn open<'a>(&'a self, key: &'a str) -> BoxFuture<'a, StoreResult<tokio::fs::File>>;
+    /// Reads these bytes of a file.
+    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>>;
 
     /// The jobs that have files.
     fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
@@ -134,21 +171,9 @@ pub trait Blobs: Send + Sync {
     /// Bytes that may still be written; `None` where nobody counts.
     fn free_bytes(&self) -> StoreResult<Option<u64>>;
 
-    /// Removes all files of a job.
-    fn remove(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>>;
-}
+    /// Whether files can be stored and read now.
+    fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
 
-/// Tells those who watch what happens to live jobs.
-pub trait Events: Send + Sync {
-    /// Makes a job known, with its first event; to be called before its record can be found.
-    fn announce(&self, id: JobId, event: Event);
-
-    /// Passes on a newer event; after a final one, the job is not live any more.
-    fn publish(&self, id: JobId, event: Event);
-
-    /// Watches a live job. `None`: it has ended, and its record says how, or there never was one.
-    fn subscribe(&self, id: JobId) -> Option<Subscription>;
-
-    /// Forgets a job that came to nothing.
-    fn forget(&self, id: JobId);
+    /// Removes all files whose keys begin with this folder. It is no error if there are none.
+    fn remove<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<()>>;
 }

@@ -14,6 +14,9 @@ pub enum StoreError {
     /// It cannot be reached, or it is too busy. The same may work later.
     #[error("not available: {0}")]
     Unavailable(String),
+    /// What it returned is not what was stored.
+    #[error("damaged: {0}")]
+    Damaged(String),
     /// Nothing that waiting would mend.
     #[error("{0}")]
     Other(String),

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::job::{InputFile, Job, JobId, Kind, Verdict};
+use super::input_output::InputFile;
+use super::job::{Job, JobId, Kind, Verdict};
 use super::keys::input_key;
 use super::progress::Progress;
 use super::queue::Jobs;
@@ -53,11 +54,10 @@ impl Jobs {
     pub async fn submit(&self, submission: Submission) -> Result<Submitted, SubmitError> {
         let id = JobId::fresh();
         let outcome = self.store_submission(id, submission).await;
-        if !matches!(outcome, Ok(Submitted::New(_))) {
-            self.forget_live(id);
-            if let Err(error) = self.blobs.remove(id).await {
-                tracing::warn!(job = %id, %error, "files of a refused job not removed");
-            }
+        if !matches!(outcome, Ok(Submitted::New(_)))
+            && let Err(error) = self.blobs.remove(&id.to_string()).await
+        {
+            tracing::warn!(job = %id, %error, "files of a refused job not removed");
         }
         outcome
     }
@@ -81,7 +81,12 @@ impl Jobs {
             output: Vec::new(),
             verdict: Verdict::default(),
             attempt: 0,
+            token: 0,
+            worker: None,
+            lease: None,
+            due: Timestamp::now(),
             lost: 0,
+            cancel: false,
             finish_early: false,
             ephemeral: submission.ephemeral,
             seq: 1,
@@ -91,16 +96,15 @@ impl Jobs {
             started: None,
             finished: None,
         };
-        self.make_live(&job);
         let capacity = self.capacity();
         match self
             .store
             .enqueue(&job, submission.key.as_ref(), capacity)
             .await?
         {
-            Enqueued::New => {
+            Enqueued::New(job) => {
                 self.wake.notify_one();
-                Ok(Submitted::New(job))
+                Ok(Submitted::New(*job))
             }
             Enqueued::Replay(earlier) => Ok(Submitted::Replay(*earlier)),
             Enqueued::KeyReused => Err(SubmitError::KeyReused),

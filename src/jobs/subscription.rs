@@ -6,37 +6,59 @@ use super::progress::Event;
 
 /// A view on the events of one job. Whoever is slow misses the ones between.
 pub struct Subscription {
-    pub(super) receiver: watch::Receiver<Event>,
-    pub(super) last_seq: Option<u64>,
+    receiver: watch::Receiver<Option<Event>>,
+    last: Last,
+}
+
+/// What was seen last.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Last {
+    /// Nothing.
+    None,
+    /// An event with this number.
+    Seq(u64),
+    /// A final event.
+    Final,
 }
 
 impl Subscription {
+    pub(super) fn new(receiver: watch::Receiver<Option<Event>>) -> Self {
+        Self {
+            receiver,
+            last: Last::None,
+        }
+    }
+
     /// Skips events up to and including this number, except a final one.
     #[must_use]
     pub fn after(mut self, seq: Option<u64>) -> Self {
-        self.last_seq = seq;
+        self.last = seq.map_or(Last::None, Last::Seq);
         self
     }
 
-    /// The newest event, without waiting.
-    pub fn latest(&self) -> Event {
-        *self.receiver.borrow()
-    }
-
-    /// The next event that is newer than the last one; `None` after a final event.
+    /// The next event that is newer than the last one; `None` after a final event, or when the job
+    /// is removed.
     pub async fn next(&mut self) -> Option<Event> {
-        loop {
+        while self.last != Last::Final {
             let event = *self.receiver.borrow_and_update();
-            let is_newer = self.last_seq.is_none_or(|last| last < event.seq);
-            if is_newer || (event.state.is_final() && self.last_seq != Some(u64::MAX)) {
-                self.last_seq = Some(if event.state.is_final() {
-                    u64::MAX
+            if let Some(event) = event.filter(|event| self.is_new(event)) {
+                self.last = if event.state.is_final() {
+                    Last::Final
                 } else {
-                    event.seq
-                });
+                    Last::Seq(event.seq)
+                };
                 return Some(event);
             }
             self.receiver.changed().await.ok()?;
+        }
+        None
+    }
+
+    fn is_new(&self, event: &Event) -> bool {
+        match self.last {
+            Last::None => true,
+            Last::Seq(seq) => seq < event.seq || event.state.is_final(),
+            Last::Final => false,
         }
     }
 }

@@ -8,7 +8,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use super::job::{Kind, OutputFile, Verdict};
+use super::input_output::OutputFile;
+use super::job::{Kind, Verdict};
 use super::progress::Progress;
 use crate::pipeline::Limits;
 

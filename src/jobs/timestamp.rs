@@ -1,7 +1,7 @@
 //! A moment, to the millisecond, in UTC.
 
 use std::fmt;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use serde::{Serialize, Serializer};
 
@@ -18,6 +18,17 @@ impl Timestamp {
             .duration_since(UNIX_EPOCH)
             .unwrap_or_default();
         Self(since.as_millis() as i64)
+    }
+
+    /// The moment so much later.
+    #[must_use]
+    pub fn later(self, by: Duration) -> Self {
+        Self(self.0.saturating_add(by.as_millis() as i64))
+    }
+
+    /// Milliseconds from an earlier moment to this one; 0 from a later one.
+    pub fn since(self, earlier: Self) -> u64 {
+        (self.0 - earlier.0).max(0) as u64
     }
 }
 

@@ -1,83 +1,138 @@
-//! The SQLite database: how it is opened, and what is in it.
+//! The database: how it is opened, brought up to date and written to.
 
-use std::path::Path;
 use std::time::Duration;
 
-use sqlx::sqlite::{
-    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
-};
-use sqlx::{Connection, Row, Sqlite, SqliteConnection, Transaction};
+use sqlx::any::AnyPoolOptions;
+use sqlx::migrate::{Migration, MigrationType, Migrator};
+use sqlx::{Any, AnyConnection, AnyPool, AssertSqlSafe, Connection, Row, SqlSafeStr, Transaction};
 
+use super::dialect::Dialect;
 use super::reserve;
 use crate::jobs::{StoreError, StoreResult};
 
-/// The n-th leads from version n to the next; each sets `user_version`.
-const STEPS: [&str; 3] = [
-    include_str!("schema/1.sql"),
-    include_str!("schema/2.sql"),
-    include_str!("schema/3.sql"),
+/// The n-th leads from version n to the next. A program of the version before must be able to go on
+/// after it: columns are added, never taken away.
+const SQLITE: [&str; 4] = [
+    include_str!("schema/sqlite/1.sql"),
+    include_str!("schema/sqlite/2.sql"),
+    include_str!("schema/sqlite/3.sql"),
+    include_str!("schema/sqlite/4.sql"),
 ];
-/// Pages of the log after which it is copied into the database: a quarter of what is set aside for it.
-const CHECKPOINT_PAGES: &str = "256";
-/// How long a statement waits for another one's lock.
-const BUSY: Duration = Duration::from_secs(5);
+const POSTGRES: [&str; 1] = [include_str!("schema/postgres/1.sql")];
 
-/// An open database file. What is committed is durable.
+/// What every connection to SQLite is set to. What is committed is durable; the log is copied into
+/// the database after a quarter of the pages that are set aside for it.
+const PRAGMAS: &str = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;
+    PRAGMA wal_autocheckpoint = 256; PRAGMA foreign_keys = ON; PRAGMA busy_timeout = 5000;";
+/// Connections of a process to PostgreSQL, and those to SQLite that read.
+const POSTGRES_CONNECTIONS: u32 = 8;
+const SQLITE_READERS: u32 = 4;
+/// How long a statement waits for a connection.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// An open database. What is committed is durable.
 pub(super) struct Database {
-    pub pool: SqlitePool,
+    /// For what only reads.
+    pub readers: AnyPool,
+    /// SQLite has one writer at a time, and its own way of waiting is to ask again and again. One
+    /// connection writes instead, and whoever needs it stands in line.
+    pub writers: AnyPool,
+    pub dialect: Dialect,
 }
 
 impl Database {
-    /// Opens the file, makes it if need be, and brings what an earlier version of the program made up to date.
-    pub async fn open(file: &Path) -> StoreResult<Self> {
-        let options = SqliteConnectOptions::new()
-            .filename(file)
-            .create_if_missing(true)
-            .journal_mode(SqliteJournalMode::Wal)
-            .synchronous(SqliteSynchronous::Full)
-            .foreign_keys(true)
-            .pragma("wal_autocheckpoint", CHECKPOINT_PAGES)
-            .busy_timeout(BUSY);
-        let pool = SqlitePoolOptions::new()
-            .max_connections(4)
-            .after_release(|connection, _| Box::pin(is_usable(connection)))
-            .connect_with(options)
-            .await?;
-        let database = Self { pool };
-        database.migrate(file).await?;
-        reserve::keep(&database.pool).await?;
+    /// Opens a database, makes a file if need be, and brings what an earlier version of the program
+    /// made up to date.
+    pub async fn open(url: &str) -> StoreResult<Self> {
+        sqlx::any::install_default_drivers();
+        let dialect = Dialect::of(url).ok_or_else(|| {
+            StoreError::Other("the URL of a database begins with postgres:".to_owned())
+        })?;
+        let pool = async |connections| pool(dialect, connections).connect(url).await;
+        let database = match dialect {
+            Dialect::Sqlite => Self {
+                writers: pool(1).await?,
+                readers: pool(SQLITE_READERS).await?,
+                dialect,
+            },
+            Dialect::Postgres => {
+                let pool = pool(POSTGRES_CONNECTIONS).await?;
+                Self {
+                    readers: pool.clone(),
+                    writers: pool,
+                    dialect,
+                }
+            }
+        };
+        database.migrate().await?;
+        if dialect == Dialect::Sqlite {
+            reserve::keep(&database).await?;
+        }
         Ok(database)
     }
 
-    async fn migrate(&self, file: &Path) -> StoreResult<()> {
-        let mut transaction = self.begin().await?;
-        let version: i64 = sqlx::query("PRAGMA user_version")
-            .fetch_one(&mut *transaction)
-            .await?
-            .try_get(0)?;
-        let missing = usize::try_from(version).map(|done| STEPS.get(done..));
-        let Ok(Some(missing)) = missing else {
-            let (file, known) = (file.display(), STEPS.len());
-            return Err(StoreError::Other(format!(
-                "{file} has schema version {version}; this program supports {known}"
-            )));
+    async fn migrate(&self) -> StoreResult<()> {
+        let steps = match self.dialect {
+            Dialect::Sqlite => &SQLITE[..],
+            Dialect::Postgres => &POSTGRES[..],
         };
-        for step in missing {
-            sqlx::raw_sql(*step).execute(&mut *transaction).await?;
+        let migration = |(index, sql): (usize, &&'static str)| {
+            let (version, sql) = (index as i64 + 1, sql.into_sql_str());
+            Migration::new(version, "".into(), MigrationType::Simple, sql, false)
+        };
+        let migrations = steps.iter().enumerate().map(migration).collect();
+        let mut migrator = Migrator::with_migrations(migrations);
+        // A newer program may have been here during a rolling update.
+        migrator.set_ignore_missing(true);
+        let mut connection = self.writers.acquire().await?;
+        if self.dialect == Dialect::Sqlite {
+            let version: i64 = sqlx::query("PRAGMA user_version")
+                .fetch_one(&mut *connection)
+                .await?
+                .try_get(0)?;
+            if 0 < version {
+                migrator.skip(&mut *connection, Some(version)).await?;
+            }
         }
-        transaction.commit().await?;
+        migrator.run(&mut *connection).await?;
         Ok(())
     }
 
-    /// Takes the write lock at once: a transaction that reads first could not get it later.
-    pub async fn begin(&self) -> sqlx::Result<Transaction<'_, Sqlite>> {
-        self.pool.begin_with("BEGIN IMMEDIATE").await
+    /// Begins a transaction that writes.
+    pub async fn begin(&self) -> sqlx::Result<Transaction<'_, Any>> {
+        self.writers.begin_with(self.dialect.begin()).await
+    }
+
+    /// A statement in the words of this database; see [`Dialect::sql`].
+    pub fn sql(&self, text: &str) -> AssertSqlSafe<String> {
+        AssertSqlSafe(self.dialect.sql(text))
     }
 }
 
-/// Whether a connection may be used again. SQLite ends a transaction by itself when a disk is full; sqlx then fails to roll
-/// it back, counts it as open for ever, and refuses every further one.
-async fn is_usable(connection: &mut SqliteConnection) -> sqlx::Result<bool> {
+fn pool(dialect: Dialect, connections: u32) -> AnyPoolOptions {
+    let options = AnyPoolOptions::new()
+        .max_connections(connections)
+        .acquire_timeout(PATIENCE)
+        .after_release(|connection, _| Box::pin(is_usable(connection)));
+    match dialect {
+        Dialect::Sqlite => {
+            options
+                .idle_timeout(None)
+                .max_lifetime(None)
+                .after_connect(|connection, _| {
+                    Box::pin(async move {
+                        sqlx::raw_sql(PRAGMAS).execute(connection).await?;
+                        Ok(())
+                    })
+                })
+        }
+        Dialect::Postgres => options,
+    }
+}
+
+/// Whether a connection may be used again. SQLite ends a transaction by itself when a disk is full;
+/// sqlx then fails to roll it back, counts it as open for ever, and refuses every further one.
+async fn is_usable(connection: &mut AnyConnection) -> sqlx::Result<bool> {
     // After this, a rollback that a dropped transaction asked for is done.
     connection.ping().await?;
     Ok(!connection.is_in_transaction())

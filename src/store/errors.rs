@@ -1,12 +1,17 @@
 //! Errors of databases as errors of the store.
 
 use sqlx::Error;
+use sqlx::migrate::MigrateError;
 
 use crate::jobs::StoreError;
 
 /// What SQLite calls a full disk, a database in use, and a table in use: the low byte of its codes.
 const SQLITE_FULL: i32 = 13;
 const SQLITE_BUSY: [i32; 2] = [5, 6];
+/// What PostgreSQL calls a full disk, and the classes of its codes that may pass: connections,
+/// deadlocks, a lack of resources, interventions of an operator such as a restart, its disk.
+const POSTGRES_FULL: &str = "53100";
+const POSTGRES_PASSING: [&str; 5] = ["08", "40", "53", "57", "58"];
 
 impl From<Error> for StoreError {
     fn from(error: Error) -> Self {
@@ -21,14 +26,32 @@ impl From<Error> for StoreError {
             }
             Error::Database(error) if error.is_unique_violation() => Self::Conflict(text),
             Error::Database(error) => {
-                let code = error.code().and_then(|code| code.parse::<i32>().ok());
-                match code.map(|code| code & 0xff) {
-                    Some(SQLITE_FULL) => Self::Full(text),
-                    Some(code) if SQLITE_BUSY.contains(&code) => Self::Unavailable(text),
+                let code = error.code().unwrap_or_default();
+                match code.parse::<i32>().map(|code| code & 0xff) {
+                    _ if code == POSTGRES_FULL => Self::Full(text),
+                    _ if code.len() == 5 && POSTGRES_PASSING.contains(&&code[..2]) => {
+                        Self::Unavailable(text)
+                    }
+                    Ok(SQLITE_FULL) if code.len() < 5 => Self::Full(text),
+                    Ok(low) if code.len() < 5 && SQLITE_BUSY.contains(&low) => {
+                        Self::Unavailable(text)
+                    }
                     _ => Self::Other(text),
                 }
             }
+            Error::Tls(_) | Error::Protocol(_) => Self::Unavailable(text),
             _ => Self::Other(text),
+        }
+    }
+}
+
+impl From<MigrateError> for StoreError {
+    fn from(error: MigrateError) -> Self {
+        match error {
+            MigrateError::Execute(error) => error.into(),
+            error => Self::Other(format!(
+                "the database cannot be brought up to date: {error}"
+            )),
         }
     }
 }

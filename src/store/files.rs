@@ -1,15 +1,19 @@
-//! Files of jobs in a local folder.
+//! Files of jobs in a folder, of this machine or of a network.
 
-use std::io::ErrorKind;
+use std::io::{ErrorKind, SeekFrom};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use futures_util::FutureExt;
 use futures_util::future::BoxFuture;
+use futures_util::{FutureExt, StreamExt};
 use tokio::fs;
+use tokio::io::{AsyncReadExt, AsyncSeekExt};
+use tokio_util::io::ReaderStream;
 
-use crate::jobs::{Blobs, JobId, StoreError, StoreResult, free_bytes};
+use crate::jobs::{Blobs, Content, JobId, StoreError, StoreResult, free_bytes};
 
-/// A folder with one subfolder per job. It must be on one file system with the folder files come from.
+/// A folder with one subfolder per job. Files are moved rather than copied where it is on one file
+/// system with the folder they come from.
 pub struct FileBlobs {
     root: PathBuf,
 }
@@ -25,14 +29,23 @@ impl FileBlobs {
 }
 
 impl Blobs for FileBlobs {
-    /// The content reaches the disk before the name does, and the name with all folders on its way before this returns.
+    /// The content reaches the disk before the name does, and the name with all folders on its way
+    /// before this returns.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
         async move {
             let to = self.root.join(key);
             let folder = to.parent().unwrap_or(&self.root);
             fs::create_dir_all(folder).await?;
             fs::File::open(from).await?.sync_all().await?;
-            fs::rename(from, &to).await?;
+            match fs::rename(from, &to).await {
+                Err(error) if error.kind() == ErrorKind::CrossesDevices => {
+                    let partial = to.with_extension("partial");
+                    fs::copy(from, &partial).await?;
+                    fs::File::open(&partial).await?.sync_all().await?;
+                    fs::rename(partial, &to).await?;
+                }
+                moved => moved?,
+            }
             for folder in to
                 .ancestors()
                 .skip(1)
@@ -45,13 +58,30 @@ impl Blobs for FileBlobs {
         .boxed()
     }
 
-    /// A second name for the same content: nobody writes into a stored file.
+    /// A second name for the same content where that is possible: nobody writes into a stored file.
     fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
-        async move { Ok(fs::hard_link(self.root.join(key), to).await?) }.boxed()
+        async move {
+            let from = self.root.join(key);
+            match fs::hard_link(&from, to).await {
+                Err(error) if error.kind() == ErrorKind::CrossesDevices => {
+                    fs::copy(from, to).await?;
+                }
+                linked => linked?,
+            }
+            Ok(())
+        }
+        .boxed()
     }
 
-    fn open<'a>(&'a self, key: &'a str) -> BoxFuture<'a, StoreResult<fs::File>> {
-        async move { Ok(fs::File::open(self.root.join(key)).await?) }.boxed()
+    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
+        async move {
+            let mut file = fs::File::open(self.root.join(key)).await?;
+            file.seek(SeekFrom::Start(range.start)).await?;
+            let blocks = ReaderStream::new(file.take(range.end - range.start));
+            let content = blocks.map(|block| Ok(block.map(Vec::from)?));
+            Ok(content.boxed())
+        }
+        .boxed()
     }
 
     fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
@@ -76,9 +106,17 @@ impl Blobs for FileBlobs {
         free_bytes(&self.root).map(Some)
     }
 
-    fn remove(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>> {
+    fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
         async move {
-            match fs::remove_dir_all(self.root.join(id.to_string())).await {
+            fs::metadata(&self.root).await?;
+            Ok(())
+        }
+        .boxed()
+    }
+
+    fn remove<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<()>> {
+        async move {
+            match fs::remove_dir_all(self.root.join(folder)).await {
                 Err(error) if error.kind() != ErrorKind::NotFound => Err(StoreError::from(error)),
                 _ => Ok(()),
             }

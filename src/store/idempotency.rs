@@ -1,6 +1,6 @@
 //! Idempotency keys: which submission used one first.
 
-use sqlx::{Row, Sqlite, Transaction};
+use sqlx::{Any, Row, Transaction};
 
 use super::rows;
 use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult, Timestamp};
@@ -12,14 +12,15 @@ const LIFE_MS: i64 = 86_400_000;
 pub(super) async fn earlier_use(
     key: &IdempotencyKey,
     now: Timestamp,
-    transaction: &mut Transaction<'_, Sqlite>,
+    transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Option<Enqueued>> {
-    sqlx::query("DELETE FROM idempotency WHERE created < ?")
+    sqlx::query("DELETE FROM idempotency WHERE created < $1")
         .bind(now.0 - LIFE_MS)
         .execute(&mut **transaction)
         .await?;
     let row = sqlx::query(
-        "SELECT job.*, fingerprint FROM idempotency JOIN job ON job.id = idempotency.job WHERE key = ?",
+        "SELECT job.*, fingerprint
+         FROM idempotency JOIN job ON job.id = idempotency.job WHERE key = $1",
     )
     .bind(&key.key)
     .fetch_optional(&mut **transaction)
@@ -37,9 +38,9 @@ pub(super) async fn earlier_use(
 pub(super) async fn remember(
     key: &IdempotencyKey,
     job: &Job,
-    transaction: &mut Transaction<'_, Sqlite>,
+    transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<()> {
-    sqlx::query("INSERT INTO idempotency VALUES (?, ?, ?, ?)")
+    sqlx::query("INSERT INTO idempotency VALUES ($1, $2, $3, $4)")
         .bind(&key.key)
         .bind(&key.fingerprint)
         .bind(job.id.to_string())

@@ -1,21 +1,30 @@
-//! Where the records and files of jobs lie: an SQLite database and a folder.
+//! Where the records and files of jobs lie.
 //!
-//! Both are below one data folder, which one server at a time may use:
+//! Records are in SQLite or in PostgreSQL, by one code: `dialect.rs` has the few words that differ.
+//! Files are in a folder or in an object store.
+//!
+//! An embedded service has both below one data folder, which one process at a time may use:
 //!
 //! ```text
-//! DATA/lock             held by the server that uses the folder
+//! DATA/lock             held by the process that uses the folder
 //! DATA/unwrapd.sqlite   records (write-ahead log beside it)
 //! DATA/blobs/ID/…       input and output files
 //! DATA/scratch/…        what is in the making; emptied at every start
 //! ```
 
+mod address;
 mod database;
+mod dialect;
 mod errors;
 mod files;
 mod idempotency;
+mod objects;
+mod records;
 mod reserve;
 mod rows;
-mod sqlite;
+mod transitions;
 
+pub use address::blobs_at;
 pub use files::FileBlobs;
-pub use sqlite::SqliteStore;
+pub use objects::ObjectBlobs;
+pub use records::RecordStore;

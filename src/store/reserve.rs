@@ -1,14 +1,13 @@
 //! Disk space set aside for records, so that jobs can end and be deleted on a full disk.
 //!
-//! A transaction writes its pages to the write-ahead log first, and a checkpoint copies them into the database. Neither
-//! file shrinks while the database is open: a log that was once large, and a database with free pages, take more
+//! This is about SQLite, whose disk is that of the files of jobs. A transaction writes its pages to
+//! the write-ahead log first, and a checkpoint copies them into the database. Neither file shrinks
+//! while the database is open: a log that was once large, and a database with free pages, take more
 //! records without more space.
 
-use std::time::{SystemTime, UNIX_EPOCH};
-
 use sqlx::Row;
-use sqlx::sqlite::SqlitePool;
 
+use super::database::Database;
 use crate::jobs::StoreResult;
 
 /// Bytes of free pages, and of the log. A record has about two thousand.
@@ -16,21 +15,19 @@ const RESERVE: i64 = 4 << 20;
 /// Below this the free pages are filled up again.
 const LEAST: i64 = RESERVE / 4;
 
-/// Sets space aside where there is too little of it. One transaction of that size makes the log as long.
-pub(super) async fn keep(pool: &SqlitePool) -> StoreResult<()> {
-    let row = sqlx::query(
-        "SELECT freelist_count * page_size FROM pragma_freelist_count, pragma_page_size",
-    )
-    .fetch_one(pool)
-    .await?;
+/// Sets space aside where there is too little of it. One transaction of that size makes the log as
+/// long.
+pub(super) async fn keep(database: &Database) -> StoreResult<()> {
+    let free = "SELECT freelist_count * page_size FROM pragma_freelist_count, pragma_page_size";
+    let row = sqlx::query(free).fetch_one(&database.readers).await?;
     if LEAST <= row.try_get::<i64, _>(0)? {
         return Ok(());
     }
-    let mut transaction = pool.begin_with("BEGIN IMMEDIATE").await?;
+    let mut transaction = database.begin().await?;
     sqlx::raw_sql("CREATE TABLE reserve (bytes BLOB)")
         .execute(&mut *transaction)
         .await?;
-    sqlx::query("INSERT INTO reserve VALUES (zeroblob(?))")
+    sqlx::query("INSERT INTO reserve VALUES (zeroblob($1))")
         .bind(RESERVE)
         .execute(&mut *transaction)
         .await?;
@@ -38,17 +35,5 @@ pub(super) async fn keep(pool: &SqlitePool) -> StoreResult<()> {
         .execute(&mut *transaction)
         .await?;
     transaction.commit().await?;
-    Ok(())
-}
-
-/// Writes a record of its own: whether that works cannot be told otherwise.
-pub(super) async fn write(pool: &SqlitePool) -> StoreResult<()> {
-    let now = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .unwrap_or_default();
-    sqlx::query("UPDATE pulse SET at = ?")
-        .bind(now.as_millis() as i64)
-        .execute(pool)
-        .await?;
     Ok(())
 }

@@ -2,20 +2,17 @@
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Row, Sqlite, Transaction};
+use sqlx::any::AnyRow;
+use sqlx::{Any, Row, Transaction};
 
-use crate::jobs::{Job, JobId, StoreError, StoreResult, Timestamp};
+use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 
 /// Adds a job that has not been started.
-pub(super) async fn insert(
-    job: &Job,
-    transaction: &mut Transaction<'_, Sqlite>,
-) -> StoreResult<()> {
+pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
     sqlx::query(
-        "INSERT INTO job (id, kind, state, options, input, output, attempt, lost, finish_early,
-                          ephemeral, seq, progress, failure, created, started, finished, bytes)
-         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?, NULL, NULL, ?)",
+        "INSERT INTO job (id, kind, state, options, input, output, verdict, attempt, token, due,
+                          lost, cancel, finish_early, ephemeral, seq, progress, created, bytes)
+         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18)",
     )
     .bind(job.id.to_string())
     .bind(job.kind.word())
@@ -23,10 +20,14 @@ pub(super) async fn insert(
     .bind(json(&job.options)?)
     .bind(json(&job.input)?)
     .bind(json(&job.output)?)
+    .bind(json(&job.verdict)?)
     .bind(i64::from(job.attempt))
+    .bind(job.token as i64)
+    .bind(job.due.0)
     .bind(i64::from(job.lost))
-    .bind(job.finish_early)
-    .bind(job.ephemeral)
+    .bind(i64::from(job.cancel))
+    .bind(i64::from(job.finish_early))
+    .bind(i64::from(job.ephemeral))
     .bind(job.seq as i64)
     .bind(json(&job.progress)?)
     .bind(job.created.0)
@@ -34,6 +35,44 @@ pub(super) async fn insert(
     .execute(&mut **transaction)
     .await?;
     Ok(())
+}
+
+/// Writes what can change of a job whose record has this token; false if it has another one.
+pub(super) async fn update(
+    job: &Job,
+    token: Token,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<bool> {
+    let failure = job.failure.as_ref().map(json).transpose()?;
+    let changed = sqlx::query(
+        "UPDATE job SET state = $1, output = $2, verdict = $3, attempt = $4, token = $5,
+                        worker = $6, lease = $7, due = $8, lost = $9, cancel = $10,
+                        finish_early = $11, seq = $12, progress = $13, failure = $14,
+                        started = $15, finished = $16, bytes = $17
+         WHERE id = $18 AND token = $19",
+    )
+    .bind(job.state.word())
+    .bind(json(&job.output)?)
+    .bind(json(&job.verdict)?)
+    .bind(i64::from(job.attempt))
+    .bind(job.token as i64)
+    .bind(job.worker.map(|worker| worker.to_string()))
+    .bind(job.lease.map(|time| time.0))
+    .bind(job.due.0)
+    .bind(i64::from(job.lost))
+    .bind(i64::from(job.cancel))
+    .bind(i64::from(job.finish_early))
+    .bind(job.seq as i64)
+    .bind(json(&job.progress)?)
+    .bind(failure)
+    .bind(job.started.map(|time| time.0))
+    .bind(job.finished.map(|time| time.0))
+    .bind(job.stored_bytes() as i64)
+    .bind(job.id.to_string())
+    .bind(token as i64)
+    .execute(&mut **transaction)
+    .await?;
+    Ok(changed.rows_affected() == 1)
 }
 
 /// JSON text of a value, for a column.
@@ -47,19 +86,40 @@ fn damaged(error: impl std::fmt::Display) -> StoreError {
 }
 
 /// The id that a row holds.
-pub(super) fn id(row: &SqliteRow) -> StoreResult<JobId> {
+pub(super) fn id(row: &AnyRow) -> StoreResult<JobId> {
     let text: String = row.try_get("id").map_err(damaged)?;
     text.parse().map_err(damaged)
 }
 
+/// The time by the clock of the database that a row holds.
+pub(super) fn now(row: &AnyRow) -> StoreResult<Timestamp> {
+    row.try_get("now").map(Timestamp).map_err(damaged)
+}
+
+/// The event that a row of `SELECT id, state, seq, progress, started, finished, {now} AS now` holds.
+pub(super) fn event(row: &AnyRow) -> StoreResult<(JobId, Event)> {
+    let text = |column| row.try_get::<String, _>(column).map_err(damaged);
+    let seq: i64 = row.try_get("seq").map_err(damaged)?;
+    let until = time(row, "finished")?.map_or_else(|| now(row), Ok)?;
+    let event = Event {
+        seq: seq as u64,
+        state: word(&text("state")?)?,
+        progress: parsed(&text("progress")?)?,
+        elapsed_ms: time(row, "started")?.map_or(0, |started| until.since(started)),
+    };
+    Ok((id(row)?, event))
+}
+
+fn time(row: &AnyRow, column: &str) -> StoreResult<Option<Timestamp>> {
+    let ms = row.try_get::<Option<i64>, _>(column).map_err(damaged)?;
+    Ok(ms.map(Timestamp))
+}
+
 /// The job that a row of `SELECT * FROM job` holds.
-pub(super) fn job(row: &SqliteRow) -> StoreResult<Job> {
+pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
     let text = |column| row.try_get::<String, _>(column).map_err(damaged);
     let number = |column| row.try_get::<i64, _>(column).map_err(damaged);
-    let time = |column| {
-        let ms = row.try_get::<Option<i64>, _>(column).map_err(damaged)?;
-        Ok::<_, StoreError>(ms.map(Timestamp))
-    };
+    let maybe = |column| row.try_get::<Option<String>, _>(column).map_err(damaged);
     Ok(Job {
         id: id(row)?,
         kind: word(&text("kind")?)?,
@@ -69,19 +129,22 @@ pub(super) fn job(row: &SqliteRow) -> StoreResult<Job> {
         output: parsed(&text("output")?)?,
         verdict: parsed(&text("verdict")?)?,
         attempt: number("attempt")? as u32,
+        token: number("token")? as Token,
+        worker: maybe("worker")?
+            .map(|worker| worker.parse().map_err(damaged))
+            .transpose()?,
+        lease: time(row, "lease")?,
+        due: Timestamp(number("due")?),
         lost: number("lost")? as u32,
+        cancel: number("cancel")? != 0,
         finish_early: number("finish_early")? != 0,
         ephemeral: number("ephemeral")? != 0,
         seq: number("seq")? as u64,
         progress: parsed(&text("progress")?)?,
-        failure: row
-            .try_get::<Option<String>, _>("failure")
-            .map_err(damaged)?
-            .map(|json| parsed(&json))
-            .transpose()?,
+        failure: maybe("failure")?.map(|json| parsed(&json)).transpose()?,
         created: Timestamp(number("created")?),
-        started: time("started")?,
-        finished: time("finished")?,
+        started: time(row, "started")?,
+        finished: time(row, "finished")?,
     })
 }
 

@@ -9,6 +9,8 @@ mod cli;
 mod cli_options;
 mod cli_outputs;
 mod cli_streams;
+mod cluster;
+mod contract;
 mod deforming;
 mod materials;
 mod meshes;

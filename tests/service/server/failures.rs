@@ -5,7 +5,7 @@ use nix::unistd::Pid;
 use serde_json::Value;
 
 use crate::meshes;
-use crate::server::Server;
+use crate::server::{Server, assert_problem, json};
 
 async fn assert_failed(server: &Server, job: &Value, code: &str) {
     let job = server.ended(job).await;
@@ -20,20 +20,54 @@ async fn assert_failed(server: &Server, job: &Value, code: &str) {
     server.ended(&next).await;
 }
 
-#[tokio::test]
-async fn a_child_killed_from_outside_is_a_lost_worker() {
-    let server = Server::start();
-    for (signal, code) in [
-        (Signal::SIGKILL, "worker_lost"),
-        (Signal::SIGABRT, "crashed"),
-    ] {
-        let job = server.submit(meshes::large(), "cut=disk").await;
-        server.mapping(&job).await;
-        for child in server.children() {
-            kill(Pid::from_raw(child), signal).expect("a child of ours");
+/// Ends the computation under way, which may be about to start.
+fn kill_child(server: &Server, signal: Signal) {
+    loop {
+        if let Some(&child) = server.children().first() {
+            return kill(Pid::from_raw(child), signal).expect("a child of ours");
         }
-        assert_failed(&server, &job, code).await;
+        std::thread::yield_now();
     }
+}
+
+#[tokio::test]
+async fn a_child_that_aborts_fails_its_job() {
+    let server = Server::start();
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    server.mapping(&job).await;
+    kill_child(&server, Signal::SIGABRT);
+    assert_failed(&server, &job, "crashed").await;
+}
+
+#[tokio::test]
+async fn a_killed_child_is_tried_again_and_parked_after_three_times() {
+    let server = Server::start();
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    for attempt in 1..=3 {
+        let mut running = server.mapping(&job).await;
+        while running["seq"].as_u64() < Some(attempt * 1_000_000) {
+            running = server.mapping(&job).await;
+        }
+        kill_child(&server, Signal::SIGKILL);
+    }
+    assert_failed(&server, &job, "worker_lost").await;
+    let path = job["links"]["self"].as_str().expect("a link");
+    let failed = server.get("/v1/jobs?state=failed").send().await;
+    let failed = json(failed.expect("an answer")).await;
+    assert_eq!(failed["jobs"][0]["error"]["code"], "worker_lost");
+
+    let retry = async || server.post(&format!("{path}/retry")).send().await;
+    let again = json(retry().await.expect("an answer")).await;
+    assert_eq!(
+        (&again["state"], &again["error"]),
+        (&"queued".into(), &Value::Null)
+    );
+    let refused = retry().await.expect("an answer");
+    assert_problem(refused, 409, "not_failed").await;
+    server.mapping(&job).await;
+    let finish = server.post(&format!("{path}/finish")).send().await;
+    assert_eq!(finish.expect("an answer").status(), 202);
+    assert_eq!(server.ended(&job).await["state"], "succeeded");
 }
 
 #[tokio::test]
@@ -50,7 +84,7 @@ async fn a_mesh_that_takes_too_long_ends_with_the_map_it_has() {
     let job = server.ended(&job).await;
     assert_eq!(job["state"], "succeeded", "{job}");
     let warnings = job["warnings"].as_array().expect("a list");
-    let is_told = |warning: &serde_json::Value| warning["code"] == "ended_early";
+    let is_told = |warning: &Value| warning["code"] == "ended_early";
     assert!(warnings.iter().any(is_told), "{job}");
 }
 

@@ -10,7 +10,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::meshes;
-use crate::server::{SOON, Server, assert_problem, json};
+use crate::server::{SOON, Server, assert_problem, json, owned};
 
 /// A small disk of its own, where this process may mount one.
 struct Disk {
@@ -100,8 +100,8 @@ async fn refuses_and_deletes(server: &Server, ended: &Value) {
 async fn a_full_disk_is_told_and_everything_goes_on_when_there_is_space() {
     let Some(disk) = Disk::mount(48) else { return };
     let data = TempDir::new_in(disk.folder.path()).expect("a folder");
-    let settings = [("UNWRAPD_MIN_FREE_MIB", "2"), ("UNWRAPD_CONCURRENCY", "1")];
-    let server = Server::on(data, &settings);
+    let settings = [("UNWRAPD_MIN_FREE_MIB", "2"), ("UNWRAPD_WORKERS", "1")];
+    let server = Server::on(data, &owned(&settings));
     let ended = server.submit(meshes::small(), "").await;
     let ended = server.ended(&ended).await;
     let running = server.submit(meshes::large(), "cut=disk").await;

@@ -6,7 +6,7 @@ mod failures;
 mod full_disk;
 mod idle_options;
 mod jobs;
-mod progress;
+pub mod progress;
 mod requests;
 mod restarts;
 mod results;
@@ -37,7 +37,7 @@ pub struct Server {
     process: Child,
     /// Kept open: a server that cannot print ends.
     stdout: BufReader<ChildStdout>,
-    settings: Vec<(&'static str, &'static str)>,
+    settings: Vec<(String, String)>,
     data: TempDir,
     address: String,
     client: Client,
@@ -49,15 +49,13 @@ impl Server {
     }
 
     /// Starts one with these environment variables.
-    pub fn with(settings: &[(&'static str, &'static str)]) -> Self {
-        Self::on(
-            tempfile::tempdir().expect("a folder for the data"),
-            settings,
-        )
+    pub fn with(settings: &[(&str, &str)]) -> Self {
+        let data = tempfile::tempdir().expect("a folder for the data");
+        Self::on(data, &owned(settings))
     }
 
     /// Starts one on this folder.
-    pub fn on(data: TempDir, settings: &[(&'static str, &'static str)]) -> Self {
+    pub fn on(data: TempDir, settings: &[(String, String)]) -> Self {
         // Another test of this process may have chosen already.
         let _ = rustls::crypto::ring::default_provider().install_default();
         let (process, stdout, address) = spawn(data.path(), settings);
@@ -67,7 +65,7 @@ impl Server {
             settings: settings.to_vec(),
             data,
             address,
-            client: Client::new(),
+            client: client(),
         }
     }
 
@@ -87,8 +85,8 @@ impl Server {
     }
 
     /// Starts it again on the same data, with other environment variables.
-    pub fn restart_with(&mut self, settings: &[(&'static str, &'static str)]) {
-        self.settings = settings.to_vec();
+    pub fn restart_with(&mut self, settings: &[(&str, &str)]) {
+        self.settings = owned(settings);
         self.restart();
     }
 
@@ -184,14 +182,24 @@ impl Drop for Server {
     }
 }
 
-fn spawn(
-    data: &Path,
-    settings: &[(&'static str, &'static str)],
-) -> (Child, BufReader<ChildStdout>, String) {
+/// Variables of the environment.
+pub fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
+    let owned = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
+    settings.iter().map(owned).collect()
+}
+
+/// A client. The service chooses its TLS itself, and so must whoever is built with it.
+pub fn client() -> Client {
+    // Another client of this process may have done it.
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    Client::new()
+}
+
+fn spawn(data: &Path, settings: &[(String, String)]) -> (Child, BufReader<ChildStdout>, String) {
     let mut process = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
         .args(["serve", "--listen", "127.0.0.1:0", "--data"])
         .arg(data)
-        .envs(settings.iter().copied())
+        .envs(settings.iter().cloned())
         .stdout(Stdio::piped())
         .spawn()
         .expect("the server starts");

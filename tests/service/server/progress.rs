@@ -131,7 +131,7 @@ async fn events_need_one_of_the_two_protocols() {
 
 #[tokio::test]
 async fn a_stop_says_goodbye_and_the_job_goes_on_afterward() {
-    let mut server = Server::start();
+    let mut server = Server::with(&[("UNWRAPD_GRACE_SECONDS", "0")]);
     let job = server.submit(meshes::large(), "cut=disk").await;
     server.mapping(&job).await;
     let mut socket = Socket::connect(&server.socket_url(&events_path(&job))).await;
@@ -152,4 +152,27 @@ async fn a_stop_says_goodbye_and_the_job_goes_on_afterward() {
         (&ended["state"], &ended["attempt"]),
         (&"succeeded".into(), &2.into())
     );
+}
+
+#[tokio::test]
+async fn a_stop_lets_a_short_job_end() {
+    let mut server = Server::with(&[("UNWRAPD_GRACE_SECONDS", "50"), ("UNWRAPD_WORKERS", "1")]);
+    let job = server.submit(meshes::hills(150), "").await;
+    let waiting = server.submit(meshes::small(), "").await;
+    server.mapping(&job).await;
+    server.signal(Signal::SIGTERM);
+    server.stopped();
+    assert_eq!(server.children(), Vec::<i32>::new());
+
+    server.restart_with(&[("UNWRAPD_WORKERS", "0")]);
+    let now = async |job: &Value| {
+        let path = job["links"]["self"].as_str().expect("a link");
+        json(server.get(path).send().await.expect("an answer")).await
+    };
+    let ended = now(&job).await;
+    assert_eq!(
+        (&ended["state"], &ended["attempt"]),
+        (&"succeeded".into(), &1.into())
+    );
+    assert_eq!(now(&waiting).await["state"], "queued");
 }

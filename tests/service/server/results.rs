@@ -1,5 +1,9 @@
 //! Ranges, versions and the pages.
 
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
 use crate::meshes;
 use crate::server::{Server, assert_problem};
 
@@ -113,4 +117,48 @@ async fn pages_load_nothing_from_elsewhere() {
         metrics.contains("unwrapd_jobs{state=\"queued\"} 0"),
         "{metrics}"
     );
+}
+
+/// The stored file of a job: its blob below this folder.
+fn blob(server: &Server, job: &Value, folder: &str) -> PathBuf {
+    let id = job["id"].as_str().expect("an id");
+    let of_job = server.data().join("blobs").join(id);
+    let mut folders = std::fs::read_dir(of_job).expect("a folder").flatten();
+    let found = folders.find(|it| it.file_name().to_string_lossy().starts_with(folder));
+    found.expect("a folder").path().join("0")
+}
+
+fn damage(file: &Path) {
+    let mut bytes = std::fs::read(file).expect("a file");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    // The file may have a second name in a folder of an attempt.
+    std::fs::remove_file(file).expect("a file");
+    std::fs::write(file, bytes).expect("a file");
+}
+
+#[tokio::test]
+async fn a_damaged_result_is_never_whole() {
+    let server = Server::start();
+    let job = server.submit(meshes::small(), "").await;
+    let job = server.ended(&job).await;
+    let path = format!("{}/result", job["links"]["self"].as_str().expect("a link"));
+    damage(&blob(&server, &job, "output"));
+    let answer = server.get(&path).send().await;
+    let whole = match answer {
+        Ok(answer) => answer.bytes().await,
+        Err(error) => Err(error),
+    };
+    assert!(whole.is_err(), "{whole:?}");
+}
+
+#[tokio::test]
+async fn a_damaged_input_fails_its_job() {
+    let mut server = Server::with(&[("UNWRAPD_WORKERS", "0")]);
+    let job = server.submit(meshes::small(), "").await;
+    server.kill();
+    damage(&blob(&server, &job, "input"));
+    server.restart_with(&[]);
+    let job = server.ended(&job).await;
+    assert_eq!(job["error"]["code"], "damaged_file", "{job}");
 }

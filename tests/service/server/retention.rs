@@ -41,7 +41,9 @@ async fn a_restart_keeps_jobs_and_removes_files_without_one() {
 async fn a_job_goes_with_its_files_when_its_time_is_over() {
     let mut server = Server::start();
     let job = server.submit(meshes::small(), "").await;
-    server.ended(&job).await;
+    assert!(job["expires_at"].is_null());
+    let job = server.ended(&job).await;
+    assert!(job["expires_at"].as_str() > job["finished_at"].as_str());
     server.signal(Signal::SIGTERM);
     server.stopped();
 
@@ -51,5 +53,12 @@ async fn a_job_goes_with_its_files_when_its_time_is_over() {
         assert!(start.elapsed() < SOON, "the files are still there");
         tokio::task::yield_now().await;
     }
-    assert_problem(get(&server, &job).await, 404, "job_not_found").await;
+    assert_problem(get(&server, &job).await, 410, "job_expired").await;
+    let path = job["links"]["self"].as_str().expect("a link");
+    for path in [format!("{path}/result"), format!("{path}/events")] {
+        let answer = server.get(&path).send().await.expect("an answer");
+        assert_problem(answer, 410, "job_expired").await;
+    }
+    let deleted = server.request("DELETE", path).send().await;
+    assert_problem(deleted.expect("an answer"), 410, "job_expired").await;
 }

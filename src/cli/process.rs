@@ -1,0 +1,96 @@
+//! A process that works on jobs: its log, its folder, its stores, its end.
+
+use std::fs::File;
+use std::io::IsTerminal;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
+use tokio::signal::unix::{SignalKind, signal};
+use tokio_util::sync::CancellationToken;
+
+use super::work_args::WorkArgs;
+use crate::jobs::{Blobs, Jobs, Settings};
+use crate::store::{RecordStore, blobs_at};
+
+/// Time for connections and computations to end after the stop signal and the time of grace.
+const STOP_TIME: Duration = Duration::from_secs(10);
+
+/// Runs a process on its folder until it ends.
+pub(super) fn run(
+    args: &WorkArgs,
+    process: impl Future<Output = Result<(), String>>,
+) -> Result<(), String> {
+    tracing_subscriber::fmt()
+        .with_env_filter(
+            tracing_subscriber::EnvFilter::builder()
+                .with_default_directive(tracing::Level::INFO.into())
+                .from_env_lossy(),
+        )
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
+        .init();
+    std::fs::create_dir_all(&args.data)
+        .map_err(|error| format!("cannot create {}: {error}", args.data.display()))?;
+    let _lock = lock(&args.data)?;
+    tokio::runtime::Runtime::new()
+        .map_err(|error| error.to_string())?
+        .block_on(process)
+}
+
+/// Two processes on one data folder would take each other's files. The lock goes with the process.
+fn lock(data: &Path) -> Result<File, String> {
+    let lock = File::create(data.join("lock")).map_err(|error| error.to_string())?;
+    lock.try_lock()
+        .map_err(|_| format!("another server uses {}", data.display()))?;
+    Ok(lock)
+}
+
+/// The queue on the stores that are asked for, in order.
+pub(super) async fn queue(args: &WorkArgs, settings: Settings) -> Result<Arc<Jobs>, String> {
+    let text = |error: &dyn std::fmt::Display| error.to_string();
+    let data = std::path::absolute(&args.data).map_err(|e| text(&e))?;
+    let own = |name: &str| {
+        let path = data.join(name).to_string_lossy().into_owned();
+        let path: Vec<_> = path
+            .split('/')
+            .map(|part| utf8_percent_encode(part, NON_ALPHANUMERIC).to_string())
+            .collect();
+        path.join("/")
+    };
+    let database = args.database.clone();
+    let database =
+        database.unwrap_or_else(|| format!("sqlite://{}?mode=rwc", own("unwrapd.sqlite")));
+    let blobs = args.blobs.clone();
+    let blobs = blobs.unwrap_or_else(|| format!("file://{}", own("blobs")));
+    let store = RecordStore::open(&database, settings.rules)
+        .await
+        .map_err(|error| format!("cannot use the database: {error}"))?;
+    let blobs: Arc<dyn Blobs> = blobs_at(&blobs)
+        .map_err(|error| format!("cannot use the place for files: {error}"))?
+        .into();
+    let jobs = Arc::new(Jobs::new(settings, Arc::new(store), blobs));
+    jobs.recover().await.map_err(|e| text(&e))?;
+    Ok(jobs)
+}
+
+/// Cancelled by SIGTERM and SIGINT.
+pub(super) fn stop_on_signals() -> Result<CancellationToken, String> {
+    let stop = CancellationToken::new();
+    for kind in [SignalKind::terminate(), SignalKind::interrupt()] {
+        let mut signals = signal(kind).map_err(|error| error.to_string())?;
+        let stop = stop.clone();
+        tokio::spawn(async move {
+            signals.recv().await;
+            stop.cancel();
+        });
+    }
+    Ok(stop)
+}
+
+/// What a process ends with, when it should have ended by now.
+pub(super) async fn stopped<T>(grace: Duration, all: impl Future<Output = T>) -> Option<T> {
+    tracing::info!("stopping");
+    tokio::time::timeout(grace + STOP_TIME, all).await.ok()
+}

@@ -1,0 +1,159 @@
+//! What `serve` and `worker` have in common: where records and files are, and what a job may use.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use crate::jobs::{self, Deployment, Rules};
+
+/// Default memory of a job, in bytes.
+pub(super) const JOB_MEMORY: u64 = 8 << 30;
+
+/// Where records and files are, and what a job may use.
+#[derive(clap::Args)]
+pub(super) struct WorkArgs {
+    /// Folder for what this process keeps; created if missing. Without `database` and `blobs`,
+    /// that is everything
+    #[arg(
+        long,
+        value_name = "DIR",
+        env = "UNWRAPD_DATA",
+        default_value = "./data"
+    )]
+    pub data: PathBuf,
+    /// PostgreSQL database for job records, shared with other processes:
+    /// postgres://USER:PASSWORD@HOST/NAME
+    #[arg(
+        long,
+        value_name = "URL",
+        env = "UNWRAPD_DATABASE_URL",
+        hide_env_values = true,
+        requires = "blobs"
+    )]
+    pub database: Option<String>,
+    /// Place for files, shared with other processes: s3://BUCKET/PREFIX, or a mounted folder as
+    /// file:///DIR. S3 is set up by the usual AWS_ environment variables
+    #[arg(
+        long,
+        value_name = "URL",
+        env = "UNWRAPD_BLOBS_URL",
+        requires = "database"
+    )]
+    pub blobs: Option<String>,
+    /// Number of jobs computed at the same time by this process [default: half the cores, at least
+    /// one]
+    #[arg(long, value_name = "N", env = "UNWRAPD_WORKERS")]
+    pub workers: Option<u16>,
+    /// Maximum number of triangles of a mesh
+    #[arg(
+        long,
+        value_name = "N",
+        env = "UNWRAPD_MAX_TRIANGLES",
+        default_value_t = 5_000_000
+    )]
+    max_triangles: u64,
+    /// Time limit of a job, in seconds. When it is reached, the job ends with its current valid map.
+    /// A job that has none is terminated after a quarter of the limit more, or 10 s if that is longer
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_JOB_SECONDS",
+        default_value_t = 600.0,
+        value_parser = seconds
+    )]
+    job_seconds: f64,
+    /// Memory limit of a job, in MiB [default: 8192, or the memory of the machine if less]
+    #[arg(long, value_name = "MIB", env = "UNWRAPD_JOB_MEMORY_MIB")]
+    job_memory_mib: Option<u64>,
+    /// Free disk space below which no job is accepted or started, in MiB
+    #[arg(
+        long,
+        value_name = "MIB",
+        env = "UNWRAPD_MIN_FREE_MIB",
+        default_value_t = 64
+    )]
+    min_free_mib: u64,
+    /// Seconds of silence after which the job of a worker goes to another. All processes must have
+    /// the same
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_LEASE_SECONDS",
+        default_value_t = 15.0,
+        value_parser = seconds
+    )]
+    lease_seconds: f64,
+    /// Seconds that running jobs have to end after SIGTERM, before they go back to the queue
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_GRACE_SECONDS",
+        default_value_t = 5.0,
+        value_parser = seconds_or_none
+    )]
+    grace_seconds: f64,
+}
+
+/// A number of seconds, as options have it.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.001..=1e6).contains(&seconds) => Ok(seconds),
+        _ => Err("expected a number of seconds between 0.001 and 1000000".to_owned()),
+    }
+}
+
+fn seconds_or_none(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.0..=1e6).contains(&seconds) => Ok(seconds),
+        _ => Err("expected a number of seconds between 0 and 1000000".to_owned()),
+    }
+}
+
+impl WorkArgs {
+    /// The settings of a process that computes jobs, accepts none and removes none.
+    pub fn settings(&self) -> std::io::Result<jobs::Settings> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let workers = self.workers.map_or((cores / 2).max(1), usize::from);
+        let memory = self.job_memory_mib.map(|mib| mib.saturating_mul(1 << 20));
+        Ok(jobs::Settings {
+            deployment: match self.database {
+                None => Deployment::Embedded,
+                Some(_) => Deployment::Shared,
+            },
+            rules: Rules {
+                lease: Duration::from_secs_f64(self.lease_seconds),
+                ..Rules::default()
+            },
+            scratch: self.data.join("scratch"),
+            program: std::env::current_exe()?,
+            workers,
+            threads: (cores / workers.max(1)).max(1),
+            queue_depth: 0,
+            time: Duration::from_secs_f64(self.job_seconds),
+            memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory())),
+            triangles: self.max_triangles,
+            quota: None,
+            min_free: self.min_free_mib.saturating_mul(1 << 20),
+            retention: None,
+            grace: Duration::from_secs_f64(self.grace_seconds),
+        })
+    }
+}
+
+/// Memory of the machine or of the container, in bytes; `u64::MAX` if neither can be read.
+pub(super) fn machine_memory() -> u64 {
+    let read = |path| std::fs::read_to_string(path).unwrap_or_default();
+    let total = read("/proc/meminfo")
+        .lines()
+        .find_map(|line| {
+            line.strip_prefix("MemTotal:")?
+                .strip_suffix("kB")?
+                .trim()
+                .parse::<u64>()
+                .ok()
+        })
+        .map_or(u64::MAX, |kib| kib << 10);
+    let limit = |path| read(path).trim().parse().unwrap_or(u64::MAX);
+    let container = limit("/sys/fs/cgroup/memory.max");
+    let container = container.min(limit("/sys/fs/cgroup/memory/memory.limit_in_bytes"));
+    total.min(container)
+}

@@ -1,0 +1,37 @@
+//! `unwrapd worker`: computes jobs that services on other machines accept.
+
+use super::process;
+use super::work_args::WorkArgs;
+
+/// The arguments of `worker`. Each has an environment variable.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    work: WorkArgs,
+}
+
+/// Works until SIGTERM or SIGINT.
+pub(super) fn run(args: &Args) -> Result<(), String> {
+    if args.work.database.is_none() {
+        let why = "a worker needs a database that it shares: --database and --blobs";
+        return Err(why.to_owned());
+    }
+    if args.work.workers == Some(0) {
+        return Err("--workers must be at least 1".to_owned());
+    }
+    process::run(&args.work, work(args))
+}
+
+async fn work(args: &Args) -> Result<(), String> {
+    let settings = args.work.settings().map_err(|error| error.to_string())?;
+    let grace = settings.grace;
+    let jobs = process::queue(&args.work, settings).await?;
+    let stop = process::stop_on_signals()?;
+    tracing::info!("waiting for jobs");
+    let queue = tokio::spawn(jobs.run(stop.clone()));
+    stop.cancelled().await;
+    match process::stopped(grace, queue).await {
+        Some(ended) => ended.map_err(|error| error.to_string()),
+        None => Err("jobs were still running".to_owned()),
+    }
+}

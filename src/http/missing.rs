@@ -1,0 +1,30 @@
+//! Jobs that are not there, or not any more.
+
+use super::App;
+use super::problem::{Code, Problem};
+use crate::jobs::{Job, JobId};
+
+/// The job, or why there is none.
+pub(super) async fn existing(app: &App, id: JobId) -> Result<Job, Problem> {
+    match app.jobs.get(id).await? {
+        Some(job) => Ok(job),
+        None => Err(missing(app, id).await),
+    }
+}
+
+/// Why there is no such job.
+pub(super) async fn missing(app: &App, id: JobId) -> Problem {
+    match app.jobs.has_expired(id).await {
+        Ok(true) => Problem::new(Code::JobExpired, "it was removed when its time was over"),
+        Ok(false) => job_not_found(),
+        Err(error) => error.into(),
+    }
+}
+
+/// The answer to an id that is not known.
+pub(super) fn job_not_found() -> Problem {
+    Problem::new(
+        Code::JobNotFound,
+        "it never existed, or it has been deleted",
+    )
+}

@@ -1,0 +1,57 @@
+//! Whether the system ended a process of this container for want of memory.
+
+use std::path::PathBuf;
+
+/// Where a version of control groups counts, in which file.
+const COUNTERS: [(&str, &str, &str); 2] = [
+    ("0::", "/sys/fs/cgroup", "memory.events"),
+    ("memory", "/sys/fs/cgroup/memory", "memory.oom_control"),
+];
+
+/// How many processes of the control groups of this process were ended for want of memory; its
+/// compute children are in the same groups.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Kills(u64);
+
+impl Kills {
+    /// Those until now; 0 where nobody counts.
+    pub fn so_far() -> Self {
+        let groups = std::fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
+        let counters = counters(&groups).into_iter();
+        let texts = counters.filter_map(|path| std::fs::read_to_string(path).ok());
+        Self(texts.filter_map(|text| count(&text)).sum())
+    }
+
+    /// Whether there is at least one more by now.
+    pub fn is_one_more(&self) -> bool {
+        self.0 < Self::so_far().0
+    }
+}
+
+/// The files that count, by what `/proc/self/cgroup` says: version 2 has one line `0::PATH`,
+/// version 1 one `N:CONTROLLERS:PATH` per controller. Within a container, the path may be that of
+/// the host, and the files lie at the top.
+fn counters(groups: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for line in groups.lines() {
+        for (mark, root, file) in COUNTERS {
+            let mut fields = line.splitn(3, ':').skip(1);
+            let (Some(controllers), Some(path)) = (fields.next(), fields.next()) else {
+                continue;
+            };
+            let is_meant = line.starts_with(mark) || controllers.split(',').any(|it| it == mark);
+            if is_meant {
+                let own = PathBuf::from(format!("{root}{path}")).join(file);
+                let top = PathBuf::from(root).join(file);
+                found.push(if own.exists() { own } else { top });
+            }
+        }
+    }
+    found
+}
+
+/// The line `oom_kill N`, which both versions have.
+fn count(text: &str) -> Option<u64> {
+    let mut lines = text.lines();
+    lines.find_map(|line| line.strip_prefix("oom_kill ")?.trim().parse().ok())
+}

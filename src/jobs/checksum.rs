@@ -1,0 +1,67 @@
+//! Whether a file is what was stored.
+
+use std::path::Path;
+
+use futures_util::{StreamExt, stream};
+use sha2::{Digest, Sha256};
+use tokio::io::AsyncReadExt;
+
+use super::storage::Content;
+use super::store_error::{StoreError, StoreResult};
+
+/// Bytes that are read at once.
+const BLOCK: usize = 1 << 16;
+
+/// The checksum of some bytes, as records have it.
+pub fn sha256(bytes: &[u8]) -> String {
+    format!("{:x}", Sha256::digest(bytes))
+}
+
+fn compared(hash: Sha256, expected: &str) -> StoreResult<()> {
+    if format!("{:x}", hash.finalize()) == expected {
+        return Ok(());
+    }
+    let detail = "a stored file is damaged: its checksum is not that of what was stored";
+    Err(StoreError::Damaged(detail.to_owned()))
+}
+
+/// Reads a local file and compares its checksum, if that is known.
+pub(super) async fn check(path: &Path, expected: Option<&str>) -> StoreResult<()> {
+    let Some(expected) = expected else {
+        return Ok(());
+    };
+    let mut file = tokio::fs::File::open(path).await?;
+    let (mut hash, mut block) = (Sha256::new(), vec![0; BLOCK]);
+    loop {
+        match file.read(&mut block).await? {
+            0 => return compared(hash, expected),
+            length => hash.update(&block[..length]),
+        }
+    }
+}
+
+/// Passes a whole file on. If its checksum is not the expected one, it ends with an error instead
+/// of its last block, so that no reader takes it for whole.
+pub(super) fn checked(content: Content, expected: String) -> Content {
+    let state = (content, Sha256::new(), None::<Vec<u8>>, Some(expected));
+    let blocks = stream::unfold(state, async |(mut content, mut hash, mut held, mut end)| {
+        loop {
+            match content.next().await {
+                Some(Ok(block)) => {
+                    hash.update(&block);
+                    if let Some(block) = held.replace(block) {
+                        return Some((Ok(block), (content, hash, held, end)));
+                    }
+                }
+                Some(Err(error)) => return Some((Err(error), (content, hash, None, None))),
+                None => {
+                    let expected = end.take()?;
+                    let last = compared(std::mem::take(&mut hash), &expected);
+                    let last = last.map(|()| held.take().unwrap_or_default());
+                    return Some((last, (content, hash, None, None)));
+                }
+            }
+        }
+    });
+    blocks.boxed()
+}

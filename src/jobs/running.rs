@@ -1,0 +1,168 @@
+//! The attempts of this process: what they are told, and the signs of life they give.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use tokio::time::Instant;
+use tokio_util::sync::CancellationToken;
+
+use super::job::{Job, JobId};
+use super::lease::Token;
+use super::progress::{Event, Saying};
+use super::queue::Jobs;
+use super::storage::{Beat, Changed};
+use super::transition::Wish;
+
+/// An attempt of this process.
+pub(super) struct Attempt {
+    pub token: Token,
+    /// A client wants it to stop.
+    pub cancel: CancellationToken,
+    /// A client wants it to end early with the map it has.
+    pub finish: CancellationToken,
+    /// The job is somebody else's now.
+    pub outdated: CancellationToken,
+    state: Mutex<Present>,
+}
+
+/// How far an attempt is, and until when it is the only one.
+struct Present {
+    event: Event,
+    lease_end: Instant,
+}
+
+impl Attempt {
+    fn state(&self) -> MutexGuard<'_, Present> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The newest event.
+    pub fn event(&self) -> Event {
+        self.state().event
+    }
+
+    /// Replaces the newest event.
+    pub fn set_event(&self, event: Event) {
+        self.state().event = event;
+    }
+
+    /// What it says of itself.
+    pub fn saying(&self) -> Saying {
+        let Event { seq, progress, .. } = self.event();
+        Saying { seq, progress }
+    }
+
+    /// Whether another worker may have the job by now. The time counts from when the last renewal
+    /// was sent, by the monotonic clock of this machine: the store's clock started later.
+    pub fn has_lapsed(&self) -> bool {
+        self.state().lease_end <= Instant::now()
+    }
+}
+
+/// The attempts of this process, by job.
+#[derive(Default)]
+pub(super) struct Running {
+    attempts: Mutex<HashMap<JobId, Arc<Attempt>>>,
+}
+
+impl Running {
+    fn attempts(&self) -> MutexGuard<'_, HashMap<JobId, Arc<Attempt>>> {
+        self.attempts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// An attempt at a claimed job, whose lease is at least this long.
+    pub fn start(&self, job: &Job, lease_end: Instant) -> Arc<Attempt> {
+        let attempt = Arc::new(Attempt {
+            token: job.token,
+            cancel: CancellationToken::new(),
+            finish: CancellationToken::new(),
+            outdated: CancellationToken::new(),
+            state: Mutex::new(Present {
+                event: job.event(),
+                lease_end,
+            }),
+        });
+        if job.finish_early {
+            attempt.finish.cancel();
+        }
+        self.attempts().insert(job.id, Arc::clone(&attempt));
+        attempt
+    }
+
+    /// An attempt has ended.
+    pub fn end(&self, id: JobId, token: Token) {
+        let mut attempts = self.attempts();
+        if attempts.get(&id).is_some_and(|it| it.token == token) {
+            attempts.remove(&id);
+        }
+    }
+
+    /// The attempt at a job, if it runs here.
+    pub fn attempt(&self, id: JobId) -> Option<Arc<Attempt>> {
+        self.attempts().get(&id).cloned()
+    }
+
+    /// Tells the attempt at a job, if it runs here, what a client wants.
+    pub fn wish(&self, id: JobId, wish: Wish) {
+        let Some(attempt) = self.attempt(id) else {
+            return;
+        };
+        match wish {
+            Wish::Cancel => attempt.cancel.cancel(),
+            Wish::FinishEarly => attempt.finish.cancel(),
+            Wish::Retry => {}
+        }
+    }
+
+    fn beats(&self) -> Vec<Beat> {
+        let attempts = self.attempts();
+        let beats = attempts.iter();
+        beats
+            .map(|(&id, attempt)| (id, attempt.token, attempt.saying()))
+            .collect()
+    }
+
+    /// What became of a sign of life that was sent at a time.
+    fn answered(&self, (id, token, _): &Beat, changed: &Changed, lease_end: Instant) {
+        let attempt = self.attempt(*id).filter(|it| it.token == *token);
+        match (attempt, changed) {
+            (Some(attempt), Changed::Yes(job)) => {
+                attempt.state().lease_end = lease_end;
+                if job.cancel {
+                    attempt.cancel.cancel();
+                }
+                if job.finish_early {
+                    attempt.finish.cancel();
+                }
+            }
+            (Some(attempt), _) => attempt.outdated.cancel(),
+            (None, _) => {}
+        }
+    }
+}
+
+impl Jobs {
+    /// Gives signs of life for the attempts of this process, and hears what clients want of them,
+    /// for ever.
+    pub(super) async fn beat(&self, interval: Duration) {
+        let mut interval = tokio::time::interval(interval);
+        interval.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+        loop {
+            interval.tick().await;
+            let beats = self.running.beats();
+            if beats.is_empty() {
+                continue;
+            }
+            let lease_end = Instant::now() + self.settings.rules.lease;
+            match self.store.beat(&beats).await {
+                Ok(answers) => {
+                    for (beat, changed) in beats.iter().zip(&answers) {
+                        self.running.answered(beat, changed, lease_end);
+                    }
+                }
+                Err(error) => tracing::warn!(%error, "no sign of life given"),
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Records that change: claimed, beaten for, swept, ended, wished for, removed.
+//!
+//! Each is one transaction: a row is read and kept, [`after`] says what becomes of it, and it is
+//! written with the token that it had in the WHERE clause.
+
+use sqlx::any::AnyRow;
+use sqlx::{Any, Transaction};
+
+use super::database::Database;
+use super::rows;
+use crate::jobs::{
+    Beat, Changed, Happening, Job, JobId, Reason, Rules, StoreError, StoreResult, Sweep, WorkerId,
+    after,
+};
+
+/// Jobs of one sweep; the next one comes soon.
+const SWEPT: i64 = 100;
+/// How long it is remembered that there was a job: a year.
+const REMEMBERED_MS: i64 = 365 * 86_400_000;
+
+/// Which queued jobs may be started. No pause is longer than the longest: one that is was made
+/// before the clock was set back.
+const DUE: &str = "state = 'queued' AND (due <= {now} OR {now} + $1 < due)";
+/// Whose workers have been silent for too long, or seem to have leases longer than any that is
+/// given.
+const OVERDUE: &str =
+    "state = 'running' AND (lease IS NULL OR lease < {now} OR {now} + $1 < lease)";
+const ANY_RUNNING: &str = "state = 'running' AND $1 = $1";
+
+pub(super) async fn claim(
+    database: &Database,
+    worker: WorkerId,
+    rules: &Rules,
+) -> StoreResult<Option<Job>> {
+    let longest_pause = rules.longest_pause().as_millis() as i64;
+    // Most of the time there is none, and nothing has to be locked to know that.
+    let is_any = database.sql(&format!("SELECT id FROM job WHERE {DUE} LIMIT 1"));
+    let query = sqlx::query(is_any).bind(longest_pause);
+    if query.fetch_optional(&database.readers).await?.is_none() {
+        return Ok(None);
+    }
+    let oldest = database.sql(&format!(
+        "SELECT *, {{now}} AS now FROM job WHERE {DUE} ORDER BY id LIMIT 1 {{free}}"
+    ));
+    let mut transaction = database.begin().await?;
+    let row = sqlx::query(oldest)
+        .bind(longest_pause)
+        .fetch_optional(&mut *transaction)
+        .await?;
+    let Some(row) = row else {
+        return Ok(None);
+    };
+    let happening = Happening::Claimed(worker);
+    let Changed::Yes(job) = written(&row, &happening, rules, &mut transaction).await? else {
+        return Ok(None);
+    };
+    transaction.commit().await?;
+    Ok(Some(*job))
+}
+
+pub(super) async fn change(
+    database: &Database,
+    id: JobId,
+    happening: &Happening,
+    rules: &Rules,
+) -> StoreResult<Changed> {
+    let mut transaction = database.begin().await?;
+    let changed = changed(database, id, happening, rules, &mut transaction).await?;
+    if let Changed::Yes(_) = changed {
+        transaction.commit().await?;
+    }
+    Ok(changed)
+}
+
+pub(super) async fn beat(
+    database: &Database,
+    beats: &[Beat],
+    rules: &Rules,
+) -> StoreResult<Vec<Changed>> {
+    let mut transaction = database.begin().await?;
+    let mut answers: Vec<Option<Changed>> = vec![None; beats.len()];
+    // Rows are kept in one order, so that no two transactions wait for each other.
+    let mut order: Vec<usize> = (0..beats.len()).collect();
+    order.sort_by_key(|&index| beats[index].0);
+    for index in order {
+        let (id, token, saying) = beats[index];
+        let happening = Happening::Beat(token, saying);
+        let changed = changed(database, id, &happening, rules, &mut transaction).await?;
+        answers[index] = Some(changed);
+    }
+    transaction.commit().await?;
+    Ok(answers.into_iter().flatten().collect())
+}
+
+pub(super) async fn sweep(
+    database: &Database,
+    sweep: Sweep,
+    rules: &Rules,
+) -> StoreResult<Vec<Job>> {
+    let (meant, happening) = match sweep {
+        Sweep::Overdue => (OVERDUE, Happening::Swept),
+        Sweep::Abandoned => (ANY_RUNNING, Happening::Abandoned),
+    };
+    let lease = rules.lease.as_millis() as i64;
+    let mut all = Vec::new();
+    loop {
+        let is_any = database.sql(&format!("SELECT id FROM job WHERE {meant} LIMIT 1"));
+        let query = sqlx::query(is_any).bind(lease);
+        if query.fetch_optional(&database.readers).await?.is_none() {
+            return Ok(all);
+        }
+        let found = database.sql(&format!(
+            "SELECT *, {{now}} AS now FROM job WHERE {meant} ORDER BY id LIMIT $2 {{free}}"
+        ));
+        let mut transaction = database.begin().await?;
+        let rows = sqlx::query(found)
+            .bind(lease)
+            .bind(SWEPT)
+            .fetch_all(&mut *transaction)
+            .await?;
+        let mut swept = Vec::new();
+        for row in &rows {
+            if let Changed::Yes(job) = written(row, &happening, rules, &mut transaction).await? {
+                swept.push(*job);
+            }
+        }
+        transaction.commit().await?;
+        // Nothing changes if another process sweeps the same, or if their time is just coming.
+        if swept.is_empty() {
+            return Ok(all);
+        }
+        all.extend(swept);
+    }
+}
+
+pub(super) async fn delete(database: &Database, id: JobId, reason: Reason) -> StoreResult<bool> {
+    let mut transaction = database.begin().await?;
+    let deleted = sqlx::query(
+        "DELETE FROM job WHERE id = $1 AND state IN ('succeeded', 'failed', 'cancelled')",
+    )
+    .bind(id.to_string())
+    .execute(&mut *transaction)
+    .await?;
+    if deleted.rows_affected() == 0 {
+        return Ok(false);
+    }
+    if reason == Reason::Expired {
+        let insert = "INSERT INTO expired (id, at) VALUES ($1, {now})";
+        sqlx::query(database.sql(insert))
+            .bind(id.to_string())
+            .execute(&mut *transaction)
+            .await?;
+        sqlx::query(database.sql("DELETE FROM expired WHERE at < {now} - $1"))
+            .bind(REMEMBERED_MS)
+            .execute(&mut *transaction)
+            .await?;
+    }
+    transaction.commit().await?;
+    Ok(true)
+}
+
+async fn changed(
+    database: &Database,
+    id: JobId,
+    happening: &Happening,
+    rules: &Rules,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<Changed> {
+    let row = database.sql("SELECT *, {now} AS now FROM job WHERE id = $1 {locked}");
+    let row = sqlx::query(row)
+        .bind(id.to_string())
+        .fetch_optional(&mut **transaction)
+        .await?;
+    match row {
+        Some(row) => written(&row, happening, rules, transaction).await,
+        None => Ok(Changed::Missing),
+    }
+}
+
+/// Writes what becomes of a job whose row is kept by this transaction.
+async fn written(
+    row: &AnyRow,
+    happening: &Happening,
+    rules: &Rules,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<Changed> {
+    let (job, now) = (rows::job(row)?, rows::now(row)?);
+    match after(&job, happening, rules, now) {
+        Ok(next) => {
+            if !rows::update(&next, job.token, transaction).await? {
+                return Err(StoreError::Conflict(format!("job {}", job.id)));
+            }
+            Ok(Changed::Yes(Box::new(next)))
+        }
+        Err(refusal) => Ok(Changed::No(Box::new(job), refusal)),
+    }
+}

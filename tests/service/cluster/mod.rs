@@ -1,0 +1,137 @@
+//! Several processes that share a PostgreSQL and an S3 server.
+
+mod faults;
+pub mod postgres;
+mod s3;
+mod sharing;
+
+use std::collections::HashMap;
+use std::process::{Child, Command, Stdio};
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use serde_json::Value;
+use tempfile::TempDir;
+
+use self::postgres::Postgres;
+use self::s3::S3;
+use crate::meshes;
+use crate::server::Server;
+
+/// A worker is taken for lost after this many seconds.
+const LEASE: &str = "3";
+
+/// What all processes share.
+pub struct Cluster {
+    pub postgres: Postgres,
+    pub s3: S3,
+    settings: Vec<(String, String)>,
+}
+
+impl Cluster {
+    pub fn start() -> Self {
+        let (postgres, s3) = (Postgres::start(), S3::start());
+        let mut settings = s3.settings();
+        settings.push((
+            "UNWRAPD_DATABASE_URL".to_owned(),
+            postgres.database("unwrapd"),
+        ));
+        settings.push(("UNWRAPD_LEASE_SECONDS".to_owned(), LEASE.to_owned()));
+        Self {
+            postgres,
+            s3,
+            settings,
+        }
+    }
+
+    /// A service that computes nothing itself.
+    pub fn api(&self) -> Server {
+        let mut settings = self.settings.clone();
+        settings.push(("UNWRAPD_WORKERS".to_owned(), "0".to_owned()));
+        Server::on(tempfile::tempdir().expect("a folder"), &settings)
+    }
+
+    /// A worker with one slot.
+    pub fn worker(&self) -> Worker {
+        let folder = tempfile::tempdir().expect("a folder");
+        let process = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
+            .args(["worker", "--workers", "1", "--data"])
+            .arg(folder.path())
+            .envs(self.settings.iter().cloned())
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("the worker starts");
+        Worker { process, folder }
+    }
+
+    /// Every attempt that was recorded, by job: how often it was started and lost.
+    pub fn attempts(&self) -> HashMap<String, (String, u32, u32)> {
+        let rows = "SELECT id, state, attempt, lost FROM job ORDER BY id";
+        let rows = self.postgres.psql("unwrapd", rows);
+        let row = |line: &str| {
+            let fields: Vec<&str> = line.split('|').collect();
+            let number = |field: &str| field.parse::<u32>().expect("a number");
+            let (attempt, lost) = (number(fields[2]), number(fields[3]));
+            (fields[0].to_owned(), (fields[1].to_owned(), attempt, lost))
+        };
+        rows.lines().map(row).collect()
+    }
+}
+
+/// A running worker; it ends when this is dropped.
+pub struct Worker {
+    process: Child,
+    folder: TempDir,
+}
+
+impl Worker {
+    pub fn signal(&self, signal: Signal) {
+        kill(Pid::from_raw(self.process.id() as i32), signal).expect("the worker is ours");
+    }
+
+    /// Ends it without warning.
+    pub fn kill(&mut self) {
+        self.process.kill().expect("the worker is ours");
+        self.process.wait().expect("the worker is ours");
+    }
+
+    /// Waits until it has stopped, after it was told to.
+    pub fn stopped(&mut self) {
+        assert!(self.process.wait().expect("it is ours").success());
+    }
+
+    /// Process ids of its compute children.
+    pub fn children(&self) -> Vec<i32> {
+        crate::children::within(self.folder.path())
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// Jobs of different inputs, all accepted by one service.
+pub async fn submitted(api: &Server, count: u32) -> Vec<Value> {
+    let mut jobs = Vec::new();
+    for n in 0..count {
+        let query = format!("resolution={}", 256 + n);
+        jobs.push(api.submit(meshes::small(), &query).await);
+    }
+    jobs
+}
+
+/// Asserts that a job succeeded and that its result is the one that its record names.
+pub async fn assert_whole(api: &Server, job: &Value) {
+    let job = api.ended(job).await;
+    assert_eq!(job["state"], "succeeded", "{job}");
+    for file in job["links"]["files"].as_array().expect("links") {
+        let href = file["href"].as_str().expect("a link");
+        let answer = api.get(href).send().await.expect("an answer");
+        assert_eq!(answer.status(), 200);
+        let bytes = answer.bytes().await.expect("a whole file");
+        assert_eq!(Some(bytes.len() as u64), file["bytes"].as_u64());
+    }
+}

@@ -1,0 +1,109 @@
+//! What every store of records promises, and what becomes of a record when something happens.
+
+mod promises;
+mod transitions;
+
+use std::time::Duration;
+
+use unwrapd::jobs::{
+    Capacity, Changed, Enqueued, Happening, IdempotencyKey, InputFile, Job, JobId, JobStore, Kind,
+    Progress, Rules, Saying, State, Timestamp, Verdict, WorkerId,
+};
+use unwrapd::store::RecordStore;
+
+/// Short, since tests have to wait for the end of a lease.
+pub const RULES: Rules = Rules {
+    lease: Duration::from_millis(400),
+    attempts: 3,
+    pause: Duration::from_millis(50),
+};
+
+/// As much as anybody needs.
+pub const ROOM: Capacity = Capacity {
+    depth: 1000,
+    bytes: None,
+};
+
+/// A job that nobody has started.
+pub fn job() -> Job {
+    Job {
+        id: JobId::fresh(),
+        kind: Kind::Unwrap,
+        state: State::Queued,
+        options: serde_json::json!({ "resolution": 512 }),
+        input: vec![InputFile {
+            name: "mesh.glb".to_owned(),
+            bytes: 100,
+            sha256: Some("ab".to_owned()),
+        }],
+        output: Vec::new(),
+        verdict: Verdict::default(),
+        attempt: 0,
+        token: 0,
+        worker: None,
+        lease: None,
+        due: Timestamp(0),
+        lost: 0,
+        cancel: false,
+        finish_early: false,
+        ephemeral: false,
+        seq: 1,
+        progress: Progress::default(),
+        failure: None,
+        created: Timestamp(0),
+        started: None,
+        finished: None,
+    }
+}
+
+pub fn saying(seq: u64, fraction: f64) -> Saying {
+    let progress = Progress {
+        fraction,
+        ..Progress::default()
+    };
+    Saying { seq, progress }
+}
+
+/// Puts a job into a store.
+pub async fn enqueued(store: &RecordStore, job: &Job) -> Job {
+    let key: Option<&IdempotencyKey> = None;
+    match store.enqueue(job, key, ROOM).await.expect("an answer") {
+        Enqueued::New(job) => *job,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Puts a job into an empty store and has a worker take it.
+pub async fn claimed(store: &RecordStore) -> Job {
+    let new = enqueued(store, &job()).await;
+    let job = claim(store).await.expect("it waits");
+    assert_eq!(job.id, new.id);
+    job
+}
+
+pub async fn claim(store: &RecordStore) -> Option<Job> {
+    let claimed = store.claim(WorkerId::fresh()).await;
+    claimed.expect("an answer")
+}
+
+/// Claims until there is one: pauses are short.
+pub async fn claim_soon(store: &RecordStore) -> Job {
+    loop {
+        if let Some(job) = claim(store).await {
+            return job;
+        }
+        tokio::task::yield_now().await;
+    }
+}
+
+pub async fn change(store: &RecordStore, id: JobId, happening: Happening) -> Changed {
+    store.change(id, &happening).await.expect("an answer")
+}
+
+/// The record after a change that must take place.
+pub fn yes(changed: Changed) -> Job {
+    match changed {
+        Changed::Yes(job) => *job,
+        other => panic!("{other:?}"),
+    }
+}
