@@ -88,7 +88,14 @@ fn drawn(outcome: pipeline::Outcome) -> Ended {
     let mut made = Made::new(outcome.files);
     made.add("layout.png", "layout.png", drawn.layout_png);
     made.add("heatmap.png", "heatmap.png", drawn.heatmap_png);
-    Ok(made.reported(report, Some(report.certified), &report.warnings))
+    let groups = report.groups.iter();
+    let bounds = groups.filter_map(|group| group.atlas.as_ref()?.bound.as_ref());
+    let within_bound = bounds
+        .map(|bound| bound.kept)
+        .reduce(|all, kept| all && kept);
+    let mut made = made.reported(report, Some(report.certified), &report.warnings);
+    made.verdict.within_bound = within_bound;
+    Ok(made)
 }
 
 fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended {
@@ -168,6 +175,7 @@ impl Made {
         self.add("report", "report.json", bytes);
         self.verdict = Verdict {
             certified,
+            within_bound: None,
             warnings: warnings.to_vec(),
         };
         self
