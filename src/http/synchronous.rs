@@ -14,6 +14,7 @@ use super::{App, Shared, download, upload};
 use crate::jobs::{Ended, Job, JobId, Jobs, Kind, State as JobState, Submitted, Verdict};
 
 const CERTIFIED: HeaderName = HeaderName::from_static("unwrapd-certified");
+const WITHIN_BOUND: HeaderName = HeaderName::from_static("unwrapd-within-bound");
 const WARNINGS: HeaderName = HeaderName::from_static("unwrapd-warnings");
 
 /// Unwrap a mesh and get it back.
@@ -21,14 +22,16 @@ const WARNINGS: HeaderName = HeaderName::from_static("unwrapd-warnings");
 /// For meshes that take seconds. The call waits in the same queue as jobs, and nothing is kept. The
 /// answer is one file, in the `format` `glb` or `obj`. The format `gltf`, the report and the
 /// pictures require a job (`needs_job`). The header `unwrapd-certified` says whether everything
-/// requested is proven. The header `unwrapd-warnings` lists the codes of the warnings. Closing the
-/// connection cancels the call.
+/// requested is proven. The header `unwrapd-within-bound` says whether the distortion keeps its
+/// bound. The header `unwrapd-warnings` lists the codes of the warnings. Closing the connection
+/// cancels the call.
 #[utoipa::path(
     post, path = "/v1/unwrap", operation_id = "unwrap", tag = "synchronous",
     params(("filename" = Option<String>, Query, description = "File name of a raw body")),
     responses(
         (status = 200, description = "The mesh with its new UVs", headers(
             ("unwrapd-certified" = bool, description = "Whether everything requested is proven on these bytes"),
+            ("unwrapd-within-bound" = bool, description = "Whether the distortion keeps its bound; absent if there is none"),
             ("unwrapd-warnings" = String, description = "Codes of the warnings; absent if there are none"),
         ), content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/obj"))),
         CallProblems,
@@ -99,9 +102,14 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
 
 /// What stands in a job, as headers: nothing else of it is left.
 fn tell_verdict(verdict: &Verdict, headers: &mut HeaderMap) {
-    if let Some(certified) = verdict.certified {
-        let certified = if certified { "true" } else { "false" };
-        headers.insert(CERTIFIED, HeaderValue::from_static(certified));
+    for (name, verdict) in [
+        (CERTIFIED, verdict.certified),
+        (WITHIN_BOUND, verdict.within_bound),
+    ] {
+        if let Some(verdict) = verdict {
+            let verdict = if verdict { "true" } else { "false" };
+            headers.insert(name, HeaderValue::from_static(verdict));
+        }
     }
     let codes: BTreeSet<&str> = (verdict.warnings.iter())
         .map(|warning| warning.code.as_ref())

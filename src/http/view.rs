@@ -42,6 +42,9 @@ pub(super) struct JobView {
     /// Whether everything requested is proven on the bytes written. Null until the job succeeded, and
     /// for kinds that prove nothing. If false there is a result, and `warnings` name what is missing.
     certified: Option<bool>,
+    /// Whether the distortion keeps the bound of `quality` or `max_distortion`. Null until the job
+    /// succeeded, and where there is no bound.
+    within_bound: Option<bool>,
     /// Warnings about the input, the work and the result; empty until the job succeeded.
     warnings: Vec<Warning>,
     /// Cause of the failure; absent unless the job failed.
@@ -107,6 +110,7 @@ impl JobView {
                 .zip(settings.retention)
                 .map(|(end, kept)| end.later(kept)),
             certified: job.verdict.certified,
+            within_bound: job.verdict.within_bound,
             warnings: job.verdict.warnings.clone(),
             error: job.failure.as_ref().map(Problem::of_failure),
             links: Links {

@@ -139,6 +139,8 @@ impl Failure {
 pub struct Verdict {
     /// Whether everything that was asked for is proven on the bytes written; none of kinds that prove nothing of a result.
     pub certified: Option<bool>,
+    /// Whether the distortion keeps the bound that was asked for; none where there is no bound.
+    pub within_bound: Option<bool>,
     /// What users should know of the input, of the work and of the result.
     pub warnings: Vec<Warning>,
 }

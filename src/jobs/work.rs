@@ -87,8 +87,13 @@ fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> 
 fn atlas(outcome: pipeline::Outcome) -> Made {
     let report = &outcome.report;
     let mut made = Made::new(outcome.files);
+    let groups = report.groups.iter();
+    let mut bounds = groups.filter_map(|group| Some(group.atlas.as_ref()?.bound.as_ref()?.kept));
+    let within_bound = bounds.next().map(|first| first && bounds.all(|kept| kept));
+    let mut made = made.reported(report, Some(report.certified), &report.warnings);
     made.pictures = Some(outcome.pictures);
-    made.reported(report, Some(report.certified), &report.warnings)
+    made.verdict.within_bound = within_bound;
+    made
 }
 
 fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended {
@@ -179,6 +184,7 @@ impl Made {
         self.add("report", "report.json", bytes);
         self.verdict = Verdict {
             certified,
+            within_bound: None,
             warnings: warnings.to_vec(),
         };
         self

@@ -94,3 +94,29 @@ async fn a_job_that_is_not_certified_succeeds_and_says_so() {
     assert_eq!(answer.headers()["unwrapd-certified"], "false");
     assert_eq!(answer.headers()["unwrapd-warnings"], "padding_missed");
 }
+
+#[tokio::test]
+async fn a_missed_bound_is_seen_without_reading_the_report() {
+    let server = Server::start();
+    // Without time, a curved sheet stays in one piece.
+    let bound = async |bound: &str| {
+        let query = format!("max_distortion={bound}&time_budget=0&resolution=256");
+        let job = server.submit(meshes::small(), &query).await;
+        let job = server.ended(&job).await;
+        assert_eq!(job["state"], "succeeded", "{job}");
+        let answer = server
+            .post(&format!("/v1/unwrap?{query}"))
+            .body(meshes::small())
+            .send()
+            .await
+            .expect("an answer");
+        let header = answer.headers()["unwrapd-within-bound"].clone();
+        let code = job["warnings"][0]["code"].clone();
+        (job["within_bound"].clone(), header, code)
+    };
+    let (kept, header, _) = bound("9").await;
+    assert_eq!((kept, header.as_bytes()), (true.into(), &b"true"[..]));
+    let (kept, header, code) = bound("4.0001").await;
+    assert_eq!((kept, header.as_bytes()), (false.into(), &b"false"[..]));
+    assert_eq!(code, "too_distorted");
+}
