@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Many files by the engines that exist, each with a task killed midway: what came of them, and how fast.
 
-    tests/.venv/bin/python tests/bench/bulk.py --unwrapd target/release/unwrapd [--files 200]
+    tests/.venv/bin/python tests/bench/bulk.py --unwrapd target/release/unwrapd [--files 200] [--rings 21]
 
 HyperQueue and Ray come from PyPI (`pip install hyperqueue ray`); one that is absent is left out.
-Every file is another closed surface of 1,600 triangles. The baseline is `xargs -P2 unwrapd unwrap`.
+Every file is another closed surface of 80 (RINGS − 1) triangles. The baseline is `xargs -P2 unwrapd unwrap`.
 """
 
 import argparse
@@ -21,14 +21,14 @@ import time
 from pathlib import Path
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples" / "bulk"
-RINGS, SEGMENTS = 21, 40
+SEGMENTS = 40
 
 
-def bumpy_sphere(number: int) -> str:
+def bumpy_sphere(number: int, rings: int) -> str:
     """A sphere with bumps that no other number has, as OBJ."""
     points = [(0.0, 0.0, 1.0)]
-    for ring in range(1, RINGS):
-        t = math.pi * ring / RINGS
+    for ring in range(1, rings):
+        t = math.pi * ring / rings
         for segment in range(SEGMENTS):
             p = 2 * math.pi * segment / SEGMENTS
             r = 1 + 0.25 * math.sin(3 * p + 0.1 * number) * math.sin(2 * t)
@@ -39,8 +39,8 @@ def bumpy_sphere(number: int) -> str:
     faces = []
     for segment in range(SEGMENTS):
         faces.append((1, at(1, segment), at(1, segment + 1)))
-        faces.append((len(points), at(RINGS - 1, segment + 1), at(RINGS - 1, segment)))
-        for ring in range(1, RINGS - 1):
+        faces.append((len(points), at(rings - 1, segment + 1), at(rings - 1, segment)))
+        for ring in range(1, rings - 1):
             a, b = at(ring, segment), at(ring + 1, segment)
             c, d = at(ring + 1, segment + 1), at(ring, segment + 1)
             faces += [(a, b, c), (a, c, d)]
@@ -106,6 +106,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--unwrapd", type=Path, required=True)
     parser.add_argument("--files", type=int, default=200)
+    parser.add_argument("--rings", type=int, default=21)
     parser.add_argument("--only", action="append", help="xargs, batch, hyperqueue or ray; may be repeated")
     given = parser.parse_args()
     unwrapd = str(given.unwrapd.resolve())
@@ -113,7 +114,7 @@ def main() -> None:
         root = Path(folder)
         (root / "in").mkdir()
         for number in range(given.files):
-            (root / "in" / f"{number:04}.obj").write_text(bumpy_sphere(number))
+            (root / "in" / f"{number:04}.obj").write_text(bumpy_sphere(number, given.rings))
         one = 'exec "$0" unwrap "$1" -o "$2/$(basename "$1" .obj).glb" -q --threads 1'
         xargs = f"find {root}/in -name '*.obj' | sort | xargs -P2 -I@ sh -c '{one}' {unwrapd} @ {root}/xargs"
         engine = lambda name: [sys.executable, str(EXAMPLES / f"on_{name}.py"), str(root / "in")]
