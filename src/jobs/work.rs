@@ -86,7 +86,7 @@ fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> 
 /// An atlas with its report.
 fn atlas(outcome: pipeline::Outcome) -> Made {
     let report = &outcome.report;
-    let mut made = Made::new(outcome.files);
+    let made = Made::new(outcome.files);
     let groups = report.groups.iter();
     let mut bounds = groups.filter_map(|group| Some(group.atlas.as_ref()?.bound.as_ref()?.kept));
     let within_bound = bounds.next().map(|first| first && bounds.all(|kept| kept));
