@@ -152,7 +152,7 @@
 //!
 //! - Jobs are queued in tables of our own, by four operations (claim, beat, sweep, end), because the
 //!   record that clients read, its fence and its result must change in one transaction. Of 200 jobs
-//!   under workers killed every 2 s these lost none and had no effect twice; `graphile_worker` lost
+//!   under workers killed every 2 s such tables lost none and had no effect twice; `graphile_worker` lost
 //!   one in each run, `apalis` had up to 27 effects twice and never parked a job that kills its
 //!   workers, and Temporal needs our row beside its own. PostgreSQL, which most operators run, does
 //!   830 of them a second (SQLite 2,800), a thousand times more than jobs of seconds need.
