@@ -8,10 +8,10 @@ use std::time::Instant;
 use tokio::task::block_in_place;
 
 use super::asset::Asset;
+use super::order::{Fate, Order};
 use super::publish::{Published, published};
 use super::record::Record;
 use super::row::{Row, Status};
-use super::run::{Fate, Order};
 use super::trouble::{Trouble, unwritten};
 use super::worker::{Task, Worker};
 use crate::document::Upload;

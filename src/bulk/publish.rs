@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::asset::{Asset, is_inside};
+use super::order::Order;
 use super::place::Place;
 use super::record::Record;
 use super::row::Figures;
-use super::run::Order;
 use super::trouble::{Trouble, unwritten};
 use super::worker::Extra;
 use crate::jobs::{Failure, output_file};

@@ -1,75 +1,22 @@
 //! A run over assets: what is recorded is kept, the rest is done, several at once.
 
 use std::collections::HashMap;
-use std::io;
 use std::pin::pin;
 use std::sync::Arc;
 
 use tokio::task::{JoinError, JoinSet};
 
 use super::asset::Asset;
-use super::digest::Recipe;
 use super::one;
+use super::order::{Fate, Order};
 use super::place::Place;
 use super::record::Record;
 use super::row::{Row, Status};
-use super::scratch::Scratch;
-use super::worker::{Extra, Worker};
+use super::worker::Worker;
 use crate::jobs::Failure;
-use crate::pipeline::Options;
-
-/// What a run does.
-pub struct Order {
-    /// The assets, of this shard only.
-    pub assets: Vec<Asset>,
-    /// Where outputs go.
-    pub place: Place,
-    /// Where they are made.
-    pub scratch: Scratch,
-    /// What is written beside outputs.
-    pub extras: Vec<Extra>,
-    /// Whether assets that failed for good are done again.
-    pub retries: bool,
-    /// Assets in work at once.
-    pub concurrency: usize,
-    pub(super) recipe: Recipe,
-}
-
-/// How a run came to a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
-    /// An earlier run did the work.
-    Kept,
-    /// This one did it.
-    Done,
-}
 
 /// Told of every row as it comes.
 pub type Seen<'a> = &'a mut (dyn FnMut(&Row, Fate) + Send);
-
-impl Order {
-    /// One asset at a time, by a worker of this version.
-    ///
-    /// # Errors
-    /// If the options cannot be written as JSON.
-    pub fn new(
-        assets: Vec<Asset>,
-        place: Place,
-        version: &str,
-        options: &Options,
-        extras: Vec<Extra>,
-    ) -> io::Result<Self> {
-        Ok(Self {
-            assets,
-            place,
-            scratch: Scratch::new()?,
-            recipe: Recipe::new(version, options, &extras)?,
-            extras,
-            retries: false,
-            concurrency: 1,
-        })
-    }
-}
 
 /// Does what an order asks for; the rows are in the order of the assets. `None` if `stop` ended first:
 /// then nothing is in work any more, and what was is not recorded.

@@ -7,11 +7,9 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::watch;
-use tokio_util::sync::CancellationToken;
 
 use super::job::JobId;
 use super::progress::Event;
-use super::queue::Jobs;
 use super::subscription::Subscription;
 
 /// The newest event of each job that somebody watches.
@@ -56,51 +54,9 @@ impl Live {
     }
 
     /// The jobs that somebody watches.
-    fn ids(&self) -> Vec<JobId> {
+    pub fn ids(&self) -> Vec<JobId> {
         let mut watched = self.watched();
         watched.retain(|_, sender| 0 < sender.receiver_count());
         watched.keys().copied().collect()
-    }
-}
-
-impl Jobs {
-    /// Watches a job; `None` if there is none.
-    pub async fn subscribe(&self, id: JobId) -> super::StoreResult<Option<Subscription>> {
-        // What happens after this line is seen, so that no end can fall between it and the record.
-        let subscription = self.live.subscribe(id);
-        let Some(job) = self.get(id).await? else {
-            self.live.forget(id);
-            return Ok(None);
-        };
-        self.live.publish(id, job.event());
-        Ok(Some(subscription))
-    }
-
-    /// Reads the records of watched jobs from time to time until told to stop.
-    pub(super) async fn watch_until(&self, stop: &CancellationToken) {
-        let mut interval = tokio::time::interval(self.settings.deployment.look_interval());
-        interval.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
-        loop {
-            tokio::select! {
-                _ = interval.tick() => {}
-                () = stop.cancelled() => return,
-            }
-            let ids = self.live.ids();
-            if ids.is_empty() {
-                continue;
-            }
-            match self.store.events(&ids).await {
-                Ok(events) => {
-                    let events: HashMap<_, _> = events.into_iter().collect();
-                    for id in ids {
-                        match events.get(&id) {
-                            Some(&event) => self.live.publish(id, event),
-                            None => self.live.forget(id),
-                        }
-                    }
-                }
-                Err(error) => tracing::warn!(%error, "records of watched jobs not read"),
-            }
-        }
     }
 }

@@ -30,6 +30,7 @@
 //! Where records and files live is not decided here: [`JobStore`] and [`Blobs`] are traits.
 
 mod attempt;
+mod beats;
 mod capacity;
 mod cgroup;
 mod checksum;
@@ -61,6 +62,7 @@ mod subscription;
 mod task;
 mod timestamp;
 mod transition;
+mod watching;
 mod work;
 
 pub use capacity::Usage;

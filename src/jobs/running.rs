@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
@@ -10,7 +9,6 @@ use tokio_util::sync::CancellationToken;
 use super::job::{Job, JobId};
 use super::lease::Token;
 use super::progress::{Event, Saying};
-use super::queue::Jobs;
 use super::storage::{Beat, Changed};
 use super::transition::Wish;
 
@@ -115,7 +113,8 @@ impl Running {
         }
     }
 
-    fn beats(&self) -> Vec<Beat> {
+    /// The signs of life of all of them.
+    pub fn beats(&self) -> Vec<Beat> {
         let attempts = self.attempts();
         let beats = attempts.iter();
         beats
@@ -124,7 +123,7 @@ impl Running {
     }
 
     /// What became of a sign of life that was sent at a time.
-    fn answered(&self, (id, token, _): &Beat, changed: &Changed, lease_end: Instant) {
+    pub fn answered(&self, (id, token, _): &Beat, changed: &Changed, lease_end: Instant) {
         let attempt = self.attempt(*id).filter(|it| it.token == *token);
         match (attempt, changed) {
             (Some(attempt), Changed::Yes(job)) => {
@@ -138,31 +137,6 @@ impl Running {
             }
             (Some(attempt), _) => attempt.outdated.cancel(),
             (None, _) => {}
-        }
-    }
-}
-
-impl Jobs {
-    /// Gives signs of life for the attempts of this process, and hears what clients want of them,
-    /// for ever.
-    pub(super) async fn beat(&self, interval: Duration) {
-        let mut interval = tokio::time::interval(interval);
-        interval.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
-        loop {
-            interval.tick().await;
-            let beats = self.running.beats();
-            if beats.is_empty() {
-                continue;
-            }
-            let lease_end = Instant::now() + self.settings.rules.lease;
-            match self.store.beat(&beats).await {
-                Ok(answers) => {
-                    for (beat, changed) in beats.iter().zip(&answers) {
-                        self.running.answered(beat, changed, lease_end);
-                    }
-                }
-                Err(error) => tracing::warn!(%error, "no sign of life given"),
-            }
         }
     }
 }

@@ -7,7 +7,6 @@ use sqlx::migrate::{Migration, MigrationType, Migrator};
 use sqlx::{Any, AnyConnection, AnyPool, AssertSqlSafe, Connection, Row, SqlSafeStr, Transaction};
 
 use super::dialect::Dialect;
-use super::reserve;
 use crate::jobs::{StoreError, StoreResult};
 
 /// The n-th leads from version n to the next. A program of the version before must be able to go on
@@ -65,9 +64,6 @@ impl Database {
             }
         };
         database.migrate().await?;
-        if dialect == Dialect::Sqlite {
-            reserve::keep(&database).await?;
-        }
         Ok(database)
     }
 

@@ -8,7 +8,6 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, AnyConnection, AssertSqlSafe, Row, Transaction};
 
 use super::database::Database;
-use super::dialect::Dialect;
 use super::{idempotency, reserve, rows, transitions};
 use crate::jobs::{
     Beat, Capacity, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId, JobStore,
@@ -33,6 +32,7 @@ impl RecordStore {
     /// `postgres://user@host/name`.
     pub async fn open(url: &str, rules: Rules) -> StoreResult<Self> {
         let database = Database::open(url).await?;
+        reserve::keep(&database).await?;
         Ok(Self { database, rules })
     }
 
@@ -252,10 +252,7 @@ impl JobStore for RecordStore {
             sqlx::query(self.database.sql("UPDATE pulse SET at = {now}"))
                 .execute(&self.database.writers)
                 .await?;
-            match self.database.dialect {
-                Dialect::Sqlite => reserve::keep(&self.database).await,
-                Dialect::Postgres => Ok(()),
-            }
+            reserve::keep(&self.database).await
         })
     }
 }

@@ -8,6 +8,7 @@
 use sqlx::Row;
 
 use super::database::Database;
+use super::dialect::Dialect;
 use crate::jobs::StoreResult;
 
 /// Bytes of free pages, and of the log. A record has about two thousand.
@@ -15,9 +16,12 @@ const RESERVE: i64 = 4 << 20;
 /// Below this the free pages are filled up again.
 const LEAST: i64 = RESERVE / 4;
 
-/// Sets space aside where there is too little of it. One transaction of that size makes the log as
-/// long.
+/// Sets space aside where there is too little of it and the disk is that of SQLite. One transaction
+/// of that size makes the log as long.
 pub(super) async fn keep(database: &Database) -> StoreResult<()> {
+    if database.dialect != Dialect::Sqlite {
+        return Ok(());
+    }
     let free = "SELECT freelist_count * page_size FROM pragma_freelist_count, pragma_page_size";
     let row = sqlx::query(free).fetch_one(&database.readers).await?;
     if LEAST <= row.try_get::<i64, _>(0)? {

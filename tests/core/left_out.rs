@@ -1,5 +1,5 @@
 //! Which tests may be left out: those in modules named `shared`, where the data beside the repository is absent, and those in
-//! `server` and `browser`, in a run without either.
+//! `server`, `cluster` and `browser`, in a run without them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,7 +65,7 @@ fn servers_and_browsers_are_where_runs_without_them_look() {
     sources(&places::repository("tests/service"), &mut files);
     let (apart, others): (Vec<_>, Vec<_>) = files.iter().partition(|file| {
         file.iter()
-            .any(|part| part == "server" || part == "browser")
+            .any(|part| part == "server" || part == "browser" || part == "cluster")
     });
     assert!(apart.len() > 10, "{apart:?}");
     for file in others {

@@ -1,6 +1,7 @@
 //! The search for a fuller layout.
 use rayon::prelude::*;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{Draft, squeezed_side};
 use crate::atlas::OnRead;
@@ -40,6 +41,17 @@ impl Draft {
     /// The squeezed layout never gets worse, on pages that are not square the arrangement does not; the arrangement from which a
     /// squeezed layout comes may, so that searches that follow each other begin at different ones.
     pub fn improve(&mut self, words: u64, seed: u64, on_read: &OnRead) {
+        let told = AtomicU64::new(0);
+        let count = |read| {
+            told.fetch_add(read, Ordering::Relaxed);
+            on_read(read)
+        };
+        self.improve_within(words, seed, &count);
+        // What it need not read is as good as read.
+        on_read(words.saturating_sub(told.into_inner()));
+    }
+
+    fn improve_within(&mut self, words: u64, seed: u64, on_read: &OnRead) {
         if self.state.order.is_empty() {
             return;
         }

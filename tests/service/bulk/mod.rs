@@ -7,7 +7,6 @@ mod lists;
 mod resumed;
 mod schedulers;
 mod shards;
-mod submitted;
 mod unwilling;
 
 use std::collections::BTreeMap;

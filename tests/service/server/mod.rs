@@ -11,6 +11,7 @@ mod requests;
 mod restarts;
 mod results;
 mod retention;
+mod submitted;
 mod synchronous;
 mod verdicts;
 

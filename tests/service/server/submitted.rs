@@ -5,9 +5,9 @@ use std::process::{Child, Stdio};
 
 use serde_json::Value;
 
-use super::Folders;
+use super::{Server, json};
+use crate::bulk::Folders;
 use crate::cli::{assert_status, last_error, unwrapd};
-use crate::server::{Server, json};
 
 /// All jobs of a service.
 async fn jobs(server: &Server) -> Vec<Value> {
