@@ -3,8 +3,8 @@
 use super::OnRead;
 use crate::solver::Control;
 
-/// Words between two reports, about a hundredth of a second.
-const BETWEEN_REPORTS: u64 = 3_000_000;
+/// Words between two reports, about a thousandth of a second.
+const BETWEEN_REPORTS: u64 = 300_000;
 
 /// The words that a search may read. The caller is told while they are read, and may end the search.
 pub(super) struct ReadLimit<'a> {

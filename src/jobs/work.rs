@@ -162,8 +162,15 @@ impl Made {
     pub fn draw(&mut self) -> Result<(), PipelineError> {
         if let Some(pictures) = self.pictures.take() {
             let drawn = pictures.draw()?;
-            self.add("layout.png", "layout.png", drawn.layout_png);
-            self.add("heatmap.png", "heatmap.png", drawn.heatmap_png);
+            let pictures = [
+                ("layout.png", drawn.layout_png),
+                ("heatmap.png", drawn.heatmap_png),
+            ];
+            let pictures = pictures.map(|(name, png)| (name.to_owned(), name.to_owned(), png));
+            // The report stays last.
+            let place = self.files.iter().position(|(role, ..)| role == "report");
+            let place = place.unwrap_or(self.files.len());
+            self.files.splice(place..place, pictures);
         }
         Ok(())
     }

@@ -93,10 +93,10 @@ async fn a_killed_database_is_waited_for() {
     soon("its child goes on", || worker.children().is_empty()).await;
 
     cluster.postgres.restart();
-    let next = submitted(&api, 1).await;
-    assert_whole(&api, &next[0]).await;
     let path = job["links"]["self"].as_str().expect("a link");
     finish(&api, path).await;
+    let next = submitted(&api, 1).await;
+    assert_whole(&api, &next[0]).await;
     assert_whole(&api, &job).await;
     let ready = api.get("/readyz").send().await.expect("an answer");
     assert_eq!(ready.status(), 200);
