@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use nix::sys::signal::Signal;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
 
 use super::{Cluster, assert_whole, submitted};
 use crate::meshes;
@@ -84,6 +85,10 @@ async fn a_killed_database_is_waited_for() {
     let worker = cluster.worker();
     let job = api.submit(meshes::large(), "cut=disk").await;
     api.mapping(&job).await;
+    // It shall not be done before its lease is over.
+    for child in worker.children() {
+        kill(Pid::from_raw(child), Signal::SIGSTOP).expect("a child");
+    }
     cluster.postgres.kill();
     let refused = api.post("/v1/jobs").body(meshes::small()).send().await;
     assert_problem(refused.expect("an answer"), 503, "store_unavailable").await;
