@@ -49,7 +49,7 @@ pub(super) async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &Cancel
         })
     });
     match ending {
-        Some(ending) => conclude(jobs, &job, attempt, ending).await,
+        Some(ending) => conclude(jobs, &job, attempt, ending, leave).await,
         None => disown(jobs, &job).await,
     }
     jobs.running.end(job.id, job.token);
@@ -216,7 +216,14 @@ fn killed_for_memory() -> Failure {
 
 /// Records how an attempt ended, however long that takes: what it made is not thrown away because
 /// the store is away for a while. If the job went to another worker meanwhile, the store says so.
-async fn conclude(jobs: &Jobs, job: &Job, attempt: &Attempt, ending: Ending) {
+/// A worker that has to leave does not wait: once the lease is over, another one takes the job.
+async fn conclude(
+    jobs: &Jobs,
+    job: &Job,
+    attempt: &Attempt,
+    ending: Ending,
+    leave: &CancellationToken,
+) {
     let happening = Happening::Ended(attempt.token, attempt.saying(), ending);
     loop {
         match jobs.store.change(job.id, &happening).await {
@@ -229,7 +236,10 @@ async fn conclude(jobs: &Jobs, job: &Job, attempt: &Attempt, ending: Ending) {
             Ok(Changed::No(..) | Changed::Missing) => return disown(jobs, job).await,
             Err(error) if error.is_passing() => {
                 tracing::warn!(job = %job.id, %error, "end not recorded yet");
-                tokio::time::sleep(PAUSE).await;
+                tokio::select! {
+                    () = tokio::time::sleep(PAUSE) => {}
+                    () = leave.cancelled() => return,
+                }
             }
             Err(error) => {
                 tracing::error!(job = %job.id, %error, "end not recorded");

@@ -13,8 +13,8 @@
 //!
 //! [`after`] is that picture as a function: what becomes of a record when something happens. A
 //! worker holds a job under a token and a lease by the store's clock, which its signs of life
-//! renew. Whoever finds a lease over puts the job back and raises the token, so that nothing that
-//! the former worker says changes the record any more, and its files have names of their own.
+//! renew. Whoever finds a lease over puts the job back and raises the token. From then on nothing
+//! that the former worker says changes the record, and its files have names of their own.
 //! One process or many, it is the same four operations: claim, beat, sweep, end.
 //!
 //! The worker itself computes nothing. Every attempt runs in a child process of the same binary

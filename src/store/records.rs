@@ -21,7 +21,8 @@ const BATCH: usize = 64;
 /// How long the job of a call is kept after its end, if the call does not remove it.
 const EPHEMERAL_MS: i64 = 10 * 60_000;
 
-/// Records in SQLite or PostgreSQL. Every method is one transaction, durable when it returns.
+/// Records in SQLite or PostgreSQL. Every change is one transaction, durable when the method returns;
+/// a sweep is several.
 pub struct RecordStore {
     database: Database,
     rules: Rules,

@@ -25,6 +25,7 @@ const DUE: &str = "state = 'queued' AND (due <= {now} OR {now} + $1 < due)";
 /// given.
 const OVERDUE: &str =
     "state = 'running' AND (lease IS NULL OR lease < {now} OR {now} + $1 < lease)";
+/// All that run; the lease, which is bound to every sweep, makes no difference.
 const ANY_RUNNING: &str = "state = 'running' AND $1 = $1";
 
 pub(super) async fn claim(

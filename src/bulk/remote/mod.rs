@@ -1,8 +1,7 @@
 //! Work done by a service, over HTTP.
 //!
-//! A submission is named by the digest of what it asks for and the number of the attempt
-//! (`Idempotency-Key`), so that a run that was killed while its jobs were in work finds these jobs
-//! again instead of making new ones.
+//! The `Idempotency-Key` of a submission is the digest of what it asks for and the number of the
+//! attempt. A run that follows a killed one finds its jobs again and makes no new ones.
 
 mod client;
 mod job;

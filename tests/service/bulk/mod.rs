@@ -108,7 +108,7 @@ impl Folders {
     }
 
     /// The files below `out`, apart from summaries, as names and what tells two writings apart.
-    pub fn written(&self) -> BTreeMap<String, u64> {
+    pub fn written(&self) -> BTreeMap<String, Writing> {
         let mut found = BTreeMap::new();
         let root = self.path("out");
         collect(&root, &root, &mut found);
@@ -135,7 +135,11 @@ pub fn mesh(number: usize) -> String {
     format!("v {x} 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
 }
 
-fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, u64>) {
+/// What tells two writings of a file apart: its inode and its time. The inode alone does not,
+/// since that of a file that was removed is given to another; the time alone is that of a tick.
+pub type Writing = (u64, i64, i64);
+
+fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, Writing>) {
     for entry in fs::read_dir(folder).into_iter().flatten() {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
@@ -145,9 +149,9 @@ fn collect(root: &Path, folder: &Path, found: &mut BTreeMap<String, u64>) {
             let Ok(of) = fs::metadata(&path) else {
                 continue;
             };
-            // A file that is written anew has another inode while the old one is still there.
             let name = path.strip_prefix(root).expect("inside");
-            found.insert(name.to_string_lossy().into_owned(), of.ino());
+            let writing = (of.ino(), of.mtime(), of.mtime_nsec());
+            found.insert(name.to_string_lossy().into_owned(), writing);
         }
     }
 }

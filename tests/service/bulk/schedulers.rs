@@ -9,7 +9,7 @@ use std::time::Instant;
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
-use super::{Folders, QUICK};
+use super::{Folders, QUICK, Writing};
 use crate::cli::assert_status;
 use crate::places;
 use crate::server::SOON;
@@ -31,15 +31,15 @@ fn output(command: &mut Command) -> Output {
 /// The records that were seen: one that is written anew is work done twice.
 struct Watch<'a> {
     folders: &'a Folders,
-    seen: BTreeMap<String, u64>,
+    seen: BTreeMap<String, Writing>,
 }
 
 impl Watch<'_> {
     fn look(&mut self) -> usize {
-        for (name, inode) in self.folders.written() {
+        for (name, writing) in self.folders.written() {
             if name.starts_with(".unwrapd/records") {
-                let first = *self.seen.entry(name.clone()).or_insert(inode);
-                assert_eq!(first, inode, "{name} was done twice");
+                let first = *self.seen.entry(name.clone()).or_insert(writing);
+                assert_eq!(first, writing, "{name} was done twice");
             }
         }
         self.seen.len()

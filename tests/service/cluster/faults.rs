@@ -143,3 +143,16 @@ async fn a_worker_that_is_told_to_stop_hands_its_job_back() {
     assert_eq!((attempt, lost), (1, 0));
     assert!(state == "queued" || state == "succeeded", "{state}");
 }
+
+#[tokio::test]
+async fn a_worker_stops_while_the_database_is_down() {
+    let mut cluster = Cluster::start();
+    let api = cluster.api();
+    let mut worker = cluster.worker();
+    let job = api.submit(meshes::hills(250), "cut=disk").await;
+    api.mapping(&job).await;
+    cluster.postgres.kill();
+    worker.signal(Signal::SIGTERM);
+    worker.stopped();
+    assert_eq!(worker.children(), Vec::<i32>::new());
+}
