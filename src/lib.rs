@@ -157,6 +157,11 @@
 //!   workers, and Temporal needs our row beside its own. PostgreSQL, which most operators run, does
 //!   830 of them a second (SQLite 2,800), a thousand times more than jobs of seconds need.
 //!
+//! - A job that equals an earlier one gets copies of its files, not references to them: other names of
+//!   the same content in a folder, copies within the bucket. Every job owns its files, so that nothing
+//!   has to be counted before one is removed. Equal are input, kind, options and the checksum of the
+//!   program that computed; what was cut short is computed again.
+//!
 //! - A density is three functions of the signed singular values, and the smallest of these is found from the determinant:
 //!   one definition serves plane and space, and loses nothing where areas span thirty orders of magnitude.
 //! - Handles are held exactly, by elimination, where the paper has soft constraints; points inside elements are soft and harden

@@ -1,16 +1,13 @@
 //! What an output follows from, as one digest.
 
-use std::fmt::Write;
-
-use sha2::{Digest as _, Sha256};
-
 use super::worker::Extra;
 use crate::document::Upload;
+use crate::jobs::Digest;
 use crate::pipeline::{Options, Workers};
 
 /// What all assets of a run have in common.
 #[derive(Clone, Debug)]
-pub(super) struct Recipe(Sha256);
+pub(super) struct Recipe(Digest);
 
 impl Recipe {
     /// The version of what works, the options, and what is written beside the output. The number of
@@ -20,35 +17,24 @@ impl Recipe {
             workers: Workers::default(),
             ..options.clone()
         };
-        let mut hash = Sha256::new();
-        add(&mut hash, version.as_bytes());
-        add(&mut hash, &serde_json::to_vec(&options)?);
+        let mut digest = Digest::default();
+        digest.add(version.as_bytes());
+        digest.add(&serde_json::to_vec(&options)?);
         for extra in extras {
-            add(&mut hash, extra.suffix().as_bytes());
+            digest.add(extra.suffix().as_bytes());
         }
-        Ok(Self(hash))
+        Ok(Self(digest))
     }
 
-    /// The digest of an asset, in hexadecimal digits.
+    /// The digest of an asset.
     pub fn with(&self, upload: &Upload) -> String {
-        let mut hash = self.0.clone();
-        add(&mut hash, upload.name.as_bytes());
-        add(&mut hash, &upload.bytes);
+        let mut digest = self.0.clone();
+        digest.add(upload.name.as_bytes());
+        digest.add(&upload.bytes);
         for (name, bytes) in &upload.resources {
-            add(&mut hash, name.as_bytes());
-            add(&mut hash, bytes);
+            digest.add(name.as_bytes());
+            digest.add(bytes);
         }
-        let mut text = String::with_capacity(64);
-        for byte in hash.finalize() {
-            // A string takes whatever is written to it.
-            let _ = write!(text, "{byte:02x}");
-        }
-        text
+        digest.finish()
     }
-}
-
-/// With its length, so that no two sequences are one text.
-fn add(hash: &mut Sha256, bytes: &[u8]) {
-    hash.update((bytes.len() as u64).to_le_bytes());
-    hash.update(bytes);
 }

@@ -50,6 +50,7 @@ impl IntoResponses for CallProblems {
             Code::Crashed,
             Code::QueueFull,
             Code::Stopping,
+            Code::Draining,
             Code::WorkerLost,
             Code::TimedOut,
             Code::StoreUnavailable,

@@ -9,11 +9,9 @@ use super::jobs::{view, wait_for};
 use super::problem::{Code, Problem};
 use super::upload;
 use super::view::{JobView, job_path};
+use super::wishes::Wishes;
 use super::{App, Shared, json};
 use crate::jobs::{Ended, Job, SubmitError, Submitted};
-
-/// Longest Idempotency-Key.
-const MAX_KEY: usize = 255;
 
 /// Create a job of any kind.
 ///
@@ -31,6 +29,9 @@ const MAX_KEY: usize = 255;
 /// cancelled, even if the service crashes. Unknown formats, malformed JSON and unknown options are
 /// refused immediately. Any other defect of the input fails the job with a code of `x-problems`.
 ///
+/// A job whose kind, options and input equal those of an earlier one gets a copy of its result and
+/// is marked `cached`. `Cache-Control: no-cache` asks for a new computation.
+///
 /// With `Idempotency-Key`, a repetition within a day returns the same job. With `Prefer: wait=N`,
 /// the answer waits up to N seconds, at most 60. It is 200 if the job has ended by then. Progress
 /// is under `/events`, the result under `/result` and `/report`. Ended jobs are removed with their
@@ -39,9 +40,11 @@ const MAX_KEY: usize = 255;
     post, path = "/v1/jobs", operation_id = "createJob", tag = "jobs",
     params(
         ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255, description = "The client's own name for this submission, at most 255 characters"),
+        ("Cache-Control" = Option<String>, Header, description = "`no-cache`: compute the result even if an equal job has one"),
         ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but after N seconds at the latest"),
         ("kind" = Option<crate::jobs::Kind>, Query, description = "Kind of job; the default is `unwrap`"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
+        ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Waiting jobs of higher priority start first; the default is 0"),
     ),
     responses(
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
@@ -50,7 +53,7 @@ const MAX_KEY: usize = 255;
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "`unknown_format`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "`queue_full`, `store_unavailable`: try again later", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "`queue_full`, `store_unavailable`: try again later; `draining`: try again elsewhere", body = Problem, content_type = "application/problem+json"),
         (status = 507, description = "`storage_full`: delete jobs, or try again later", body = Problem, content_type = "application/problem+json"),
     )
 )]
@@ -59,9 +62,9 @@ pub(super) async fn create_job(
     headers: HeaderMap,
     request: Request,
 ) -> Result<Response, Problem> {
-    let key = idempotency_key(&headers)?;
+    let wishes = Wishes::read(&headers)?;
     let received = upload::receive(&app, None, request).await?;
-    let (submission, _folder) = received.into_submission(key, false);
+    let (submission, _folder) = received.into_submission(wishes, false);
     let job = match app.jobs.submit(submission).await? {
         Submitted::New(job) | Submitted::Replay(job) => job,
     };
@@ -89,19 +92,6 @@ impl From<SubmitError> for Problem {
             ),
             SubmitError::Store(error) => error.into(),
         }
-    }
-}
-
-fn idempotency_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
-    let Some(value) = headers.get("idempotency-key") else {
-        return Ok(None);
-    };
-    match value.to_str() {
-        Ok(key) if (1..=MAX_KEY).contains(&key.len()) => Ok(Some(key.to_owned())),
-        _ => Err(Problem::new(
-            Code::InvalidRequest,
-            format!("Idempotency-Key must have 1 to {MAX_KEY} visible characters"),
-        )),
     }
 }
 

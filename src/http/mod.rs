@@ -8,6 +8,7 @@ mod answers;
 mod causes;
 mod create;
 mod download;
+mod drain;
 mod events;
 mod extract;
 mod framing;
@@ -25,6 +26,7 @@ mod settings;
 mod synchronous;
 mod upload;
 mod view;
+mod wishes;
 
 use std::any::Any;
 use std::sync::Arc;
@@ -76,6 +78,11 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(results::get_file))
         .routes(routes!(synchronous::unwrap))
         .routes(routes!(synchronous::measure))
+        .routes(routes!(
+            drain::start_drain,
+            drain::end_drain,
+            drain::get_drain
+        ))
         .routes(routes!(probes::healthz))
         .routes(routes!(probes::readyz))
         .routes(routes!(probes::metrics))

@@ -26,7 +26,7 @@ pub(super) async fn healthz() -> &'static str {
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses(
         (status = 200, description = "The service accepts jobs", body = String, content_type = "text/plain"),
-        (status = 503, description = "`not_ready`, with the reason; `stopping`", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "`not_ready`, with the reason; `stopping`, `draining`", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn readyz(State(app): Shared) -> Result<&'static str, Problem> {
@@ -35,6 +35,9 @@ pub(super) async fn readyz(State(app): Shared) -> Result<&'static str, Problem> 
             Code::Stopping,
             "the service accepts no new jobs",
         ));
+    }
+    if app.jobs.is_draining() {
+        return Err(Problem::new(Code::Draining, "DELETE /v1/drain ends that"));
     }
     match app.jobs.check().await {
         Ok(()) => Ok("ready\n"),

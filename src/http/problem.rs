@@ -57,6 +57,7 @@ pub(super) enum Code {
     DamagedFile,
     QueueFull,
     Stopping,
+    Draining,
     NotReady,
     StoreUnavailable,
     WorkerLost,
@@ -65,7 +66,7 @@ pub(super) enum Code {
 }
 
 impl Code {
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 33] = [
         Self::InvalidRequest,
         Self::InvalidOptions,
         Self::MissingMesh,
@@ -93,6 +94,7 @@ impl Code {
         Self::DamagedFile,
         Self::QueueFull,
         Self::Stopping,
+        Self::Draining,
         Self::NotReady,
         Self::StoreUnavailable,
         Self::WorkerLost,
@@ -166,6 +168,7 @@ impl Code {
             Self::DamagedFile => ("damaged_file", 500, "A stored file is damaged"),
             Self::QueueFull => ("queue_full", 503, "The queue is full"),
             Self::Stopping => ("stopping", 503, "The service is shutting down"),
+            Self::Draining => ("draining", 503, "The process takes in no more jobs"),
             Self::NotReady => ("not_ready", 503, "The service would not accept a job now"),
             Self::StoreUnavailable => (
                 "store_unavailable",

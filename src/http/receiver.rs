@@ -6,14 +6,15 @@ use axum::body::Body;
 use axum::extract::multipart::{Field, Multipart, MultipartError};
 use futures_util::{Stream, StreamExt};
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
+use sha2::{Digest as _, Sha256};
 use tokio::io::AsyncWriteExt;
 
 use super::framing;
 use super::options::{self, UploadQuery};
 use super::problem::{Code, Problem};
+use super::wishes::Wishes;
 use crate::deform::from_json;
-use crate::jobs::{IdempotencyKey, InputFile, Kind, Submission};
+use crate::jobs::{Digest, InputFile, Kind, Submission};
 
 /// Names of the part that holds the input.
 const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
@@ -30,7 +31,8 @@ pub(super) struct Received {
     kind: Kind,
     options: Value,
     files: Vec<(InputFile, PathBuf)>,
-    fingerprint: String,
+    priority: i32,
+    digest: String,
 }
 
 impl Received {
@@ -40,13 +42,15 @@ impl Received {
     }
 
     /// What is to be submitted; the folder has to be kept until that is done.
-    pub fn into_submission(self, key: Option<String>, ephemeral: bool) -> (Submission, Folder) {
-        let fingerprint = self.fingerprint;
+    pub fn into_submission(self, wishes: Wishes, ephemeral: bool) -> (Submission, Folder) {
         let submission = Submission {
             kind: self.kind,
             options: self.options,
             files: self.files,
-            key: key.map(|key| IdempotencyKey { key, fingerprint }),
+            digest: self.digest,
+            priority: self.priority,
+            reuse: wishes.reuse,
+            key: wishes.key,
             ephemeral,
         };
         (submission, self.folder)
@@ -69,8 +73,8 @@ pub(super) struct Receiver {
     folder: Folder,
     left: u64,
     limit: u64,
-    input: Option<(InputFile, PathBuf, [u8; 32])>,
-    resources: Vec<(InputFile, PathBuf, [u8; 32])>,
+    input: Option<(InputFile, PathBuf)>,
+    resources: Vec<(InputFile, PathBuf)>,
     kind: Option<Kind>,
     options: Map<String, Value>,
 }
@@ -145,7 +149,7 @@ impl Receiver {
         name: String,
         stream: impl Stream<Item = Result<B, E>> + Unpin,
         problem: impl Fn(E) -> Problem,
-    ) -> Result<(InputFile, PathBuf, [u8; 32]), Problem> {
+    ) -> Result<(InputFile, PathBuf), Problem> {
         if MAX_NAME < name.len() {
             let detail = format!("a file name can have at most {MAX_NAME} bytes");
             return Err(Problem::new(Code::InvalidRequest, detail));
@@ -169,19 +173,17 @@ impl Receiver {
             file.write_all(chunk).await?;
         }
         file.flush().await?;
-        let hash = hash.finalize();
-        let sha256 = Some(format!("{hash:x}"));
         let file = InputFile {
             name,
             bytes,
-            sha256,
+            sha256: Some(format!("{:x}", hash.finalize())),
         };
-        Ok((file, path, hash.into()))
+        Ok((file, path))
     }
 
     /// Checks what came. The query wins over the form, and `kind` over both.
     pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
-        let Some((mut input, path, input_hash)) = self.input else {
+        let Some((mut input, path)) = self.input else {
             let detail = "send it as part `mesh`, `image` or `problem`";
             return Err(Problem::new(Code::MissingMesh, detail));
         };
@@ -197,21 +199,22 @@ impl Receiver {
         let name = query.filename.as_deref().unwrap_or(&input.name);
         input.name = file_name(name, kind, format.extension());
 
-        let mut hash = Sha256::new();
-        hash.update(format!("{kind:?}\n{options}\n{}\n", input.name));
-        hash.update(input_hash);
         let mut files = vec![(input, path)];
-        for (file, path, file_hash) in self.resources {
-            hash.update(format!("{}\n", file.name));
-            hash.update(file_hash);
-            files.push((file, path));
+        files.extend(self.resources);
+        let mut digest = Digest::default();
+        digest.add(kind.word().as_bytes());
+        digest.add(options.to_string().as_bytes());
+        for (file, _) in &files {
+            digest.add(file.name.as_bytes());
+            digest.add(file.sha256.as_deref().unwrap_or_default().as_bytes());
         }
         Ok(Received {
             folder: self.folder,
             kind,
             options,
             files,
-            fingerprint: format!("{:x}", hash.finalize()),
+            priority: query.priority.unwrap_or_default(),
+            digest: digest.finish(),
         })
     }
 }

@@ -10,6 +10,7 @@ use axum::response::Response;
 use super::answers::CallProblems;
 use super::jobs::wait_for;
 use super::problem::{Code, Problem};
+use super::wishes::Wishes;
 use super::{App, Shared, download, upload};
 use crate::jobs::{Ended, Job, JobId, Jobs, Kind, State as JobState, Submitted, Verdict};
 
@@ -57,6 +58,10 @@ pub(super) async fn measure(State(app): Shared, request: Request) -> Result<Resp
 }
 
 async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, Problem> {
+    let wishes = Wishes {
+        key: None,
+        ..Wishes::read(request.headers())?
+    };
     let received = upload::receive(app, Some(kind), request).await?;
     if received
         .options()
@@ -66,7 +71,7 @@ async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, P
         let detail = "a gltf has files beside it: POST /v1/jobs, or ask for glb";
         return Err(Problem::new(Code::NeedsJob, detail));
     }
-    let (submission, _folder) = received.into_submission(None, true);
+    let (submission, _folder) = received.into_submission(wishes, true);
     let (Submitted::New(job) | Submitted::Replay(job)) = app.jobs.submit(submission).await?;
     let _guest = Guest {
         jobs: &app.jobs,

@@ -62,18 +62,26 @@ pub(super) async fn receive(
             .unwrap_or_else(PoisonError::into_inner)
             .poll_next_unpin(context)
     });
-    let received = match app.jobs.has_room() {
+    let received = match accepts(app) {
         Ok(()) => {
             let request = Request::from_parts(head, Body::from_stream(reader));
             parse(app, kind, request).await
         }
-        Err(error) => Err(error.into()),
+        Err(problem) => Err(problem),
     };
     if received.is_err() {
         let drained = async { while let Some(Ok(_)) = rest.next().await {} };
         let _ = tokio::time::timeout(DRAIN_TIME, drained).await;
     }
     received
+}
+
+/// Whether this process takes in jobs now.
+fn accepts(app: &App) -> Result<(), Problem> {
+    if app.jobs.is_draining() {
+        return Err(Problem::new(Code::Draining, "try again elsewhere"));
+    }
+    Ok(app.jobs.has_room()?)
 }
 
 async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Received, Problem> {

@@ -25,8 +25,12 @@ pub(super) struct JobView {
     /// All options, with defaults filled in.
     #[schema(value_type = Object)]
     options: Value,
+    /// Waiting jobs of higher priority start first.
+    priority: i32,
     /// Number of times the job was started.
     attempt: u32,
+    /// Whether the result is a copy of that of an earlier job with equal kind, options and input.
+    cached: bool,
     /// Time of acceptance.
     #[schema(value_type = String, format = DateTime)]
     created_at: Timestamp,
@@ -101,7 +105,9 @@ impl JobView {
                 .map_or_else(String::new, |f| f.name.clone()),
             input_bytes: job.input.iter().map(|file| file.bytes).sum(),
             options: job.options.clone(),
+            priority: job.priority,
             attempt: job.attempt,
+            cached: job.is_copy(),
             created_at: job.created,
             started_at: job.started,
             finished_at: job.finished,

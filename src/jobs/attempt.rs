@@ -102,7 +102,8 @@ async fn compute(
     }
     let exit = child.wait().await?;
     if matches!(exit, Exit::Code(0)) {
-        let outcome: Outcome = task::read_json(folder, OUTCOME)?;
+        let mut outcome: Outcome = task::read_json(folder, OUTCOME)?;
+        jobs.engine().await?.clone_into(&mut outcome.verdict.engine);
         for index in 0..outcome.output.len() {
             let key = output_key(job.id, attempt.token, index);
             let from = folder.join(task::output_file(index));

@@ -17,8 +17,8 @@ pub fn sha256(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
 
-fn compared(hash: Sha256, expected: &str) -> StoreResult<()> {
-    if format!("{:x}", hash.finalize()) == expected {
+fn compared(sha256: &str, expected: &str) -> StoreResult<()> {
+    if sha256 == expected {
         return Ok(());
     }
     let detail = "a stored file is damaged: its checksum is not that of what was stored";
@@ -27,14 +27,19 @@ fn compared(hash: Sha256, expected: &str) -> StoreResult<()> {
 
 /// Reads a local file and compares its checksum, if that is known.
 pub(super) async fn check(path: &Path, expected: Option<&str>) -> StoreResult<()> {
-    let Some(expected) = expected else {
-        return Ok(());
-    };
+    match expected {
+        Some(expected) => compared(&of(path).await?, expected),
+        None => Ok(()),
+    }
+}
+
+/// The checksum of a local file.
+pub(super) async fn of(path: &Path) -> StoreResult<String> {
     let mut file = tokio::fs::File::open(path).await?;
     let (mut hash, mut block) = (Sha256::new(), vec![0; BLOCK]);
     loop {
         match file.read(&mut block).await? {
-            0 => return compared(hash, expected),
+            0 => return Ok(format!("{:x}", hash.finalize())),
             length => hash.update(&block[..length]),
         }
     }
@@ -56,7 +61,8 @@ pub(super) fn checked(content: Content, expected: String) -> Content {
                 Some(Err(error)) => return Some((Err(error), (content, hash, None, None))),
                 None => {
                     let expected = end.take()?;
-                    let last = compared(std::mem::take(&mut hash), &expected);
+                    let sha256 = format!("{:x}", std::mem::take(&mut hash).finalize());
+                    let last = compared(&sha256, &expected);
                     let last = last.map(|()| held.take().unwrap_or_default());
                     return Some((last, (content, hash, None, None)));
                 }

@@ -143,6 +143,8 @@ pub struct Verdict {
     pub within_bound: Option<bool>,
     /// What users should know of the input, of the work and of the result.
     pub warnings: Vec<Warning>,
+    /// What computed it; empty in records of earlier versions of the program.
+    pub engine: String,
 }
 
 /// Everything that is known of a job.
@@ -164,6 +166,10 @@ pub struct Job {
     pub verdict: Verdict,
     /// How often it was started.
     pub attempt: u32,
+    /// Names what was asked for: jobs with the same digest have equal inputs, kinds and options.
+    pub digest: String,
+    /// Waiting jobs of higher priority start first.
+    pub priority: i32,
     /// Names its present or last holder; fences off what former ones report.
     pub token: Token,
     /// Who has it.
@@ -195,6 +201,36 @@ pub struct Job {
 }
 
 impl Job {
+    /// A job that waits and has no files yet.
+    pub fn queued(id: JobId, kind: Kind, options: serde_json::Value) -> Self {
+        Self {
+            id,
+            kind,
+            state: State::Queued,
+            options,
+            input: Vec::new(),
+            output: Vec::new(),
+            verdict: Verdict::default(),
+            attempt: 0,
+            digest: String::new(),
+            priority: 0,
+            token: 0,
+            worker: None,
+            lease: None,
+            due: Timestamp::now(),
+            lost: 0,
+            cancel: false,
+            finish_early: false,
+            ephemeral: false,
+            seq: 1,
+            progress: Progress::default(),
+            failure: None,
+            created: Timestamp::now(),
+            started: None,
+            finished: None,
+        }
+    }
+
     /// Its present state as an event.
     pub fn event(&self) -> Event {
         let until = self.finished.unwrap_or_else(Timestamp::now);

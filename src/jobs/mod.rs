@@ -24,6 +24,9 @@
 //! input closes, so a killed worker leaves no orphans. A worker that cannot renew its lease in time
 //! ends its child.
 //!
+//! A job whose input, options and engine equal those of an earlier one gets a copy of its result
+//! instead (`reuse.rs`), unless the client refuses.
+//!
 //! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its
 //! files.
 //!
@@ -38,6 +41,8 @@ mod child;
 pub mod compute;
 mod contained;
 mod deadline;
+mod digest;
+mod drain;
 mod frames;
 mod input_output;
 mod job;
@@ -50,6 +55,7 @@ mod progress;
 mod queue;
 mod reporter;
 mod retention;
+mod reuse;
 mod runner;
 mod running;
 mod settings;
@@ -67,6 +73,7 @@ mod work;
 
 pub use capacity::Usage;
 pub use contained::Contained;
+pub use digest::Digest;
 pub use input_output::{InputFile, OutputFile};
 pub use job::{Failure, Job, JobId, Kind, Verdict};
 pub use lease::{Rules, Token, WorkerId};

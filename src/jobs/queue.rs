@@ -1,9 +1,10 @@
 //! The queue as clients see it: jobs are looked at, waited for, ended, tried again and removed.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use tokio::sync::Notify;
+use tokio::sync::{Notify, OnceCell};
 use tokio_util::task::TaskTracker;
 
 use super::job::{Job, JobId};
@@ -29,6 +30,8 @@ pub struct Jobs {
     pub(super) running: Running,
     pub(super) wake: Notify,
     pub(super) tasks: TaskTracker,
+    pub(super) engine: OnceCell<String>,
+    pub(super) draining: AtomicBool,
 }
 
 /// Whether a wait saw the end of the job.
@@ -52,6 +55,8 @@ impl Jobs {
             running: Running::default(),
             wake: Notify::new(),
             tasks: TaskTracker::new(),
+            engine: OnceCell::new(),
+            draining: AtomicBool::new(false),
         }
     }
 

@@ -36,6 +36,10 @@ impl Jobs {
         let stopped = stop.clone();
         self.tasks
             .spawn(async move { watcher.watch_until(&stopped).await });
+        let hinted = Arc::clone(&self);
+        let stopped = stop.clone();
+        self.tasks
+            .spawn(async move { hinted.wake_until(&stopped).await });
         let beater = Arc::clone(&self);
         let pace = (self.settings.deployment).beat_interval(&self.settings.rules);
         let beats = tokio::spawn(async move { beater.beat(pace).await });
@@ -63,6 +67,16 @@ impl Jobs {
         self.tasks.wait().await;
     }
 
+    /// Looks for jobs when the store hints at one, until told to stop.
+    async fn wake_until(&self, stop: &CancellationToken) {
+        loop {
+            tokio::select! {
+                () = self.store.hint() => self.wake.notify_one(),
+                () = stop.cancelled() => return,
+            }
+        }
+    }
+
     /// The next job, when there are a slot, space and a job; `None` after a stop.
     async fn next(&self, slots: &Arc<Semaphore>, stop: &CancellationToken) -> Option<Claimed> {
         let slot = tokio::select! {
@@ -72,6 +86,7 @@ impl Jobs {
         while !stop.is_cancelled() {
             let sent = Instant::now();
             let claimed = match self.has_room() {
+                Ok(()) if self.is_draining() => Ok(None),
                 Ok(()) => self.store.claim(self.worker).await,
                 Err(error) => Err(error),
             };

@@ -93,7 +93,7 @@ pub enum Reason {
 /// Records of jobs. Every call is one transaction, durable when it returns. Times are those of the
 /// store's own clock, and what becomes of a record is decided by [`after`](super::after) alone.
 pub trait JobStore: Send + Sync {
-    /// Stores a queued job, unless that would exceed the capacity or its key has been used. Its
+    /// Stores a job that is queued or has ended, unless that would exceed the capacity or its key has been used. Its
     /// times are set.
     fn enqueue<'a>(
         &'a self,
@@ -111,8 +111,15 @@ pub trait JobStore: Send + Sync {
     /// The present states of those of these jobs that exist, in any order.
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>>;
 
-    /// Gives the oldest queued job that may be started to a worker.
+    /// The latest jobs with a digest that succeeded and are kept.
+    fn equal<'a>(&'a self, digest: &'a str) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
+
+    /// Gives a queued job that may be started to a worker: one of the highest priority, and of those
+    /// the oldest.
     fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>>;
+
+    /// Waits for a hint that a job can be claimed. A hint may be lost, and some stores give none.
+    fn hint(&self) -> BoxFuture<'_, ()>;
 
     /// Changes a record as what happens demands.
     fn change<'a>(
@@ -158,6 +165,9 @@ pub type Content = BoxStream<'static, StoreResult<Vec<u8>>>;
 pub trait Blobs: Send + Sync {
     /// Stores a local file under a key, durably. The file may be moved away.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
+
+    /// Stores the content of a key under another one as well, as durably as [`Blobs::put`].
+    fn copy<'a>(&'a self, from: &'a str, to: &'a str) -> BoxFuture<'a, StoreResult<()>>;
 
     /// Brings a file to a local path.
     fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>>;

@@ -3,14 +3,11 @@
 use std::path::PathBuf;
 
 use super::input_output::InputFile;
-use super::job::{Job, JobId, Kind, Verdict};
+use super::job::{Job, JobId, Kind};
 use super::keys::input_key;
-use super::progress::Progress;
 use super::queue::Jobs;
-use super::state::State;
 use super::storage::{Enqueued, IdempotencyKey};
 use super::store_error::StoreError;
-use super::timestamp::Timestamp;
 
 /// A wish for a job, checked as far as that is possible without computing.
 pub struct Submission {
@@ -20,8 +17,14 @@ pub struct Submission {
     pub options: serde_json::Value,
     /// The mesh, then the files it references, each with the place where it lies now. They are moved away.
     pub files: Vec<(InputFile, PathBuf)>,
-    /// Makes a repetition harmless.
-    pub key: Option<IdempotencyKey>,
+    /// Names what is asked for; see [`Job::digest`].
+    pub digest: String,
+    /// Waiting jobs of higher priority start first.
+    pub priority: i32,
+    /// Whether the result of an equal job will do.
+    pub reuse: bool,
+    /// The client's word that makes a repetition harmless.
+    pub key: Option<String>,
     /// Whether it is of no use without the call that waits for it.
     pub ephemeral: bool,
 }
@@ -71,37 +74,22 @@ impl Jobs {
         for (index, (_, path)) in submission.files.iter().enumerate() {
             self.blobs.put(&input_key(id, index), path).await?;
         }
-        let input = submission.files.into_iter().map(|(file, _)| file).collect();
-        let job = Job {
-            id,
-            kind: submission.kind,
-            state: State::Queued,
-            options: submission.options,
-            input,
-            output: Vec::new(),
-            verdict: Verdict::default(),
-            attempt: 0,
-            token: 0,
-            worker: None,
-            lease: None,
-            due: Timestamp::now(),
-            lost: 0,
-            cancel: false,
-            finish_early: false,
+        let mut job = Job {
+            input: submission.files.into_iter().map(|(file, _)| file).collect(),
+            digest: submission.digest,
+            priority: submission.priority,
             ephemeral: submission.ephemeral,
-            seq: 1,
-            progress: Progress::default(),
-            failure: None,
-            created: Timestamp::now(),
-            started: None,
-            finished: None,
+            ..Job::queued(id, submission.kind, submission.options)
         };
+        if submission.reuse {
+            self.reuse(&mut job).await;
+        }
+        let key = submission.key.map(|key| IdempotencyKey {
+            key,
+            fingerprint: job.digest.clone(),
+        });
         let capacity = self.capacity();
-        match self
-            .store
-            .enqueue(&job, submission.key.as_ref(), capacity)
-            .await?
-        {
+        match self.store.enqueue(&job, key.as_ref(), capacity).await? {
             Enqueued::New(job) => {
                 self.wake.notify_one();
                 Ok(Submitted::New(*job))

@@ -191,8 +191,8 @@ impl Made {
         self.add("report", "report.json", bytes);
         self.verdict = Verdict {
             certified,
-            within_bound: None,
             warnings: warnings.to_vec(),
+            ..Verdict::default()
         };
         self
     }

@@ -11,13 +11,17 @@ use crate::jobs::{StoreError, StoreResult};
 
 /// The n-th leads from version n to the next. A program of the version before must be able to go on
 /// after it: columns are added, never taken away.
-const SQLITE: [&str; 4] = [
+const SQLITE: [&str; 5] = [
     include_str!("schema/sqlite/1.sql"),
     include_str!("schema/sqlite/2.sql"),
     include_str!("schema/sqlite/3.sql"),
     include_str!("schema/sqlite/4.sql"),
+    include_str!("schema/sqlite/5.sql"),
 ];
-const POSTGRES: [&str; 1] = [include_str!("schema/postgres/1.sql")];
+const POSTGRES: [&str; 2] = [
+    include_str!("schema/postgres/1.sql"),
+    include_str!("schema/postgres/2.sql"),
+];
 
 /// What every connection to SQLite is set to. What is committed is durable; the log is copied into
 /// the database after a quarter of the pages that are set aside for it.

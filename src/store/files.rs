@@ -26,6 +26,15 @@ impl FileBlobs {
             root: root.to_owned(),
         })
     }
+
+    /// Brings the name of a file to the disk, with all folders on its way.
+    async fn sync_folders_of(&self, path: &Path) -> StoreResult<()> {
+        let folders = path.ancestors().skip(1);
+        for folder in folders.take_while(|folder| folder.starts_with(&self.root)) {
+            fs::File::open(folder).await?.sync_all().await?;
+        }
+        Ok(())
+    }
 }
 
 impl Blobs for FileBlobs {
@@ -46,14 +55,17 @@ impl Blobs for FileBlobs {
                 }
                 moved => moved?,
             }
-            for folder in to
-                .ancestors()
-                .skip(1)
-                .take_while(|f| f.starts_with(&self.root))
-            {
-                fs::File::open(folder).await?.sync_all().await?;
-            }
-            Ok(())
+            self.sync_folders_of(&to).await
+        }
+        .boxed()
+    }
+
+    fn copy<'a>(&'a self, from: &'a str, to: &'a str) -> BoxFuture<'a, StoreResult<()>> {
+        async move {
+            let path = self.root.join(to);
+            fs::create_dir_all(path.parent().unwrap_or(&self.root)).await?;
+            self.fetch(from, &path).await?;
+            self.sync_folders_of(&path).await
         }
         .boxed()
     }

@@ -17,6 +17,7 @@ mod database;
 mod dialect;
 mod errors;
 mod files;
+mod hints;
 mod idempotency;
 mod objects;
 mod records;

@@ -106,6 +106,10 @@ impl Blobs for ObjectBlobs {
         .boxed()
     }
 
+    fn copy<'a>(&'a self, from: &'a str, to: &'a str) -> BoxFuture<'a, StoreResult<()>> {
+        async move { Ok(self.store.copy(&Key::from(from), &Key::from(to)).await?) }.boxed()
+    }
+
     fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
         self.fetch_to(key, to).boxed()
     }

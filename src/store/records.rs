@@ -8,6 +8,7 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, AnyConnection, AssertSqlSafe, Row, Transaction};
 
 use super::database::Database;
+use super::hints::Hints;
 use super::{idempotency, reserve, rows, transitions};
 use crate::jobs::{
     Beat, Capacity, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId, JobStore,
@@ -25,6 +26,7 @@ const EPHEMERAL_MS: i64 = 10 * 60_000;
 /// a sweep is several.
 pub struct RecordStore {
     database: Database,
+    hints: Hints,
     rules: Rules,
 }
 
@@ -34,7 +36,11 @@ impl RecordStore {
     pub async fn open(url: &str, rules: Rules) -> StoreResult<Self> {
         let database = Database::open(url).await?;
         reserve::keep(&database).await?;
-        Ok(Self { database, rules })
+        Ok(Self {
+            hints: Hints::of(url, database.dialect),
+            database,
+            rules,
+        })
     }
 
     async fn enqueue_new(
@@ -50,12 +56,13 @@ impl RecordStore {
         let (queued, now) = self.queued(&mut transaction).await?;
         let mut job = job.clone();
         (job.created, job.due) = (now, now);
+        job.finished = job.finished.map(|_| now);
         if let Some(key) = key
             && let Some(earlier) = idempotency::earlier_use(key, now, &mut transaction).await?
         {
             return Ok(earlier);
         }
-        if i64::from(capacity.depth) <= queued {
+        if job.state == State::Queued && i64::from(capacity.depth) <= queued {
             return Ok(Enqueued::Full);
         }
         if let Some(bytes) = capacity.bytes
@@ -67,6 +74,7 @@ impl RecordStore {
         if let Some(key) = key {
             idempotency::remember(key, &job, &mut transaction).await?;
         }
+        self.hints.give(&job, &mut transaction).await?;
         transaction.commit().await?;
         Ok(Enqueued::New(Box::new(job)))
     }
@@ -184,8 +192,25 @@ impl JobStore for RecordStore {
         bounded(self.events_of(ids))
     }
 
+    fn equal<'a>(&'a self, digest: &'a str) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
+        bounded(async move {
+            let found = sqlx::query(
+                "SELECT * FROM job WHERE digest = $1 AND state = 'succeeded' AND ephemeral = 0
+                 ORDER BY id DESC LIMIT 4",
+            )
+            .bind(digest)
+            .fetch_all(&self.database.readers)
+            .await?;
+            jobs(&found)
+        })
+    }
+
     fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
         bounded(transitions::claim(&self.database, worker, &self.rules))
+    }
+
+    fn hint(&self) -> BoxFuture<'_, ()> {
+        self.hints.next().boxed()
     }
 
     fn change<'a>(

@@ -7,12 +7,14 @@ use sqlx::{Any, Row, Transaction};
 
 use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 
-/// Adds a job that has not been started.
+/// Adds a job that nobody works on.
 pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
     sqlx::query(
         "INSERT INTO job (id, kind, state, options, input, output, verdict, attempt, token, due,
-                          lost, cancel, finish_early, ephemeral, seq, progress, created, bytes)
-         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18)",
+                          lost, cancel, finish_early, ephemeral, seq, progress, created, bytes,
+                          digest, priority, finished)
+         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18,
+                 $19, $20, $21)",
     )
     .bind(job.id.to_string())
     .bind(job.kind.word())
@@ -32,6 +34,9 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     .bind(json(&job.progress)?)
     .bind(job.created.0)
     .bind(job.stored_bytes() as i64)
+    .bind(&job.digest)
+    .bind(i64::from(job.priority))
+    .bind(job.finished.map(|time| time.0))
     .execute(&mut **transaction)
     .await?;
     Ok(())
@@ -129,6 +134,8 @@ pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
         output: parsed(&text("output")?)?,
         verdict: parsed(&text("verdict")?)?,
         attempt: number("attempt")? as u32,
+        digest: text("digest")?,
+        priority: number("priority")? as i32,
         token: number("token")? as Token,
         worker: maybe("worker")?
             .map(|worker| worker.parse().map_err(damaged))

@@ -40,11 +40,11 @@ pub(super) async fn claim(
     if query.fetch_optional(&database.readers).await?.is_none() {
         return Ok(None);
     }
-    let oldest = database.sql(&format!(
-        "SELECT *, {{now}} AS now FROM job WHERE {DUE} ORDER BY id LIMIT 1 {{free}}"
+    let first = database.sql(&format!(
+        "SELECT *, {{now}} AS now FROM job WHERE {DUE} ORDER BY priority DESC, id LIMIT 1 {{free}}"
     ));
     let mut transaction = database.begin().await?;
-    let row = sqlx::query(oldest)
+    let row = sqlx::query(first)
         .bind(longest_pause)
         .fetch_optional(&mut *transaction)
         .await?;

@@ -48,12 +48,12 @@ def bumpy_sphere(number: int, rings: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def records(out: Path) -> dict[str, int]:
+def records(out: Path) -> dict[str, tuple[int, int]]:
     """The records of finished assets, with what tells two writings apart."""
     found = {}
     for path in (out / ".unwrapd" / "records").glob("**/*.json"):
         try:
-            found[path.name] = path.stat().st_ino
+            found[path.name] = (path.stat().st_ino, path.stat().st_mtime_ns)
         except FileNotFoundError:
             pass
     return found

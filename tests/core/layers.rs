@@ -78,6 +78,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "object_store",
             "rustls",
             "tokio",
+            "tracing",
             "tokio_util",
             "serde_json",
             "futures_util",
@@ -87,15 +88,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
     (
         "bulk",
         &["jobs"],
-        &[
-            "tokio",
-            "serde_json",
-            "sha2",
-            "csv",
-            "uuid",
-            "reqwest",
-            "rustls",
-        ],
+        &["tokio", "serde_json", "csv", "uuid", "reqwest", "rustls"],
     ),
     (
         "http",

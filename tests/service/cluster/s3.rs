@@ -172,13 +172,19 @@ async fn files_come_back_from_a_server_of_its_own() {
     let part = blobs.read(&key, 5_000_000..5_000_007).await;
     let part: Vec<Vec<u8>> = part.expect("it is there").try_collect().await.expect("all");
     assert_eq!(part.concat(), content[5_000_000..5_000_007]);
+    let second = format!("{folder}/1");
+    blobs.copy(&key, &second).await.expect("it is copied");
+    blobs.fetch(&second, &copy).await.expect("it is there");
+    assert!(std::fs::read(&copy).expect("a file") == content);
+    let missing = format!("{folder}/7");
+    assert!(blobs.copy(&missing, &second).await.is_err());
     blobs.check().await.expect("it answers");
     // What begins alike is another folder.
     blobs
         .remove(&folder[..folder.len() - 1])
         .await
         .expect("none");
-    assert_eq!(server.objects().len(), 1);
+    assert_eq!(server.objects(), [key.clone(), second]);
     blobs.remove(&folder).await.expect("it is removed");
     assert_eq!(server.objects(), Vec::<String>::new());
     assert!(blobs.fetch(&key, &copy).await.is_err());

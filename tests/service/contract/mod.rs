@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use unwrapd::jobs::{
     Capacity, Changed, Enqueued, Happening, IdempotencyKey, InputFile, Job, JobId, JobStore, Kind,
-    Progress, Rules, Saying, State, Timestamp, Verdict, WorkerId,
+    Progress, Rules, Saying, WorkerId,
 };
 use unwrapd::store::RecordStore;
 
@@ -26,33 +26,15 @@ pub const ROOM: Capacity = Capacity {
 
 /// A job that nobody has started.
 pub fn job() -> Job {
+    let options = serde_json::json!({ "resolution": 512 });
     Job {
-        id: JobId::fresh(),
-        kind: Kind::Unwrap,
-        state: State::Queued,
-        options: serde_json::json!({ "resolution": 512 }),
         input: vec![InputFile {
             name: "mesh.glb".to_owned(),
             bytes: 100,
             sha256: Some("ab".to_owned()),
         }],
-        output: Vec::new(),
-        verdict: Verdict::default(),
-        attempt: 0,
-        token: 0,
-        worker: None,
-        lease: None,
-        due: Timestamp(0),
-        lost: 0,
-        cancel: false,
-        finish_early: false,
-        ephemeral: false,
-        seq: 1,
-        progress: Progress::default(),
-        failure: None,
-        created: Timestamp(0),
-        started: None,
-        finished: None,
+        digest: "cd".to_owned(),
+        ..Job::queued(JobId::fresh(), Kind::Unwrap, options)
     }
 }
 

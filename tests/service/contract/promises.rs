@@ -27,6 +27,7 @@ macro_rules! promises {
 promises!(
     what_is_stored_is_found,
     the_oldest_is_claimed_first,
+    the_highest_priority_is_claimed_first,
     no_job_is_claimed_twice,
     an_end_is_recorded_once,
     a_beat_renews_the_lease_and_brings_wishes,
@@ -46,6 +47,8 @@ promises!(
     what_expired_is_remembered,
     events_are_those_of_the_records,
     the_list_has_pages_and_no_guests,
+    equal_jobs_are_those_that_succeeded,
+    an_ended_job_is_stored_however_many_wait,
 );
 
 #[tokio::test]
@@ -130,6 +133,17 @@ async fn the_oldest_is_claimed_first(store: Arc<RecordStore>) {
         assert_eq!(format!("{stored:?}"), format!("{claimed:?}"));
     }
     assert!(claim(&store).await.is_none());
+}
+
+async fn the_highest_priority_is_claimed_first(store: Arc<RecordStore>) {
+    let mut ids = Vec::new();
+    for priority in [0, -5, 7, 0, 7] {
+        let job = Job { priority, ..job() };
+        ids.push(enqueued(&store, &job).await.id);
+    }
+    for index in [2, 4, 0, 3, 1] {
+        assert_eq!(claim(&store).await.map(|job| job.id), Some(ids[index]));
+    }
 }
 
 async fn no_job_is_claimed_twice(store: Arc<RecordStore>) {
@@ -484,4 +498,48 @@ async fn the_list_has_pages_and_no_guests(store: Arc<RecordStore>) {
     claim(&store).await.expect("it waits");
     assert_eq!(page(Some(State::Running), None, 9).await, [ids[0]]);
     assert!(page(Some(State::Failed), None, 9).await.is_empty());
+}
+
+async fn equal_jobs_are_those_that_succeeded(store: Arc<RecordStore>) {
+    let equal = async |digest| {
+        let equal = store.equal(digest).await.expect("an answer");
+        equal.into_iter().map(|job| job.id).collect::<Vec<_>>()
+    };
+    let first = claimed(&store).await;
+    assert!(equal("cd").await.is_empty());
+    succeed(&store, &first).await;
+    assert_eq!(equal("cd").await, [first.id]);
+    assert!(equal("other").await.is_empty());
+    let guest = Job {
+        ephemeral: true,
+        ..job()
+    };
+    enqueued(&store, &guest).await;
+    let guest = claim(&store).await.expect("it waits");
+    succeed(&store, &guest).await;
+    let second = claimed(&store).await;
+    succeed(&store, &second).await;
+    assert_eq!(equal("cd").await, [second.id, first.id]);
+}
+
+async fn an_ended_job_is_stored_however_many_wait(store: Arc<RecordStore>) {
+    let none = Capacity {
+        depth: 0,
+        bytes: None,
+    };
+    let ended = Job {
+        state: State::Succeeded,
+        finished: Some(Timestamp(0)),
+        ..job()
+    };
+    let stored = store.enqueue(&ended, None, none).await.expect("an answer");
+    let Enqueued::New(stored) = stored else {
+        panic!("{stored:?}");
+    };
+    assert_eq!(stored.finished, Some(stored.created));
+    let found = get(&store, stored.id).await;
+    assert_eq!(format!("{found:?}"), format!("{stored:?}"));
+    assert!(claim(&store).await.is_none());
+    let refused = store.enqueue(&job(), None, none).await.expect("an answer");
+    assert!(matches!(refused, Enqueued::Full), "{refused:?}");
 }

@@ -105,8 +105,8 @@ async fn a_full_disk_is_told_and_everything_goes_on_when_there_is_space() {
     let ended = server.submit(meshes::small(), "").await;
     let ended = server.ended(&ended).await;
     let running = server.submit(meshes::large(), "cut=disk").await;
-    let waiting = server.submit(meshes::small(), "").await;
-    let cancelled = server.submit(meshes::small(), "").await;
+    let waiting = server.submit(meshes::small(), "resolution=500").await;
+    let cancelled = server.submit(meshes::small(), "resolution=501").await;
     server.mapping(&running).await;
     disk.fill();
     refuses_and_deletes(&server, &ended).await;
@@ -129,7 +129,7 @@ async fn a_full_disk_is_told_and_everything_goes_on_when_there_is_space() {
     disk.free();
     let ready = server.get("/readyz").send().await.expect("an answer");
     assert_eq!(ready.status(), 200);
-    let new = server.submit(meshes::small(), "").await;
+    let new = server.submit(meshes::small(), "resolution=502").await;
     for job in [&running, &waiting, &new] {
         let job = server.ended(job).await;
         assert_eq!(job["state"], "succeeded", "{job}");

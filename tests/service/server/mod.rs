@@ -1,7 +1,10 @@
 //! Tests that talk to a real server, each to one of its own.
 
 mod applications;
+mod backup;
 mod bad_inputs;
+mod drain;
+mod equal;
 mod failures;
 mod full_disk;
 mod idle_options;

@@ -1,0 +1,44 @@
+//! What the headers of a submission wish.
+
+use axum::http::{HeaderMap, header};
+
+use super::problem::{Code, Problem};
+
+/// Longest Idempotency-Key.
+const MAX_KEY: usize = 255;
+
+/// How a submission is to be taken.
+pub(super) struct Wishes {
+    /// The client's own name for it.
+    pub key: Option<String>,
+    /// Whether the result of an equal job will do.
+    pub reuse: bool,
+}
+
+impl Wishes {
+    /// Reads `Idempotency-Key` and `Cache-Control`.
+    pub fn read(headers: &HeaderMap) -> Result<Self, Problem> {
+        let directives = headers.get_all(header::CACHE_CONTROL).iter();
+        let mut directives = directives
+            .filter_map(|value| value.to_str().ok())
+            .flat_map(|value| value.split(','));
+        let is_refusal = |directive: &str| directive.trim().eq_ignore_ascii_case("no-cache");
+        Ok(Self {
+            key: idempotency_key(headers)?,
+            reuse: !directives.any(is_refusal),
+        })
+    }
+}
+
+fn idempotency_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
+    let Some(value) = headers.get("idempotency-key") else {
+        return Ok(None);
+    };
+    match value.to_str() {
+        Ok(key) if (1..=MAX_KEY).contains(&key.len()) => Ok(Some(key.to_owned())),
+        _ => Err(Problem::new(
+            Code::InvalidRequest,
+            format!("Idempotency-Key must have 1 to {MAX_KEY} visible characters"),
+        )),
+    }
+}

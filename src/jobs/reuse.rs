@@ -1,0 +1,65 @@
+//! Equal jobs: what one made is given to the next.
+
+use super::checksum;
+use super::job::Job;
+use super::keys::output_key;
+use super::queue::Jobs;
+use super::state::State;
+use super::store_error::StoreResult;
+
+impl Jobs {
+    /// What computes: the checksum of the program, since results of another build may differ.
+    pub(super) async fn engine(&self) -> StoreResult<&str> {
+        let program = &self.settings.program;
+        let engine = self.engine.get_or_try_init(|| checksum::of(program));
+        engine.await.map(String::as_str)
+    }
+
+    /// Ends a new job with copies of what an equal one made, if there is one. A copy that fails is
+    /// no reason to refuse the job: the result can be computed.
+    pub(super) async fn reuse(&self, job: &mut Job) {
+        match self.copy_equal(job).await {
+            Ok(Some(earlier)) => {
+                tracing::info!(job = %job.id, %earlier.id, "equal to an earlier job");
+                job.state = State::Succeeded;
+                job.progress.fraction = 1.0;
+                job.finished = Some(job.created);
+                job.output = earlier.output;
+                job.verdict = earlier.verdict;
+            }
+            Ok(None) => {}
+            Err(error) => tracing::warn!(job = %job.id, %error, "no earlier result reused"),
+        }
+    }
+
+    /// The job whose files were copied.
+    async fn copy_equal(&self, job: &Job) -> StoreResult<Option<Job>> {
+        let engine = self.engine().await?;
+        let equal = self.store.equal(&job.digest).await?;
+        let Some(earlier) = equal.into_iter().find(|equal| equal.is_repeatable(engine)) else {
+            return Ok(None);
+        };
+        for index in 0..earlier.output.len() {
+            let from = output_key(earlier.id, earlier.token, index);
+            let to = output_key(job.id, job.token, index);
+            self.blobs.copy(&from, &to).await?;
+        }
+        Ok(Some(earlier))
+    }
+}
+
+impl Job {
+    /// Whether its result was made by an earlier job.
+    pub fn is_copy(&self) -> bool {
+        self.state == State::Succeeded && self.attempt == 0
+    }
+
+    /// Whether this engine would make the same again: the result was not cut short.
+    fn is_repeatable(&self, engine: &str) -> bool {
+        let is_cut_short = |code: &str| code == "ended_early";
+        let mut warnings = self.verdict.warnings.iter();
+        self.state == State::Succeeded
+            && self.verdict.engine == engine
+            && !warnings.any(|warning| is_cut_short(&warning.code))
+    }
+}

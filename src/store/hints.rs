@@ -1,0 +1,71 @@
+//! Hints of PostgreSQL that a job can be claimed: who waits need not ask again and again.
+
+use std::time::Duration;
+
+use futures_util::future;
+use sqlx::postgres::PgListener;
+use sqlx::{Any, Transaction};
+use tokio::sync::Mutex;
+
+use super::dialect::Dialect;
+use crate::jobs::{Job, State};
+
+/// The channel of the hints.
+const CHANNEL: &str = "unwrapd_queued";
+const NOTIFY: &str = "SELECT pg_notify('unwrapd_queued', '')";
+/// Before a connection that failed is tried again.
+const PAUSE: Duration = Duration::from_secs(5);
+
+/// A connection of its own that listens, made when it is needed.
+pub(super) struct Hints {
+    url: String,
+    dialect: Dialect,
+    listener: Mutex<Option<PgListener>>,
+}
+
+impl Hints {
+    /// Those of the database at a URL.
+    pub fn of(url: &str, dialect: Dialect) -> Self {
+        Self {
+            url: url.to_owned(),
+            dialect,
+            listener: Mutex::new(None),
+        }
+    }
+
+    /// Hints at a job that waits once the transaction is committed.
+    pub async fn give(
+        &self,
+        job: &Job,
+        transaction: &mut Transaction<'_, Any>,
+    ) -> sqlx::Result<()> {
+        if self.dialect == Dialect::Postgres && job.state == State::Queued {
+            sqlx::query(NOTIFY).execute(&mut **transaction).await?;
+        }
+        Ok(())
+    }
+
+    /// Waits for a hint. SQLite gives none: its only process knows of its jobs.
+    pub async fn next(&self) {
+        if self.dialect == Dialect::Sqlite {
+            return future::pending().await;
+        }
+        let mut listener = self.listener.lock().await;
+        while let Err(error) = self.received(&mut listener).await {
+            tracing::debug!(%error, "no hints of the database");
+            *listener = None;
+            tokio::time::sleep(PAUSE).await;
+        }
+    }
+
+    async fn received(&self, listener: &mut Option<PgListener>) -> sqlx::Result<()> {
+        let listener = if let Some(listener) = listener {
+            listener
+        } else {
+            let mut fresh = PgListener::connect(&self.url).await?;
+            fresh.listen(CHANNEL).await?;
+            listener.insert(fresh)
+        };
+        listener.recv().await.map(|_| ())
+    }
+}

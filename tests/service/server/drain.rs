@@ -1,0 +1,38 @@
+//! A process that takes in no more jobs, and ends what it has.
+
+use super::{Server, assert_problem, json};
+use crate::meshes;
+
+async fn drain(server: &Server, method: &str) -> serde_json::Value {
+    let answer = server.request(method, "/v1/drain").send().await;
+    json(answer.expect("an answer")).await
+}
+
+#[tokio::test]
+async fn a_drained_service_ends_what_runs_and_starts_nothing() {
+    let server = Server::with(&[("UNWRAPD_WORKERS", "1")]);
+    let running = server.submit(meshes::large(), "cut=disk").await;
+    let waiting = server.submit(meshes::small(), "").await;
+    server.mapping(&running).await;
+    let state = drain(&server, "PUT").await;
+    assert_eq!(state, serde_json::json!({ "draining": true, "running": 1 }));
+    for path in ["/v1/jobs", "/v1/unwrap"] {
+        let refused = server.post(path).body(meshes::small()).send().await;
+        assert_problem(refused.expect("an answer"), 503, "draining").await;
+    }
+    let ready = server.get("/readyz").send().await.expect("an answer");
+    assert_problem(ready, 503, "draining").await;
+    let path = running["links"]["self"].as_str().expect("a link");
+    let finish = server.post(&format!("{path}/finish")).send().await;
+    assert_eq!(finish.expect("an answer").status(), 202);
+    assert_eq!(server.ended(&running).await["state"], "succeeded");
+    while drain(&server, "GET").await["running"] != 0 {}
+    let path = waiting["links"]["self"].as_str().expect("a link");
+    let still = server.get(&format!("{path}?wait=2")).send().await;
+    assert_eq!(json(still.expect("an answer")).await["state"], "queued");
+
+    assert_eq!(drain(&server, "DELETE").await["draining"], false);
+    assert_eq!(server.ended(&waiting).await["state"], "succeeded");
+    let ready = server.get("/readyz").send().await.expect("an answer");
+    assert_eq!(ready.status(), 200);
+}
