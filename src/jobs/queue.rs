@@ -8,6 +8,7 @@ use tokio::sync::{Notify, OnceCell};
 use tokio_util::task::TaskTracker;
 
 use super::job::{Job, JobId};
+use super::keys::output_folder;
 use super::lease::WorkerId;
 use super::live::Live;
 use super::running::Running;
@@ -147,17 +148,30 @@ impl Jobs {
         });
     }
 
-    /// Tells those who watch, and those who wait for work, of a record that changed. Nothing but
-    /// the record is kept of a cancelled job.
+    /// Tells those who watch, and those who wait for work, of a record that changed. The files that
+    /// it does not need are removed.
     pub(super) async fn tell(&self, job: &Job) {
-        if job.state == State::Cancelled
-            && let Err(error) = self.blobs.remove(&job.id.to_string()).await
-        {
-            tracing::error!(job = %job.id, %error, "files of a cancelled job not removed");
+        if let Err(error) = self.remove_unneeded(job).await {
+            tracing::error!(job = %job.id, %error, "files that no job needs not removed");
         }
         self.live.publish(job.id, job.event());
         if job.state == State::Queued {
             self.wake.notify_one();
         }
+    }
+
+    /// Nothing but the record is kept of a cancelled job, and nothing of lost attempts.
+    async fn remove_unneeded(&self, job: &Job) -> StoreResult<()> {
+        match job.state {
+            State::Cancelled => return self.blobs.remove(&job.id.to_string()).await,
+            State::Succeeded | State::Failed if 0 < job.lost => {
+                let has_result = |token| job.state == State::Succeeded && token == job.token;
+                for token in (1..=job.token).filter(|token| !has_result(*token)) {
+                    self.blobs.remove(&output_folder(job.id, token)).await?;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
     }
 }

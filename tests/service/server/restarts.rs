@@ -22,6 +22,12 @@ async fn a_killed_server_leaves_no_child_and_its_job_completes_once() {
         tokio::task::yield_now().await;
     }
 
+    // What an attempt stores before it is lost is of no use.
+    let id = running["id"].as_str().expect("an id");
+    let files = server.data().join("blobs").join(id);
+    std::fs::create_dir(files.join("output-1")).expect("a folder");
+    std::fs::write(files.join("output-1/0"), "a result").expect("a file");
+
     server.restart();
     let ended = server.ended(&running).await;
     assert_eq!(
@@ -29,6 +35,7 @@ async fn a_killed_server_leaves_no_child_and_its_job_completes_once() {
         (&"succeeded".into(), &2.into()),
         "{ended}"
     );
+    assert!(!files.join("output-1").exists());
     for job in &waiting {
         assert_eq!(server.ended(job).await["state"], "succeeded");
     }
