@@ -48,12 +48,15 @@ impl Raster {
         let edges = Edges::new(&fixed);
         let reach = 0.5 * EDGE_PIXELS * self.per_pixel as f64;
         for (row, columns) in spans(fixed, [self.side; 2]) {
-            let y = row as i64 * STEPS + STEPS / 2;
+            let distances = edges.of_row(row);
             for column in columns {
-                let at = [column as i64 * STEPS + STEPS / 2, y];
-                let shown = if edge_opacity > 0.0 {
-                    let distance = edges.distance(at);
-                    let cover = (reach - distance + 0.5).clamp(0.0, 1.0) as f32;
+                let cover = if edge_opacity > 0.0 {
+                    (reach - distances.at(column) + 0.5).clamp(0.0, 1.0) as f32
+                } else {
+                    0.0
+                };
+                // Most samples are far from all edges.
+                let shown = if cover > 0.0 {
                     mix(color, INK, cover * edge_opacity)
                 } else {
                     color
@@ -161,12 +164,31 @@ impl Edges {
         Self { lines }
     }
 
-    /// Distance of a point inside to the nearest edge, in samples.
-    fn distance(&self, point: [i64; 2]) -> f64 {
-        let p = point.map(|x| x as f64);
+    /// Distances of the samples of a row.
+    fn of_row(&self, row: usize) -> RowDistances {
+        let step = STEPS as f64;
+        let y = (row as f64 + 0.5) * step;
+        let lines = self.lines.map(|(a, n)| {
+            let at_first = (0.5 * step - a[0]) * n[0] + (y - a[1]) * n[1];
+            (at_first / step, n[0])
+        });
+        RowDistances { lines }
+    }
+}
+
+/// Signed distances to three lines along a row of samples, in samples.
+struct RowDistances {
+    /// Per line the distance of the first sample, and what each further one adds.
+    lines: [(f64, f64); 3],
+}
+
+impl RowDistances {
+    /// Distance of a sample inside to the nearest edge.
+    fn at(&self, column: usize) -> f64 {
+        let column = column as f64;
         let distances = self
             .lines
-            .map(|(a, n)| ((p[0] - a[0]) * n[0] + (p[1] - a[1]) * n[1]).abs());
-        distances[0].min(distances[1]).min(distances[2]) / STEPS as f64
+            .map(|(first, step)| (first + column * step).abs());
+        distances[0].min(distances[1]).min(distances[2])
     }
 }
