@@ -4,7 +4,6 @@ mod benches;
 mod browser;
 mod bulk;
 mod certified;
-mod children;
 mod cli;
 mod cli_options;
 mod cli_outputs;
@@ -12,6 +11,8 @@ mod cli_streams;
 mod cluster;
 mod contract;
 mod deforming;
+#[path = "../harness/mod.rs"]
+mod harness;
 mod materials;
 mod meshes;
 mod openapi;

@@ -6,20 +6,26 @@ use serde_json::json;
 
 /// A GLB with one sheet of n × n × 2 triangles with hills of various heights in it.
 pub fn hills(n: u32) -> Vec<u8> {
+    hills_of([n, n], 0.0)
+}
+
+/// The same of so many squares across and along; the hills of each phase are others.
+pub fn hills_of([across, along]: [u32; 2], phase: f64) -> Vec<u8> {
     let mut positions = Vec::new();
-    for y in 0..=n {
-        for x in 0..=n {
-            let (u, v) = (f64::from(x) / f64::from(n), f64::from(y) / f64::from(n));
-            let height =
-                0.2 * (9.0 * u + 4.0 * v * v).sin() * (7.0 * v).cos() + 0.02 * (61.0 * u * v).sin();
+    for y in 0..=along {
+        for x in 0..=across {
+            let u = f64::from(x) / f64::from(across);
+            let v = f64::from(y) / f64::from(along);
+            let height = 0.2 * (9.0 * u + 4.0 * v * v + phase).sin() * (7.0 * v).cos()
+                + 0.02 * (61.0 * u * v).sin();
             positions.push([u as f32, v as f32, height as f32]);
         }
     }
     let mut indices = Vec::new();
-    for y in 0..n {
-        for x in 0..n {
-            let corner = y * (n + 1) + x;
-            let (right, up) = (corner + 1, corner + n + 1);
+    for y in 0..along {
+        for x in 0..across {
+            let corner = y * (across + 1) + x;
+            let (right, up) = (corner + 1, corner + across + 1);
             indices.extend([corner, right, up + 1, corner, up + 1, up]);
         }
     }

@@ -7,8 +7,8 @@ use nix::unistd::Pid;
 use unwrapd::picture::Image;
 
 use super::{Folders, mesh};
-use crate::children;
 use crate::cli::{assert_status, last_error, unwrapd};
+use crate::harness::children;
 use crate::meshes;
 
 #[test]

@@ -9,8 +9,8 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
 use super::Folders;
-use crate::children;
 use crate::cli::assert_status;
+use crate::harness::children;
 use crate::server::SOON;
 
 const COUNT: usize = 8;

@@ -1,25 +1,20 @@
 //! Several processes that share a PostgreSQL and an S3 server.
 
+mod crash;
 mod faults;
-pub mod postgres;
 mod s3;
 mod sharing;
 
 use std::collections::HashMap;
-use std::process::{Child, Command, Stdio};
 
-use nix::sys::signal::{Signal, kill};
-use nix::unistd::Pid;
 use serde_json::Value;
-use tempfile::TempDir;
 
-use self::postgres::Postgres;
-use self::s3::S3;
+use crate::harness::machines::LEASE;
+use crate::harness::postgres::Postgres;
+use crate::harness::process::{Process, Role};
+use crate::harness::s3::S3;
 use crate::meshes;
 use crate::server::Server;
-
-/// A worker is taken for lost after this many seconds.
-const LEASE: &str = "3";
 
 /// What all processes share.
 pub struct Cluster {
@@ -52,16 +47,9 @@ impl Cluster {
     }
 
     /// A worker with one slot.
-    pub fn worker(&self) -> Worker {
+    pub fn worker(&self) -> Process {
         let folder = tempfile::tempdir().expect("a folder");
-        let process = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
-            .args(["worker", "--workers", "1", "--data"])
-            .arg(folder.path())
-            .envs(self.settings.iter().cloned())
-            .stdout(Stdio::null())
-            .spawn()
-            .expect("the worker starts");
-        Worker { process, folder }
+        Process::start(Role::Worker, folder, &self.settings)
     }
 
     /// Every attempt that was recorded, by job: how often it was started and lost.
@@ -75,41 +63,6 @@ impl Cluster {
             (fields[0].to_owned(), (fields[1].to_owned(), attempt, lost))
         };
         rows.lines().map(row).collect()
-    }
-}
-
-/// A running worker; it ends when this is dropped.
-pub struct Worker {
-    process: Child,
-    folder: TempDir,
-}
-
-impl Worker {
-    pub fn signal(&self, signal: Signal) {
-        kill(Pid::from_raw(self.process.id() as i32), signal).expect("the worker is ours");
-    }
-
-    /// Ends it without warning.
-    pub fn kill(&mut self) {
-        self.process.kill().expect("the worker is ours");
-        self.process.wait().expect("the worker is ours");
-    }
-
-    /// Waits until it has stopped, after it was told to.
-    pub fn stopped(&mut self) {
-        assert!(self.process.wait().expect("it is ours").success());
-    }
-
-    /// Process ids of its compute children.
-    pub fn children(&self) -> Vec<i32> {
-        crate::children::within(self.folder.path())
-    }
-}
-
-impl Drop for Worker {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
     }
 }
 

@@ -12,7 +12,7 @@ use unwrapd::jobs::{
 use unwrapd::store::RecordStore;
 
 use super::{ROOM, RULES, change, claim, claim_soon, claimed, enqueued, job, saying, yes};
-use crate::cluster::postgres::Postgres;
+use crate::harness::postgres::Postgres;
 
 type Promise = fn(Arc<RecordStore>) -> BoxFuture<'static, ()>;
 

@@ -1,68 +1,16 @@
 //! A disk that is full, and then is not.
 
 use std::fs;
-use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::harness::disk::Disk;
 use crate::meshes;
 use crate::server::{SOON, Server, assert_problem, json, owned};
-
-/// A small disk of its own, where this process may mount one.
-struct Disk {
-    folder: TempDir,
-}
-
-impl Disk {
-    fn mount(megabytes: u32) -> Option<Self> {
-        let folder = tempfile::tempdir().expect("a folder");
-        let mounted = Command::new("mount")
-            .args(["-t", "tmpfs", "-o", &format!("size={megabytes}m"), "tmpfs"])
-            .arg(folder.path())
-            .output()
-            .is_ok_and(|output| output.status.success());
-        if !mounted {
-            eprintln!("left out: no disk can be mounted here");
-        }
-        mounted.then_some(Self { folder })
-    }
-
-    fn filler(&self) -> PathBuf {
-        self.folder.path().join("filler")
-    }
-
-    /// Leaves no byte.
-    fn fill(&self) {
-        let mut file = fs::OpenOptions::new();
-        let file = file.create(true).append(true).open(self.filler());
-        let mut file = file.expect("a file");
-        for size in [1 << 20, 1 << 12, 1] {
-            let block = vec![1; size];
-            loop {
-                match file.write_all(&block) {
-                    Ok(()) => {}
-                    Err(error) if error.kind() == ErrorKind::StorageFull => break,
-                    Err(error) => panic!("{error}"),
-                }
-            }
-        }
-    }
-
-    fn free(&self) {
-        fs::remove_file(self.filler()).expect("the filler");
-    }
-}
-
-impl Drop for Disk {
-    fn drop(&mut self) {
-        let unmounted = Command::new("umount").arg(self.folder.path()).status();
-        assert!(unmounted.is_ok_and(|status| status.success()));
-    }
-}
 
 fn path(job: &Value) -> &str {
     job["links"]["self"].as_str().expect("a link")
@@ -99,7 +47,7 @@ async fn refuses_and_deletes(server: &Server, ended: &Value) {
 #[tokio::test]
 async fn a_full_disk_is_told_and_everything_goes_on_when_there_is_space() {
     let Some(disk) = Disk::mount(48) else { return };
-    let data = TempDir::new_in(disk.folder.path()).expect("a folder");
+    let data = TempDir::new_in(disk.folder()).expect("a folder");
     let settings = [("UNWRAPD_MIN_FREE_MIB", "2"), ("UNWRAPD_WORKERS", "1")];
     let server = Server::on(data, &owned(&settings));
     let ended = server.submit(meshes::small(), "").await;

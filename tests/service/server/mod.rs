@@ -18,32 +18,21 @@ mod submitted;
 mod synchronous;
 mod verdicts;
 
-use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Child, ChildStdout, Command, Stdio};
-use std::time::Duration;
 
-use nix::sys::signal::{Signal, kill};
-use nix::unistd::Pid;
+use nix::sys::signal::Signal;
 use reqwest::{Client, RequestBuilder, Response};
 use serde_json::Value;
 use tempfile::TempDir;
 
 pub use applications::{ended, form};
 
-use crate::children;
-
-/// For what must happen soon, on however busy a machine.
-pub const SOON: Duration = Duration::from_mins(1);
+pub use crate::harness::SOON;
+use crate::harness::process::{Process, Role};
 
 /// A running server; it ends and its data go when this is dropped.
 pub struct Server {
-    process: Child,
-    /// Kept open: a server that cannot print ends.
-    stdout: BufReader<ChildStdout>,
-    settings: Vec<(String, String)>,
-    data: TempDir,
-    address: String,
+    process: Process,
     client: Client,
 }
 
@@ -60,52 +49,43 @@ impl Server {
 
     /// Starts one on this folder.
     pub fn on(data: TempDir, settings: &[(String, String)]) -> Self {
-        // Another test of this process may have chosen already.
-        let _ = rustls::crypto::ring::default_provider().install_default();
-        let (process, stdout, address) = spawn(data.path(), settings);
         Self {
-            process,
-            stdout,
-            settings: settings.to_vec(),
-            data,
-            address,
+            process: Process::start(Role::Serve, data, settings),
             client: client(),
         }
     }
 
     /// Ends it without warning, as a power cut would.
     pub fn kill(&mut self) {
-        self.process.kill().expect("the server is ours");
-        self.process.wait().expect("the server is ours");
+        self.process.kill();
     }
 
     /// Waits until it has stopped, after it was told to.
     pub fn stopped(&mut self) {
-        assert!(self.process.wait().expect("the server is ours").success());
+        self.process.stopped();
     }
 
     pub fn signal(&self, signal: Signal) {
-        kill(Pid::from_raw(self.process.id() as i32), signal).expect("the server is ours");
+        self.process.signal(signal);
     }
 
     /// Starts it again on the same data, with other environment variables.
     pub fn restart_with(&mut self, settings: &[(&str, &str)]) {
-        self.settings = owned(settings);
-        self.restart();
+        self.process.restart_with(&owned(settings));
     }
 
     /// Starts it again on the same data.
     pub fn restart(&mut self) {
-        (self.process, self.stdout, self.address) = spawn(self.data.path(), &self.settings);
+        self.process.restart();
     }
 
     /// Process ids of the compute children of this server.
     pub fn children(&self) -> Vec<i32> {
-        children::within(self.data.path())
+        self.process.children()
     }
 
     pub fn data(&self) -> &Path {
-        self.data.path()
+        self.process.folder()
     }
 
     /// Names of the folders that hold files of jobs.
@@ -118,11 +98,11 @@ impl Server {
     }
 
     pub fn url(&self, path: &str) -> String {
-        format!("http://{}{path}", self.address)
+        format!("http://{}{path}", self.process.address())
     }
 
     pub fn socket_url(&self, path: &str) -> String {
-        format!("ws://{}{path}", self.address)
+        format!("ws://{}{path}", self.process.address())
     }
 
     pub fn get(&self, path: &str) -> RequestBuilder {
@@ -179,13 +159,6 @@ impl Server {
     }
 }
 
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-    }
-}
-
 /// Variables of the environment.
 pub fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
     let owned = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
@@ -197,22 +170,6 @@ pub fn client() -> Client {
     // Another client of this process may have done it.
     let _ = rustls::crypto::ring::default_provider().install_default();
     Client::new()
-}
-
-fn spawn(data: &Path, settings: &[(String, String)]) -> (Child, BufReader<ChildStdout>, String) {
-    let mut process = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
-        .args(["serve", "--listen", "127.0.0.1:0", "--data"])
-        .arg(data)
-        .envs(settings.iter().cloned())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the server starts");
-    let mut stdout = BufReader::new(process.stdout.take().expect("piped"));
-    let mut line = String::new();
-    stdout.read_line(&mut line).expect("its address");
-    let address = line.trim().strip_prefix("listening on http://");
-    let address = address.expect("its address").to_owned();
-    (process, stdout, address)
 }
 
 pub async fn json(answer: Response) -> Value {

@@ -2,27 +2,37 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use tempfile::TempDir;
 
-use crate::server::SOON;
+use super::ports::free_port;
+use super::{SOON, children, clock};
+
+/// Between two looks at whether something happened.
+const PAUSE: Duration = Duration::from_millis(50);
 
 /// A running cluster in a folder of its own, reached over a port of this machine. It ends when this
 /// is dropped.
 pub struct Postgres {
     folder: TempDir,
     port: u16,
+    settings: Vec<(String, String)>,
     process: Child,
 }
 
 impl Postgres {
     pub fn start() -> Self {
+        Self::with(Vec::new())
+    }
+
+    /// Starts one with these environment variables.
+    pub fn with(settings: Vec<(String, String)>) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         own(folder.path());
-        let made = program("initdb")
+        let made = program("initdb", &[])
             .args(["--auth=trust", "--username=unwrapd", "--no-sync"])
             .args(["--encoding=UTF8", "--locale=C.UTF-8", "-D"])
             .arg(folder.path().join("data"))
@@ -30,14 +40,19 @@ impl Postgres {
             .expect("PostgreSQL is installed");
         assert!(made.status.success(), "{made:?}");
         let port = free_port();
-        let process = spawn(folder.path(), port);
-        let postgres = Self {
+        let process = spawn(folder.path(), port, &settings);
+        let mut postgres = Self {
             folder,
             port,
+            settings,
             process,
         };
         postgres.wait();
         postgres
+    }
+
+    pub fn port(&self) -> u16 {
+        self.port
     }
 
     /// A fresh database of this name: its URL.
@@ -78,21 +93,39 @@ impl Postgres {
 
     /// Ends it without warning, with all its processes, as a power cut would.
     pub fn kill(&mut self) {
+        let children = children::of(self.process.id());
         self.process.kill().expect("it is ours");
         self.process.wait().expect("it is ours");
+        clock::forget(self.process.id());
+        for &child in &children {
+            // It may have noticed.
+            let _ = kill(Pid::from_raw(child), Signal::SIGKILL);
+        }
+        let start = Instant::now();
+        while children.iter().any(|child| children::is_alive(*child)) {
+            assert!(start.elapsed() < SOON, "PostgreSQL does not end");
+            std::thread::sleep(PAUSE);
+        }
     }
 
     /// Starts it again on the same data.
     pub fn restart(&mut self) {
-        self.process = spawn(self.folder.path(), self.port);
+        self.process = spawn(self.folder.path(), self.port, &self.settings);
         self.wait();
     }
 
-    fn wait(&self) {
+    fn wait(&mut self) {
         let start = Instant::now();
         while !self.run_psql("postgres", "SELECT 1").status.success() {
-            assert!(start.elapsed() < SOON, "PostgreSQL does not start");
-            std::thread::sleep(std::time::Duration::from_millis(50));
+            let log = || std::fs::read_to_string(self.folder.path().join("log"));
+            let ended = self.process.try_wait().expect("it is ours");
+            assert!(ended.is_none(), "PostgreSQL ended: {:?}", log());
+            assert!(
+                start.elapsed() < SOON,
+                "PostgreSQL does not start: {:?}",
+                log()
+            );
+            std::thread::sleep(PAUSE);
         }
     }
 }
@@ -102,18 +135,13 @@ impl Drop for Postgres {
         // An immediate shutdown: the processes of its connections go, too.
         let _ = kill(Pid::from_raw(self.process.id() as i32), Signal::SIGQUIT);
         let _ = self.process.wait();
+        clock::forget(self.process.id());
     }
 }
 
-/// A port that is free now, for a process that cannot choose one and tell.
-pub fn free_port() -> u16 {
-    let listener = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
-    listener.local_addr().expect("an address").port()
-}
-
-fn spawn(folder: &Path, port: u16) -> Child {
+fn spawn(folder: &Path, port: u16, settings: &[(String, String)]) -> Child {
     let log = std::fs::File::create(folder.join("log")).expect("a file");
-    program("postgres")
+    program("postgres", settings)
         .arg("-D")
         .arg(folder.join("data"))
         .args(["-p", &port.to_string(), "-h", "127.0.0.1", "-k"])
@@ -132,11 +160,14 @@ fn spawn(folder: &Path, port: u16) -> Child {
         .expect("PostgreSQL is installed")
 }
 
-/// A program of PostgreSQL, as a user that is not root: it refuses that one.
-fn program(name: &str) -> Command {
+/// A program of PostgreSQL with these environment variables, as a user that is not root: it refuses
+/// that one.
+fn program(name: &str, settings: &[(String, String)]) -> Command {
     let path = binaries().join(name);
     if !is_root() {
-        return Command::new(path);
+        let mut command = Command::new(path);
+        command.envs(settings.iter().cloned());
+        return command;
     }
     let mut command = Command::new("setpriv");
     command
@@ -145,7 +176,13 @@ fn program(name: &str) -> Command {
             "--regid=postgres",
             "--clear-groups",
             "--pdeathsig=KILL",
+            "env",
         ])
+        .args(
+            settings
+                .iter()
+                .map(|(name, value)| format!("{name}={value}")),
+        )
         .arg(path);
     command
 }

@@ -1,0 +1,71 @@
+//! A run of jobs during which something goes wrong again and again, at moments drawn from a seed.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use tokio::time::sleep;
+use unwrapd::numerics::random::Random;
+
+use super::client::Clients;
+use super::fault::Fault;
+use super::judge::{Judgment, judge};
+use super::machines::Machines;
+
+/// A run: what goes wrong how often, during how many jobs.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    pub fault: Fault,
+    pub jobs: usize,
+    pub moments: usize,
+    pub seed: u64,
+    /// When jobs that have not ended are given up.
+    pub patience: Duration,
+}
+
+/// When something goes wrong: so long after so many jobs were accepted or seen to have ended,
+/// together.
+#[derive(Clone, Copy, Debug)]
+struct Moment {
+    events: usize,
+    later: Duration,
+}
+
+/// The longest time after an event.
+const LATER: f64 = 0.3;
+
+impl Run {
+    /// How it went and how long it took; `None` where the fault cannot be made.
+    pub async fn judged(&self, logs: Option<&Path>) -> Option<(Judgment, Duration)> {
+        let begin = Instant::now();
+        let mut machines = Machines::start(self.fault, logs)?;
+        let mut random = Random::new(self.seed);
+        let moments = self.drawn(&mut random);
+        let clients = Clients::new(self.jobs, random.bits());
+        clients.tell(machines.addresses());
+        let faults = async {
+            for moment in moments {
+                clients.events(moment.events).await;
+                sleep(moment.later).await;
+                self.fault.happen(&mut machines, &mut random).await;
+                clients.tell(machines.addresses());
+            }
+        };
+        let both = async { tokio::join!(clients.run(), faults) };
+        let _ = tokio::time::timeout(self.patience, both).await;
+        let judgment = judge(&mut machines, &clients).await;
+        Some((judgment, begin.elapsed()))
+    }
+
+    /// The moments in their order. The last tenth of the run is left to what follows from them.
+    fn drawn(&self, random: &mut Random) -> Vec<Moment> {
+        let events = 2 * self.jobs * 9 / 10;
+        let mut moments: Vec<Moment> = (0..self.moments)
+            .map(|_| Moment {
+                events: random.below(events.max(1)),
+                later: Duration::from_secs_f64(LATER * random.unit()),
+            })
+            .collect();
+        moments.sort_by_key(|moment| moment.events);
+        moments
+    }
+}

@@ -1,0 +1,155 @@
+//! Processes of the service.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use tempfile::TempDir;
+
+use super::{children, clock};
+
+/// What a process does.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Answers requests, and works unless it is told not to.
+    Serve,
+    /// Only works.
+    Worker,
+}
+
+/// A running process with a folder of its own; it ends and its folder goes when this is dropped.
+pub struct Process {
+    role: Role,
+    command: Command,
+    process: Child,
+    /// Kept open: a server that cannot print ends.
+    stdout: Option<BufReader<ChildStdout>>,
+    address: String,
+    folder: TempDir,
+}
+
+impl Process {
+    /// Starts one on a folder with these environment variables.
+    pub fn start(role: Role, folder: TempDir, settings: &[(String, String)]) -> Self {
+        let command = command(role, folder.path(), settings);
+        Self::run(role, folder, command)
+    }
+
+    /// The same, which tells what it does to this file instead of the reader of the test.
+    pub fn logged(
+        role: Role,
+        folder: TempDir,
+        settings: &[(String, String)],
+        log: std::fs::File,
+    ) -> Self {
+        let mut command = command(role, folder.path(), settings);
+        command.stderr(log);
+        Self::run(role, folder, command)
+    }
+
+    fn run(role: Role, folder: TempDir, mut command: Command) -> Self {
+        let (process, stdout, address) = spawn(role, &mut command);
+        Self {
+            role,
+            command,
+            process,
+            stdout,
+            address,
+            folder,
+        }
+    }
+
+    /// Where it answers, as `HOST:PORT`.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    pub fn signal(&self, signal: Signal) {
+        kill(Pid::from_raw(self.process.id() as i32), signal).expect("it is ours");
+    }
+
+    /// Ends it without warning, as a power cut would.
+    pub fn kill(&mut self) {
+        self.process.kill().expect("it is ours");
+        self.process.wait().expect("it is ours");
+        clock::forget(self.process.id());
+    }
+
+    /// Waits until it has stopped, after it was told to.
+    pub fn stopped(&mut self) {
+        assert!(self.process.wait().expect("it is ours").success());
+    }
+
+    /// Whether it still runs.
+    pub fn is_alive(&mut self) -> bool {
+        self.process.try_wait().expect("it is ours").is_none()
+    }
+
+    /// Starts it again on the same folder.
+    pub fn restart(&mut self) {
+        (self.process, self.stdout, self.address) = spawn(self.role, &mut self.command);
+    }
+
+    /// Starts it again on the same folder, with other environment variables.
+    pub fn restart_with(&mut self, settings: &[(String, String)]) {
+        self.command = command(self.role, self.folder.path(), settings);
+        self.restart();
+    }
+
+    /// Process ids of its compute children.
+    pub fn children(&self) -> Vec<i32> {
+        children::within(self.folder.path())
+    }
+
+    /// What its attempts and uploads left.
+    pub fn scratch(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.folder.path().join("scratch"));
+        let names = entries.into_iter().flatten().flatten();
+        names
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .collect()
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+        clock::forget(self.process.id());
+    }
+}
+
+fn command(role: Role, folder: &Path, settings: &[(String, String)]) -> Command {
+    let mut command = Command::new(super::program());
+    match role {
+        Role::Serve => command.args(["serve", "--listen", "127.0.0.1:0"]),
+        Role::Worker => command.args(["worker", "--workers", "1"]),
+    };
+    command
+        .arg("--data")
+        .arg(folder)
+        .envs(settings.iter().cloned());
+    command
+}
+
+/// A process and, of a server, its output and its address.
+fn spawn(role: Role, command: &mut Command) -> (Child, Option<BufReader<ChildStdout>>, String) {
+    if role == Role::Worker {
+        let process = command.stdout(Stdio::null()).spawn();
+        return (process.expect("the worker starts"), None, String::new());
+    }
+    let process = command.stdout(Stdio::piped()).spawn();
+    let mut process = process.expect("the server starts");
+    let mut stdout = BufReader::new(process.stdout.take().expect("piped"));
+    let mut line = String::new();
+    stdout.read_line(&mut line).expect("its address");
+    let address = line.trim().strip_prefix("listening on http://");
+    let address = address.expect("its address").to_owned();
+    (process, Some(stdout), address)
+}
