@@ -27,8 +27,15 @@ const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 /// After which a job is tried again that could not be computed for want of space or of files.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Runs a claimed job to its end and records it. `leave` asks to hand it back.
-pub(super) async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) {
+/// Runs a claimed job to its end and records it. `leave` asks to hand it back. Returns how long this
+/// worker should rest: where files or space are wanting, the next job would fare no better, and
+/// another worker may.
+pub(super) async fn run(
+    jobs: &Jobs,
+    job: Job,
+    attempt: &Attempt,
+    leave: &CancellationToken,
+) -> Duration {
     let name = format!("attempt-{}-{}", job.id, job.token);
     let folder = jobs.settings.scratch.join(name);
     tracing::info!(job = %job.id, attempt = job.attempt, worker = %jobs.worker, "started");
@@ -48,6 +55,10 @@ pub(super) async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &Cancel
             )),
         })
     });
+    let rest = match ending {
+        Some(Ending::HandedBack(pause)) => pause,
+        _ => Duration::ZERO,
+    };
     match ending {
         Some(ending) => conclude(jobs, &job, attempt, ending, leave).await,
         None => disown(jobs, &job).await,
@@ -56,6 +67,7 @@ pub(super) async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &Cancel
     if let Err(error) = tokio::fs::remove_dir_all(&folder).await {
         tracing::warn!(%error, "folder of an attempt not removed");
     }
+    rest
 }
 
 async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {

@@ -47,10 +47,14 @@ impl Jobs {
         let (leave, attempts) = (CancellationToken::new(), TaskTracker::new());
         let slots = Arc::new(Semaphore::new(self.settings.workers));
         while let Some(claimed) = self.next(&slots, &stop).await {
-            let (jobs, leave) = (Arc::clone(&self), leave.clone());
+            let (jobs, leave, stop) = (Arc::clone(&self), leave.clone(), stop.clone());
             attempts.spawn(async move {
                 let Claimed { slot, job, attempt } = claimed;
-                attempt::run(&jobs, job, &attempt, &leave).await;
+                let rest = attempt::run(&jobs, job, &attempt, &leave).await;
+                tokio::select! {
+                    () = tokio::time::sleep(rest) => {}
+                    () = stop.cancelled() => {}
+                }
                 drop(slot);
             });
         }

@@ -162,6 +162,11 @@ impl From<Error> for StoreError {
         let text = error.to_string();
         match error {
             Error::Generic { .. } | Error::JoinError { .. } => Self::Unavailable(text),
+            // A key that expired, or a clock too far from that of the server: no fault of a job, and
+            // another process may have access.
+            Error::PermissionDenied { .. } | Error::Unauthenticated { .. } => {
+                Self::Unavailable(text)
+            }
             _ => Self::Other(text),
         }
     }

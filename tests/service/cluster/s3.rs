@@ -50,3 +50,24 @@ async fn files_come_back_from_a_server_of_its_own() {
     let down = blobs.check().await.expect_err("nobody answers");
     assert!(down.is_passing(), "{down}");
 }
+
+/// It is no fault of a job: another worker may have access.
+#[tokio::test]
+async fn a_refused_access_may_pass() {
+    let server = S3::start();
+    let mut settings = server.settings();
+    settings.push(("AWS_SECRET_ACCESS_KEY".to_owned(), "another".to_owned()));
+    let blobs = ObjectBlobs::open(URL, settings.into_iter()).expect("a bucket");
+    let local = tempfile::NamedTempFile::new().expect("a file");
+    let key = format!("{}/input/0", JobId::fresh());
+    let refused = [
+        blobs.put(&key, local.path()).await,
+        blobs.fetch(&key, local.path()).await,
+        blobs.remove(&key).await,
+    ];
+    for refused in refused {
+        let error = refused.expect_err("the key is another");
+        assert!(error.is_passing(), "{error}");
+    }
+    assert_eq!(server.objects(), Vec::<String>::new());
+}
