@@ -1,5 +1,6 @@
 //! The database: how it is opened, brought up to date and written to.
 
+use std::io::ErrorKind;
 use std::time::Duration;
 
 use sqlx::any::AnyPoolOptions;
@@ -30,7 +31,7 @@ const PRAGMAS: &str = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;
 /// Connections of a process to PostgreSQL, and those to SQLite that read.
 const POSTGRES_CONNECTIONS: u32 = 8;
 const SQLITE_READERS: u32 = 4;
-/// How long a statement waits for a connection.
+/// How long a statement waits for a connection, and a connection for a sign that it still is one.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// An open database. What is committed is durable.
@@ -131,9 +132,11 @@ fn pool(dialect: Dialect, connections: u32) -> AnyPoolOptions {
 }
 
 /// Whether a connection may be used again. SQLite ends a transaction by itself when a disk is full;
-/// sqlx then fails to roll it back, counts it as open for ever, and refuses every further one.
+/// sqlx then fails to roll it back, counts it as open for ever, and refuses every further one. A
+/// connection that was cut without anybody noticing answers nothing, and must not keep its place.
 async fn is_usable(connection: &mut AnyConnection) -> sqlx::Result<bool> {
     // After this, a rollback that a dropped transaction asked for is done.
-    connection.ping().await?;
+    let answer = tokio::time::timeout(PATIENCE, connection.ping()).await;
+    answer.unwrap_or_else(|_| Err(sqlx::Error::Io(ErrorKind::TimedOut.into())))?;
     Ok(!connection.is_in_transaction())
 }

@@ -22,6 +22,8 @@ use crate::jobs::{Blobs, Content, JobId, StoreError, StoreResult};
 /// For one request; files are sent and fetched in parts.
 const REQUEST_TIME: Duration = Duration::from_mins(5);
 const CONNECT_TIME: Duration = Duration::from_secs(5);
+/// For the next bytes of an answer. A connection may be cut without anybody noticing.
+const SILENCE: Duration = Duration::from_secs(30);
 /// How long a request that fails is tried again; whoever asked tries later.
 const RETRY_TIME: Duration = Duration::from_secs(10);
 const RETRIES: usize = 4;
@@ -39,6 +41,7 @@ impl ObjectBlobs {
         let _ = rustls::crypto::ring::default_provider().install_default();
         let client = ClientOptions::new()
             .with_connect_timeout(CONNECT_TIME)
+            .with_read_timeout(SILENCE)
             .with_timeout(REQUEST_TIME);
         let retry = RetryConfig {
             max_retries: RETRIES,

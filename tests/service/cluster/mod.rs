@@ -1,6 +1,7 @@
 //! Several processes that share a PostgreSQL and an S3 server.
 
 mod crash;
+mod cuts;
 mod faults;
 mod s3;
 mod sharing;
