@@ -246,7 +246,9 @@ impl From<StoreError> for Problem {
                 format!("delete jobs, or try again later: {why}"),
             ),
             StoreError::Conflict(_) => Self::new(Code::Conflict, "look again, then try again"),
-            StoreError::Unavailable(_) => Self::new(Code::StoreUnavailable, "try again later"),
+            StoreError::Unavailable(_) | StoreError::Unanswered(_) => {
+                Self::new(Code::StoreUnavailable, "try again later")
+            }
             StoreError::Damaged(what) => Self::new(Code::DamagedFile, what),
             StoreError::Other(_) => Self::internal(&error),
         }

@@ -1,5 +1,6 @@
 //! The store kept in order: jobs of silent workers, jobs whose time is over, files without a job.
 
+use std::collections::HashMap;
 use std::time::Duration;
 
 use tokio::time::{Instant, MissedTickBehavior};
@@ -20,8 +21,11 @@ const SEARCHES: u32 = 10;
 /// and by no more than an hour. More than one search per second would keep the server busy.
 const LONGEST_PAUSE: Duration = Duration::from_hours(1);
 const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
-/// Files whose job is younger may belong to a submission under way in another process.
-const SUBMISSION_MS: u64 = 3_600_000;
+/// Files whose job is younger may belong to a submission under way in another process, whose clock
+/// may be another.
+const SUBMISSION: Duration = Duration::from_hours(24);
+/// Jobs of files that are looked for at once.
+const TOGETHER: usize = 1000;
 
 impl Jobs {
     /// Puts the house in order after a start: scratch is emptied. What the only process left behind
@@ -39,7 +43,7 @@ impl Jobs {
                 self.wish(id, Wish::Cancel).await?;
                 self.remove(id, Reason::Deleted).await?;
             }
-            self.remove_orphaned_files().await?;
+            self.remove_orphaned_files(Duration::ZERO).await?;
         }
         Ok(())
     }
@@ -52,12 +56,9 @@ impl Jobs {
         let mut interval = tokio::time::interval(pace);
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let mut searched: Option<Instant> = None;
-        if self.settings.deployment == Deployment::Shared
-            && self.settings.retention.is_some()
-            && let Err(error) = self.remove_orphaned_files().await
-        {
-            tracing::warn!(%error, "files without a job not looked for");
-        }
+        // The only process has looked at its start.
+        let is_only = self.settings.deployment == Deployment::Embedded;
+        let mut looked = is_only.then(Instant::now);
         loop {
             tokio::select! {
                 _ = interval.tick() => {}
@@ -70,6 +71,12 @@ impl Jobs {
                 continue;
             }
             searched = Some(Instant::now());
+            if self.settings.retention.is_some() && looked.is_none_or(is_long_ago) {
+                looked = searched;
+                if let Err(error) = self.remove_orphaned_files(SUBMISSION).await {
+                    tracing::warn!(%error, "files without a job not looked for");
+                }
+            }
             match self.remove_expired().await {
                 Ok(0) => {}
                 Ok(removed) => tracing::info!(removed, "expired jobs removed"),
@@ -106,19 +113,27 @@ impl Jobs {
         }
     }
 
-    /// Removes the files that a crash left between their storing and that of their job, or between
-    /// its removal and theirs.
-    async fn remove_orphaned_files(&self) -> StoreResult<()> {
-        let is_shared = self.settings.deployment == Deployment::Shared;
-        for id in self.blobs.owners().await? {
-            if is_shared && Timestamp::now().since(id.made()) < SUBMISSION_MS {
-                continue;
-            }
-            if self.store.get(id).await?.is_none() {
-                tracing::info!(job = %id, "files without a job removed");
-                self.blobs.remove(&id.to_string()).await?;
+    /// Removes the files that a crash left between their storing and that of their job, between its
+    /// cancellation or removal and theirs, if their job is older than this.
+    async fn remove_orphaned_files(&self, age: Duration) -> StoreResult<()> {
+        let mut owners = self.blobs.owners().await?;
+        owners.retain(|id| age.as_millis() <= u128::from(Timestamp::now().since(id.made())));
+        for owners in owners.chunks(TOGETHER) {
+            let events = self.store.events(owners).await?;
+            let events: HashMap<_, _> = events.into_iter().collect();
+            for id in owners {
+                let event = events.get(id);
+                if event.is_none_or(|event| event.state == State::Cancelled) {
+                    tracing::info!(job = %id, "files without a job removed");
+                    self.blobs.remove(&id.to_string()).await?;
+                }
             }
         }
         Ok(())
     }
+}
+
+/// Whether it is time to look for files without a job again.
+fn is_long_ago(last: Instant) -> bool {
+    SUBMISSION <= last.elapsed()
 }

@@ -14,6 +14,9 @@ pub enum StoreError {
     /// It cannot be reached, or it is too busy. The same may work later.
     #[error("not available: {0}")]
     Unavailable(String),
+    /// It may have done it or not: the answer did not come.
+    #[error("not answered: {0}")]
+    Unanswered(String),
     /// What it returned is not what was stored.
     #[error("damaged: {0}")]
     Damaged(String),
@@ -28,7 +31,10 @@ pub type StoreResult<T> = Result<T, StoreError>;
 impl StoreError {
     /// Whether the same may work later without anybody changing the request.
     pub fn is_passing(&self) -> bool {
-        matches!(self, Self::Full(_) | Self::Unavailable(_))
+        matches!(
+            self,
+            Self::Full(_) | Self::Unavailable(_) | Self::Unanswered(_)
+        )
     }
 }
 

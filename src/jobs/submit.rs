@@ -57,9 +57,13 @@ impl Jobs {
     pub async fn submit(&self, submission: Submission) -> Result<Submitted, SubmitError> {
         let id = JobId::fresh();
         let outcome = self.store_submission(id, submission).await;
-        if !matches!(outcome, Ok(Submitted::New(_)))
-            && let Err(error) = self.blobs.remove(&id.to_string()).await
-        {
+        // The record may be there, and without its files its job would fail. If it is not, they are
+        // files without a job.
+        let may_be_recorded = matches!(
+            outcome,
+            Ok(Submitted::New(_)) | Err(SubmitError::Store(StoreError::Unanswered(_)))
+        );
+        if !may_be_recorded && let Err(error) = self.blobs.remove(&id.to_string()).await {
             tracing::warn!(job = %id, %error, "files of a refused job not removed");
         }
         outcome

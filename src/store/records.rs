@@ -75,7 +75,7 @@ impl RecordStore {
             idempotency::remember(key, &job, &mut transaction).await?;
         }
         self.hints.give(&job, &mut transaction).await?;
-        transaction.commit().await?;
+        transaction.commit().await.map_err(unanswered)?;
         Ok(Enqueued::New(Box::new(job)))
     }
 
@@ -159,7 +159,7 @@ fn bounded<'a, T: 'a>(
     async move {
         let answer = tokio::time::timeout(PATIENCE, call).await;
         let detail = "the database did not answer in time";
-        answer.unwrap_or_else(|_| Err(StoreError::Unavailable(detail.to_owned())))
+        answer.unwrap_or_else(|_| Err(StoreError::Unanswered(detail.to_owned())))
     }
     .boxed()
 }
@@ -280,6 +280,14 @@ impl JobStore for RecordStore {
                 .await?;
             reserve::keep(&self.database).await
         })
+    }
+}
+
+/// Why nobody knows whether a transaction was committed, if so.
+fn unanswered(error: sqlx::Error) -> StoreError {
+    match error.into() {
+        StoreError::Unavailable(text) => StoreError::Unanswered(text),
+        error => error,
     }
 }
 

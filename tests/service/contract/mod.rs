@@ -1,5 +1,8 @@
 //! What every store of records promises, and what becomes of a record when something happens.
 
+mod faulty;
+mod named;
+mod processes;
 mod promises;
 mod transitions;
 

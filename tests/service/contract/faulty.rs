@@ -1,0 +1,221 @@
+//! Stores that fail by name: a call of this name is not done, or done and not answered, or the last
+//! that the process does.
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use futures_util::FutureExt;
+use futures_util::future::{BoxFuture, pending};
+use tokio::sync::Notify;
+use unwrapd::jobs::{
+    Beat, Blobs, Capacity, Changed, Content, Enqueued, Event, Happening, IdempotencyKey, Job,
+    JobId, JobStore, Listing, Reason, State, StoreError, StoreResult, Sweep, WorkerId,
+};
+
+/// What becomes of a call.
+#[derive(Clone, Copy, Debug)]
+pub enum How {
+    /// It is not done, and says so.
+    Refused,
+    /// It is done, and the answer is lost.
+    Unanswered,
+    /// It is never done, and nothing comes back: the process dies before it.
+    Before,
+    /// It is done, and nothing comes back: the process dies after it.
+    After,
+}
+
+/// Which calls fail, and how.
+pub struct Fault {
+    name: &'static str,
+    how: How,
+    /// Calls of the name before them, and how many they are.
+    skipped: AtomicUsize,
+    left: AtomicUsize,
+    /// One has come that will not be answered.
+    pub reached: Notify,
+}
+
+impl Fault {
+    /// None fail.
+    pub fn none() -> Arc<Self> {
+        Self::of("", How::Refused, 0, 0)
+    }
+
+    /// The first call of a name fails.
+    pub fn first(name: &'static str, how: How) -> Arc<Self> {
+        Self::of(name, how, 0, 1)
+    }
+
+    /// So many calls of a name fail, after so many that do not.
+    pub fn of(name: &'static str, how: How, skipped: usize, count: usize) -> Arc<Self> {
+        Arc::new(Self {
+            name,
+            how,
+            skipped: AtomicUsize::new(skipped),
+            left: AtomicUsize::new(count),
+            reached: Notify::new(),
+        })
+    }
+
+    /// Whether all that were to fail have failed.
+    pub fn has_happened(&self) -> bool {
+        self.left.load(Ordering::SeqCst) == 0
+    }
+
+    fn meets(&self, name: &str) -> bool {
+        let one_less = |count: usize| count.checked_sub(1);
+        let take = |from: &AtomicUsize| {
+            let taken = from.fetch_update(Ordering::SeqCst, Ordering::SeqCst, one_less);
+            taken.is_ok()
+        };
+        name == self.name && !take(&self.skipped) && take(&self.left)
+    }
+
+    fn call<'a, T: Send + 'a>(
+        &'a self,
+        name: &'static str,
+        call: BoxFuture<'a, StoreResult<T>>,
+    ) -> BoxFuture<'a, StoreResult<T>> {
+        async move {
+            if !self.meets(name) {
+                return call.await;
+            }
+            match self.how {
+                How::Refused => return Err(StoreError::Unavailable(name.to_owned())),
+                How::Unanswered => {
+                    call.await?;
+                    return Err(StoreError::Unanswered(name.to_owned()));
+                }
+                How::Before => {}
+                How::After => drop(call.await?),
+            }
+            self.reached.notify_one();
+            pending().await
+        }
+        .boxed()
+    }
+}
+
+/// Records or files, calls of which fail.
+pub struct Faulty<S> {
+    pub inner: S,
+    pub fault: Arc<Fault>,
+}
+
+impl<S: JobStore> JobStore for Faulty<S> {
+    fn enqueue<'a>(
+        &'a self,
+        job: &'a Job,
+        key: Option<&'a IdempotencyKey>,
+        capacity: Capacity,
+    ) -> BoxFuture<'a, StoreResult<Enqueued>> {
+        let call = self.inner.enqueue(job, key, capacity);
+        self.fault.call("enqueue", call)
+    }
+
+    fn get(&self, id: JobId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
+        self.inner.get(id)
+    }
+
+    fn list(&self, listing: Listing) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
+        self.inner.list(listing)
+    }
+
+    fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>> {
+        self.inner.events(ids)
+    }
+
+    fn equal<'a>(&'a self, digest: &'a str) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
+        self.inner.equal(digest)
+    }
+
+    fn hint(&self) -> BoxFuture<'_, ()> {
+        self.inner.hint()
+    }
+
+    fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
+        self.fault.call("claim", self.inner.claim(worker))
+    }
+
+    fn change<'a>(
+        &'a self,
+        id: JobId,
+        happening: &'a Happening,
+    ) -> BoxFuture<'a, StoreResult<Changed>> {
+        self.fault.call("change", self.inner.change(id, happening))
+    }
+
+    fn beat<'a>(&'a self, beats: &'a [Beat]) -> BoxFuture<'a, StoreResult<Vec<Changed>>> {
+        self.fault.call("beat", self.inner.beat(beats))
+    }
+
+    fn sweep(&self, sweep: Sweep) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
+        self.inner.sweep(sweep)
+    }
+
+    fn delete(&self, id: JobId, reason: Reason) -> BoxFuture<'_, StoreResult<bool>> {
+        self.fault.call("delete", self.inner.delete(id, reason))
+    }
+
+    fn has_expired(&self, id: JobId) -> BoxFuture<'_, StoreResult<bool>> {
+        self.inner.has_expired(id)
+    }
+
+    fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
+        self.inner.ended_before(kept)
+    }
+
+    fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
+        self.inner.ephemeral()
+    }
+
+    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>> {
+        self.inner.counts()
+    }
+
+    fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>> {
+        self.inner.stored_bytes()
+    }
+
+    fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
+        self.inner.check()
+    }
+}
+
+impl Blobs for Faulty<Box<dyn Blobs>> {
+    fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
+        self.fault.call("put", self.inner.put(key, from))
+    }
+
+    fn copy<'a>(&'a self, from: &'a str, to: &'a str) -> BoxFuture<'a, StoreResult<()>> {
+        self.fault.call("copy", self.inner.copy(from, to))
+    }
+
+    fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
+        self.fault.call("fetch", self.inner.fetch(key, to))
+    }
+
+    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
+        self.inner.read(key, range)
+    }
+
+    fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
+        self.inner.owners()
+    }
+
+    fn free_bytes(&self) -> StoreResult<Option<u64>> {
+        self.inner.free_bytes()
+    }
+
+    fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
+        self.inner.check()
+    }
+
+    fn remove<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<()>> {
+        self.fault.call("remove", self.inner.remove(folder))
+    }
+}
