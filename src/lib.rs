@@ -156,6 +156,8 @@
 //!   one in each run, `apalis` had up to 27 effects twice and never parked a job that kills its
 //!   workers, and Temporal needs our row beside its own. PostgreSQL, which most operators run, does
 //!   830 of them a second (SQLite 2,800), a thousand times more than jobs of seconds need.
+//!   `cargo bench --bench crash` kills, stops, fills, cuts and sets clocks wrong: nine faults at ten
+//!   moments each of 200 jobs lost none, had no effect twice, and left nothing behind.
 //!
 //! - A job that equals an earlier one gets copies of its files, not references to them: other names of
 //!   the same content in a folder, copies within the bucket. Every job owns its files, so that nothing

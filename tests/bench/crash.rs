@@ -76,18 +76,18 @@ fn fresh_seed() -> u64 {
 async fn told(run: &Run) -> bool {
     let logs = tempfile::tempdir().expect("a folder");
     let name = run.fault.name();
-    let Some((judgment, took)) = run.judged(Some(logs.path())).await else {
+    let Some(judged) = run.judged(Some(logs.path())).await else {
         println!("{name:14} cannot be made here");
         return false;
     };
-    let [lost, twice, orphans, unverified] = judgment.counts();
+    let [lost, twice, orphans, unverified] = judged.judgment.counts();
     println!(
         "{name:14} {:5} {:8} {:8.1} {lost:5} {twice:6} {orphans:8} {unverified:11}",
         run.jobs,
-        run.moments,
-        took.as_secs_f64()
+        judged.happened,
+        judged.took.as_secs_f64()
     );
-    for (what, faults) in judgment.all() {
+    for (what, faults) in judged.judgment.all() {
         for fault in faults {
             println!("    {what}: {fault}");
         }

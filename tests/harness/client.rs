@@ -21,6 +21,9 @@ const ANSWER: Duration = Duration::from_secs(10);
 /// Before a request that failed is sent again.
 const PAUSE: Duration = Duration::from_millis(200);
 
+/// Answers with a part of a file, after which it is taken for damaged.
+const TORN: u32 = 10;
+
 /// An answer that said: this job is accepted.
 #[derive(Clone, Debug)]
 pub struct Accepted {
@@ -30,12 +33,20 @@ pub struct Accepted {
     pub id: String,
 }
 
-/// The record of a job with the checksums of its files, as a client sees both.
-#[derive(Clone, Debug, PartialEq)]
+/// The record of a job with its files, as a client sees both.
+#[derive(Clone, Debug)]
 pub struct Seen {
     pub job: Value,
-    /// By the names of their roles.
+    /// Those that came, by the names of their roles.
     pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Seen {
+    /// Whether nothing that was seen has changed.
+    pub fn is_still(&self, now: &Self) -> bool {
+        let mut files = self.files.iter();
+        self.job == now.job && files.all(|(role, bytes)| now.files.get(role) == Some(bytes))
+    }
 }
 
 /// The jobs of a run, and what the clients know of them.
@@ -166,7 +177,7 @@ impl Clients {
     /// Asks for a job until it has ended, then for its files.
     async fn until_end(&self, id: &str, client: usize) -> Seen {
         for attempt in client.. {
-            if let Some(job) = self
+            if let Ok(job) = self
                 .get_json(attempt, &format!("/v1/jobs/{id}?wait=5"))
                 .await
                 && job["finished_at"].is_string()
@@ -181,14 +192,14 @@ impl Clients {
     pub async fn look(&self, id: &str) -> Option<Seen> {
         let begin = Instant::now();
         for attempt in 0.. {
-            if let Some(job) = self.get_json(attempt, &format!("/v1/jobs/{id}")).await {
-                return Some(self.seen(job).await);
-            }
-            if super::SOON < begin.elapsed() {
-                break;
+            match self.get_json(attempt, &format!("/v1/jobs/{id}")).await {
+                Ok(job) => return Some(self.seen(job).await),
+                Err(Some(StatusCode::NOT_FOUND)) => return None,
+                _ if super::SOON < begin.elapsed() => return None,
+                _ => {}
             }
         }
-        None
+        unreachable!("it ends at some time")
     }
 
     /// A job with its files, those that can be fetched.
@@ -205,19 +216,20 @@ impl Clients {
         Seen { job, files }
     }
 
-    /// A file, which comes whole or not at all.
+    /// A file, if it comes whole.
     async fn file(&self, path: &str) -> Option<Vec<u8>> {
-        let begin = Instant::now();
+        let (begin, mut torn) = (Instant::now(), 0);
         for attempt in 0.. {
             if let Ok(answer) = self.http.get(self.url(attempt, path)).send().await {
                 let status = answer.status();
                 match answer.bytes().await {
                     Ok(bytes) if status == StatusCode::OK => return Some(bytes.into()),
                     _ if status == StatusCode::NOT_FOUND => return None,
-                    _ => {}
+                    Err(_) => torn += 1,
+                    Ok(_) => {}
                 }
             }
-            if super::SOON < begin.elapsed() {
+            if TORN < torn || super::SOON < begin.elapsed() {
                 break;
             }
             sleep(PAUSE).await;
@@ -225,23 +237,34 @@ impl Clients {
         None
     }
 
-    /// Removes a job; whether that was done.
+    /// Removes a job; whether that was done. Without an answer it may have been.
     pub async fn delete(&self, id: &str) -> bool {
-        let url = self.url(0, &format!("/v1/jobs/{id}"));
-        let answer = self.http.delete(url).send().await;
-        answer.is_ok_and(|answer| answer.status() == StatusCode::NO_CONTENT)
+        let begin = Instant::now();
+        for attempt in 0.. {
+            let url = self.url(attempt, &format!("/v1/jobs/{id}"));
+            let answer = self.http.delete(url).send().await;
+            match answer.map(|answer| answer.status()) {
+                Ok(StatusCode::NO_CONTENT) => return true,
+                Ok(StatusCode::NOT_FOUND) => return 0 < attempt,
+                _ if super::SOON < begin.elapsed() => break,
+                _ => sleep(PAUSE).await,
+            }
+        }
+        false
     }
 
-    async fn get_json(&self, attempt: usize, path: &str) -> Option<Value> {
+    /// What is at a path; or the status of the answer, if there was one, after a pause.
+    async fn get_json(&self, attempt: usize, path: &str) -> Result<Value, Option<StatusCode>> {
         let answer = self.http.get(self.url(attempt, path)).send().await;
+        let status = answer.as_ref().ok().map(reqwest::Response::status);
         if let Ok(answer) = answer
-            && answer.status() == StatusCode::OK
+            && status == Some(StatusCode::OK)
             && let Ok(json) = answer.json().await
         {
-            return Some(json);
+            return Ok(json);
         }
         sleep(PAUSE).await;
-        None
+        Err(status)
     }
 
     fn url(&self, attempt: usize, path: &str) -> String {

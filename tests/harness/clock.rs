@@ -17,17 +17,19 @@ impl Clock {
     pub fn ahead(seconds: i64) -> Self {
         assert!(Path::new(LIBRARY).exists(), "libfaketime is not installed");
         let offset = NamedTempFile::new().expect("a file");
-        let all = std::fs::Permissions::from_mode(0o644);
-        // PostgreSQL runs as another user.
-        std::fs::set_permissions(offset.path(), all).expect("our file");
         let clock = Self { offset };
         clock.set(seconds);
         clock
     }
 
-    /// From now on it is this many seconds ahead.
+    /// From now on it is this many seconds ahead. Nobody reads half of that.
     pub fn set(&self, seconds: i64) {
-        std::fs::write(self.offset.path(), format!("{seconds:+}s\n")).expect("a file");
+        let fresh = self.offset.path().with_extension("fresh");
+        std::fs::write(&fresh, format!("{seconds:+}s\n")).expect("a file");
+        let all = std::fs::Permissions::from_mode(0o644);
+        // PostgreSQL runs as another user.
+        std::fs::set_permissions(&fresh, all).expect("our file");
+        std::fs::rename(fresh, self.offset.path()).expect("our file");
     }
 
     /// What a process is told that goes by it.

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use tokio::time::sleep;
 use unwrapd::numerics::random::Random;
 
+use super::SOON;
 use super::client::Clients;
 use super::fault::Fault;
 use super::judge::{Judgment, judge};
@@ -22,6 +23,21 @@ pub struct Run {
     pub patience: Duration,
 }
 
+/// All that took part in a run, afterward.
+pub struct Done {
+    pub machines: Machines,
+    pub clients: Clients,
+    /// How often something went wrong.
+    pub happened: usize,
+}
+
+/// How a run went.
+pub struct Judged {
+    pub judgment: Judgment,
+    pub happened: usize,
+    pub took: Duration,
+}
+
 /// When something goes wrong: so long after so many jobs were accepted or seen to have ended,
 /// together.
 #[derive(Clone, Copy, Debug)]
@@ -34,31 +50,50 @@ struct Moment {
 const LATER: f64 = 0.3;
 
 impl Run {
-    /// How it went and how long it took; `None` where the fault cannot be made.
-    pub async fn judged(&self, logs: Option<&Path>) -> Option<(Judgment, Duration)> {
+    /// How it went; `None` where the fault cannot be made.
+    pub async fn judged(&self, logs: Option<&Path>) -> Option<Judged> {
         let begin = Instant::now();
+        let mut done = self.done(logs).await?;
+        let judgment = judge(&mut done.machines, &done.clients, SOON).await;
+        Some(Judged {
+            judgment,
+            happened: done.happened,
+            took: begin.elapsed(),
+        })
+    }
+
+    /// What there is when all jobs have ended, or patience has.
+    pub async fn done(&self, logs: Option<&Path>) -> Option<Done> {
         let mut machines = Machines::start(self.fault, logs)?;
         let mut random = Random::new(self.seed);
         let moments = self.drawn(&mut random);
         let clients = Clients::new(self.jobs, random.bits());
         clients.tell(machines.addresses());
+        let mut happened = 0;
         let faults = async {
             for moment in moments {
                 clients.events(moment.events).await;
                 sleep(moment.later).await;
-                self.fault.happen(&mut machines, &mut random).await;
+                let has_happened = self.fault.happen(&mut machines, &mut random).await;
+                happened += usize::from(has_happened);
                 clients.tell(machines.addresses());
             }
         };
         let both = async { tokio::join!(clients.run(), faults) };
         let _ = tokio::time::timeout(self.patience, both).await;
-        let judgment = judge(&mut machines, &clients).await;
-        Some((judgment, begin.elapsed()))
+        for clock in &machines.clocks {
+            clock.set(0);
+        }
+        Some(Done {
+            machines,
+            clients,
+            happened,
+        })
     }
 
-    /// The moments in their order. The last tenth of the run is left to what follows from them.
+    /// The moments in their order. The last quarter of the run is left to what follows from them.
     fn drawn(&self, random: &mut Random) -> Vec<Moment> {
-        let events = 2 * self.jobs * 9 / 10;
+        let events = 2 * self.jobs * 3 / 4;
         let mut moments: Vec<Moment> = (0..self.moments)
             .map(|_| Moment {
                 events: random.below(events.max(1)),

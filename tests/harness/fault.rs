@@ -9,7 +9,7 @@ use tokio::time::{Instant, sleep};
 use unwrapd::numerics::random::Random;
 
 use super::machines::Machines;
-use super::proxy::Cut;
+use super::proxy::{Cut, Proxy};
 
 /// What goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,12 +62,12 @@ impl Fault {
         named.expect("all have names").0
     }
 
-    /// Lets it happen and pass.
-    pub async fn happen(self, machines: &mut Machines, random: &mut Random) {
+    /// Lets it happen and pass; whether it could.
+    pub async fn happen(self, machines: &mut Machines, random: &mut Random) -> bool {
         match self {
             Self::Api => replace(machines, &Machines::APIS, random).await,
             Self::Worker => replace(machines, &Machines::WORKERS, random).await,
-            Self::Child => kill_child(machines, random).await,
+            Self::Child => return kill_child(machines, random).await,
             Self::Database => {
                 machines.postgres.kill();
                 sleep(drawn(0.0, 4.0, random)).await;
@@ -95,6 +95,7 @@ impl Fault {
                 clock.set((JUMP * (2.0 * random.unit() - 1.0)) as i64);
             }
         }
+        true
     }
 }
 
@@ -123,8 +124,8 @@ async fn replace(machines: &mut Machines, those: &[usize], random: &mut Random) 
     process.restart();
 }
 
-/// Kills one that computes, as soon as there is one.
-async fn kill_child(machines: &Machines, random: &mut Random) {
+/// Kills one that computes, as soon as there is one; whether there was.
+async fn kill_child(machines: &Machines, random: &mut Random) -> bool {
     let begin = Instant::now();
     while begin.elapsed() < IDLE {
         let workers = Machines::WORKERS.iter();
@@ -133,12 +134,13 @@ async fn kill_child(machines: &Machines, random: &mut Random) {
             .collect();
         if !children.is_empty() {
             let child = Pid::from_raw(children[random.below(children.len())]);
-            // It may be done by now.
-            let _ = kill(child, Signal::SIGKILL);
-            return;
+            if kill(child, Signal::SIGKILL).is_ok() {
+                return true;
+            }
         }
         sleep(Duration::from_millis(1)).await;
     }
+    false
 }
 
 /// Cuts ways, and mends them after a while that may be longer than a lease.
@@ -160,5 +162,5 @@ async fn cut(machines: &Machines, random: &mut Random) {
     };
     each().for_each(|way| way.cut(how));
     sleep(drawn(0.2, 6.0, random)).await;
-    each().for_each(|way| way.mend());
+    each().for_each(Proxy::mend);
 }

@@ -11,7 +11,7 @@ use super::client::{Accepted, Clients, Seen, sha256};
 use super::clock::Clock;
 use super::history::{self, Version};
 use super::machines::Machines;
-use super::{SOON, program};
+use super::program;
 
 /// Files without a row are removed when their job would be this old. A submission under way is not.
 const AHEAD_SECONDS: i64 = 25 * 3600;
@@ -47,10 +47,10 @@ impl Judgment {
     }
 }
 
-/// Judges a run that is over, and then removes its jobs.
-pub async fn judge(machines: &mut Machines, clients: &Clients) -> Judgment {
+/// Judges a run that is over, and then removes its jobs. What should go is waited for this long.
+pub async fn judge(machines: &mut Machines, clients: &Clients, patience: Duration) -> Judgment {
     let mut judgment = Judgment::default();
-    judgment.left_by_processes(machines).await;
+    judgment.left_by_processes(machines, patience).await;
     let accepted = clients.accepted();
     let history = history::read(&machines.postgres);
     for job in &accepted {
@@ -63,7 +63,7 @@ pub async fn judge(machines: &mut Machines, clients: &Clients) -> Judgment {
             judgment.orphans.push(format!("{} is not deleted", job.id));
         }
     }
-    judgment.left_in_store(machines).await;
+    judgment.left_in_store(machines, patience).await;
     // What was deleted stays so, and was not changed before.
     for (id, versions) in history::read(&machines.postgres) {
         let faults = history::faults(&versions);
@@ -77,7 +77,7 @@ pub async fn judge(machines: &mut Machines, clients: &Clients) -> Judgment {
 impl Judgment {
     /// Children and folders: both go when attempts end, those of killed processes when these start
     /// again.
-    async fn left_by_processes(&mut self, machines: &Machines) {
+    async fn left_by_processes(&mut self, machines: &Machines, patience: Duration) {
         let left = || {
             let each = machines.processes.iter().enumerate();
             each.flat_map(|(index, process)| {
@@ -87,7 +87,7 @@ impl Judgment {
                 left.map(move |what| format!("process {index}: {what}"))
             })
         };
-        soon(|| left().next().is_none()).await;
+        within(patience, || left().next().is_none()).await;
         self.orphans.extend(left());
     }
 
@@ -116,7 +116,7 @@ impl Judgment {
                 self.lost.push(format!("{id} has no whole {role}"));
             }
         }
-        if clients.ended(id).is_none_or(|seen| seen != now) {
+        if clients.ended(id).is_none_or(|seen| !seen.is_still(&now)) {
             self.twice.push(format!("{id} changed after its end"));
         }
         if let Err(why) = verified(&now, clients.triangles(*number)) {
@@ -143,10 +143,10 @@ impl Judgment {
 
     /// Files whose jobs were never recorded go when a service looks for them that starts a day
     /// later; those of others went with their jobs.
-    async fn left_in_store(&mut self, machines: &mut Machines) {
+    async fn left_in_store(&mut self, machines: &mut Machines, patience: Duration) {
         let clock = Clock::ahead(AHEAD_SECONDS);
         let _later = machines.api_ahead(&clock);
-        soon(|| machines.s3.objects().is_empty()).await;
+        within(patience, || machines.s3.objects().is_empty()).await;
         self.orphans.extend(machines.s3.objects());
     }
 }
@@ -175,9 +175,9 @@ fn verified(seen: &Seen, triangles: u32) -> Result<(), String> {
 }
 
 /// Waits for something that is meant to happen; whoever asked looks whether it did.
-async fn soon(happened: impl Fn() -> bool) {
+async fn within(patience: Duration, happened: impl Fn() -> bool) {
     let begin = Instant::now();
-    while !happened() && begin.elapsed() < SOON {
+    while !happened() && begin.elapsed() < patience {
         tokio::time::sleep(Duration::from_millis(20)).await;
     }
 }

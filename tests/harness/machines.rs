@@ -24,8 +24,9 @@ const ROLES: [Role; 5] = [
     Role::Worker,
     Role::Worker,
 ];
-/// Of a small disk.
+/// Of the disk of a process, and of that of the files: two thirds of a megabyte for each job.
 const MEGABYTES: u32 = 24;
+const FILES_MEGABYTES: u32 = 256;
 
 /// The ways of one process to what all share.
 pub struct Links {
@@ -51,9 +52,11 @@ impl Machines {
     /// what it does to a file in `logs`, if there is that folder.
     pub fn start(fault: Fault, logs: Option<&Path>) -> Option<Self> {
         let disks = match fault {
-            Fault::Disk => (0..=ROLES.len())
-                .map(|_| Disk::mount(MEGABYTES))
-                .collect::<Option<_>>()?,
+            Fault::Disk => {
+                let sizes = ROLES.map(|_| MEGABYTES).into_iter();
+                let disks = sizes.chain([FILES_MEGABYTES]).map(Disk::mount);
+                disks.collect::<Option<_>>()?
+            }
             _ => Vec::new(),
         };
         let clocks: Vec<Clock> = match fault {

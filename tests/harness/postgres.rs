@@ -118,13 +118,15 @@ impl Postgres {
         let start = Instant::now();
         while !self.run_psql("postgres", "SELECT 1").status.success() {
             let log = || std::fs::read_to_string(self.folder.path().join("log"));
-            let ended = self.process.try_wait().expect("it is ours");
-            assert!(ended.is_none(), "PostgreSQL ended: {:?}", log());
             assert!(
                 start.elapsed() < SOON,
                 "PostgreSQL does not start: {:?}",
                 log()
             );
+            // A process of a killed one may not have noticed yet.
+            if self.process.try_wait().expect("it is ours").is_some() {
+                self.process = spawn(self.folder.path(), self.port, &self.settings);
+            }
             std::thread::sleep(PAUSE);
         }
     }

@@ -23,7 +23,7 @@ pub enum Role {
 pub struct Process {
     role: Role,
     command: Command,
-    process: Child,
+    running: Child,
     /// Kept open: a server that cannot print ends.
     stdout: Option<BufReader<ChildStdout>>,
     address: String,
@@ -50,11 +50,11 @@ impl Process {
     }
 
     fn run(role: Role, folder: TempDir, mut command: Command) -> Self {
-        let (process, stdout, address) = spawn(role, &mut command);
+        let (running, stdout, address) = spawn(role, &mut command);
         Self {
             role,
             command,
-            process,
+            running,
             stdout,
             address,
             folder,
@@ -71,29 +71,24 @@ impl Process {
     }
 
     pub fn signal(&self, signal: Signal) {
-        kill(Pid::from_raw(self.process.id() as i32), signal).expect("it is ours");
+        kill(Pid::from_raw(self.running.id() as i32), signal).expect("it is ours");
     }
 
     /// Ends it without warning, as a power cut would.
     pub fn kill(&mut self) {
-        self.process.kill().expect("it is ours");
-        self.process.wait().expect("it is ours");
-        clock::forget(self.process.id());
+        self.running.kill().expect("it is ours");
+        self.running.wait().expect("it is ours");
+        clock::forget(self.running.id());
     }
 
     /// Waits until it has stopped, after it was told to.
     pub fn stopped(&mut self) {
-        assert!(self.process.wait().expect("it is ours").success());
-    }
-
-    /// Whether it still runs.
-    pub fn is_alive(&mut self) -> bool {
-        self.process.try_wait().expect("it is ours").is_none()
+        assert!(self.running.wait().expect("it is ours").success());
     }
 
     /// Starts it again on the same folder.
     pub fn restart(&mut self) {
-        (self.process, self.stdout, self.address) = spawn(self.role, &mut self.command);
+        (self.running, self.stdout, self.address) = spawn(self.role, &mut self.command);
     }
 
     /// Starts it again on the same folder, with other environment variables.
@@ -119,9 +114,9 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-        clock::forget(self.process.id());
+        let _ = self.running.kill();
+        let _ = self.running.wait();
+        clock::forget(self.running.id());
     }
 }
 

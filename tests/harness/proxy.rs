@@ -70,26 +70,17 @@ async fn accept(listener: TcpListener, port: u16, state: watch::Receiver<State>)
 
 /// Passes on what comes until the connection ends or is cut.
 async fn pass_on(mut client: TcpStream, port: u16, mut state: watch::Receiver<State>) {
-    let how = match *state.borrow() {
-        State::Whole => None,
-        State::Cut(how) => Some(how),
-    };
-    let how = match how {
-        Some(how) => how,
-        None => {
-            let Ok(mut server) = TcpStream::connect(("127.0.0.1", port)).await else {
-                return;
-            };
-            tokio::select! {
-                _ = copy_bidirectional(&mut client, &mut server) => return,
-                cut = state.wait_for(|state| *state != State::Whole) => match cut.map(|it| *it) {
-                    Ok(State::Cut(how)) => how,
-                    _ => return,
-                },
-            }
+    if *state.borrow() == State::Whole {
+        let Ok(mut server) = TcpStream::connect(("127.0.0.1", port)).await else {
+            return;
+        };
+        tokio::select! {
+            _ = copy_bidirectional(&mut client, &mut server) => return,
+            _ = state.wait_for(|state| *state != State::Whole) => {}
         }
-    };
-    if how == Cut::Silent {
+    }
+    let is_silent = *state.borrow() == State::Cut(Cut::Silent);
+    if is_silent {
         // The server's end is closed by now: what it was sent, it has.
         let _ = state.wait_for(|_| false).await;
     }

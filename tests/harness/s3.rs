@@ -1,7 +1,7 @@
 //! An S3 server of a test's own, as a process of its own: this binary, started again.
 
 use std::net::TcpStream;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
@@ -74,9 +74,14 @@ impl S3 {
             .into()
     }
 
+    /// Where the server keeps the files below the prefix of the service.
+    pub fn root(&self) -> PathBuf {
+        self.folder.path().join(BUCKET).join("jobs")
+    }
+
     /// The files below the prefix of the service, by their keys.
     pub fn objects(&self) -> Vec<String> {
-        let root = self.folder.path().join(BUCKET).join("jobs");
+        let root = self.root();
         let mut found = Vec::new();
         let mut folders = vec![root.clone()];
         while let Some(folder) = folders.pop() {

@@ -12,6 +12,7 @@ mod cluster;
 mod contract;
 mod deforming;
 #[path = "../harness/mod.rs"]
+#[expect(dead_code, reason = "some is for the benchmark")]
 mod harness;
 mod materials;
 mod meshes;

@@ -10,7 +10,7 @@ use crate::meshes;
 use crate::server::{SOON, Server, assert_problem};
 
 /// Waits for something that happens soon.
-async fn soon(what: &str, mut happened: impl FnMut() -> bool) {
+pub async fn soon(what: &str, mut happened: impl FnMut() -> bool) {
     let start = Instant::now();
     while !happened() {
         assert!(start.elapsed() < SOON, "{what}");

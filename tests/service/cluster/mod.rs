@@ -3,6 +3,8 @@
 mod crash;
 mod cuts;
 mod faults;
+mod holders;
+mod judged;
 mod s3;
 mod sharing;
 

@@ -2,6 +2,7 @@
 
 mod faulty;
 mod named;
+mod place;
 mod processes;
 mod promises;
 mod transitions;

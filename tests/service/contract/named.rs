@@ -1,12 +1,11 @@
 //! Failures between files and record, and between record and event: at calls of a name, not by
 //! chance, over both places for records and files.
 
-use std::sync::Arc;
-
 use unwrapd::jobs::{JobId, Reason, State, StoreError, SubmitError, Submitted, Wish};
 
 use super::faulty::{Fault, How};
-use super::processes::{Place, Process, Servers};
+use super::place::{Place, Servers};
+use super::processes::Process;
 use crate::harness::postgres::Postgres;
 use crate::harness::s3::S3;
 
@@ -187,8 +186,8 @@ fn an_end_is_seen_that_nobody_tells(place: &Place) {
 
 /// Removes a job; nothing is left of it.
 fn removed(process: &Process, id: JobId) {
-    let jobs = &process.jobs;
-    let removed = process.runtime.block_on(jobs.remove(id, Reason::Deleted));
+    let jobs = process.jobs();
+    let removed = process.does(jobs.remove(id, Reason::Deleted));
     assert!(removed.expect("an answer"));
     assert_eq!((process.all(), process.owners()), (vec![], vec![]));
 }
@@ -197,21 +196,16 @@ fn death_before_files_go(place: &Place) {
     // A job that waits is cancelled, and one that has ended is removed.
     let cancelled = Fault::first("change", How::After);
     let dying = place.start(0, &cancelled);
-    let id = dying.accepted();
-    let jobs = Arc::clone(&dying.jobs);
-    dying
-        .runtime
-        .spawn(async move { jobs.wish(id, Wish::Cancel).await });
-    dying.die_at(&cancelled);
+    let (id, jobs) = (dying.accepted(), dying.jobs());
+    let cancel = async move { jobs.wish(id, Wish::Cancel).await };
+    dying.die_doing(cancel, &cancelled);
     let removed = Fault::first("delete", How::After);
     let dying = place.start(0, &removed);
     assert_eq!(dying.ended(id).state, State::Cancelled);
     assert_eq!(dying.owners().len(), usize::from(place.is_shared()));
-    let jobs = Arc::clone(&dying.jobs);
-    dying
-        .runtime
-        .spawn(async move { jobs.remove(id, Reason::Deleted).await });
-    dying.die_at(&removed);
+    let jobs = dying.jobs();
+    let remove = async move { jobs.remove(id, Reason::Deleted).await };
+    dying.die_doing(remove, &removed);
     let process = place.start(0, &Fault::none());
     assert_eq!(process.all(), []);
     assert_eq!(process.owners().len(), usize::from(place.is_shared()));
