@@ -110,8 +110,10 @@
 //!
 //! # Units
 //!
-//! A chart's rest shapes are scaled to mean area 1 before they are optimized and back afterward, so that β, ε and
-//! tolerances mean the same for a ring and a city. Faces of zero area get a rest shape of bounded aspect. ε is
+//! A chart's rest shapes are scaled to mean area 1 before they are optimized and back afterward, and so are bodies that
+//! are deformed, which are moved to the origin besides. So β, ε, tolerances and energies mean the same for a ring and a
+//! city. A problem file means its numbers in the unit of its mesh, as those of the authors do, unless it says
+//! `"units": "normalized"`. Faces of zero area get a rest shape of bounded aspect. ε of a chart is
 //! min(10⁻⁵ · smallest rest area, 0.1 · smallest area of the start).
 //!
 //! # Where this differs from what one might expect

@@ -5,6 +5,7 @@ use super::boundary_barrier::BoundaryBarrier;
 use super::handles::{Handle, bind};
 use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
+use super::units::Units;
 use super::untangle::{bad_elements, untangled};
 use crate::barrier::{Barrier, BarrierKind};
 use crate::energy::Term;
@@ -33,6 +34,8 @@ pub struct Problem {
     pub stations: Vec<Handles>,
     /// What `levenberg` is told.
     pub levenberg: LevenbergSettings,
+    /// What β, ε, tolerances and energies are measured in.
+    pub units: Units,
 }
 
 options! {
@@ -121,6 +124,7 @@ impl Problem {
             boundary_barrier: None,
             stations: vec![bind(&body, handles)?],
             levenberg: LevenbergSettings::default(),
+            units: Units::Normalized,
             body,
         };
         problem.guarded(model)

@@ -8,6 +8,7 @@ use super::numbers;
 use super::paired::handles;
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
+use super::units::Units;
 use crate::barrier::BarrierKind;
 use crate::mesh::ElementError;
 use crate::mesh::io::Elements;
@@ -46,6 +47,9 @@ pub struct ProblemFile {
     /// Whether the boundary, too, is kept from crossing itself.
     #[serde(default)]
     pub bijective: bool,
+    /// What β, ε, tolerances and energies are measured in; the unit of the mesh if absent.
+    #[serde(default = "given")]
+    pub units: Units,
     /// Of `levenberg` only: do the targets retreat while the shift is large?
     pub substepping: Option<bool>,
     /// Of `levenberg` only: does α grow?
@@ -60,6 +64,10 @@ pub struct ProblemFile {
     pub min_step: Option<f64>,
     /// Of `levenberg` only: the largest ‖Cx − d‖² that counts as met.
     pub tol: Option<f64>,
+}
+
+fn given() -> Units {
+    Units::Given
 }
 
 fn one() -> f64 {
@@ -124,6 +132,7 @@ impl ProblemFile {
             barrier,
             bound: None,
             boundary_barrier: None,
+            units: self.units,
         };
         problem.untangle_start()?;
         problem.guarded(&model)

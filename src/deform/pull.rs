@@ -7,6 +7,7 @@ use super::locate::sole_vertex;
 use super::paired::{handles, with_points};
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
+use super::units::Units;
 use crate::barrier::epsilon;
 use crate::energy::Row;
 use crate::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
@@ -130,6 +131,7 @@ pub(super) fn pull(
         barrier: model.barrier(&body, Some(epsilon))?,
         stations: vec![holds.handles(&body, start)?],
         levenberg: LevenbergSettings::default(),
+        units: Units::Given,
         body,
     }
     .guarded(model)?;

@@ -5,9 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::boundary_barrier::BoundaryBarrier;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
+use super::units::{Restored, Units};
 use super::worth::Worth;
 use crate::barrier::Barrier;
 use crate::energy::{Positional, Term};
+use crate::numerics::random::Random;
 use crate::solver::{
     Continued, Handles, LevenbergSettings, Objective, Settings, Status, Summary, Watch, follow,
     levenberg,
@@ -67,6 +69,41 @@ impl Problem {
     /// straight try again from the start with all ways bent to one side, and then to the other; the map with the smallest residual is
     /// the solution.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
+        self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))
+    }
+
+    /// The same by the paper's iteration.
+    pub fn solve_by_levenberg(
+        &self,
+        settings: &LevenbergSettings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
+        self.solve_in_units(watch, &|problem, watch| {
+            problem.iterate_softly(settings, watch)
+        })
+    }
+
+    /// Solves the problem in the units in which its numbers are meant.
+    fn solve_in_units(
+        &self,
+        watch: &dyn Watch,
+        solve: &dyn Fn(&Self, &dyn Watch) -> Result<Solution, ProblemError>,
+    ) -> Result<Solution, ProblemError> {
+        match self.units {
+            Units::Given => solve(self, watch),
+            Units::Normalized => {
+                let (inner, frame) = self.normalized();
+                let shown = Restored {
+                    watch,
+                    frame: &frame,
+                };
+                let solution = solve(&inner, &shown)?;
+                Ok(self.restored(&frame, &inner, solution))
+            }
+        }
+    }
+
+    fn solve_ways(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
         let mut best = self.solve_along(0.0, settings, watch)?;
         if self.boundary_barrier.is_none() {
             return Ok(best);
@@ -109,8 +146,7 @@ impl Problem {
         Ok(self.solution(x, total))
     }
 
-    /// The same by the paper's iteration.
-    pub fn solve_by_levenberg(
+    fn iterate_softly(
         &self,
         settings: &LevenbergSettings,
         watch: &dyn Watch,
@@ -170,27 +206,30 @@ impl Problem {
         Some(self.boundary_barrier.as_ref()?.with_beta(beta))
     }
 
-    /// Moves free vertices a little, the same way each time, if that leaves the map inside the domain.
+    /// Moves free vertices a little, each toward another one drawn from a fixed seed: the same way in
+    /// any unit, place and direction. Only if that leaves the map inside the domain.
     fn shake(&self, objective: &Objective, x: &mut [f64]) {
-        let dim = self.body.dim();
-        let smallest = self
-            .body
-            .determinants()
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
+        let (dim, n_vertices) = (self.body.dim(), self.body.n_vertices());
+        let sizes = self.body.determinants().into_iter();
+        let smallest = sizes.fold(f64::INFINITY, f64::min);
         let amplitude = SHAKE * smallest.powf(1.0 / dim as f64);
-        let mut is_held = vec![false; self.body.n_vertices()];
+        let mut is_held = vec![false; n_vertices];
         for &v in self.stations.iter().flat_map(|handles| &handles.vertices) {
             is_held[v as usize] = true;
         }
-        let move_of = |i: usize| {
-            if is_held[i / dim] {
-                0.0
-            } else {
-                amplitude * (12.9898 * (i + 1) as f64).sin()
+        let mut random = Random::new(0);
+        let mut moves = vec![0.0; x.len()];
+        for v in 0..n_vertices {
+            let (other, share) = (random.below(n_vertices), random.unit());
+            let way = |k: usize| x[dim * other + k] - x[dim * v + k];
+            let length = (0..dim).map(|k| way(k) * way(k)).sum::<f64>().sqrt();
+            if is_held[v] || length == 0.0 {
+                continue;
             }
-        };
-        let moves: Vec<f64> = (0..x.len()).map(move_of).collect();
+            for k in 0..dim {
+                moves[dim * v + k] = amplitude * share * way(k) / length;
+            }
+        }
         if objective.largest_step(x, &moves) > 1.0 {
             for (x, d) in x.iter_mut().zip(moves) {
                 *x += d;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::problem::Problem;
+use super::units::Units;
 use crate::barrier::Barrier;
 use crate::energy::{Positional, Term};
 use crate::solver::Handles;
@@ -11,11 +12,12 @@ use crate::solver::Handles;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Worth {
-    /// The deformation energy, without the barrier.
+    /// The deformation energy, without the barrier; for a mean element of area or volume 1 unless the
+    /// problem is meant in the unit of its mesh.
     pub energy: f64,
     /// The barrier's share, β included.
     pub barrier: f64,
-    /// The sum of the squared distances of the handles from their targets.
+    /// The sum of the squared distances of the handles from their targets, in the unit of the mesh.
     pub residual: f64,
     /// Elements whose determinant is not positive.
     pub inverted: usize,
@@ -26,6 +28,17 @@ pub struct Worth {
 impl Problem {
     /// Judges a map, whatever made it.
     pub fn worth(&self, x: &[f64]) -> Worth {
+        match self.units {
+            Units::Given => self.worth_as_given(x),
+            Units::Normalized => {
+                let (inner, frame) = self.normalized();
+                let worth = inner.worth_as_given(&frame.inward(x));
+                frame.restored(worth)
+            }
+        }
+    }
+
+    fn worth_as_given(&self, x: &[f64]) -> Worth {
         let terms = |barrier| self.energy.terms(&self.body, barrier, None);
         let unmodified = terms(Barrier::NONE).unwrap_or_default();
         let guarded = terms(self.barrier).unwrap_or_default();

@@ -41,6 +41,17 @@ impl RestShape<3> {
 }
 
 impl<const D: usize> RestShape<D> {
+    /// The same shape where lengths are measured in this unit.
+    #[must_use]
+    pub fn in_unit(&self, unit: f64) -> Self {
+        let size = unit.powi(D as i32);
+        Self {
+            inverse: self.inverse.map(|row| row.map(|x| x * unit)),
+            size: self.size / size,
+            weight: self.weight / size,
+        }
+    }
+
     /// The element with these edges from v₀, whose size is `share` of their determinant.
     fn of(edges: Matrix<D>, share: f64) -> Self
     where

@@ -26,6 +26,7 @@ mod document;
 #[cfg(feature = "files")]
 mod early_end;
 mod elements;
+mod elsewhere;
 mod embed;
 mod energy;
 mod given_back;
@@ -74,6 +75,7 @@ mod terms;
 mod texture_mapping;
 mod threads;
 mod unfolding;
+mod units;
 mod untangle;
 #[cfg(feature = "files")]
 mod unwrapped_polygons;

@@ -1,7 +1,7 @@
 //! Bodies with handles that bend and twist them.
 
 use unwrapd::barrier::{Barrier, BarrierKind};
-use unwrapd::deform::{Body, DeformationEnergy, Problem};
+use unwrapd::deform::{Body, DeformationEnergy, Problem, Units};
 use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::solver::{Handles, LevenbergSettings};
 
@@ -73,6 +73,7 @@ pub fn problem(
             ..Handles::default()
         }],
         levenberg: LevenbergSettings::default(),
+        units: Units::Given,
         body,
     }
 }
