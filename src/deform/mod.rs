@@ -15,6 +15,7 @@ mod handles;
 mod idle;
 mod locate;
 mod model;
+mod normalized;
 mod numbers;
 #[cfg(feature = "files")]
 pub mod outline;
@@ -24,6 +25,7 @@ mod problem_error;
 #[cfg(feature = "files")]
 mod problem_file;
 mod pull;
+mod shake;
 mod solve;
 mod units;
 mod untangle;

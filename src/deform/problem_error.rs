@@ -3,6 +3,7 @@
 use crate::mesh::ElementError;
 #[cfg(feature = "files")]
 use crate::mesh::io::ReadError;
+use crate::solver::HandlesError;
 
 /// Why a problem cannot be solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -30,6 +31,9 @@ pub enum ProblemError {
         /// How many there are.
         n_vertices: usize,
     },
+    /// The handles of a problem do not fit each other or the body.
+    #[error(transparent)]
+    Handles(#[from] HandlesError),
     /// There is nothing to pull at.
     #[error("there is no handle")]
     NoHandle,
@@ -119,6 +123,7 @@ impl ProblemError {
             Self::Read(error) => error.code(),
             Self::Element(error) => error.code(),
             Self::UnknownHandle { .. } => "unknown_handle",
+            Self::Handles(error) => error.code(),
             Self::NoHandle => "no_handle",
             Self::HandleOutside { .. } => "handle_outside",
             Self::VertexOfCage { .. } => "vertex_of_cage",

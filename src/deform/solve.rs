@@ -3,13 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::boundary_barrier::BoundaryBarrier;
+use super::normalized::{Frame, Restored};
 use super::problem::Problem;
 use super::problem_error::ProblemError;
-use super::units::{Restored, Units};
+use super::units::Units;
 use super::worth::Worth;
 use crate::barrier::Barrier;
 use crate::energy::{Positional, Term};
-use crate::numerics::random::Random;
 use crate::solver::{
     Continued, Handles, LevenbergSettings, Objective, Settings, Status, Summary, Watch, follow,
     levenberg,
@@ -57,10 +57,6 @@ impl Solution {
 /// other at half the distance that they had.
 const BENDS: [f64; 2] = [0.5, -0.5];
 
-/// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's edge, so that a
-/// straight bar that is pressed at once buckles instead of staying on the saddle that its symmetry keeps it on.
-const SHAKE: f64 = 1e-3;
-
 impl Problem {
     /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`]). With a barrier
     /// every iterate is without inversion.
@@ -89,6 +85,9 @@ impl Problem {
         watch: &dyn Watch,
         solve: &dyn Fn(&Self, &dyn Watch) -> Result<Solution, ProblemError>,
     ) -> Result<Solution, ProblemError> {
+        for handles in &self.stations {
+            handles.check(self.body.dim(), self.start.len())?;
+        }
         match self.units {
             Units::Given => solve(self, watch),
             Units::Normalized => {
@@ -98,8 +97,28 @@ impl Problem {
                     frame: &frame,
                 };
                 let solution = solve(&inner, &shown)?;
-                Ok(self.restored(&frame, &inner, solution))
+                Ok(self.restored(&frame, &inner, &solution))
             }
+        }
+    }
+
+    /// A solution of the normalized problem as one of this. What stands at its target there does so here
+    /// to the bit.
+    fn restored(&self, frame: &Frame, inner: &Self, solution: &Solution) -> Solution {
+        let mut x = frame.outward(&solution.x);
+        let dim = self.body.dim();
+        if let (Some(given), Some(normalized)) = (self.stations.last(), inner.stations.last()) {
+            for (i, &v) in given.vertices.iter().enumerate() {
+                let (place, target) = (dim * v as usize, dim * i);
+                if solution.x[place..place + dim] == normalized.targets[target..target + dim] {
+                    x[place..place + dim].copy_from_slice(&given.targets[target..target + dim]);
+                }
+            }
+        }
+        Solution {
+            x,
+            worth: solution.worth.restored(frame),
+            summary: solution.summary,
         }
     }
 
@@ -142,7 +161,7 @@ impl Problem {
         let stations: Vec<Handles> = stations
             .map(|handles| Handles { bend, ..handles })
             .collect();
-        let total = follow(&mut objective, &mut x, &stations, settings, watch);
+        let total = follow(&mut objective, &mut x, &stations, settings, watch)?;
         Ok(self.solution(x, total))
     }
 
@@ -204,37 +223,6 @@ impl Problem {
     pub(super) fn boundary_term(&self) -> Option<BoundaryBarrier> {
         let beta = self.barrier.beta * self.energy.mean_weight(&self.body);
         Some(self.boundary_barrier.as_ref()?.with_beta(beta))
-    }
-
-    /// Moves free vertices a little, each toward another one drawn from a fixed seed: the same way in
-    /// any unit, place and direction. Only if that leaves the map inside the domain.
-    fn shake(&self, objective: &Objective, x: &mut [f64]) {
-        let (dim, n_vertices) = (self.body.dim(), self.body.n_vertices());
-        let sizes = self.body.determinants().into_iter();
-        let smallest = sizes.fold(f64::INFINITY, f64::min);
-        let amplitude = SHAKE * smallest.powf(1.0 / dim as f64);
-        let mut is_held = vec![false; n_vertices];
-        for &v in self.stations.iter().flat_map(|handles| &handles.vertices) {
-            is_held[v as usize] = true;
-        }
-        let mut random = Random::new(0);
-        let mut moves = vec![0.0; x.len()];
-        for v in 0..n_vertices {
-            let (other, share) = (random.below(n_vertices), random.unit());
-            let way = |k: usize| x[dim * other + k] - x[dim * v + k];
-            let length = (0..dim).map(|k| way(k) * way(k)).sum::<f64>().sqrt();
-            if is_held[v] || length == 0.0 {
-                continue;
-            }
-            for k in 0..dim {
-                moves[dim * v + k] = amplitude * share * way(k) / length;
-            }
-        }
-        if objective.largest_step(x, &moves) > 1.0 {
-            for (x, d) in x.iter_mut().zip(moves) {
-                *x += d;
-            }
-        }
     }
 
     fn solution(&self, x: Vec<f64>, summary: Summary) -> Solution {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::normalized::Frame;
 use super::problem::Problem;
 use super::units::Units;
 use crate::barrier::Barrier;
@@ -25,6 +26,16 @@ pub struct Worth {
     pub smallest: f64,
 }
 
+impl Worth {
+    /// That of a normalized map, with distances as they were given.
+    pub(super) fn restored(self, frame: &Frame) -> Self {
+        Self {
+            residual: frame.squared(self.residual),
+            ..self
+        }
+    }
+}
+
 impl Problem {
     /// Judges a map, whatever made it.
     pub fn worth(&self, x: &[f64]) -> Worth {
@@ -32,8 +43,7 @@ impl Problem {
             Units::Given => self.worth_as_given(x),
             Units::Normalized => {
                 let (inner, frame) = self.normalized();
-                let worth = inner.worth_as_given(&frame.inward(x));
-                frame.restored(worth)
+                inner.worth_as_given(&frame.inward(x)).restored(&frame)
             }
         }
     }

@@ -1,8 +1,9 @@
 //! Handles pulled to their targets, every iterate a valid map.
 
+use super::handles::{Handles, HandlesError};
 use super::newton::minimize_with;
 use super::objective::Objective;
-use super::path::{Handles, Rotation};
+use super::path::Rotation;
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
 use super::travel::{SOFT, Travel};
@@ -43,16 +44,32 @@ const HARD: f64 = 1e9;
 /// Points inside elements are the soft constraints of an [`Objective::constrained`] made of [`Handles::points`]. Their strength
 /// is relative to the energy's curvature and grows once the targets are reached, one short minimization for each
 /// decade.
+///
+/// # Errors
+/// If handles do not fit each other or the map. Then `x` is as it was.
 pub fn follow<const D: usize>(
     objective: &mut Objective,
     x: &mut [f64],
     stations: &[Handles],
     settings: &Settings,
     watch: &dyn Watch,
-) -> Summary
+) -> Result<Summary, HandlesError>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
+    let constraints = objective
+        .constraints()
+        .map_or(0, |points| points.rows.len());
+    for handles in stations {
+        handles.check(D, x.len())?;
+        let points = handles.points.len();
+        if points != constraints {
+            return Err(HandlesError::Points {
+                points,
+                constraints,
+            });
+        }
+    }
     let mut total = Summary::at_start(objective.value(x));
     let mut relaxation = Relaxation::new(settings.projection);
     for handles in stations {
@@ -61,7 +78,7 @@ where
             before: total.iterations,
         };
         objective.fix(&handles.vertices);
-        let mut travel = Travel::<D>::new(objective, x, handles, relaxation);
+        let mut travel = Travel::<D>::new(objective, x, handles, relaxation)?;
         travel.arrive(objective, x, settings, &counted);
         relaxation = travel.relaxation;
         total = total.followed_by(&travel.summary);
@@ -69,7 +86,7 @@ where
             break;
         }
     }
-    total
+    Ok(total)
 }
 
 impl<const D: usize> Travel<'_, D>

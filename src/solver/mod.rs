@@ -18,6 +18,7 @@
 
 mod directions;
 mod follow;
+mod handles;
 mod held;
 mod levenberg;
 mod line_search;
@@ -35,10 +36,11 @@ mod trust_region;
 mod watch;
 
 pub use follow::follow;
+pub use handles::{Handles, HandlesError};
 pub use levenberg::{LevenbergSettings, levenberg};
 pub use newton::minimize;
 pub use objective::Objective;
-pub use path::{Handles, Path, Rotation};
+pub use path::{Path, Rotation};
 pub use scale::best_scale;
 pub use settings::{Projection, Settings, Status, Summary};
 pub use watch::{Continued, Control, Iterate, Watch};

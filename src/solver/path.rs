@@ -1,27 +1,8 @@
 //! How handles travel to their targets.
 
-use crate::energy::Row;
+use super::handles::{Handles, HandlesError};
 use crate::numerics::square::{Matrix, Square, apply, identity, times, transposed};
 use crate::numerics::vec3;
-
-/// Vertices that must come to given positions.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Handles {
-    /// The vertices, each once.
-    pub vertices: Vec<u32>,
-    /// Their targets, coordinates one after another.
-    pub targets: Vec<f64>,
-    /// The number of the group of each vertex: those of a group, a disc of vertices or the end of a bar, travel as a rigid
-    /// body as far as their targets allow, so that no element between them is crushed on the way.
-    pub groups: Vec<u32>,
-    /// Points inside elements that must come to given positions too: held by soft constraints that harden in the end.
-    pub points: Vec<Row>,
-    /// Their targets, coordinates one after another.
-    pub point_targets: Vec<f64>,
-    /// How far every way, of a group or a point, bends to its left, in halves of its length; in the plane only. 0 is straight;
-    /// otherwise those that change places pass each other.
-    pub bend: f64,
-}
 
 /// The way of handles from where they are to their targets, as a function of s from 0 to 1.
 ///
@@ -46,29 +27,34 @@ where
     Matrix<D>: Square<D> + Rotation<D>,
 {
     /// From the positions in `x`.
-    pub fn new(handles: &Handles, x: &[f64]) -> Self {
-        let n_groups = handles.groups.iter().max().map_or(0, |&g| g as usize + 1);
+    ///
+    /// # Errors
+    /// If the handles do not fit each other or `x`.
+    pub fn new(handles: &Handles, x: &[f64]) -> Result<Self, HandlesError> {
+        handles.check(D, x.len())?;
+        let groups = handles.groups();
+        let n_groups = groups.iter().max().map_or(0, |&g| g as usize + 1);
         let at = |v: u32| -> [f64; D] { std::array::from_fn(|k| x[D * v as usize + k]) };
         let target = |i: usize| -> [f64; D] { std::array::from_fn(|k| handles.targets[D * i + k]) };
         let mut members = vec![Vec::new(); n_groups];
-        for (i, (&v, &g)) in handles.vertices.iter().zip(&handles.groups).enumerate() {
+        for (i, (&v, &g)) in handles.vertices.iter().zip(&*groups).enumerate() {
             members[g as usize].push((at(v), target(i)));
         }
-        let groups: Vec<_> = members
+        let motions: Vec<_> = members
             .iter()
             .map(|m| RigidMotion::fit(m, handles.bend))
             .collect();
-        let placed = handles.vertices.iter().zip(&handles.groups).enumerate();
+        let placed = handles.vertices.iter().zip(&*groups).enumerate();
         let handles = placed.map(|(i, (&v, &g))| {
-            let motion = &groups[g as usize];
+            let motion = &motions[g as usize];
             let arm = difference(at(v), motion.from);
             let rest = difference(target(i), motion.place(arm, 1.0));
             (g as usize, arm, rest)
         });
-        Self {
+        Ok(Self {
             handles: handles.collect(),
-            groups,
-        }
+            groups: motions,
+        })
     }
 
     /// Where handle `i` is at `s`.

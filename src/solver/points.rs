@@ -1,7 +1,8 @@
 //! Points inside elements on their way to their targets: soft constraints of an objective.
 
+use super::handles::Handles;
 use super::objective::Objective;
-use super::path::{Handles, aside};
+use super::path::aside;
 
 /// Points that travel straight or on a bend, held by a strength relative to the energy's curvature.
 pub(super) struct Points {

@@ -1,9 +1,10 @@
 //! Handles on their way: advances along their path, each together with a Newton step of the rest.
 
+use super::handles::{Handles, HandlesError};
 use super::line_search::{Search, line_search};
 use super::newton_direction::newton_direction;
 use super::objective::Objective;
-use super::path::{Handles, Path, Rotation};
+use super::path::{Path, Rotation};
 use super::points::Points;
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
@@ -60,10 +61,10 @@ where
         x: &[f64],
         handles: &'a Handles,
         relaxation: Relaxation,
-    ) -> Self {
-        Self {
+    ) -> Result<Self, HandlesError> {
+        Ok(Self {
             handles,
-            path: Path::new(handles, x),
+            path: Path::new(handles, x)?,
             points: Points::new(objective, x, handles),
             s: 0.0,
             stride: FIRST_ADVANCE,
@@ -72,7 +73,7 @@ where
             newton: vec![0.0; x.len()],
             direction: vec![0.0; x.len()],
             trial: vec![0.0; x.len()],
-        }
+        })
     }
 
     /// Lets the next advance be long again, since the map has settled.

@@ -280,7 +280,7 @@ fn a_group_travels_as_a_rigid_body() {
         ..Handles::default()
     };
     let x = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0];
-    let path = Path::<3>::new(&handles, &x);
+    let path = Path::<3>::new(&handles, &x).expect("handles of the map");
     let distance =
         |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
     for s in [0.0, 0.2, 0.5, 0.9, 1.0] {

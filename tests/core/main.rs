@@ -31,6 +31,7 @@ mod embed;
 mod energy;
 mod given_back;
 mod given_seams;
+mod handles;
 #[cfg(feature = "files")]
 mod io;
 mod layers;

@@ -80,5 +80,5 @@ fn main() {
         &Settings::follow(),
         &watch,
     );
-    println!("{summary:?}");
+    println!("{:?}", summary.expect("handles of the strip"));
 }

@@ -1,0 +1,136 @@
+//! What is pulled, and to where.
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+use crate::energy::Row;
+
+/// Vertices that must come to given positions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Handles {
+    /// The vertices, each once.
+    pub vertices: Vec<u32>,
+    /// Their targets, coordinates one after another.
+    pub targets: Vec<f64>,
+    /// The number of the group of each vertex: those of a group, a disc of vertices or the end of a bar, travel as a rigid
+    /// body as far as their targets allow, so that no element between them is crushed on the way. If there is none, each
+    /// vertex travels alone.
+    pub groups: Vec<u32>,
+    /// Points inside elements that must come to given positions too: held by soft constraints that harden in the end.
+    pub points: Vec<Row>,
+    /// Their targets, coordinates one after another.
+    pub point_targets: Vec<f64>,
+    /// How far every way, of a group or a point, bends to its left, in halves of its length; in the plane only. 0 is straight;
+    /// otherwise those that change places pass each other.
+    pub bend: f64,
+}
+
+/// Handles that do not fit each other or the map.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum HandlesError {
+    /// Not every handle has one target of as many coordinates as the map.
+    #[error("{handles} handles have {found} coordinates of targets, not {dim} each")]
+    Targets {
+        /// How many vertices or points are pulled.
+        handles: usize,
+        /// Numbers found.
+        found: usize,
+        /// Coordinates of a position.
+        dim: usize,
+    },
+    /// Not every handle has a group.
+    #[error("{vertices} vertices have {groups} groups")]
+    Groups {
+        /// How many vertices.
+        vertices: usize,
+        /// How many groups.
+        groups: usize,
+    },
+    /// A handle names a vertex that there is not.
+    #[error("a handle names vertex {vertex}, but there are only {n_vertices} vertices")]
+    UnknownVertex {
+        /// The vertex.
+        vertex: u32,
+        /// How many there are.
+        n_vertices: usize,
+    },
+    /// Two handles name one vertex.
+    #[error("vertex {vertex} has two handles")]
+    Twice {
+        /// The vertex.
+        vertex: u32,
+    },
+    /// The objective has not as many soft constraints as there are points.
+    #[error("{points} points are pulled, but the objective has {constraints} soft constraints")]
+    Points {
+        /// How many points.
+        points: usize,
+        /// How many constraints.
+        constraints: usize,
+    },
+    /// A target or a bend is infinite or not a number.
+    #[error("a target or a bend is not finite")]
+    NotFinite,
+}
+
+impl HandlesError {
+    /// A word for programs; it does not change.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Targets { .. } | Self::Groups { .. } | Self::Points { .. } => "unpaired_handles",
+            Self::UnknownVertex { .. } => "unknown_handle",
+            Self::Twice { .. } => "contradictory_handles",
+            Self::NotFinite => "bad_target",
+        }
+    }
+}
+
+impl Handles {
+    /// Checks that they fit each other and a map of so many coordinates, `dim` to a vertex.
+    ///
+    /// # Errors
+    /// The first misfit that is found.
+    pub fn check(&self, dim: usize, n_coordinates: usize) -> Result<(), HandlesError> {
+        let pairs = [
+            (self.vertices.len(), self.targets.len()),
+            (self.points.len(), self.point_targets.len()),
+        ];
+        for (handles, found) in pairs {
+            if found != dim * handles {
+                return Err(HandlesError::Targets {
+                    handles,
+                    found,
+                    dim,
+                });
+            }
+        }
+        let (vertices, groups) = (self.vertices.len(), self.groups.len());
+        if groups != 0 && groups != vertices {
+            return Err(HandlesError::Groups { vertices, groups });
+        }
+        let n_vertices = n_coordinates / dim;
+        let of_points = self.points.iter().flatten().map(|(vertex, _)| vertex);
+        let mut named = self.vertices.iter().chain(of_points);
+        if let Some(&vertex) = named.find(|&&vertex| n_vertices <= vertex as usize) {
+            return Err(HandlesError::UnknownVertex { vertex, n_vertices });
+        }
+        let mut seen = HashSet::new();
+        if let Some(&vertex) = self.vertices.iter().find(|&vertex| !seen.insert(vertex)) {
+            return Err(HandlesError::Twice { vertex });
+        }
+        let mut numbers = self.targets.iter().chain(&self.point_targets);
+        if !(numbers.all(|x| x.is_finite()) && self.bend.is_finite()) {
+            return Err(HandlesError::NotFinite);
+        }
+        Ok(())
+    }
+
+    /// The group of each vertex.
+    pub(super) fn groups(&self) -> Cow<'_, [u32]> {
+        if self.groups.is_empty() {
+            (0..self.vertices.len() as u32).collect()
+        } else {
+            Cow::Borrowed(&self.groups)
+        }
+    }
+}
