@@ -11,7 +11,7 @@ async fn drain(server: &Server, method: &str) -> serde_json::Value {
 #[tokio::test]
 async fn a_drained_service_ends_what_runs_and_starts_nothing() {
     let server = Server::with(&[("UNWRAPD_WORKERS", "1")]);
-    let running = server.submit(meshes::large(), "cut=disk").await;
+    let running = server.submit(meshes::hills(250), "cut=disk").await;
     let waiting = server.submit(meshes::small(), "").await;
     server.mapping(&running).await;
     let state = drain(&server, "PUT").await;
