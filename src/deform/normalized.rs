@@ -4,6 +4,8 @@
 //! has size 1 and the body lies around the origin. A problem is taken there, solved, and brought
 //! back; whoever poses it and sees its solution does not notice.
 
+use std::cell::RefCell;
+
 use super::body::{Body, BodyElements};
 use super::boundary_barrier::BoundaryBarrier;
 use super::problem::Problem;
@@ -47,11 +49,12 @@ impl Frame {
     }
 
     pub fn outward(&self, x: &[f64]) -> Vec<f64> {
+        self.places(x).collect()
+    }
+
+    fn places<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         let origin = self.origin.iter().cycle();
-        x.iter()
-            .zip(origin)
-            .map(|(x, o)| o + x * self.unit)
-            .collect()
+        x.iter().zip(origin).map(|(x, o)| o + x * self.unit)
     }
 
     /// A squared distance as one of those that were given.
@@ -118,8 +121,20 @@ impl Problem {
 
 /// Shows the iterates of a normalized problem to who posed it.
 pub(super) struct Restored<'a> {
-    pub watch: &'a dyn Watch,
-    pub frame: &'a Frame,
+    watch: &'a dyn Watch,
+    frame: &'a Frame,
+    /// Room for positions, so that iterations allocate nothing.
+    x: RefCell<Vec<f64>>,
+}
+
+impl<'a> Restored<'a> {
+    pub fn to(watch: &'a dyn Watch, frame: &'a Frame) -> Self {
+        Self {
+            watch,
+            frame,
+            x: RefCell::default(),
+        }
+    }
 }
 
 impl Watch for Restored<'_> {
@@ -131,6 +146,9 @@ impl Watch for Restored<'_> {
     }
 
     fn positions(&self, x: &[f64]) {
-        self.watch.positions(&self.frame.outward(x));
+        let mut restored = self.x.borrow_mut();
+        restored.clear();
+        restored.extend(self.frame.places(x));
+        self.watch.positions(&restored);
     }
 }

@@ -92,10 +92,7 @@ impl Problem {
             Units::Given => solve(self, watch),
             Units::Normalized => {
                 let (inner, frame) = self.normalized();
-                let shown = Restored {
-                    watch,
-                    frame: &frame,
-                };
+                let shown = Restored::to(watch, &frame);
                 let solution = solve(&inner, &shown)?;
                 Ok(self.restored(&frame, &inner, &solution))
             }
