@@ -16,7 +16,8 @@ impl Jobs {
     }
 
     /// Ends a new job with copies of what an equal one made, if there is one. A copy that fails is
-    /// no reason to refuse the job: the result can be computed.
+    /// no reason to refuse the job: the result can be computed. What was copied by then is removed with
+    /// the job.
     pub(super) async fn reuse(&self, job: &mut Job) {
         match self.copy_equal(job).await {
             Ok(Some(earlier)) => {
