@@ -1,5 +1,7 @@
 //! What SQLite and PostgreSQL say differently.
 
+use super::rows::COLUMNS;
+
 /// The database engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
@@ -35,14 +37,15 @@ impl Dialect {
         }
     }
 
-    /// A statement with what differs filled in: `{now}`, the clock; `{locked}`, keeping rows after
+    /// A statement with `{columns}` of a job, and with what differs filled in: `{now}`, the clock; `{locked}`, keeping rows after
     /// waiting for others; `{free}`, keeping the rows that no other transaction keeps.
     pub fn sql(self, text: &str) -> String {
         let (locked, free) = match self {
             Self::Sqlite => ("", ""),
             Self::Postgres => ("FOR UPDATE", "FOR UPDATE SKIP LOCKED"),
         };
-        text.replace("{now}", self.now())
+        text.replace("{columns}", COLUMNS)
+            .replace("{now}", self.now())
             .replace("{locked}", locked)
             .replace("{free}", free)
     }

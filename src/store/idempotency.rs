@@ -2,6 +2,7 @@
 
 use sqlx::{Any, Row, Transaction};
 
+use super::database::Database;
 use super::rows;
 use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult, Timestamp};
 
@@ -10,6 +11,7 @@ const LIFE_MS: i64 = 86_400_000;
 
 /// What a key was used for before, if it was. Forgets the keys that are too old by now.
 pub(super) async fn earlier_use(
+    database: &Database,
     key: &IdempotencyKey,
     now: Timestamp,
     transaction: &mut Transaction<'_, Any>,
@@ -18,13 +20,13 @@ pub(super) async fn earlier_use(
         .bind(now.0 - LIFE_MS)
         .execute(&mut **transaction)
         .await?;
-    let row = sqlx::query(
-        "SELECT job.*, fingerprint
-         FROM idempotency JOIN job ON job.id = idempotency.job WHERE key = $1",
-    )
-    .bind(&key.key)
-    .fetch_optional(&mut **transaction)
-    .await?;
+    let used = "SELECT {columns}, fingerprint FROM job
+         JOIN (SELECT job AS of_key, fingerprint FROM idempotency WHERE key = $1) AS used
+         ON id = of_key";
+    let row = sqlx::query(database.sql(used))
+        .bind(&key.key)
+        .fetch_optional(&mut **transaction)
+        .await?;
     let Some(row) = row else {
         return Ok(None);
     };

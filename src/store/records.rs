@@ -58,7 +58,8 @@ impl RecordStore {
         (job.created, job.due) = (now, now);
         job.finished = job.finished.map(|_| now);
         if let Some(key) = key
-            && let Some(earlier) = idempotency::earlier_use(key, now, &mut transaction).await?
+            && let Some(earlier) =
+                idempotency::earlier_use(&self.database, key, now, &mut transaction).await?
         {
             return Ok(earlier);
         }
@@ -92,16 +93,15 @@ impl RecordStore {
     }
 
     async fn page(&self, listing: Listing) -> StoreResult<Vec<Job>> {
-        let found = sqlx::query(
-            "SELECT * FROM job
+        let page = "SELECT {columns} FROM job
              WHERE ephemeral = 0 AND ($1 = '' OR state = $1) AND ($2 = '' OR id < $2)
-             ORDER BY id DESC LIMIT $3",
-        )
-        .bind(listing.state.map_or("", State::word))
-        .bind(listing.before.map_or_else(String::new, |id| id.to_string()))
-        .bind(i64::from(listing.limit))
-        .fetch_all(&self.database.readers)
-        .await?;
+             ORDER BY id DESC LIMIT $3";
+        let found = sqlx::query(self.database.sql(page))
+            .bind(listing.state.map_or("", State::word))
+            .bind(listing.before.map_or_else(String::new, |id| id.to_string()))
+            .bind(i64::from(listing.limit))
+            .fetch_all(&self.database.readers)
+            .await?;
         jobs(&found)
     }
 
@@ -176,7 +176,8 @@ impl JobStore for RecordStore {
 
     fn get(&self, id: JobId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
         bounded(async move {
-            let row = sqlx::query("SELECT * FROM job WHERE id = $1")
+            let job = self.database.sql("SELECT {columns} FROM job WHERE id = $1");
+            let row = sqlx::query(job)
                 .bind(id.to_string())
                 .fetch_optional(&self.database.readers)
                 .await?;
@@ -194,13 +195,13 @@ impl JobStore for RecordStore {
 
     fn equal<'a>(&'a self, digest: &'a str) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
         bounded(async move {
-            let found = sqlx::query(
-                "SELECT * FROM job WHERE digest = $1 AND state = 'succeeded' AND ephemeral = 0
-                 ORDER BY id DESC LIMIT 4",
-            )
-            .bind(digest)
-            .fetch_all(&self.database.readers)
-            .await?;
+            let equal = "SELECT {columns} FROM job
+                 WHERE digest = $1 AND state = 'succeeded' AND ephemeral = 0
+                 ORDER BY id DESC LIMIT 4";
+            let found = sqlx::query(self.database.sql(equal))
+                .bind(digest)
+                .fetch_all(&self.database.readers)
+                .await?;
             jobs(&found)
         })
     }

@@ -7,6 +7,13 @@ use sqlx::{Any, Row, Transaction};
 
 use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 
+/// The columns of a job, each by its name: a statement for all columns would fail in processes that
+/// go on while a newer program adds one.
+pub(super) const COLUMNS: &str =
+    "id, kind, state, options, input, output, verdict, attempt, digest,
+    priority, token, worker, lease, due, lost, cancel, finish_early, ephemeral, seq, progress,
+    failure, created, started, finished";
+
 /// Adds a job that nobody works on.
 pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
     sqlx::query(
@@ -120,7 +127,7 @@ fn time(row: &AnyRow, column: &str) -> StoreResult<Option<Timestamp>> {
     Ok(ms.map(Timestamp))
 }
 
-/// The job that a row of `SELECT * FROM job` holds.
+/// The job that a row with its [`COLUMNS`] holds.
 pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
     let text = |column| row.try_get::<String, _>(column).map_err(damaged);
     let number = |column| row.try_get::<i64, _>(column).map_err(damaged);

@@ -41,7 +41,7 @@ pub(super) async fn claim(
         return Ok(None);
     }
     let first = database.sql(&format!(
-        "SELECT *, {{now}} AS now FROM job WHERE {DUE} ORDER BY priority DESC, id LIMIT 1 {{free}}"
+        "SELECT {{columns}}, {{now}} AS now FROM job WHERE {DUE} ORDER BY priority DESC, id LIMIT 1 {{free}}"
     ));
     let mut transaction = database.begin().await?;
     let row = sqlx::query(first)
@@ -111,7 +111,7 @@ pub(super) async fn sweep(
             return Ok(all);
         }
         let found = database.sql(&format!(
-            "SELECT *, {{now}} AS now FROM job WHERE {meant} ORDER BY id LIMIT $2 {{free}}"
+            "SELECT {{columns}}, {{now}} AS now FROM job WHERE {meant} ORDER BY id LIMIT $2 {{free}}"
         ));
         let mut transaction = database.begin().await?;
         let rows = sqlx::query(found)
@@ -167,7 +167,7 @@ async fn changed(
     rules: &Rules,
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Changed> {
-    let row = database.sql("SELECT *, {now} AS now FROM job WHERE id = $1 {locked}");
+    let row = database.sql("SELECT {columns}, {now} AS now FROM job WHERE id = $1 {locked}");
     let row = sqlx::query(row)
         .bind(id.to_string())
         .fetch_optional(&mut **transaction)

@@ -73,6 +73,46 @@ async fn postgres_keeps_all_promises() {
     }
 }
 
+/// During a rolling update a newer program adds columns while older ones go on.
+#[tokio::test]
+async fn a_newer_schema_does_not_disturb_who_has_used_the_older_one() {
+    let postgres = Postgres::start();
+    let url = postgres.database("updated");
+    let store = RecordStore::open(&url, RULES).await.expect("a store");
+    let key = IdempotencyKey {
+        key: "a key".to_owned(),
+        fingerprint: "a mesh".to_owned(),
+    };
+    let use_all = async || {
+        let new = job();
+        let made = store.enqueue(&new, Some(&key), ROOM).await;
+        made.expect("an answer");
+        for _ in 0..2 {
+            enqueued(&store, &job()).await;
+        }
+        let claimed = claim(&store).await.expect("it waits");
+        let beat = (claimed.id, claimed.token, saying(claimed.seq, 0.5));
+        store.beat(&[beat]).await.expect("an answer");
+        succeed(&store, &claimed).await;
+        get(&store, claimed.id).await;
+        let listing = Listing {
+            state: None,
+            before: None,
+            limit: 9,
+        };
+        store.list(listing).await.expect("an answer");
+        store.equal("cd").await.expect("an answer");
+        store.events(&[claimed.id]).await.expect("an answer");
+        claim(&store).await.expect("it waits");
+        store.sweep(Sweep::Abandoned).await.expect("an answer");
+        claim_soon(&store).await;
+    };
+    use_all().await;
+    let newer = "ALTER TABLE job ADD COLUMN newer BIGINT NOT NULL DEFAULT 0";
+    postgres.psql("updated", newer);
+    use_all().await;
+}
+
 async fn get(store: &RecordStore, id: JobId) -> Job {
     store.get(id).await.expect("an answer").expect("a job")
 }
