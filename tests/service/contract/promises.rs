@@ -75,7 +75,7 @@ async fn postgres_keeps_all_promises() {
 
 /// During a rolling update a newer program adds columns while older ones go on.
 #[tokio::test]
-async fn a_newer_schema_does_not_disturb_who_has_used_the_older_one() {
+async fn postgres_serves_who_has_used_an_older_schema() {
     let postgres = Postgres::start();
     let url = postgres.database("updated");
     let store = RecordStore::open(&url, RULES).await.expect("a store");
