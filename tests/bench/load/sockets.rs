@@ -25,11 +25,12 @@ pub async fn run() {
     let jobs = service.submit_all(meshes, 8).await.0;
     let (begin, service) = (Instant::now(), &service);
     let connected = stream::iter(0..count).map(|number| {
-        let path = jobs[number % JOBS]["links"]["events"].as_str();
+        let job = number % JOBS;
+        let path = jobs[job]["links"]["events"].as_str();
         let url = service.socket_url(path.expect("a link"));
-        async move { connect_async(url).await.expect("a WebSocket").0 }
+        async move { (job, connect_async(url).await.expect("a WebSocket").0) }
     });
-    let sockets: Vec<Socket> = connected.buffer_unordered(64).collect().await;
+    let sockets: Vec<(usize, Socket)> = connected.buffer_unordered(64).collect().await;
     let seconds = begin.elapsed().as_secs_f64();
     let with_sockets = service.resident_mib();
     let watched: Vec<Watched> = future::join_all(sockets.into_iter().map(watch)).await;
@@ -56,17 +57,17 @@ pub async fn run() {
 /// What one socket saw: events, and the job that ended with the moment of that.
 struct Watched {
     events: usize,
-    end: Option<(String, Instant)>,
+    end: Option<(usize, Instant)>,
 }
 
-async fn watch(mut socket: Socket) -> Watched {
+async fn watch((job, mut socket): (usize, Socket)) -> Watched {
     let (mut events, mut end) = (0, None);
     while let Some(Ok(message)) = socket.next().await {
         if let Message::Text(text) = message {
             let event: Value = serde_json::from_str(&text).expect("JSON");
             events += 1;
-            if event["finished_at"].is_string() || event["state"] == "succeeded" {
-                end = Some((event["id"].to_string(), Instant::now()));
+            if event["state"] == "succeeded" {
+                end = Some((job, Instant::now()));
             }
         }
     }
@@ -76,8 +77,8 @@ async fn watch(mut socket: Socket) -> Watched {
 /// How much later than the first watcher of the same job each one saw the end.
 fn spreads(watched: &[Watched]) -> Vec<Duration> {
     let ends = || watched.iter().filter_map(|watched| watched.end.as_ref());
-    let first = |job: &String| ends().filter(|end| end.0 == *job).map(|end| end.1).min();
+    let first = |job: usize| ends().filter(|end| end.0 == job).map(|end| end.1).min();
     ends()
-        .filter_map(|(job, when)| Some(when.duration_since(first(job)?)))
+        .filter_map(|&(job, when)| Some(when.duration_since(first(job)?)))
         .collect()
 }
