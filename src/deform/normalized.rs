@@ -23,7 +23,7 @@ impl Frame {
     /// The center of a body's box, and the unit in which its mean element has size 1.
     fn of(body: &Body) -> Self {
         let dim = body.dim();
-        let sizes = match &body.elements {
+        let mean = match &body.elements {
             BodyElements::Triangles { rest, .. } => mean_size(rest),
             BodyElements::Tetrahedra { rest, .. } => mean_size(rest),
         };
@@ -36,7 +36,7 @@ impl Frame {
         };
         Self {
             origin: (0..dim).map(middle).collect(),
-            unit: sizes.powf(1.0 / dim as f64),
+            unit: mean.powf(1.0 / dim as f64),
         }
     }
 

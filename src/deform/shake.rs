@@ -4,8 +4,9 @@ use super::problem::Problem;
 use crate::numerics::random::Random;
 use crate::solver::Objective;
 
-/// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's edge, so that a
-/// straight bar that is pressed at once buckles instead of staying on the saddle that its symmetry keeps it on.
+/// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's
+/// edge. A straight bar that is pressed at once then buckles, and does not stay on the saddle of its
+/// symmetry.
 const SHAKE: f64 = 1e-3;
 
 impl Problem {

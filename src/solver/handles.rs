@@ -12,9 +12,9 @@ pub struct Handles {
     pub vertices: Vec<u32>,
     /// Their targets, coordinates one after another.
     pub targets: Vec<f64>,
-    /// The number of the group of each vertex: those of a group, a disc of vertices or the end of a bar, travel as a rigid
-    /// body as far as their targets allow, so that no element between them is crushed on the way. If there is none, each
-    /// vertex travels alone.
+    /// The number of the group of each vertex. A group, such as a disc of vertices or the end of a bar,
+    /// travels as a rigid body as far as its targets allow. No element between its vertices is then
+    /// crushed on the way. Without groups, each vertex travels alone.
     pub groups: Vec<u32>,
     /// Points inside elements that must come to given positions too: held by soft constraints that harden in the end.
     pub points: Vec<Row>,
