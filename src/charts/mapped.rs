@@ -9,7 +9,7 @@ use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};
 use crate::numerics::vec2::doubled_area;
 use crate::numerics::vec3::{area_vector, norm};
-use crate::solver::{Iterate, Summary, Watch};
+use crate::solver::{Control, Iterate, Summary, Watch};
 
 /// A chart, its map and how long the map took.
 #[derive(Clone, Debug)]
@@ -41,6 +41,7 @@ pub fn map_chart(
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     let is_promised = options.barrier != BarrierKind::None;
+    let control = || observer.control();
     let mut mapped = Vec::new();
     let mut pending = vec![chart];
     while let Some(chart) = pending.pop() {
@@ -59,7 +60,7 @@ pub fn map_chart(
             seconds: 0.0,
         };
         let unfolded = match folds {
-            Folds::Cut => whole.free_of_overlaps(options, &watch),
+            Folds::Cut => whole.free_of_overlaps(options, &watch, &control),
             Folds::Keep => vec![whole],
         };
         let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
@@ -100,7 +101,9 @@ pub fn map_chart_from(
                 seconds: 0.0,
             };
             let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
-            let parts = whole.free_of_overlaps(options, &watch).into_iter();
+            let parts = whole
+                .free_of_overlaps(options, &watch, &|| observer.control())
+                .into_iter();
             parts
                 .map(|part| MappedChart {
                     seconds,
@@ -128,7 +131,12 @@ impl MappedChart {
 
     /// The chart pushed apart where it overlaps itself, or else the parts into which the cheapest seams divide it, each optimized
     /// again from where it lies, which counts if it does not fold over itself anew.
-    fn free_of_overlaps(mut self, options: &embed::Options, watch: &dyn Watch) -> Vec<Self> {
+    fn free_of_overlaps(
+        mut self,
+        options: &embed::Options,
+        watch: &dyn Watch,
+        control: &dyn Fn() -> Control,
+    ) -> Vec<Self> {
         let pairs = overlaps(&self.chart.disk, &self.embedding.uv);
         if pairs.is_empty() {
             return vec![self];
@@ -138,7 +146,7 @@ impl MappedChart {
         if pairs.is_empty() {
             return vec![self];
         }
-        (self.parted_until_free(pairs).into_iter())
+        (self.parted_until_free(pairs, control).into_iter())
             .map(|part| part.relaxed(options, watch))
             .collect()
     }
@@ -146,22 +154,23 @@ impl MappedChart {
     /// The parts into which the cheapest seams divide the chart so that none overlaps itself in `image`, a map without flips like
     /// the chart's own; the parts are mapped as the whole is.
     ///
-    /// Each seam takes overlaps away and adds none, so there are at most as many as overlapping pairs.
-    pub fn unfolded(self, image: &[[f64; 2]]) -> Vec<Self> {
+    /// Each seam takes overlaps away and adds none, so there are at most as many as overlapping pairs. Once `control`
+    /// says so, any seam will do.
+    pub fn unfolded(self, image: &[[f64; 2]], control: &dyn Fn() -> Control) -> Vec<Self> {
         let pairs = overlaps(&self.chart.disk, image);
         if pairs.is_empty() {
             return vec![self];
         }
-        (self.parted_until_free(pairs).into_iter())
+        (self.parted_until_free(pairs, control).into_iter())
             .map(Self::facing_front)
             .collect()
     }
 
-    fn parted_until_free(self, pairs: Vec<[u32; 2]>) -> Vec<Self> {
+    fn parted_until_free(self, pairs: Vec<[u32; 2]>, control: &dyn Fn() -> Control) -> Vec<Self> {
         let mut unfolded = Vec::new();
         let mut folded = vec![(self, pairs)];
         while let Some((whole, pairs)) = folded.pop() {
-            for (part, faces) in whole.parted_at(&pairs) {
+            for (part, faces) in whole.parted_at(&pairs, control) {
                 let pairs = within(&faces, whole.chart.disk.triangles.len(), &pairs);
                 if pairs.is_empty() {
                     unfolded.push(part);
@@ -174,10 +183,14 @@ impl MappedChart {
     }
 
     /// Cut once where these pairs of its triangles overlap; with each part the triangles it is made of.
-    fn parted_at(&self, pairs: &[[u32; 2]]) -> Vec<(Self, Vec<u32>)> {
+    fn parted_at(
+        &self,
+        pairs: &[[u32; 2]],
+        control: &dyn Fn() -> Control,
+    ) -> Vec<(Self, Vec<u32>)> {
         let twin = self.chart.disk.twins();
         let length = lengths(&self.chart.disk, &self.chart.positions);
-        let side = one_side(&twin, &length, pairs);
+        let side = one_side(&twin, &length, pairs, control);
         parts(&self.chart, &parted(&twin, &side))
             .into_iter()
             .map(|(chart, faces)| (self.restricted(chart, &faces), faces))

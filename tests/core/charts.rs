@@ -4,12 +4,13 @@ use crate::cut::few_vertices;
 use crate::places;
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
+use std::cell::Cell;
 use std::path::Path;
 use unwrapd::charts::{Chart, Cut, MappedChart, charts, halves, min_cut, seam_length};
 use unwrapd::embed::Embedding;
 use unwrapd::mesh::{CUT, Disk, Surface};
 use unwrapd::numerics::vec3::{area_vector, dot, norm};
-use unwrapd::solver::Summary;
+use unwrapd::solver::{Control, Summary};
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
@@ -225,6 +226,10 @@ fn strip(n_squares: u32) -> Vec<u32> {
     twin
 }
 
+fn go_on() -> Control {
+    Control::Continue
+}
+
 #[test]
 fn a_minimum_cut_takes_the_cheapest_edges() {
     let twin = strip(4);
@@ -233,16 +238,16 @@ fn a_minimum_cut_takes_the_cheapest_edges() {
     for h in [10, 13] {
         capacity[h] = 2;
     }
-    let side = min_cut(&twin, &capacity, &[0], &[7]);
+    let side = min_cut(&twin, &capacity, (&[0], &[7]), &go_on);
     assert_eq!(side, [true, true, true, true, false, false, false, false]);
     // Cut off on both sides, and nearest to the source where all edges cost the same.
-    let side = min_cut(&twin, &vec![3; twin.len()], &[4], &[0, 7]);
+    let side = min_cut(&twin, &vec![3; twin.len()], (&[4], &[0, 7]), &go_on);
     assert_eq!(side.iter().filter(|&&inside| inside).count(), 1);
     // Nothing to cut: there is no way.
     let mut apart = strip(4);
     apart[10] = CUT;
     apart[13] = CUT;
-    let side = min_cut(&apart, &capacity, &[0], &[7]);
+    let side = min_cut(&apart, &capacity, (&[0], &[7]), &go_on);
     assert_eq!(side.iter().filter(|&&inside| inside).count(), 4);
 }
 
@@ -258,9 +263,57 @@ fn two_ways_are_cut_at_once() {
     for h in [10, 13, 22, 25] {
         capacity[h] = 1;
     }
-    let side = min_cut(&twin, &capacity, &[4], &[11]);
+    let side = min_cut(&twin, &capacity, (&[4], &[11]), &go_on);
     let inside: Vec<usize> = (0..side.len()).filter(|&f| side[f]).collect();
     assert_eq!(inside, [4, 5, 6, 7]);
+}
+
+/// Connected sets of faces on both sides of a seam.
+fn n_parts(twin: &[u32], side: &[bool]) -> usize {
+    let mut seen = vec![false; side.len()];
+    let mut n = 0;
+    for first in 0..side.len() {
+        let mut open = vec![first];
+        n += usize::from(!seen[first]);
+        while let Some(face) = open.pop() {
+            if !std::mem::replace(&mut seen[face], true) {
+                let across = (3 * face..3 * face + 3).map(|h| twin[h]);
+                let beside = across.filter(|&t| t != CUT).map(|t| t as usize / 3);
+                open.extend(beside.filter(|&f| side[f] == side[face]));
+            }
+        }
+    }
+    n
+}
+
+/// The edges between two sets of faces.
+fn n_seams(twin: &[u32], side: &[bool]) -> usize {
+    let is_seam = |(h, &t): (usize, &u32)| t != CUT && side[h / 3] && !side[t as usize / 3];
+    twin.iter().enumerate().filter(|&it| is_seam(it)).count()
+}
+
+#[test]
+fn a_cut_that_is_ended_early_still_parts() {
+    let (n, m) = (600, 8);
+    let grid = zoo::grid(n, m);
+    let disk = Disk::new(grid.positions.len(), grid.triangles.clone());
+    let twin = disk.expect("a disk").twins();
+    let capacity = vec![1_000; twin.len()];
+    let row = |y: u32| -> Vec<u32> { (2 * n * y..2 * n * (y + 1)).collect() };
+    let (sources, sinks) = (row(0), row(m - 1));
+    let questions = Cell::new(0);
+    let end = || {
+        questions.set(questions.get() + 1);
+        Control::Finish
+    };
+    let side = min_cut(&twin, &capacity, (&sources, &sinks), &end);
+    assert_eq!(questions.get(), 1);
+    assert!(sources.iter().all(|&f| side[f as usize]));
+    assert!(sinks.iter().all(|&f| !side[f as usize]));
+    let parts = n_parts(&twin, &side);
+    assert_eq!(parts, 2);
+    let whole = min_cut(&twin, &capacity, (&sources, &sinks), &go_on);
+    assert!(n_seams(&twin, &whole) <= n_seams(&twin, &side));
 }
 
 /// The faces that are inside all minimum cuts, by trying every set of faces.
@@ -294,7 +347,7 @@ proptest! {
         let edges: Vec<usize> = (0..36).filter(|&h| h < across(h)).collect();
         let edge = |h: usize| edges.iter().position(|&e| e == h.min(across(h))).expect("an edge");
         let capacity: Vec<u64> = (0..36).map(|h| costs[edge(h)]).collect();
-        let found = min_cut(&twin, &capacity, &[0], &[sink as u32]);
+        let found = min_cut(&twin, &capacity, (&[0], &[sink as u32]), &go_on);
         prop_assert_eq!(found, nearest_minimum(&twin, &capacity, [0, sink]));
     }
 }
@@ -329,7 +382,9 @@ fn a_spiky_chart_is_cut_at_the_root_of_a_spike() {
     // A square with a spike: the hull shrinks by a unit when it is cut off along its side of length 1,
     // which counts eight times across a plane.
     let chart = plate(&[[0, 0], [1, 0], [0, 1], [1, 1], [2, 0]]);
-    let split = chart.best_split(chart.area().sqrt()).expect("two parts");
+    let split = chart
+        .best_split(chart.area().sqrt(), &go_on)
+        .expect("two parts");
     assert!((split.length - 8.0).abs() < 1.6, "{}", split.length);
     let parts = chart.parted(&split);
     let mut areas: Vec<f64> = parts.iter().map(MappedChart::area).collect();
@@ -354,9 +409,9 @@ fn a_spiky_chart_is_cut_at_the_root_of_a_spike() {
 fn a_crumb_is_not_cut_off() {
     let chart = plate(&[[0, 0]]);
     let unit = chart.area().sqrt();
-    assert!(chart.best_split(unit).is_some());
+    assert!(chart.best_split(unit, &go_on).is_some());
     // In an atlas two hundred times as large even a half is a crumb.
-    assert!(chart.best_split(20.0 * unit).is_none());
+    assert!(chart.best_split(20.0 * unit, &go_on).is_none());
 }
 
 #[test]

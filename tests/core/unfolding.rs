@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use unwrapd::certificate::certify_planar;
 use unwrapd::charts::{Chart, MappedChart};
 use unwrapd::mesh::Disk;
+use unwrapd::solver::Control;
 
 /// A chart of the triangles with these corners; corners of one key are one vertex, at that place.
 fn chart<K: Ord + Copy>(triangles: &[[K; 3]], place: impl Fn(K) -> [f64; 2]) -> MappedChart {
@@ -40,7 +41,7 @@ fn cells(reach: i32) -> impl Iterator<Item = [[i32; 2]; 3]> {
 /// What a chart is cut into, each part found to be bijective by the judge and all triangles there.
 fn checked(whole: &MappedChart) -> Vec<MappedChart> {
     let image = whole.embedding.uv.clone();
-    let parts = whole.clone().unfolded(&image);
+    let parts = whole.clone().unfolded(&image, &|| Control::Continue);
     for part in &parts {
         let judged = certify_planar(&part.embedding.uv, &part.chart.disk.triangles);
         assert!(judged.is_bijective(), "{judged:?}");

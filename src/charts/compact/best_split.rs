@@ -13,6 +13,7 @@ use crate::mesh::CUT;
 use crate::numerics::support::{Directions, Support};
 use crate::numerics::vec2::{dot, doubled_area};
 use crate::numerics::vec3::distance;
+use crate::solver::Control;
 
 /// How far a seam may leave its chord, in square roots of the chart's area; clusters are narrower.
 const BAND: f64 = 0.04;
@@ -44,8 +45,12 @@ impl MappedChart {
     /// The seam that makes the chart's parts most compact and small for its length; none if no cut leaves two parts of some size.
     ///
     /// Candidates are straight chords of the map; the best are moved within a narrow band to where a seam costs least, a minimum
-    /// cut, which prefers creases. `unit` is the square root of the area on a page.
-    pub fn best_split(&self, unit: f64) -> Option<Split> {
+    /// cut, which prefers creases. `unit` is the square root of the area on a page. None either once `control` says to end.
+    pub fn best_split(&self, unit: f64, control: &dyn Fn() -> Control) -> Option<Split> {
+        let goes_on = || control() == Control::Continue;
+        if !goes_on() {
+            return None;
+        }
         let disk = &self.chart.disk;
         let mesh = (&*disk.triangles, &*self.chart.positions);
         let labels = vec![0; disk.triangles.len()];
@@ -54,11 +59,12 @@ impl MappedChart {
         let mut chords = chords(&splitter.clusters, splitter.crumb, splitter.square);
         let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, chord.length);
         chords.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-        let tried = chords.iter().take(TRIED);
-        let splits = tried.filter_map(|chord| splitter.split(chord));
-        splits
+        let tried = chords.iter().take(TRIED).take_while(|_| goes_on());
+        let splits = tried.filter_map(|chord| splitter.split(chord, control));
+        let best = splits
             .take(REFINED)
-            .max_by(|a, b| a.worth.total_cmp(&b.worth))
+            .max_by(|a, b| a.worth.total_cmp(&b.worth));
+        best.filter(|_| goes_on())
     }
 
     /// The two parts, mapped as the whole is, each seen from its front.
@@ -133,8 +139,8 @@ impl<'a> Splitter<'a> {
     }
 
     /// The seam near a chord, if it leaves two parts of some size.
-    fn split(&self, chord: &Chord) -> Option<Split> {
-        let is_piece = self.refined(&self.beyond(chord), chord);
+    fn split(&self, chord: &Chord, control: &dyn Fn() -> Control) -> Option<Split> {
+        let is_piece = self.refined(&self.beyond(chord), chord, control);
         let twin = &self.sheet.twin;
         let area: f64 = (0..is_piece.len())
             .filter(|&f| is_piece[f])
@@ -188,7 +194,12 @@ impl<'a> Splitter<'a> {
     }
 
     /// The piece with the cheapest border within a band around the chord.
-    fn refined(&self, is_piece: &[bool], chord: &Chord) -> Vec<bool> {
+    fn refined(
+        &self,
+        is_piece: &[bool],
+        chord: &Chord,
+        control: &dyn Fn() -> Control,
+    ) -> Vec<bool> {
         let band = BAND * self.area.sqrt();
         let is_near = |f: u32| (self.reach(f, chord.direction) - chord.offset).abs() < band;
         let sheet = self.sheet;
@@ -212,8 +223,8 @@ impl<'a> Splitter<'a> {
         let stays = min_cut(
             &twin,
             &capacities(&twin, &cost),
-            &beside(true),
-            &beside(false),
+            (&beside(true), &beside(false)),
+            control,
         );
         let mut refined = is_piece.to_vec();
         for (&f, stays) in faces.iter().zip(stays) {

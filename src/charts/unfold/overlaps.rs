@@ -5,6 +5,7 @@ use crate::mesh::{CUT, Disk, next};
 use crate::numerics::bounds::{bounds_of, touch};
 use crate::numerics::vec3::distance;
 use crate::plane::{doubled_polygon_area, meeting_point, overlapping_pairs};
+use crate::solver::Control;
 
 /// Pairs of triangles whose images overlap, in ascending order and each so, decided exactly; `uv`
 /// has no flip.
@@ -68,11 +69,17 @@ fn overlaps_among(disk: &Disk, uv: &[[f64; 2]], faces: &[u32]) -> Vec<[u32; 2]> 
 /// faces that overlap.
 ///
 /// A connected set of faces is grown, from the one with most partners, as long as it overlaps nothing of its own; the cheapest
-/// seam between it and all its partners is a minimum cut of the dual graph.
-pub fn one_side(twin: &[u32], length: &[f64], pairs: &[[u32; 2]]) -> Vec<bool> {
+/// seam between it and all its partners is a minimum cut of the dual graph. Any seam between them will do once `control` says so.
+pub fn one_side(
+    twin: &[u32],
+    length: &[f64],
+    pairs: &[[u32; 2]],
+    control: &dyn Fn() -> Control,
+) -> Vec<bool> {
     let partners = Partners::new(twin.len() / 3, pairs);
     let (sources, sinks) = partners.sheet_and_its_partners(twin);
-    min_cut(twin, &capacities(twin, length), &sources, &sinks)
+    let capacity = capacities(twin, length);
+    min_cut(twin, &capacity, (&sources, &sinks), control)
 }
 
 /// Lengths as integers: the longest is 2²⁰, none is 0.

@@ -126,7 +126,7 @@ fn candidates(
             }
         },
     };
-    let mut splits = best_splits(&candidate.charts, of_page);
+    let mut splits = best_splits(&candidate.charts, of_page, on_read);
     let mut candidates = vec![candidate.clone()];
     while candidates.len() <= most_cuts
         && candidate.cost < MOST_COST
@@ -144,7 +144,7 @@ fn candidates(
         candidate.charts.remove(chart);
         splits.remove(chart);
         let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
-        splits.extend(best_splits(&parts, of_page));
+        splits.extend(best_splits(&parts, of_page, on_read));
         candidate.charts.extend(parts);
         candidates.push(candidate.clone());
     }
@@ -169,9 +169,10 @@ fn fullest(mut candidates: Vec<Candidate>, words: u64, on_read: &OnRead) -> Cand
     candidates.swap_remove(0)
 }
 
-fn best_splits(charts: &[Arc<MappedChart>], unit: f64) -> Vec<Option<Split>> {
+fn best_splits(charts: &[Arc<MappedChart>], unit: f64, on_read: &OnRead) -> Vec<Option<Split>> {
     let each = charts.par_iter().with_max_len(1);
-    each.map(|chart| chart.best_split(unit)).collect()
+    each.map(|chart| chart.best_split(unit, &|| on_read(0)))
+        .collect()
 }
 
 /// The chart that a cut is worth most for, the first of equals, and the cut.

@@ -120,7 +120,7 @@ fn settled(
         let n_before = charts.len();
         let unfolded = |(chart, placed): (MappedChart, &Placed)| {
             let rounded: Vec<[f64; 2]> = placed.grid.iter().map(|p| p.map(f64::from)).collect();
-            chart.unfolded(&rounded)
+            chart.unfolded(&rounded, &|| on_read(0))
         };
         charts = (charts.into_par_iter().zip(&atlas.placed))
             .flat_map_iter(unfolded)
