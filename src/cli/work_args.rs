@@ -39,8 +39,8 @@ pub(super) struct WorkArgs {
         requires = "database"
     )]
     pub blobs: Option<String>,
-    /// Number of jobs computed at the same time by this process [default: half the cores, at least
-    /// one]
+    /// Number of jobs computed at the same time by this process [default: the number of cores]. A job
+    /// that begins while no other runs uses all cores
     #[arg(long, value_name = "N", env = "UNWRAPD_WORKERS")]
     pub workers: Option<u16>,
     /// Maximum number of triangles of a mesh
@@ -112,7 +112,7 @@ impl WorkArgs {
     /// The settings of a process that computes jobs, accepts none and removes none.
     pub fn settings(&self) -> std::io::Result<jobs::Settings> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let workers = self.workers.map_or((cores / 2).max(1), usize::from);
+        let workers = self.workers.map_or(cores, usize::from);
         let memory = self.job_memory_mib.map(|mib| mib.saturating_mul(1 << 20));
         Ok(jobs::Settings {
             deployment: match self.database {
@@ -126,7 +126,7 @@ impl WorkArgs {
             scratch: self.data.join("scratch"),
             program: std::env::current_exe()?,
             workers,
-            threads: (cores / workers.max(1)).max(1),
+            cores,
             queue_depth: 0,
             time: Duration::from_secs_f64(self.job_seconds),
             memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory())),

@@ -84,7 +84,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
         options: job.options.clone(),
         limits: Limits {
             triangles: Some(settings.triangles),
-            threads: Some(settings.threads),
+            threads: Some(settings.threads(jobs.running.len())),
             seconds: Some(settings.time.as_secs_f64()),
         },
         memory: settings.memory,

@@ -25,9 +25,12 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// The share after a report, at a time since the work began.
+    /// The share after a report, at a time since the work began. One that repeats what was reported
+    /// counts as silence.
     pub fn reported(&mut self, share: f64, now: Duration) -> f64 {
-        (self.reported, self.at) = (share, now);
+        if self.reported < share {
+            (self.reported, self.at) = (share, now);
+        }
         self.shown = self.shown.max(share);
         self.shown
     }

@@ -26,7 +26,7 @@ pub(super) struct Reporter {
     frames: Mutex<Frames>,
 }
 
-/// What was told last, and when.
+/// What was told last, and when the share moved.
 #[derive(Default)]
 struct Told {
     progress: Progress,
@@ -62,38 +62,35 @@ impl Reporter {
 }
 
 impl Told {
-    /// Tells a report, unless one of its stage was told just now.
+    /// Tells a report, unless one of its stage was told just now. One in which the share stays where
+    /// it is waits for the next that is told.
     fn report(&mut self, progress: Progress, now: Duration) {
-        let is_due = self.progress.stage != progress.stage || self.at + TELL_INTERVAL <= now;
-        if is_due {
-            let fraction = self.pace.reported(progress.fraction, now);
-            self.tell(
-                Progress {
-                    fraction,
-                    ..progress
-                },
-                now,
-            );
+        let begins = self.progress.stage != progress.stage;
+        if !begins && now < self.at + TELL_INTERVAL {
+            return;
+        }
+        let shown = self.progress.fraction;
+        let fraction = self.pace.reported(progress.fraction, now);
+        self.progress = progress;
+        if begins || shown < fraction {
+            self.tell(fraction, now);
+        } else {
+            self.progress.fraction = shown;
+            self.estimate(now);
         }
     }
 
-    /// Tells an estimate, if nothing was told for a while.
+    /// Tells an estimate, if the share has not moved for a while.
     fn estimate(&mut self, now: Duration) {
         if self.progress.stage.is_some() && self.at + SILENCE <= now {
             let fraction = self.pace.estimated(now);
-            self.tell(
-                Progress {
-                    fraction,
-                    ..self.progress
-                },
-                now,
-            );
+            self.tell(fraction, now);
         }
     }
 
-    fn tell(&mut self, progress: Progress, now: Duration) {
-        (self.progress, self.at) = (progress, now);
-        tell(&Message::Progress(progress));
+    fn tell(&mut self, fraction: f64, now: Duration) {
+        (self.progress.fraction, self.at) = (fraction, now);
+        tell(&Message::Progress(self.progress));
     }
 }
 

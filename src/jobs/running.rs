@@ -96,6 +96,11 @@ impl Running {
         }
     }
 
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.attempts().len()
+    }
+
     /// The attempt at a job, if it runs here.
     pub fn attempt(&self, id: JobId) -> Option<Arc<Attempt>> {
         self.attempts().get(&id).cloned()

@@ -48,8 +48,8 @@ pub struct Settings {
     pub program: PathBuf,
     /// Jobs that this process computes at the same time.
     pub workers: usize,
-    /// Threads of each job.
-    pub threads: usize,
+    /// Cores that they share.
+    pub cores: usize,
     /// Jobs that may wait.
     pub queue_depth: u32,
     /// Wall-clock time after which an attempt ends with the map it has.
@@ -66,4 +66,12 @@ pub struct Settings {
     pub retention: Option<Duration>,
     /// How long attempts may go on after a stop, before their jobs are handed back.
     pub grace: Duration,
+}
+
+impl Settings {
+    /// Threads of an attempt that begins when so many run here, itself included: one that is alone
+    /// has all cores, and where each core has its attempt, none takes a second one.
+    pub fn threads(&self, attempts: usize) -> usize {
+        (self.cores / attempts.max(1)).max(1)
+    }
 }

@@ -10,6 +10,7 @@ pub mod fault;
 pub mod history;
 pub mod judge;
 pub mod machines;
+pub mod memory;
 pub mod ports;
 pub mod postgres;
 pub mod process;

@@ -70,6 +70,10 @@ impl Process {
         self.folder.path()
     }
 
+    pub fn id(&self) -> u32 {
+        self.running.id()
+    }
+
     pub fn signal(&self, signal: Signal) {
         kill(Pid::from_raw(self.running.id() as i32), signal).expect("it is ours");
     }

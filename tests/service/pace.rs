@@ -31,6 +31,17 @@ fn an_estimate_goes_on_at_half_of_the_pace_so_far() {
 }
 
 #[test]
+fn a_report_that_says_nothing_new_counts_as_silence() {
+    let mut pace = Pace::default();
+    pace.reported(0.4, seconds(20.0));
+    for second in [20.5, 21.0, 21.9] {
+        assert_eq!(pace.reported(0.4, seconds(second)), 0.4);
+    }
+    let share = pace.estimated(seconds(22.0));
+    assert!((share - 0.42).abs() < 1e-9, "{share}");
+}
+
+#[test]
 fn no_estimate_says_that_all_is_done() {
     let mut pace = Pace::default();
     pace.reported(0.98, seconds(1.0));

@@ -120,7 +120,7 @@ fn settings(deployment: Deployment, scratch: PathBuf, workers: usize) -> Setting
         scratch,
         program: program(),
         workers,
-        threads: 1,
+        cores: 1,
         queue_depth: 100,
         time: SOON,
         memory: 1 << 30,

@@ -4,6 +4,7 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::Value;
 
+use crate::harness::memory::Memory;
 use crate::meshes;
 use crate::server::{Server, assert_problem, json};
 
@@ -75,6 +76,19 @@ async fn a_mesh_that_needs_too_much_memory_fails_alone() {
     let server = Server::with(&[("UNWRAPD_JOB_MEMORY_MIB", "64")]);
     let job = server.submit(meshes::large(), "cut=disk").await;
     assert_failed(&server, &job, "out_of_memory").await;
+}
+
+/// The service needs less than the group has, and the mesh more; its own limit would let it have that.
+#[tokio::test]
+async fn a_child_that_the_system_ends_for_its_memory_says_so() {
+    let Some(group) = Memory::limited_to(96 << 20) else {
+        return;
+    };
+    let server = Server::start();
+    group.take(server.process_id());
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    assert_failed(&server, &job, "out_of_memory").await;
+    drop((server, group));
 }
 
 #[tokio::test]

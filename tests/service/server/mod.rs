@@ -79,6 +79,10 @@ impl Server {
         self.process.restart();
     }
 
+    pub fn process_id(&self) -> u32 {
+        self.process.id()
+    }
+
     /// Process ids of the compute children of this server.
     pub fn children(&self) -> Vec<i32> {
         self.process.children()
