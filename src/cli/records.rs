@@ -75,11 +75,12 @@ fn summarize(Deformed { report, .. }: &Deformed) {
     }
     let (summary, worth) = (report.summary, report.worth);
     say(format_args!(
-        "{:?}: {} iterations, {} factorizations, energy {:.6e}, barrier {:.3e}, residual {:.1e}, {} inverted{}",
+        "{:?}: {} iterations, {} factorizations, energy {:.6e} {}, barrier {:.3e}, residual {:.1e}, {} inverted{}",
         summary.status,
         summary.iterations,
         summary.factorizations,
         worth.energy,
+        report.units,
         worth.barrier,
         worth.residual,
         worth.inverted,

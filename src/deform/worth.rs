@@ -13,8 +13,7 @@ use crate::solver::Handles;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Worth {
-    /// The deformation energy, without the barrier; for a mean element of area or volume 1 unless the
-    /// problem is meant in the unit of its mesh.
+    /// The deformation energy, without the barrier, in the `units` of the problem.
     pub energy: f64,
     /// The barrier's share, β included.
     pub barrier: f64,

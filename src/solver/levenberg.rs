@@ -54,7 +54,7 @@ const LARGEST_MU: f64 = 1e17;
 ///
 /// The Hessian is not projected: μ is added to its diagonal once it fails to factor, ten times as much each time it fails
 /// again; a first try that succeeds leaves the least μ, a second a tenth. The step σ starts from the last one, doubles on success and halves until the function falls
-/// and the point is inside the domain; between the end points a step may pass through an inversion, as in the paper. Every
+/// and the point is inside the domain. No step is so long that an element would invert on the way, which the paper allows. Every
 /// iterate is inside. [`Iterate::mu`] is μ as the step leaves it: by it the next targets retreat, and a factorization that fails
 /// tries it first. From: Schüller et al. 2013, section 3.2, with the constants of the authors' code; a shift replaces
 /// the one before instead of adding to it.

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::cage_report::CageReport;
 use super::plan::Plan;
 use crate::certificate::boundary_crossings;
-use crate::deform::{BodyElements, Method, Problem, Solution, Worth};
+use crate::deform::{BodyElements, Method, Problem, Solution, Units, Worth};
 use crate::document::Warning;
 use crate::pipeline::PipelineError;
 use crate::pipeline::tracker::Tracker;
@@ -38,12 +38,14 @@ pub struct DeformReport {
     /// What the map is worth.
     #[serde(flatten)]
     pub worth: Worth,
+    /// What its energies are measured in.
+    pub units: Units,
     /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crossings: Option<u64>,
     /// Elements of the supplied start that were inverted and had to be untangled.
     pub untangled: usize,
-    /// The energy that minimizing without a barrier leads to from the solution, if asked for.
+    /// The energy that the map tends to as the barrier strength tends to 0, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_without_barrier: Option<f64>,
     /// The smallest size of an element over its rest size, over all iterates.
@@ -107,6 +109,7 @@ pub fn solve(
         method: plan.method,
         summary: solution.summary,
         worth: solution.worth,
+        units: problem.units,
         crossings,
         untangled: problem.untangled,
         energy_without_barrier,

@@ -8,8 +8,8 @@ options! {
     pub struct Course under "Course of the solver" {
         /// Lower the barrier strength as long as the energy without the barrier falls.
         pub barrier_continuation: bool;
-        /// Also minimize without the barrier and report that energy. The difference is the bias of
-        /// the barrier.
+        /// Also report the energy that the map tends to as the barrier strength tends to 0. The
+        /// difference is the bias of the barrier.
         pub bias: bool;
     }
 }
