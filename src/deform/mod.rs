@@ -10,6 +10,8 @@ mod body;
 mod boundary;
 pub mod boundary_barrier;
 pub mod cage;
+#[cfg(feature = "files")]
+mod cells;
 mod continuation;
 mod handles;
 mod idle;

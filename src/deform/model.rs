@@ -110,10 +110,21 @@ impl DeformationEnergy {
     /// The quadratic form that the energy is, or its density, which is zero beside one; `None` for [`Self::Lscm`], which not every
     /// dimension has.
     fn parts<const D: usize>(self, body: &Body, rest: &[RestShape<D>]) -> Option<Parts<D>> {
-        let [lambda, mu] = LAME;
         let sizes = || -> Vec<f64> { rest.iter().map(|shape| shape.size).collect() };
         let (corners, x) = (body.corners(), || body.rest.clone());
-        let density: Box<dyn Density<D>> = match self {
+        let quadratic = match self {
+            Self::Dirichlet => dirichlet(&corners, rest, &sizes(), x()),
+            Self::Laplacian => biharmonic(&corners, rest, &sizes(), &body.masses(), x()),
+            Self::UniformLaplacian => uniform_biharmonic(D, &corners, x()),
+            _ => return Some((None, self.density()?)),
+        };
+        Some((Some(quadratic), Box::new(Zero)))
+    }
+
+    /// The energy of an element as a function of its singular values; `None` for quadratic forms and for [`Self::Lscm`].
+    pub(super) fn density<const D: usize>(self) -> Option<Box<dyn Density<D>>> {
+        let [lambda, mu] = LAME;
+        Some(match self {
             Self::Arap => Box::new(Arap),
             Self::Green => Box::new(Green),
             Self::SymmetricDirichlet => Box::new(SymmetricDirichlet),
@@ -121,16 +132,8 @@ impl DeformationEnergy {
             Self::Amips => Box::new(Amips { s: 1.0 }),
             Self::StVenantKirchhoff => Box::new(StVenantKirchhoff { lambda, mu }),
             Self::NeoHookean => Box::new(NeoHookean { lambda, mu }),
-            Self::Lscm => return None,
-            Self::Dirichlet | Self::Laplacian | Self::UniformLaplacian => Box::new(Zero),
-        };
-        let quadratic = match self {
-            Self::Dirichlet => Some(dirichlet(&corners, rest, &sizes(), x())),
-            Self::Laplacian => Some(biharmonic(&corners, rest, &sizes(), &body.masses(), x())),
-            Self::UniformLaplacian => Some(uniform_biharmonic(D, &corners, x())),
-            _ => None,
-        };
-        Some((quadratic, density))
+            Self::Lscm | Self::Dirichlet | Self::Laplacian | Self::UniformLaplacian => return None,
+        })
     }
 
     fn weighted<const D: usize>(

@@ -1,6 +1,6 @@
 //! Planar and tetrahedral meshes: what is checked, what files they come from and go to.
 
-use unwrapd::mesh::io::{ElementFormat, Elements, ReadError, text_positions};
+use unwrapd::mesh::io::{CellData, ElementFormat, Elements, ReadError, text_positions, vtu};
 use unwrapd::mesh::{ElementError, PlanarMesh, TetMesh, boundary_triangles};
 use unwrapd::numerics::predicates::orient3d_sign;
 
@@ -217,6 +217,29 @@ fn a_vtu_file_is_sound_xml_with_all_cells() {
     assert_eq!(array("connectivity"), [0, 1, 2, 0, 1, 2, 3, 0, 1, 3, 4]);
     assert_eq!(array("offsets"), [3, 7, 11]);
     assert_eq!(array("types"), [5, 10, 10]);
+}
+
+#[test]
+fn a_vtu_file_holds_data_of_its_last_cells() {
+    let mut elements = two_tets();
+    elements.triangles.push([0, 1, 2]);
+    let data = CellData {
+        name: "sizes",
+        components: 2,
+        values: vec![0.1 + 0.2, -1.0, 3.0, 4.0],
+    };
+    let text = vtu::write(&elements, &[data]);
+    let document = roxmltree::Document::parse(&text).expect("XML");
+    let mut nodes = document.descendants();
+    let node = nodes.find(|n| n.attribute("Name") == Some("sizes"));
+    let node = node.expect("the data");
+    assert_eq!(
+        node.parent().map(|n| n.tag_name().name().to_owned()),
+        Some("CellData".to_owned())
+    );
+    assert_eq!(node.attribute("NumberOfComponents"), Some("2"));
+    let lines: Vec<&str> = node.text().expect("numbers").trim().lines().collect();
+    assert_eq!(lines, ["NaN NaN", "0.30000000000000004 -1.0", "3.0 4.0"]);
 }
 
 /// The two tets and a triangle in Gmsh's framings, binary ones in both byte orders, with tags that are not consecutive.

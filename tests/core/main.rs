@@ -9,6 +9,7 @@ mod box_tree;
 mod cage;
 #[cfg(feature = "files")]
 mod caged;
+mod cells;
 mod certificate;
 mod charts;
 mod cholesky;

@@ -70,7 +70,7 @@ impl ElementFormat {
             Self::Tet => tet::write(elements),
             Self::Obj => obj::write(elements),
             Self::Off => off::write(elements),
-            Self::Vtu => vtu::write(elements),
+            Self::Vtu => vtu::write(elements, &[]),
         }
     }
 }

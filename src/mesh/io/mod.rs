@@ -24,6 +24,7 @@ pub use elements::{Elements, text_positions};
 use faces::Faces;
 pub use faces::Fanned;
 pub use format::{Content, Format, SEARCHED_BYTES, extension, without_mark};
+pub use vtu::CellData;
 
 /// Positions and triangles of one file, in the file's order.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,6 +1,6 @@
 //! VTK's XML format for unstructured grids, `.vtu`, as text: written for viewers such as ParaView, not read.
 //!
-//! Forty lines, so no crate: `vtkio`'s last stable release is of 2021 and would bring an XML writer, compressors and a binary
+//! Few lines, so no crate: `vtkio`'s last stable release is of 2021 and would bring an XML writer, compressors and a binary
 //! framework.
 use super::Elements;
 use std::fmt::Write;
@@ -8,8 +8,20 @@ use std::fmt::Write;
 /// VTK's numbers for a triangle and a tetrahedron.
 const TYPES: [&str; 2] = ["5", "10"];
 
-/// The text of the elements, triangles before tetrahedra.
-pub fn write(elements: &Elements) -> String {
+/// Numbers of each element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellData {
+    /// What they are.
+    pub name: &'static str,
+    /// How many each element has.
+    pub components: usize,
+    /// All of them, element after element.
+    pub values: Vec<f64>,
+}
+
+/// The text of the elements, triangles before tetrahedra, with what is known of the last ones: data of fewer elements than
+/// there are belong to the last, and the others get NaN.
+pub fn write(elements: &Elements, data: &[CellData]) -> String {
     let n_cells = elements.triangles.len() + elements.tets.len();
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
@@ -46,7 +58,15 @@ pub fn write(elements: &Elements) -> String {
             text.extend(std::iter::repeat_n([of_shape, "\n"], n).flatten());
         }
     });
-    text.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+    text.push_str("</Cells>\n");
+    if !data.is_empty() {
+        text.push_str("<CellData>\n");
+        for cells in data {
+            numbers(&mut text, cells, n_cells);
+        }
+        text.push_str("</CellData>\n");
+    }
+    text.push_str("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     text
 }
 
@@ -56,5 +76,26 @@ fn array(text: &mut String, name: &str, content: impl FnOnce(&mut String)) {
         "<DataArray type=\"Int64\" Name=\"{name}\" format=\"ascii\">"
     );
     content(text);
+    text.push_str("</DataArray>\n");
+}
+
+/// One line per element.
+fn numbers(text: &mut String, data: &CellData, n_cells: usize) {
+    let CellData {
+        name,
+        components,
+        values,
+    } = data;
+    let _ = writeln!(
+        text,
+        "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
+    );
+    let unknown = vec![f64::NAN; *components];
+    let n_unknown = n_cells.saturating_sub(values.len() / components);
+    let lines = std::iter::repeat_n(&unknown[..], n_unknown).chain(values.chunks(*components));
+    for line in lines {
+        let line: Vec<String> = line.iter().map(|x| format!("{x:?}")).collect();
+        let _ = writeln!(text, "{}", line.join(" "));
+    }
     text.push_str("</DataArray>\n");
 }

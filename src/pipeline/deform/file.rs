@@ -37,10 +37,8 @@ fn deform_body(
     let source = Source::read(upload, options.triangles, &options.caller.limits)?;
     let format = options.format.unwrap_or_else(|| source.format(upload));
     source.check(format, options.frames)?;
-    let body = source.body()?;
-    let dim = body.dim();
-    let problem = Problem::new(body, &options.handles, &options.model)?;
-    let file = |x: &[f64]| source.frame(format, dim, x);
+    let problem = Problem::new(source.body()?, &options.handles, &options.model)?;
+    let file = |x: &[f64]| source.frame(format, &problem, x);
     let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
     let solved = solve(&problem, options.plan(), tracker, frames)?;
     tracker.stage(Stage::Write);
@@ -48,7 +46,7 @@ fn deform_body(
         files: source.files(
             format,
             &options.caller.stem(upload),
-            dim,
+            &problem,
             &solved.solution.x,
         )?,
         report: solved.report,

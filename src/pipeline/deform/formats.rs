@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::deform::Problem;
 use crate::document::OutputFormat;
-use crate::mesh::io::{ElementFormat, Elements, Format, text_positions};
+use crate::mesh::io::{ElementFormat, Elements, Format, text_positions, vtu};
 use crate::pipeline::PipelineError;
 
 /// What a deformed body is written as.
@@ -81,18 +82,30 @@ impl BodyFormat {
         }
     }
 
-    /// The file of a deformed body: `elements` with the positions `x`, `dim` coordinates each.
-    pub(in crate::pipeline) fn write(self, elements: &Elements, dim: usize, x: &[f64]) -> Vec<u8> {
+    /// The file of a deformed body: `elements` with the positions `x`, coordinates one after another; VTK's with what the map does
+    /// to each.
+    pub(in crate::pipeline) fn write(
+        self,
+        elements: &Elements,
+        problem: &Problem,
+        x: &[f64],
+    ) -> Vec<u8> {
         let format = self.file().and_then(ElementFormat::of);
+        let dim = problem.body.dim();
         let text = match (format, dim) {
             (None, 2) => text_positions::<2>(x.as_chunks().0),
             (None, _) => text_positions::<3>(x.as_chunks().0),
             (Some(format), _) => {
                 let place = |p: &[f64]| [p[0], p[1], p.get(2).copied().unwrap_or(0.0)];
-                format.write(&Elements {
+                let moved = Elements {
                     vertices: x.chunks_exact(dim).map(place).collect(),
                     ..elements.clone()
-                })
+                };
+                if format == ElementFormat::Vtu {
+                    vtu::write(&moved, &problem.cells(x))
+                } else {
+                    format.write(&moved)
+                }
             }
         };
         text.into_bytes()

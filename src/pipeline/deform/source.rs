@@ -3,8 +3,8 @@
 use super::formats::BodyFormat;
 use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::planar_map::PlanarMap;
-use crate::deform::Body;
 use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
+use crate::deform::{Body, Problem};
 use crate::document::{Document, GroupBy, OutputFormat, Upload};
 use crate::mesh::Surface;
 use crate::mesh::io::{Content, ElementFormat, Elements, Format};
@@ -82,12 +82,12 @@ impl Source {
         self.document.as_ref().map(|document| (document, format))
     }
 
-    /// The files of the result under the name `stem`, the main file first, at the positions `x`, `dim` coordinates each.
+    /// The files of the result of a problem under the name `stem`, the main file first, at the positions `x`.
     pub fn files(
         &self,
         format: BodyFormat,
         stem: &str,
-        dim: usize,
+        problem: &Problem,
         x: &[f64],
     ) -> Result<Vec<(String, Vec<u8>)>, PipelineError> {
         if let Some((document, format)) = self.whole(format) {
@@ -95,17 +95,17 @@ impl Source {
             return Ok(moved(document, &map, format, stem)?.1.files);
         }
         let name = format!("{stem}.{}", format.extension());
-        Ok(vec![(name, format.write(&self.elements, dim, x))])
+        Ok(vec![(name, format.write(&self.elements, problem, x))])
     }
 
     /// The main file alone.
-    pub fn frame(&self, format: BodyFormat, dim: usize, x: &[f64]) -> Vec<u8> {
+    pub fn frame(&self, format: BodyFormat, problem: &Problem, x: &[f64]) -> Vec<u8> {
         match self.whole(format) {
             Some((document, format)) => {
                 let map = PlanarMap::new(&self.elements, x.as_chunks().0);
                 moved_frame(document, &map, format)
             }
-            None => format.write(&self.elements, dim, x),
+            None => format.write(&self.elements, problem, x),
         }
     }
 }
