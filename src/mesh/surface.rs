@@ -46,13 +46,16 @@ impl Surface {
     /// name a position twice are left out.
     ///
     /// Everything else is kept, however broken; [`defects`](Self::defects) counts it. Vertices that no face names may hold
-    /// anything, also NaN. Nearly linear in the size of the input.
-    pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Self, MeshError> {
+    /// anything, also NaN. Coordinates are `f32` or `f64`. Nearly linear in the size of the input.
+    pub fn new<T: Copy + Into<f64>>(
+        positions: &[[T; 3]],
+        triangles: &[[u32; 3]],
+    ) -> Result<Self, MeshError> {
         if positions.len() >= u32::MAX as usize || triangles.len() >= u32::MAX as usize / 3 {
             return Err(MeshError::TooLarge);
         }
         validate(positions, triangles)?;
-        let (distinct, vertex_of) = weld(positions.iter().map(|p| p.map(f64::from)));
+        let (distinct, vertex_of) = weld(positions.iter().map(|p| p.map(Into::into)));
         let mut kept = Vec::with_capacity(triangles.len());
         let mut faces = Vec::with_capacity(triangles.len());
         for (face, triangle) in triangles.iter().enumerate() {
@@ -99,7 +102,10 @@ impl Surface {
     }
 }
 
-fn validate(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+fn validate<T: Copy + Into<f64>>(
+    positions: &[[T; 3]],
+    triangles: &[[u32; 3]],
+) -> Result<(), MeshError> {
     for (face, triangle) in triangles.iter().enumerate() {
         for &vertex in triangle {
             let Some(position) = positions.get(vertex as usize) else {
@@ -109,7 +115,7 @@ fn validate(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshEr
                     n_vertices: positions.len(),
                 });
             };
-            if !position.iter().all(|x| x.is_finite()) {
+            if !position.iter().all(|&x| x.into().is_finite()) {
                 return Err(MeshError::NonFinitePosition { vertex });
             }
         }

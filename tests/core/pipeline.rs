@@ -121,6 +121,33 @@ fn the_number_of_threads_does_not_show() {
 }
 
 #[test]
+fn positions_may_have_either_precision() {
+    let mesh = zoo::sphere(12, 7);
+    let unwrapped = |positions: &[[f64; 3]]| {
+        let settings = Settings::default();
+        let unwrapped = unwrap(positions, &mesh.triangles, &settings, &Unobserved);
+        unwrapped.expect("it unwraps")
+    };
+    let single = unwrap(
+        &mesh.positions,
+        &mesh.triangles,
+        &Settings::default(),
+        &Unobserved,
+    );
+    let double: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+    assert_eq!(
+        unwrapped(&double).corner_uvs(),
+        single.expect("it unwraps").corner_uvs()
+    );
+    // So far away that all positions would be one in f32.
+    let far: Vec<[f64; 3]> = double.iter().map(|p| p.map(|x| x + 1e9)).collect();
+    let uvs = unwrapped(&far).corner_uvs();
+    let certificate = certify(&far, &mesh.triangles, &uvs, &Overlap::Test.into());
+    assert!(certificate.is_bijective(), "{certificate:?}");
+    assert_eq!(certificate.degenerate, 0);
+}
+
+#[test]
 fn the_unit_of_length_does_not_matter() {
     let mesh = zoo::sphere(16, 12);
     for scale in [1e-9_f32, 1.0, 1e9] {

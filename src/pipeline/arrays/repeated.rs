@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::position_key::position_key;
+use super::position_key::{PositionKey, position_key};
 
 /// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`](crate::atlas::GRID_BITS); on page n of several u is from n to n + 1.
 pub type GridCorners = [[i32; 2]; 3];
@@ -10,7 +10,7 @@ pub type GridCorners = [[i32; 2]; 3];
 /// Gives every face that is not in `placed` (ascending) corners at which its positions lie in some placed face:
 /// on one edge where a placed face has that edge, else all at one corner, else at the origin.
 pub fn place(
-    positions: &[[f32; 3]],
+    positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
     placed: &[u32],
     grid: &mut [GridCorners],
@@ -24,8 +24,8 @@ pub fn place(
         .filter(|&face| !is_placed[face])
         .collect();
     // Every position a left-out face names, with a placed corner there; every pair of them, with a placed edge.
-    let mut corner_at: HashMap<[u32; 3], Option<[i32; 2]>> = HashMap::new();
-    let mut edge_at: HashMap<[[u32; 3]; 2], Option<[[i32; 2]; 2]>> = HashMap::new();
+    let mut corner_at: HashMap<PositionKey, Option<[i32; 2]>> = HashMap::new();
+    let mut edge_at: HashMap<[PositionKey; 2], Option<[[i32; 2]; 2]>> = HashMap::new();
     for &face in &left_out {
         let k = keys(face);
         for c in 0..3 {

@@ -33,7 +33,7 @@ impl Seams {
     /// Checks that this fits a mesh.
     pub(in crate::pipeline) fn check(
         &self,
-        positions: &[[f32; 3]],
+        positions: &[[f64; 3]],
         triangles: &[[u32; 3]],
     ) -> Result<(), PipelineError> {
         let n_faces = triangles.len();
@@ -75,7 +75,7 @@ impl Seams {
     /// Refuses pairs that are not the ends of an edge of some triangle: nothing would be cut there.
     pub(in crate::pipeline) fn check_edges(
         edges: &[[u32; 2]],
-        positions: &[[f32; 3]],
+        positions: &[[f64; 3]],
         triangles: &[[u32; 3]],
     ) -> Result<(), PipelineError> {
         let n_positions = positions.len();
@@ -104,7 +104,7 @@ impl Seams {
     }
 
     /// Cuts a surface, which was made of these positions, along its seams.
-    pub(in crate::pipeline) fn cut(&self, surface: &mut Surface, positions: &[[f32; 3]]) {
+    pub(in crate::pipeline) fn cut(&self, surface: &mut Surface, positions: &[[f64; 3]]) {
         let key = |v: u32| position_key(positions[v as usize]);
         let edges = self.edges.iter().flatten();
         let edges: HashSet<_> = edges.map(|&[a, b]| sorted(key(a), key(b))).collect();
@@ -127,7 +127,7 @@ impl Seams {
                 differ(&|[f, c], [g, d]| is_hard(normals[f][c], normals[g][d]))
             };
             let is_named = || {
-                let at = |corner: u32| welded[vertex(corner) as usize].map(|x| x as f32);
+                let at = |corner: u32| welded[vertex(corner) as usize];
                 edges.contains(&sorted(position_key(at(a)), position_key(at(b))))
             };
             self.uvs.as_ref().is_some_and(by_uv)

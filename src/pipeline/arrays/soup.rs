@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::alike::alike;
-use super::position_key::position_key;
+use super::position_key::{PositionKey, position_key};
 use super::seams::Seams;
 use crate::mesh::Surface;
 use crate::pipeline::PipelineError;
@@ -15,7 +15,7 @@ use crate::pipeline::PipelineError;
 /// A mesh as arrays.
 #[derive(Clone, Copy)]
 pub struct Soup<'a> {
-    pub positions: &'a [[f32; 3]],
+    pub positions: &'a [[f64; 3]],
     pub triangles: &'a [[u32; 3]],
     pub seams: &'a Seams,
     /// The meshes of a document that it was put together from; none if that is not known.
@@ -37,7 +37,7 @@ impl Part {
 
 /// A part of a mesh that is cut and mapped by itself.
 pub struct Piece<'a> {
-    positions: Cow<'a, [[f32; 3]]>,
+    positions: Cow<'a, [[f64; 3]]>,
     triangles: Cow<'a, [[u32; 3]]>,
     pub seams: Cow<'a, Seams>,
     /// For each triangle its face in the mesh; absent in a piece that is the whole of it.
@@ -162,12 +162,12 @@ impl<'a> Soup<'a> {
                 .map(|&p| position_key(p))
                 .collect::<Vec<_>>()
         };
-        let mut first_with: HashMap<Vec<[u32; 3]>, u32> = HashMap::new();
+        let mut first_with: HashMap<Vec<PositionKey>, u32> = HashMap::new();
         let same: Vec<u32> = (0..)
             .zip(self.parts)
             .map(|(index, part)| *first_with.entry(content(part)).or_insert(index))
             .collect();
-        let mut owner: HashMap<[u32; 3], Option<u32>> = HashMap::new();
+        let mut owner: HashMap<PositionKey, Option<u32>> = HashMap::new();
         for (part, &same) in self.parts.iter().zip(&same) {
             for p in content(part) {
                 let owner = owner.entry(p).or_insert(Some(same));

@@ -58,11 +58,11 @@ impl Unwrapped {
 }
 
 /// Unwraps a mesh given as arrays into one atlas: every triangle with three distinct positions gets a positive area
-/// in the unit square, at one texel density.
+/// in the unit square, at one texel density. Coordinates are `f32` or `f64`.
 ///
 /// Equal input and settings give equal output, for any number of threads.
-pub fn unwrap(
-    positions: &[[f32; 3]],
+pub fn unwrap<T: Copy + Into<f64>>(
+    positions: &[[T; 3]],
     triangles: &[[u32; 3]],
     settings: &Settings,
     observer: &dyn Observer,
@@ -72,8 +72,8 @@ pub fn unwrap(
 
 /// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](crate::charts::Cut::Seams) and
 /// [`Cut::Keep`](crate::charts::Cut::Keep) along no others than it takes to open what they enclose.
-pub fn unwrap_along(
-    positions: &[[f32; 3]],
+pub fn unwrap_along<T: Copy + Into<f64>>(
+    positions: &[[T; 3]],
     triangles: &[[u32; 3]],
     seams: &Seams,
     settings: &Settings,
@@ -81,8 +81,9 @@ pub fn unwrap_along(
 ) -> Result<Unwrapped, PipelineError> {
     settings.validate().map_err(PipelineError::InvalidOptions)?;
     let tracker = Tracker::new(observer, settings.budget);
+    let positions: Vec<[f64; 3]> = positions.iter().map(|p| p.map(Into::into)).collect();
     let mesh = Soup {
-        positions,
+        positions: &positions,
         triangles,
         seams,
         parts: &[],

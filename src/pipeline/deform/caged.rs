@@ -211,7 +211,7 @@ fn crossings_of(document: &Document) -> Crossings {
     let mut found = Crossings::default();
     for group in document.groups(GroupBy::Scene) {
         let merged = Merged::new(document.primitives(), &group);
-        found = crossings(&widened(&merged.positions), &merged.triangles);
+        found = crossings(&merged.positions, &merged.triangles);
     }
     found
 }

@@ -11,7 +11,7 @@ use crate::pipeline::options::{GivenSeams, NamedSeams, Options};
 
 /// The primitives of a group as one mesh.
 pub struct Merged {
-    pub positions: Vec<[f32; 3]>,
+    pub positions: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
     pub seams: Seams,
     /// The meshes that it was put together from.
@@ -34,7 +34,8 @@ impl Merged {
         for primitive in primitives {
             let first = merged.positions.len() as u32;
             let first_face = merged.triangles.len() as u32;
-            merged.positions.extend(&primitive.positions);
+            let positions = primitive.positions.iter();
+            (merged.positions).extend(positions.map(|p| p.map(f64::from)));
             let triangles = primitive.triangles.iter();
             merged
                 .triangles
