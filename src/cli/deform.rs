@@ -33,7 +33,7 @@ pub(super) struct Args {
     options: DeformOptions,
 }
 
-/// Runs `deform`.
+/// Runs `deform`; exit 5 if targets cannot be reached.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let records = &args.records;
     let format = body_format(&args.output, records.files.format)?;

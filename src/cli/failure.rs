@@ -41,6 +41,14 @@ impl Failure {
         }
     }
 
+    /// Written, but handles are not at their targets.
+    pub(super) fn unreachable() -> Self {
+        Self {
+            exit_code: 5,
+            message: "not all targets can be reached (targets_unreachable)".to_owned(),
+        }
+    }
+
     /// Anything else.
     pub(super) fn other(message: impl Into<String>) -> Self {
         Self {

@@ -1,7 +1,8 @@
 //! The commands: each subcommand is one file that fills settings structs and calls the library.
 //!
 //! Exit statuses: 0 success; 2 usage error; 3 unusable input; 4 not certified (with a file), or no
-//! valid result within the limits (without one); 1 any other error.
+//! valid result within the limits (without one); 5 targets that cannot be reached (with a file);
+//! 1 any other error.
 //!
 //! Before the work starts, the library checks the options, and `output` checks that every file can
 //! be written. Each input is opened once (`input`).

@@ -42,7 +42,7 @@ impl Records {
         }
     }
 
-    /// Writes everything.
+    /// Writes everything; an error if handles are not at their targets.
     pub(super) fn write(&self, outputs: &Outputs, deformed: &Deformed) -> Result<(), Failure> {
         let others = [
             (&self.files.report, json(&deformed.report)?),
@@ -56,7 +56,11 @@ impl Records {
             print_json(&deformed.report)?;
         }
         summarize(deformed);
-        Ok(())
+        if deformed.report.is_complete() {
+            Ok(())
+        } else {
+            Err(Failure::unreachable())
+        }
     }
 }
 

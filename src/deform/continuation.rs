@@ -19,7 +19,7 @@ const LEAST_CHANGE: f64 = 1e-6;
 
 impl Problem {
     /// Lowers β tenfold, again and again, while the unmodified energy falls, each time from the last map; returns the best. Every
-    /// iterate is without inversion, as in [`solve`](Self::solve).
+    /// iterate is without inversion, as in [`solve`](Self::solve). A solution whose handles have not arrived stays as it is.
     ///
     /// Costs a minimization for each step, most of them short.
     pub fn with_weaker_barrier(
@@ -52,6 +52,9 @@ impl Problem {
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Result<Solution, ProblemError> {
+        if !solution.has_arrived() {
+            return Ok(solution);
+        }
         let mut best = solution;
         let mut beta = self.barrier.beta;
         for _ in 0..MAX_STEPS {
@@ -76,6 +79,7 @@ impl Problem {
         Self {
             start: solution.x.clone(),
             stations: self.stations.last().cloned().into_iter().collect(),
+            search: false,
             ..self.clone()
         }
     }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::aims::Aim;
 use super::body::{Body, BodyElements};
 use super::locate::{locate, sole_vertex};
 use super::numbers;
@@ -62,10 +63,19 @@ pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
     Ok(file.handles)
 }
 
+/// Handles that have found what they pull.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// Their stations, the last of them their targets.
+    pub stations: Vec<Handles>,
+    /// What each takes hold of.
+    pub aims: Vec<Aim>,
+}
+
 /// Finds the vertices and elements of a body that handles name.
 ///
 /// A vertex may be named twice if both say the same. Errors name the handle by its place in the list, from 0.
-pub fn bind(body: &Body, handles: &[Handle]) -> Result<Handles, ProblemError> {
+pub fn bind(body: &Body, handles: &[Handle]) -> Result<Bound, ProblemError> {
     match body.elements {
         BodyElements::Triangles { .. } => Binder::<2>::new(body).bind(handles),
         BodyElements::Tetrahedra { .. } => Binder::<3>::new(body).bind(handles),
@@ -78,6 +88,7 @@ struct Binder<'a, const D: usize> {
     targets: Vec<Vec<f64>>,
     points: Vec<Row>,
     point_targets: Vec<f64>,
+    aims: Vec<Aim>,
 }
 
 impl<'a, const D: usize> Binder<'a, D>
@@ -91,19 +102,29 @@ where
             targets: Vec::new(),
             points: Vec::new(),
             point_targets: Vec::new(),
+            aims: Vec::new(),
         }
     }
 
-    fn bind(mut self, handles: &[Handle]) -> Result<Handles, ProblemError> {
+    fn bind(mut self, handles: &[Handle]) -> Result<Bound, ProblemError> {
         for (index, handle) in handles.iter().enumerate() {
+            let (vertices, points) = (self.vertices.len(), self.points.len());
             self.add(index, handle)?;
+            self.aims.push(Aim {
+                vertices: self.vertices[vertices..].to_vec(),
+                points: (points..self.points.len()).collect(),
+            });
         }
         if self.vertices.is_empty() && self.points.is_empty() {
             return Err(ProblemError::NoHandle);
         }
         let groups = self.body.groups(&self.vertices);
         let bound = paired(D, &self.vertices, &self.targets, &groups)?;
-        with_points(bound, self.points, self.point_targets)
+        let targets = with_points(bound, self.points, self.point_targets)?;
+        Ok(Bound {
+            stations: vec![targets],
+            aims: self.aims,
+        })
     }
 
     fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {

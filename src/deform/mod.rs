@@ -6,6 +6,9 @@
 //! them along. Maps of the plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
 #![doc = include_str!("guide.md")]
 
+mod aims;
+mod apart;
+mod axes;
 mod body;
 mod boundary;
 pub mod boundary_barrier;
@@ -28,18 +31,22 @@ mod problem_error;
 mod problem_file;
 mod pull;
 mod shake;
+mod singly;
 mod solve;
 mod units;
+mod unreached;
 mod untangle;
 pub mod uv;
 pub mod warp;
+mod ways;
 mod worth;
 
+pub use aims::Aim;
 pub use body::{Body, BodyElements};
 pub use boundary::Boundary;
 #[cfg(feature = "files")]
 pub use handles::parse_body_handles;
-pub use handles::{Handle, bind};
+pub use handles::{Bound, Handle, bind};
 pub use model::DeformationEnergy;
 #[cfg(feature = "files")]
 pub use numbers::from_json;
@@ -50,4 +57,5 @@ pub use problem_file::{ProblemFile, Rest};
 pub use pull::PullSummary;
 pub use solve::{Method, Solution};
 pub use units::Units;
+pub use unreached::Unreached;
 pub use worth::Worth;

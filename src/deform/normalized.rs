@@ -21,7 +21,7 @@ pub(super) struct Frame {
 
 impl Frame {
     /// The center of a body's box, and the unit in which its mean element has size 1.
-    fn of(body: &Body) -> Self {
+    pub fn of(body: &Body) -> Self {
         let dim = body.dim();
         let mean = match &body.elements {
             BodyElements::Triangles { rest, .. } => mean_size(rest),

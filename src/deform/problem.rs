@@ -1,8 +1,9 @@
 //! A body, handles and their targets, an energy and a barrier.
 
+use super::aims::Aim;
 use super::body::{Body, BodyElements};
 use super::boundary_barrier::BoundaryBarrier;
-use super::handles::{Handle, bind};
+use super::handles::{Bound, Handle, bind};
 use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
 use super::units::Units;
@@ -32,6 +33,11 @@ pub struct Problem {
     pub boundary_barrier: Option<BoundaryBarrier>,
     /// The stations of the handles, the last of them their targets.
     pub stations: Vec<Handles>,
+    /// What each handle of a user's list takes hold of; none where nobody asks which of them are
+    /// [unreached](Self::unreached).
+    pub aims: Vec<Aim>,
+    /// Are all bent ways tried, for the map with the lowest energy, even where straight ones lead to the targets?
+    pub search: bool,
     /// What `levenberg` is told.
     pub levenberg: LevenbergSettings,
     /// What β, ε, tolerances and energies are measured in.
@@ -115,6 +121,7 @@ impl Model {
 impl Problem {
     /// A body at rest and handles to pull it by.
     pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
+        let Bound { stations, aims } = bind(&body, handles)?;
         let problem = Self {
             start: body.rest.clone(),
             untangled: 0,
@@ -122,7 +129,9 @@ impl Problem {
             barrier: model.barrier(&body, None)?,
             bound: model.max_conformal,
             boundary_barrier: None,
-            stations: vec![bind(&body, handles)?],
+            stations,
+            aims,
+            search: false,
             levenberg: LevenbergSettings::default(),
             units: Units::Normalized,
             body,

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::aims::Aim;
 use super::body::Body;
 use super::model::DeformationEnergy;
 use super::numbers;
@@ -124,6 +125,8 @@ impl ProblemFile {
         let barrier = model.barrier(&body, self.eps)?;
         let mut problem = Problem {
             stations: self.stations(&body)?,
+            aims: self.handles.iter().map(|&v| Aim::at_vertex(v)).collect(),
+            search: false,
             levenberg: self.levenberg(),
             body,
             start,

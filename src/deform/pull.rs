@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::aims::Aim;
 use super::body::Body;
 use super::locate::sole_vertex;
 use super::paired::{handles, with_points};
@@ -87,6 +88,13 @@ impl Holds {
         heaviest.map_or(Grip::Fixed, |&(vertex, _)| Grip::Vertex(vertex))
     }
 
+    /// What is pulled, one after the other: the vertices and then the points.
+    fn aims(&self) -> Vec<Aim> {
+        let vertices = self.pulled.iter().map(|hold| Aim::at_vertex(hold.0));
+        let points = (0..self.points.len()).map(Aim::at_point);
+        vertices.chain(points).collect()
+    }
+
     /// All of them. Those that stay are a group of their own, so that no neighbor's travel moves them on the way.
     fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
         let pulled: Vec<u32> = self.pulled.iter().map(|hold| hold.0).collect();
@@ -130,6 +138,8 @@ pub(super) fn pull(
         boundary_barrier: None,
         barrier: model.barrier(&body, Some(epsilon))?,
         stations: vec![holds.handles(&body, start)?],
+        aims: holds.aims(),
+        search: false,
         levenberg: LevenbergSettings::default(),
         units: Units::Given,
         body,

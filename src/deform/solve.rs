@@ -39,9 +39,23 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// The one of the smaller residual, with the work of both.
-    fn or(self, other: Self) -> Self {
-        let (best, worse) = if other.worth.residual < self.worth.residual {
+    /// Do the handles stand at their targets?
+    pub(super) fn has_arrived(&self) -> bool {
+        !matches!(
+            self.summary.status,
+            Status::TargetsUnreachable | Status::Stopped
+        )
+    }
+
+    /// The better one, with the work of both: that of the lower energy where both have arrived, otherwise the one that has or has
+    /// come nearer.
+    pub(super) fn or(self, other: Self) -> Self {
+        let is_better = match (self.has_arrived(), other.has_arrived()) {
+            (true, true) => other.summary.energy_last < self.summary.energy_last,
+            (false, false) => other.worth.residual < self.worth.residual,
+            (_, arrived) => arrived,
+        };
+        let (best, worse) = if is_better {
             (other, self)
         } else {
             (self, other)
@@ -53,17 +67,14 @@ impl Solution {
     }
 }
 
-/// How ways are bent, one after the other, where straight ones do not lead to the targets: two that change places then pass each
-/// other at half the distance that they had.
-const BENDS: [f64; 2] = [0.5, -0.5];
-
 impl Problem {
     /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`]). With a barrier
     /// every iterate is without inversion.
     ///
-    /// Where the boundary may not cross itself, handles that change places stand in each other's way. Those that do not arrive
-    /// straight try again from the start with all ways bent to one side, and then to the other; the map with the smallest residual is
-    /// the solution.
+    /// Handles that change places stand in each other's way. Where they do not arrive straight they try again from the start on
+    /// bent ways, at most eight; where none leads to all targets each handle that can be reached is reached from the nearest map, and
+    /// [`unreached`](Self::unreached) names the rest. With [`search`](Self::search) all bent ways are tried, and the map with
+    /// the lowest energy is the solution. Iterations and factorizations are those of all attempts.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
         self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))
     }
@@ -119,28 +130,10 @@ impl Problem {
         }
     }
 
-    fn solve_ways(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
-        let mut best = self.solve_along(0.0, settings, watch)?;
-        if self.boundary_barrier.is_none() {
-            return Ok(best);
-        }
-        for bend in BENDS {
-            if best.summary.status != Status::TargetsUnreachable {
-                break;
-            }
-            let counted = Continued {
-                watch,
-                before: best.summary.iterations,
-            };
-            let next = self.solve_along(bend, settings, &counted)?;
-            best = best.or(next);
-        }
-        Ok(best)
-    }
-
-    fn solve_along(
+    /// Follows the handles on ways with these bends, straight ones if there are none.
+    pub(super) fn solve_along(
         &self,
-        bend: f64,
+        bends: &[[f64; 3]],
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Result<Solution, ProblemError> {
@@ -149,17 +142,29 @@ impl Problem {
         if x == self.body.rest && self.stations.len() == 1 {
             self.shake(&objective, &mut x);
         }
-        let follow = if self.body.dim() == 2 {
-            follow::<2>
-        } else {
-            follow::<3>
-        };
-        let stations = self.stations.iter().cloned();
-        let stations: Vec<Handles> = stations
-            .map(|handles| Handles { bend, ..handles })
-            .collect();
-        let total = follow(&mut objective, &mut x, &stations, settings, watch)?;
+        let stations = self.stations.iter().map(|handles| Handles {
+            bends: bends.to_vec(),
+            ..handles.clone()
+        });
+        let stations: Vec<Handles> = stations.collect();
+        let total = self.follow(&mut objective, &mut x, &stations, settings, watch)?;
         Ok(self.solution(x, total))
+    }
+
+    /// Moves the map until the handles are at their stations.
+    pub(super) fn follow(
+        &self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        stations: &[Handles],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Summary, ProblemError> {
+        Ok(if self.body.dim() == 2 {
+            follow::<2>(objective, x, stations, settings, watch)?
+        } else {
+            follow::<3>(objective, x, stations, settings, watch)?
+        })
     }
 
     fn iterate_softly(
@@ -194,7 +199,7 @@ impl Problem {
     }
 
     /// The energy with the barrier, and the points that handles pull at.
-    fn objective(&self) -> Result<Objective, ProblemError> {
+    pub(super) fn objective(&self) -> Result<Objective, ProblemError> {
         let terms = self.terms(self.barrier)?;
         let n_vertices = self.body.n_vertices();
         let Some(handles) = self.stations.first().filter(|h| !h.points.is_empty()) else {
@@ -222,7 +227,7 @@ impl Problem {
         Some(self.boundary_barrier.as_ref()?.with_beta(beta))
     }
 
-    fn solution(&self, x: Vec<f64>, summary: Summary) -> Solution {
+    pub(super) fn solution(&self, x: Vec<f64>, summary: Summary) -> Solution {
         Solution {
             worth: self.worth(&x),
             summary,

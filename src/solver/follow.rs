@@ -139,7 +139,7 @@ where
         let mut strength = SOFT;
         while !self.points.is_empty() && strength < HARD {
             strength *= 10.0;
-            self.points.pull(objective, x, strength, 1.0);
+            self.points.pull::<D>(objective, x, strength, 1.0);
             self.summary.energy_last = objective.value(x);
             if self.settle(objective, x, settings, watch) == Control::Finish {
                 return;

@@ -20,9 +20,10 @@ pub struct Handles {
     pub points: Vec<Row>,
     /// Their targets, coordinates one after another.
     pub point_targets: Vec<f64>,
-    /// How far every way, of a group or a point, bends to its left, in halves of its length; in the plane only. 0 is straight;
-    /// otherwise those that change places pass each other.
-    pub bend: f64,
+    /// How each way bends, that of every group by its number and then that of every point; all are straight if there are none. A
+    /// bend is a direction, in the plane the first two numbers, as long as the way is bent in halves of its length. Two that change
+    /// places pass each other if both bend to their left.
+    pub bends: Vec<[f64; 3]>,
 }
 
 /// Handles that do not fit each other or the map.
@@ -45,6 +46,14 @@ pub enum HandlesError {
         vertices: usize,
         /// How many groups.
         groups: usize,
+    },
+    /// Not every way has a bend.
+    #[error("{ways} ways have {bends} bends")]
+    Bends {
+        /// How many groups and points.
+        ways: usize,
+        /// How many bends.
+        bends: usize,
     },
     /// A handle names a vertex that there is not.
     #[error("a handle names vertex {vertex}, but there are only {n_vertices} vertices")]
@@ -77,7 +86,10 @@ impl HandlesError {
     /// A word for programs; it does not change.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Targets { .. } | Self::Groups { .. } | Self::Points { .. } => "unpaired_handles",
+            Self::Targets { .. }
+            | Self::Groups { .. }
+            | Self::Bends { .. }
+            | Self::Points { .. } => "unpaired_handles",
             Self::UnknownVertex { .. } => "unknown_handle",
             Self::Twice { .. } => "contradictory_handles",
             Self::NotFinite => "bad_target",
@@ -108,6 +120,10 @@ impl Handles {
         if groups != 0 && groups != vertices {
             return Err(HandlesError::Groups { vertices, groups });
         }
+        let (ways, bends) = (self.n_ways(), self.bends.len());
+        if bends != 0 && bends != ways {
+            return Err(HandlesError::Bends { ways, bends });
+        }
         let n_vertices = n_coordinates / dim;
         let of_points = self.points.iter().flatten().map(|(vertex, _)| vertex);
         let mut named = self.vertices.iter().chain(of_points);
@@ -118,15 +134,27 @@ impl Handles {
         if let Some(&vertex) = self.vertices.iter().find(|&vertex| !seen.insert(vertex)) {
             return Err(HandlesError::Twice { vertex });
         }
-        let mut numbers = self.targets.iter().chain(&self.point_targets);
-        if !(numbers.all(|x| x.is_finite()) && self.bend.is_finite()) {
+        let targets = self.targets.iter().chain(&self.point_targets);
+        let mut numbers = targets.chain(self.bends.as_flattened());
+        if !numbers.all(|x| x.is_finite()) {
             return Err(HandlesError::NotFinite);
         }
         Ok(())
     }
 
+    /// How many groups there are, the largest number among theirs and one.
+    pub fn n_groups(&self) -> usize {
+        let groups = self.groups();
+        groups.iter().max().map_or(0, |&group| group as usize + 1)
+    }
+
+    /// How many ways: one of each group, one of each point.
+    pub fn n_ways(&self) -> usize {
+        self.n_groups() + self.points.len()
+    }
+
     /// The group of each vertex.
-    pub(super) fn groups(&self) -> Cow<'_, [u32]> {
+    pub fn groups(&self) -> Cow<'_, [u32]> {
         if self.groups.is_empty() {
             (0..self.vertices.len() as u32).collect()
         } else {

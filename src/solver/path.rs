@@ -17,7 +17,7 @@ pub struct Path<const D: usize> {
 struct RigidMotion<const D: usize> {
     from: [f64; D],
     to: [f64; D],
-    bend: f64,
+    bend: [f64; 3],
     /// The rotation is exp(s·log).
     log: Matrix<D>,
 }
@@ -33,16 +33,16 @@ where
     pub fn new(handles: &Handles, x: &[f64]) -> Result<Self, HandlesError> {
         handles.check(D, x.len())?;
         let groups = handles.groups();
-        let n_groups = groups.iter().max().map_or(0, |&g| g as usize + 1);
+        let n_groups = handles.n_groups();
         let at = |v: u32| -> [f64; D] { std::array::from_fn(|k| x[D * v as usize + k]) };
         let target = |i: usize| -> [f64; D] { std::array::from_fn(|k| handles.targets[D * i + k]) };
         let mut members = vec![Vec::new(); n_groups];
         for (i, (&v, &g)) in handles.vertices.iter().zip(&*groups).enumerate() {
             members[g as usize].push((at(v), target(i)));
         }
-        let motions: Vec<_> = members
-            .iter()
-            .map(|m| RigidMotion::fit(m, handles.bend))
+        let bend = |group: usize| handles.bends.get(group).copied().unwrap_or_default();
+        let motions: Vec<_> = (members.iter().enumerate())
+            .map(|(group, members)| RigidMotion::fit(members, bend(group)))
             .collect();
         let placed = handles.vertices.iter().zip(&*groups).enumerate();
         let handles = placed.map(|(i, (&v, &g))| {
@@ -69,7 +69,7 @@ impl<const D: usize> RigidMotion<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    fn fit(members: &[([f64; D], [f64; D])], bend: f64) -> Self {
+    fn fit(members: &[([f64; D], [f64; D])], bend: [f64; 3]) -> Self {
         let n = members.len().max(1) as f64;
         let (mut from, mut to) = ([0.0; D], [0.0; D]);
         for (p, q) in members {
@@ -109,15 +109,10 @@ where
     }
 }
 
-/// How far from a straight way one with this bend is at `s`; in space nothing.
-pub(super) fn aside<const D: usize>(way: [f64; D], bend: f64, s: f64) -> [f64; D] {
-    let mut aside = [0.0; D];
-    if D == 2 && bend != 0.0 {
-        let height = 2.0 * bend * s * (1.0 - s);
-        aside[0] = -height * way[1];
-        aside[1] = height * way[0];
-    }
-    aside
+/// How far from a straight way one with this bend, see [`Handles::bends`], is at `s`.
+pub(super) fn aside<const D: usize>(way: [f64; D], bend: [f64; 3], s: f64) -> [f64; D] {
+    let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+    std::array::from_fn(|k| 2.0 * s * (1.0 - s) * length * bend[k])
 }
 
 fn difference<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {

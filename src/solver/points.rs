@@ -8,7 +8,8 @@ use super::path::aside;
 pub(super) struct Points {
     origins: Vec<f64>,
     ways: Vec<f64>,
-    bend: f64,
+    /// One each, or none where they are straight.
+    bends: Vec<[f64; 3]>,
     /// Room for what is computed from them.
     room: Vec<f64>,
     /// The energy's mean curvature at the start; 0 before it is known.
@@ -30,7 +31,9 @@ impl Points {
         Self {
             room: vec![0.0; ways.len()],
             ways,
-            bend: handles.bend,
+            bends: (handles.bends.iter().skip(handles.n_groups()))
+                .copied()
+                .collect(),
             origins,
             unit: 0.0,
         }
@@ -54,30 +57,35 @@ impl Points {
     }
 
     /// How far the targets move between two shares of the way.
-    pub fn moves(&mut self, from: f64, to: f64) -> &[f64] {
+    pub fn moves<const D: usize>(&mut self, from: f64, to: f64) -> &[f64] {
         for (room, way) in self.room.iter_mut().zip(&self.ways) {
             *room = (to - from) * way;
         }
-        self.bend_room(to, 1.0);
-        self.bend_room(from, -1.0);
+        self.bend_room::<D>(to, 1.0);
+        self.bend_room::<D>(from, -1.0);
         &self.room
     }
 
     /// Adds so many times to the room how far the points are from a straight way at `s`.
-    fn bend_room(&mut self, s: f64, times: f64) {
-        if self.bend == 0.0 {
-            return;
-        }
-        let ways = self.ways.as_chunks::<2>().0;
-        for (room, way) in self.room.as_chunks_mut::<2>().0.iter_mut().zip(ways) {
-            let aside = aside(*way, times * self.bend, s);
-            *room = [room[0] + aside[0], room[1] + aside[1]];
+    fn bend_room<const D: usize>(&mut self, s: f64, times: f64) {
+        let rooms = self.room.as_chunks_mut::<D>().0.iter_mut();
+        let ways = rooms.zip(self.ways.as_chunks::<D>().0);
+        for ((room, way), bend) in ways.zip(&self.bends) {
+            for (room, aside) in room.iter_mut().zip(aside(*way, *bend, s)) {
+                *room += times * aside;
+            }
         }
     }
 
     /// Sets the targets to a share `s` of their way and their strength, in units of the energy's mean curvature, which is taken
     /// at `x` the first time.
-    pub fn pull(&mut self, objective: &mut Objective, x: &[f64], strength: f64, s: f64) {
+    pub fn pull<const D: usize>(
+        &mut self,
+        objective: &mut Objective,
+        x: &[f64],
+        strength: f64,
+        s: f64,
+    ) {
         if self.is_empty() {
             return;
         }
@@ -89,7 +97,7 @@ impl Points {
         for (room, (origin, way)) in self.room.iter_mut().zip(ways) {
             *room = origin + s * way;
         }
-        self.bend_room(s, 1.0);
+        self.bend_room::<D>(s, 1.0);
         objective.set_constraints(strength * self.unit, &self.room);
     }
 }

@@ -89,7 +89,7 @@ where
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Control {
-        self.points.pull(objective, x, SOFT, self.s);
+        self.points.pull::<D>(objective, x, SOFT, self.s);
         let mut stuck = 0;
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
         {
@@ -130,7 +130,7 @@ where
             if self.aim(objective, x, to).is_err() {
                 break;
             }
-            self.points.pull(objective, x, SOFT, to);
+            self.points.pull::<D>(objective, x, SOFT, to);
             let largest = SAFETY * objective.largest_step(x, &self.direction);
             if largest >= 1.0 && self.is_acceptable(objective, x) {
                 x.copy_from_slice(&self.trial);
@@ -140,7 +140,7 @@ where
             }
             self.stride *= 0.5 * largest.clamp(0.2, 1.0);
         }
-        self.points.pull(objective, x, SOFT, self.s);
+        self.points.pull::<D>(objective, x, SOFT, self.s);
         self.stride = 4.0 * LEAST_ADVANCE;
         false
     }
@@ -159,7 +159,7 @@ where
                 self.direction[at + k] = place[k] - x[at + k];
             }
         }
-        let moves = self.points.moves(self.s, to);
+        let moves = self.points.moves::<D>(self.s, to);
         objective.follow(&mut self.direction, moves)?;
         for (d, n) in self.direction.iter_mut().zip(&self.newton) {
             *d += n;

@@ -56,7 +56,9 @@ fn what_does_not_fit_is_an_error_and_nothing_moves() {
     assert_eq!(pulls(&|h| h.vertices[2] = 27), "unknown_handle");
     assert_eq!(pulls(&|h| h.vertices[2] = 0), "contradictory_handles");
     assert_eq!(pulls(&|h| h.targets[3] = f64::NAN), "bad_target");
-    assert_eq!(pulls(&|h| h.bend = f64::INFINITY), "bad_target");
+    assert_eq!(pulls(&|h| h.bends = vec![[0.0; 3]]), "unpaired_handles");
+    let endless = |h: &mut Handles| h.bends = vec![[f64::INFINITY; 3]; h.n_ways()];
+    assert_eq!(pulls(&endless), "bad_target");
     let point = |vertex| vec![(vertex, 1.0)];
     assert_eq!(pulls(&|h| h.points.push(point(5))), "unpaired_handles");
     let unmet = |h: &mut Handles| {

@@ -85,4 +85,5 @@ mod uv_editing;
 mod uv_meshes;
 #[cfg(feature = "files")]
 mod warp;
+mod ways;
 mod zoo;

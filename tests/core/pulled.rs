@@ -72,6 +72,8 @@ pub fn problem(
             groups,
             ..Handles::default()
         }],
+        aims: Vec::new(),
+        search: false,
         levenberg: LevenbergSettings::default(),
         units: Units::Given,
         body,

@@ -1,6 +1,7 @@
 //! How a problem is solved.
 
 use crate::deform::Method;
+use crate::solver::Settings;
 
 /// What is done beside minimizing once.
 #[derive(Clone, Copy)]
@@ -10,4 +11,6 @@ pub struct Plan {
     pub barrier_continuation: bool,
     /// Also minimize without a barrier.
     pub bias: bool,
+    /// What the projected method is told.
+    pub settings: Settings,
 }

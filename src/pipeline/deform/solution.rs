@@ -8,11 +8,11 @@ use serde::Serialize;
 use super::cage_report::CageReport;
 use super::plan::Plan;
 use crate::certificate::boundary_crossings;
-use crate::deform::{BodyElements, Method, Problem, Solution, Units, Worth};
+use crate::deform::{BodyElements, Method, Problem, Solution, Units, Unreached, Worth};
 use crate::document::Warning;
 use crate::pipeline::PipelineError;
 use crate::pipeline::tracker::Tracker;
-use crate::solver::{Control, Iterate, Settings, Summary, Watch};
+use crate::solver::{Control, Iterate, Status, Summary, Watch};
 
 /// What a body became.
 #[derive(Clone, Debug)]
@@ -24,6 +24,17 @@ pub struct Deformed {
     /// A line per iteration as CSV: energy without the barrier, the barrier's and the constraints' share, smallest element, μ, σ,
     /// α and the residual, as in [`Iterate`].
     pub trace: String,
+}
+
+/// The code of the warning that handles did not come to their targets.
+const TARGETS_UNREACHABLE: &str = "targets_unreachable";
+
+impl DeformReport {
+    /// Is every handle at its target, or was there no time to bring it there?
+    pub fn is_complete(&self) -> bool {
+        let mut codes = self.warnings.iter().map(|warning| &*warning.code);
+        !codes.any(|code| code == TARGETS_UNREACHABLE)
+    }
 }
 
 /// What a deformation is worth and how it was found.
@@ -38,6 +49,8 @@ pub struct DeformReport {
     /// What the map is worth.
     #[serde(flatten)]
     pub worth: Worth,
+    /// The handles that did not come to their targets, and how far from them they are.
+    pub unreached: Vec<Unreached>,
     /// What its energies are measured in.
     pub units: Units,
     /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
@@ -85,7 +98,7 @@ pub fn solve(
         x: RefCell::default(),
         iterates: RefCell::default(),
     };
-    let settings = Settings::follow();
+    let settings = plan.settings;
     let mut solution = match plan.method {
         Method::Projected => problem.solve(&settings, &trace)?,
         Method::Levenberg => problem.solve_by_levenberg(&problem.levenberg, &trace)?,
@@ -105,10 +118,13 @@ pub fn solve(
     if problem.boundary_barrier.is_some() && crossings > Some(0) {
         return Err(PipelineError::Crossed);
     }
+    let unreached = problem.unreached(&solution);
+    let missed = missed(solution.summary.status, &unreached);
     let report = DeformReport {
         method: plan.method,
         summary: solution.summary,
         worth: solution.worth,
+        unreached,
         units: problem.units,
         crossings,
         untangled: problem.untangled,
@@ -116,7 +132,7 @@ pub fn solve(
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,
         solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
-        warnings: tracker.warning().into_iter().collect(),
+        warnings: tracker.warning().into_iter().chain(missed).collect(),
         cage: None,
     };
     Ok(Solved {
@@ -124,6 +140,23 @@ pub fn solve(
         report,
         trace: trace.csv(),
     })
+}
+
+/// What to know of handles that did not come to their targets although there was time.
+fn missed(status: Status, unreached: &[Unreached]) -> Option<Warning> {
+    const NAMED: usize = 8;
+    if status == Status::Stopped || unreached.is_empty() {
+        return None;
+    }
+    let named = unreached.iter().take(NAMED);
+    let named = named.map(|one| format!("{} (by {:.3e})", one.handle, one.distance));
+    let mut names = named.collect::<Vec<_>>().join(", ");
+    if unreached.len() > NAMED {
+        names = format!("{names} and {} more", unreached.len() - NAMED);
+    }
+    let message =
+        format!("no way was found to the targets of these handles, counted from 0: {names}");
+    Some(Warning::new(TARGETS_UNREACHABLE, message))
 }
 
 /// How often the boundary of a body of the plane meets itself.

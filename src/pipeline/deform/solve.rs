@@ -21,7 +21,8 @@ pub fn solve_file(
     let tracker = Tracker::new(observer, options.caller.budget(options.budget));
     in_pool(options.caller.workers(options.workers), || {
         tracker.stage(Stage::Read);
-        let (problem, elements) = read(upload, &options.caller.limits)?;
+        let (mut problem, elements) = read(upload, &options.caller.limits)?;
+        problem.search = options.course.search;
         let file = |x: &[f64]| options.format.write(&elements, &problem, x);
         let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
         let solved = solve(&problem, options.plan(), &tracker, frames)?;

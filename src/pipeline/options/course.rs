@@ -1,6 +1,9 @@
 //! What is done beside minimizing once.
 
+use crate::deform::Method;
 use crate::options::options;
+use crate::pipeline::deform::plan::Plan;
+use crate::solver::Settings;
 
 options! {
     /// What the solver does besides one minimization.
@@ -11,5 +14,26 @@ options! {
         /// Also report the energy that the map tends to as the barrier strength tends to 0. The
         /// difference is the bias of the barrier.
         pub bias: bool;
+        /// Try all bent ways to the targets, even if the straight ones lead there, and keep the map
+        /// with the lowest energy. Costs up to nine minimizations.
+        pub search: bool;
+        /// The minimization ends when a step promises to lower the energy by less than this share.
+        /// The default is 1e-6.
+        pub tolerance: Option<f64>, in 1e-15..=1e-1, value "SHARE";
+    }
+}
+
+impl Course {
+    pub(super) fn plan(self, method: Method) -> Plan {
+        let default = Settings::follow();
+        Plan {
+            method,
+            barrier_continuation: self.barrier_continuation,
+            bias: self.bias,
+            settings: Settings {
+                tolerance: self.tolerance.unwrap_or(default.tolerance),
+                ..default
+            },
+        }
     }
 }

@@ -82,11 +82,7 @@ impl DeformOptions {
     }
 
     pub(in crate::pipeline) fn plan(&self) -> Plan {
-        Plan {
-            method: Method::Projected,
-            barrier_continuation: self.course.barrier_continuation,
-            bias: self.course.bias,
-        }
+        self.course.plan(Method::Projected)
     }
 }
 

@@ -1,9 +1,9 @@
 //! Refuses options that would have no effect: their user expects one.
 
-use super::{KeptMaps, Options, Preset};
+use super::{Course, KeptMaps, Options, Preset};
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
-use crate::deform::Model;
+use crate::deform::{Method, Model};
 use crate::document::{GroupBy, OutputFormat};
 use crate::pipeline::rebake::ImageFormat;
 
@@ -15,6 +15,16 @@ fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
         Some((name, with, _)) => Err(format!("`{name}` requires {with}")),
         None => Ok(()),
     }
+}
+
+/// Refuses options of the projected method where another one solves.
+pub(super) fn check_course(course: &Course, method: Method) -> Result<(), String> {
+    let is_other = method != Method::Projected;
+    let with = "`method` projected";
+    refused([
+        ("search", with, course.search && is_other),
+        ("tolerance", with, course.tolerance.is_some() && is_other),
+    ])
 }
 
 /// Refuses options of unwrapping that the others leave without effect. One that has its default value cannot be told from one that

@@ -1,6 +1,6 @@
 //! How a problem file is solved.
 
-use super::{Budget, Caller, CommandOptions, Course, Workers};
+use super::{Budget, Caller, CommandOptions, Course, Workers, idle};
 use crate::deform::Method;
 use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
@@ -36,17 +36,15 @@ options! {
 
 impl SolveOptions {
     pub(in crate::pipeline) fn plan(&self) -> Plan {
-        Plan {
-            method: self.method,
-            barrier_continuation: self.course.barrier_continuation,
-            bias: self.course.bias,
-        }
+        self.course.plan(self.method)
     }
 }
 
 impl CommandOptions for SolveOptions {
     fn check(&self) -> Result<(), PipelineError> {
-        self.check_ranges().map_err(PipelineError::InvalidOptions)?;
+        self.check_ranges()
+            .and_then(|()| idle::check_course(&self.course, self.method))
+            .map_err(PipelineError::InvalidOptions)?;
         self.format.check_for_mesh()
     }
 

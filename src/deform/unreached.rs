@@ -1,0 +1,89 @@
+//! Handles that did not come to their targets.
+
+use serde::Serialize;
+
+use super::normalized::Frame;
+use super::problem::Problem;
+use super::solve::Solution;
+use crate::solver::Handles;
+
+/// What counts as arrived: a distance of this share of a mean element's edge.
+const ARRIVED: f64 = 1e-6;
+
+/// A handle that did not come to its target.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Unreached {
+    /// Its place in the list of handles, from 0.
+    pub handle: usize,
+    /// How far it is from its target, in the unit of the mesh: of what it holds, what is farthest.
+    pub distance: f64,
+}
+
+impl Problem {
+    /// The handles that did not come to their targets, in the order of their list.
+    pub fn unreached(&self, solution: &Solution) -> Vec<Unreached> {
+        let Some(targets) = self.stations.last() else {
+            return Vec::new();
+        };
+        let gaps = Gaps {
+            dim: self.body.dim(),
+            targets,
+            x: &solution.x,
+        };
+        let of_handle = |(handle, aim): (usize, &super::Aim)| {
+            let held = (targets.vertices.iter().enumerate())
+                .filter(|(_, vertex)| aim.vertices.contains(vertex));
+            let distances = held.map(|(i, _)| gaps.of_vertex(i));
+            let distances = distances.chain(aim.points.iter().map(|&i| gaps.of_point(i)));
+            Unreached {
+                handle,
+                distance: distances.fold(0.0, f64::max),
+            }
+        };
+        let all = self.aims.iter().enumerate().map(of_handle);
+        all.filter(|handle| handle.distance > self.least_gap())
+            .collect()
+    }
+
+    /// A distance that counts as none.
+    pub(super) fn least_gap(&self) -> f64 {
+        ARRIVED * Frame::of(&self.body).squared(1.0).sqrt()
+    }
+}
+
+/// How far handles are from their targets.
+pub(super) struct Gaps<'a> {
+    pub dim: usize,
+    pub targets: &'a Handles,
+    pub x: &'a [f64],
+}
+
+impl Gaps<'_> {
+    /// Of the handle at a vertex, by its place among them.
+    pub fn of_vertex(&self, i: usize) -> f64 {
+        let first = self.dim * self.targets.vertices[i] as usize;
+        let at = |k: usize| self.x[first + k] - self.targets.targets[self.dim * i + k];
+        (0..self.dim).map(|k| at(k) * at(k)).sum::<f64>().sqrt()
+    }
+
+    /// Of a point.
+    pub fn of_point(&self, i: usize) -> f64 {
+        let place = self.point(i);
+        let targets = self.targets.point_targets[self.dim * i..].iter();
+        let squares = place.iter().zip(targets).map(|(x, t)| (x - t) * (x - t));
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// Where a point is.
+    pub fn point(&self, i: usize) -> Vec<f64> {
+        let mut place = vec![0.0; self.dim];
+        for &(v, weight) in &self.targets.points[i] {
+            let corner = &self.x[self.dim * v as usize..];
+            for (sum, x) in place.iter_mut().zip(corner) {
+                *sum += weight * x;
+            }
+        }
+        place
+    }
+}
