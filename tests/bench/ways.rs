@@ -153,7 +153,7 @@ fn crowded(n: u64) {
         report(&format!("crowd {seed}"), &warp, seconds);
         all.push((warp.summary.status == Status::Converged, seconds));
     }
-    conclude("crowded", all);
+    conclude("crowded", &all);
 }
 
 fn paired(at: &[[f64; 2]], to: &[[f64; 2]]) -> Vec<PictureHandle> {
@@ -197,11 +197,11 @@ fn warps(n: u64) {
         report(&name, &warp, seconds);
         all.push((warp.summary.status == Status::Converged, seconds));
     }
-    conclude("warps", all);
+    conclude("warps", &all);
     println!("bijective where asked: {bijective} of {wanted}");
 }
 
-fn conclude(name: &str, all: Vec<(bool, f64)>) {
+fn conclude(name: &str, all: &[(bool, f64)]) {
     let arrived = all.iter().filter(|(arrived, _)| *arrived).count();
     let mut seconds: Vec<f64> = all.iter().map(|(_, seconds)| *seconds).collect();
     seconds.sort_by(f64::total_cmp);
