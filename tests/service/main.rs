@@ -11,6 +11,7 @@ mod cli_streams;
 mod cluster;
 mod contract;
 mod deforming;
+mod figures;
 #[path = "../harness/mod.rs"]
 #[expect(dead_code, reason = "some is for the benchmark")]
 mod harness;

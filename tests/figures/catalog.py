@@ -1,0 +1,7 @@
+"""All figures, in the order of the paper."""
+import barriers
+import plane
+import solids
+import steps
+
+FIGURES = sorted(plane.FIGURES + barriers.FIGURES + solids.FIGURES + steps.FIGURES, key=lambda figure: figure.number)
