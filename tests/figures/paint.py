@@ -59,14 +59,15 @@ def common_box(*sets):
     return points.min(0), points.max(0)
 
 
-def planar(mesh, x, rings=(), box=None, scale=(2, 6), width=300, height=None, edge=(60, 64, 80, 70), dots=()):
+def planar(mesh, x, rings=(), box=None, scale=(2, 6), width=300, height=None, edge=(60, 64, 80, 70), dots=(),
+           outline=True, values=None):
     """A map of a planar mesh: red by conformal distortion, inverted triangles yellow and on top; `rings` of vertices are handles."""
     _, rest, triangles = mesh
     sheet = Sheet(box or common_box(x), width, height)
     inverted = sizes(x, triangles) <= 0
-    colors = heat(conformal(rest, x, triangles), *scale)
+    colors = heat(*(values or (conformal(rest, x, triangles), *scale)))
     sheet.polygons(x[triangles[~inverted]], colors[~inverted], edge)
-    for a, b in border(triangles):
+    for a, b in border(triangles) if outline else ():
         sheet.line(x[[a, b]], INK, 1)
     sheet.polygons(x[triangles[inverted]], np.tile(YELLOW, (inverted.sum(), 1)), (150, 110, 0, 160))
     for ring in rings:

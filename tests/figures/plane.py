@@ -71,8 +71,8 @@ def draw2(made):
     near = without.x[mesh[2][sizes(without.x, mesh[2]) <= 0]].reshape(-1, 2)
     center = np.median(near, 0)
     close = (center - .2, center + .2)
-    show = lambda title, x: (title, planar(mesh, x, rings, box, 250, 300))
-    zoom = lambda title, x: (title, planar(mesh, x, [], close, 300, 300))
+    show = lambda title, x: (title, planar(mesh, x, rings, box, width=250, height=300))
+    zoom = lambda title, x: (title, planar(mesh, x, [], close, width=300))
     return row([show("ARAP", without.x), zoom("close-up", without.x), show("rest", mesh[1]), show("our method", ours.x),
                 zoom("close-up", ours.x)])
 

@@ -18,7 +18,7 @@ def make8(work, fault):
     side = {int(v): x[v] for v in np.flatnonzero((x[:, 0] == 0) | (x[:, 0] == 1) | (x[:, 1] == 0) | (x[:, 1] == 1))}
     target = np.array([.8, .5])
     frames = "frames" if fault is None else f"frames-{fault[:8]}".replace(" ", "-")
-    run = work.solve("substeps", mesh, {**side, vertex: target if fault != "wrong handle" else target - [.1, 0]}, "arap", "spline",
+    run = work.solve("substeps", mesh, {**side, vertex: target if fault != "wrong handle" else target - [.1, 0]}, "green", "spline",
                      "--method", "levenberg", "--frames", frames, statuses=ANY, substepping=fault != "substepping off",
                      alpha_update=True, max_iter=400)
     return mesh, vertex, target, run
@@ -49,7 +49,7 @@ def draw8(made):
     chosen = [relaxed[0], relaxed[len(relaxed) // 2], relaxed[-1], steps[-1]]
     box = ((.3, .25), (1, .75))
     marks = lambda at, to: [(target, 6, BLUE), (to, 5, MAGENTA), (at, 5, GREEN)]
-    return row([(f"step {k}", planar(mesh, run.frames[k - 1], [], box, 250, dots=marks(at, to))) for k, at, to in chosen])
+    return row([(f"step {k}", planar(mesh, run.frames[k - 1], [], box, width=250, dots=marks(at, to))) for k, at, to in chosen])
 
 
 def bend(mesh):
@@ -93,7 +93,7 @@ def draw21(made):
     for mesh, parts, pull, title, ours, failed in made:
         rings, box = [sorted(p) for p in parts], common_box(mesh[1], ours.x, failed.x)
         dots = [(np.mean([pull[v] for v in part], 0), 3, MAGENTA) for part in parts]
-        show = lambda t, x: (t, planar(mesh, x, rings, box, 260, edge=(60, 64, 80, 30), dots=dots))
+        show = lambda t, x: (t, planar(mesh, x, rings, box, width=260, edge=(60, 64, 80, 30), dots=dots))
         rows.append(row([show(f"{len(mesh[2])} triangles", mesh[1]), show("ours", ours.x), show(title, failed.x)]))
     return column(rows)
 
