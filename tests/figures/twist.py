@@ -41,3 +41,37 @@ def twisted(work, name, mesh, kind, beta, stretch, fault=None):
     if fault == "wrong handle":
         way = way[:-24]
     return work.solve(name, mesh, way[-1], "green", kind, sequence=way, beta=beta, statuses=(DONE, INVERTED, UNREACHABLE)), way
+
+
+def make20(work, fault):
+    mesh = bar(48, 3)
+    strong = 100.0
+    kind = "none" if fault == "barrier off" else "spline"
+    without, way = twisted(work, "none", mesh, "none", strong, 1.4)
+    ours, _ = twisted(work, "none" if kind == "none" else "ours", mesh, kind, strong, 1.4, fault)
+    return mesh, way[-1], without, ours
+
+
+def check20(made):
+    mesh, pull, without, ours = made
+    require(flips(without.x, mesh[2]) > 0, "none inverted without the barrier")
+    require(flips(ours.x, mesh[2]) == 0, f"{flips(ours.x, mesh[2])} inverted with the barrier")
+    require(distance(ours.x, pull) < NEAR, "the end is not where it should be")
+    (kept, largest), (lost, _) = turns(mesh[1], ours.x), turns(mesh[1], without.x)
+    require(abs(kept) > 6.6, f"{abs(kept):.2f} turns are left")
+    return (f"inverted without {flips(without.x, mesh[2])} (the paper 135), with 0; turns kept {abs(kept):.2f} of {TURNS}, "
+            f"without the barrier {abs(lost):.2f}; largest angle between layers {largest:.0f}°")
+
+
+def draw20(made):
+    mesh, _, without, ours = made
+    view, box = (8, 20), np.array([[0, -3, -3], [68, 3, 3], [68, -3, 3], [0, 3, -3]])
+    show = lambda x: solid(x, mesh[2], view, box=box, width=680, height=90)
+    return column([row([("rest", show(mesh[1]))]), row([("Green's strain without the barrier", show(without.x))]),
+                   row([("with the barrier, drawn out 1.4 times", show(ours.x))])])
+
+
+FIGURES = [
+    Figure(20, "twisted bar", "A bar drawn out 1.4 times and twisted seven times, Green's strain, without and with the barrier.",
+           make20, check20, draw20, ("barrier off", "wrong handle")),
+]
