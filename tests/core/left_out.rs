@@ -1,5 +1,5 @@
 //! Which tests may be left out: those in modules named `shared`, where the data beside the repository is absent, and those in
-//! `server`, `cluster` and `browser`, in a run without them.
+//! `server`, `cluster`, `browser` and `figures`, in a run without them.
 
 use std::fs;
 use std::path::{Path, PathBuf};

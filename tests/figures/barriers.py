@@ -141,7 +141,8 @@ def check7(made):
     bias = {kind: e[kind] / e["none"] - 1 for kind in ("spline", "auglog")}
     require(bias["spline"] < 0.1 * bias["auglog"] and bias["auglog"] > 0.1, f"bias of the energy: {bias}")
     require(spread["spline"] < 0.2 * spread["auglog"], f"bias of the shape: {spread}")
-    return f"Green's strain raised by {100 * bias['auglog']:.1f} % with the augmented log, {100 * bias['spline']:.2g} % with the inverse spline"
+    log, ours = (100 * bias[kind] for kind in ("auglog", "spline"))
+    return f"Green's strain raised by {log:.1f} % with the augmented log, {ours:.2g} % with the inverse spline"
 
 
 def draw7(made):

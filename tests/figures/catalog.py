@@ -7,4 +7,6 @@ import solids
 import steps
 import twist
 
-FIGURES = sorted(plane.FIGURES + charts.FIGURES + barriers.FIGURES + solids.FIGURES + steps.FIGURES + edits.FIGURES + twist.FIGURES, key=lambda figure: figure.number)
+MODULES = plane, charts, barriers, solids, steps, edits, twist
+
+FIGURES = sorted((figure for module in MODULES for figure in module.FIGURES), key=lambda figure: figure.number)

@@ -1,24 +1,22 @@
 """Figures of pictures and of parameterizations: 12, 15, 16, 17 and 18."""
+import io
 import json
-from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw
 
 from figure import Figure
-from maps import area_distortion, border, conformal, crossings, distance, flips, pulled, sizes
-from paint import BLUE, column, common_box, heat, planar, row, surface
+from maps import area_distortion, conformal, distance, flips, pulled, sizes
+from paint import BLUE, column, common_box, planar, row, surface
 from plane import NEAR, both, merged, moved, rings_of
 from shapes import disk, turned
 from work import read_obj, require
 
-ASSETS = Path(__file__).parents[1] / "assets"
 SIDE = 240
 PULLS = (((75, 80), (100, 66)), ((175, 85), (150, 130)), ((110, 185), (90, 150)))
 
 
 def png(pixels):
-    import io
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, "PNG")
     return file.getvalue()
@@ -41,9 +39,9 @@ def make12(work, fault):
     coordinates = np.stack([x, y, 0 * x], -1).astype(np.uint8)
     pulls = [(a, b) for a, b in PULLS]
     if fault == "wrong handle":
-        pulls[0] = (pulls[0][0], (110, 60))
+        pulls[0] = (pulls[0][0], (60, 130))
     handles = work.named("handles.json", json.dumps({"handles": [{"at": a, "to": b} for a, b in pulls]}))
-    options = ["--fix-border"] + (["--barrier", "none", "--energy", "laplacian"] if fault == "barrier off" else [])
+    options = ["--fix-border"] + (["--barrier", "none", "--energy", "green"] if fault == "barrier off" else [])
     out = {}
     for name, pixels in (("scene", scene()), ("coordinates", coordinates)):
         file, result = work.named(f"{name}.png", png(pixels)), f"{name}-out{'-' + fault[:5] if fault else ''}.png"
@@ -150,10 +148,10 @@ def draw15(made):
     x, triangles = made["none"][:2]
     pictures = [("surface", surface([(x, triangles, (215, 212, 205))], (25, 12), width=220, height=240))]
     for kind, (_, _, rest, corners, at) in made.items():
-        pictures.append((f"{'ARAP' if kind == 'none' else 'with the barrier'}", planar(("", rest, corners), at, [], common_box(at), width=300,
-                                                                                      edge=(60, 64, 80, 25), outline=False)))
+        title, box = "ARAP" if kind == "none" else "with the barrier", common_box(at)
+        pictures.append((title, planar(("", rest, corners), at, [], box, width=300, edge=(60, 64, 80, 25), outline=False)))
         ratio = np.abs(sizes(at, corners)) / sizes(rest, corners)
-        pictures.append(("area", planar(("", rest, corners), at, [], common_box(at), width=200, edge=None, outline=False,
+        pictures.append(("area", planar(("", rest, corners), at, [], box, width=200, edge=None, outline=False,
                                         values=(ratio + 1 / np.maximum(ratio, 1e-6), 2, 4))))
     return row(pictures)
 

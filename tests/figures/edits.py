@@ -13,7 +13,8 @@ from shapes import filled, rounded
 from work import read_obj, require
 
 ASSETS = Path(__file__).parents[1] / "assets"
-MITTEN = [(0, 0), (.3, -.02), (.6, 0), (.72, .16), (1.2, .64), (1.17, .82), (.98, .8), (.68, .52), (.64, 1.05), (.35, 1.3), (.06, 1.05), (0, .5)]
+MITTEN = [(0, 0), (.3, -.02), (.6, 0), (.72, .16), (1.2, .64), (1.17, .82), (.98, .8), (.68, .52),
+          (.64, 1.05), (.35, 1.3), (.06, 1.05), (0, .5)]
 BASE, TIP, HALFWAY = np.array([.62, .26]), np.array([1.1, .73]), np.array([.88, .5])
 PALM = np.array([[.15, .1], [.45, .1], [.2, .9], [.45, .9], [.33, 1.15]])
 
@@ -50,8 +51,7 @@ def make16(work, fault):
     mesh, bent = glove(work)
     file = work.mesh("glove", bent, mesh[2])
     kind = "none" if fault == "barrier off" else "inverse-spline"
-    for name, use in (("map", kind),):
-        work.run("unwrap", file, "--cut", "disk", "--pin", 2, "--energy", "lscm", "--barrier", use, "-o", f"{name}-{use}.obj", statuses=(0, 4))
+    work.run("unwrap", file, "--cut", "disk", "--pin", 2, "--energy", "lscm", "--barrier", kind, "-o", f"map-{kind}.obj", statuses=(0, 4))
     x, triangles, uv = by_vertex(work.folder / f"map-{kind}.obj")
     order = [nearest(x, p) for p in bent]
     # The similarity that takes the mitten's palm to the map's: complex least squares.
@@ -182,7 +182,8 @@ def check17(made):
     still = float(np.abs(after - before)[np.unique(sides)].max())
     require(still < 1e-6, f"the border moved by {still:.2g}")
     require(crossings(after, sides) == 0, "the border crosses itself")
-    return f"{len(triangles)} triangles (the paper 46384), none inverted, {len(to)} features in place within {away:.0e}; the border still: bijective"
+    return (f"{len(triangles)} triangles (the paper 46384), none inverted, {len(to)} features in place within {away:.0e}; "
+            "the border still: bijective")
 
 
 def draw17(made):

@@ -1,5 +1,10 @@
 """Meshes made for the figures: a puppet, squares, disks, bars, voxels and surfaces in them."""
+import json
+
 import numpy as np
+
+from maps import sizes
+from work import read_off
 
 # Half the outline of the puppet that stands for the paper's Woody, from the top of its head down.
 HALF = [(0, 1), (.13, .99), (.2, .88), (.17, .76), (.09, .7), (.12, .64), (.3, .62), (.62, .62), (.74, .6), (.77, .54), (.72, .48),
@@ -19,7 +24,6 @@ def rounded(points, rounds=3):
 
 def filled(work, name, outline, n_triangles, statuses=(0,)):
     """An outline filled with triangles by `unwrapd deform`, which leaves it where it is: (name, positions, triangles)."""
-    from work import read_off
     if name not in work.known:
         at = 100 * outline * [1, -1]
         path = " ".join(f"{x:.4f},{y:.4f}" for x, y in at)
@@ -27,12 +31,10 @@ def filled(work, name, outline, n_triangles, statuses=(0,)):
         view = f"{low[0]:.2f} {low[1]:.2f} {size[0]:.2f} {size[1]:.2f}"
         svg = work.named(f"{name}.svg", f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{view}"><polygon points="{path}"/></svg>\n')
         still = {"handles": [{"center": at[0].tolist(), "radius": 1, "to": at[0].tolist()}]}
-        import json
         handles = work.named(f"{name}-still.json", json.dumps(still))
         work.run("deform", svg, "--triangles", n_triangles, "--handles", handles, "-o", f"{name}-rest.off", statuses=statuses)
         x, triangles = read_off(work.folder / f"{name}-rest.off")
         x = x[:, :2] * [.01, -.01]
-        from maps import sizes
         if sizes(x, triangles).sum() < 0:
             triangles = triangles[:, [0, 2, 1]]
         work.known[name] = (name, x, triangles)

@@ -27,4 +27,4 @@ def contact(pictures):
         for cell in column:
             out.paste(cell, (GAP + k * (WIDTH + GAP), top))
             top += cell.height + GAP
-    return out.quantize(128, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    return out.quantize(255, Image.Quantize.MEDIANCUT, kmeans=4, dither=Image.Dither.NONE)

@@ -4,11 +4,11 @@ from pathlib import Path
 import numpy as np
 
 from figure import Figure
-from maps import distance, flips, green
-from paint import common_box, planar, plot, row, skin, solid, surface
+from maps import distance, flips
+from paint import common_box, planar, row, solid, surface
 from plane import NEAR, check2, make2, moved, require_pair
-from shapes import Voxels, around, bar, turned
-from work import INVERTED, DONE, UNREACHABLE, read_off, require
+from shapes import Voxels, around, turned
+from work import require
 
 ROD_RADIUS, ROD_LENGTH = 1.0, 8.0
 

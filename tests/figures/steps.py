@@ -3,7 +3,7 @@ import numpy as np
 
 from figure import Figure
 from maps import distance, flips, pulled
-from paint import BLUE, GREEN, MAGENTA, common_box, planar, row
+from paint import BLUE, GREEN, MAGENTA, column, common_box, planar, row
 from plane import NEAR, merged
 from shapes import FEET, HANDS, HEAD, rectangle, woody
 from work import DONE, INVERTED, UNREACHABLE, require
@@ -90,7 +90,6 @@ def check21(made):
 
 
 def draw21(made):
-    from paint import column
     rows = []
     for mesh, parts, pull, title, ours, failed in made:
         rings, box = [sorted(p) for p in parts], common_box(mesh[1], ours.x, failed.x)
