@@ -198,8 +198,8 @@ def draw18(made):
 FIGURES = [
     Figure(12, "warped picture", "ARAP on a regular mesh with a picture, the border fixed.", make12, check12, draw12,
            ("barrier off", "wrong handle")),
-    Figure(15, "parameterization", "ARAP from Tutte's map, without and with the barrier; angles red, areas beside.", make15, check15, draw15,
-           ("barrier off", "another energy")),
+    Figure(15, "parameterization", "ARAP from Tutte's map, without and with the barrier; angles red, areas beside.",
+           make15, check15, draw15, ("barrier off", "another energy")),
     Figure(18, "pulled disk", "Three handles, pulled a little (top) and far (bottom): ARAP's spikes, and the barrier's map.",
            make18, check18, draw18, ("barrier off", "wrong handle")),
 ]

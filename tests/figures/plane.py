@@ -160,7 +160,8 @@ def check19(made):
 FIGURES = [
     Figure(2, "2D deformation", "ARAP alone (left), the rest pose and the barrier (right); red by angular distortion, inverted yellow.",
            make2, check2, draw2, ("barrier off", "wrong handle")),
-    Figure(9, "energies", "Four energies on two meshes, without and with the barrier.", make9, check9, draw9, ("barrier off", "wrong handle")),
+    Figure(9, "energies", "Four energies on two meshes, without and with the barrier.", make9, check9, draw9,
+           ("barrier off", "wrong handle")),
     Figure(10, "Dirichlet and Laplacian", "A simple pull, without and with the barrier.", make10, check10, draw10,
            ("barrier off", "wrong handle")),
     Figure(19, "arms and legs swapped", "Hands and feet change places, head and chest are held; ARAP without and with the barrier.",

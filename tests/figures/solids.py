@@ -4,8 +4,8 @@ from pathlib import Path
 import numpy as np
 
 from figure import Figure
-from maps import distance, flips
-from paint import common_box, planar, row, solid, surface
+from maps import distance, flips, sizes
+from paint import YELLOW, common_box, planar, row, solid, surface
 from plane import NEAR, check2, make2, moved, require_pair
 from shapes import Voxels, around, turned
 from work import require
@@ -201,8 +201,11 @@ def check14(made):
 def see_through(voxels, parts, x, view=(25, 14), width=270):
     alpha = (70, 95, 150, 255)
     shapes = [(voxels.carried(p, x), triangles, (*color, a)) for (p, triangles), (_, color), a in zip(parts, SHELLS, alpha)]
-    box = np.stack(np.meshgrid([-1.25, 1.25], [-1, 1], [-1.25, 1.25]), -1).reshape(-1, 3)
-    return surface(shapes, view, box, width, round(.85 * width))
+    bad = voxels.tets[sizes(x, voxels.tets) <= 0]
+    if len(bad):
+        shapes.append((x, np.concatenate([bad[:, list(k)] for k in ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))]), (*YELLOW, 255)))
+    box = np.stack(np.meshgrid([-1.2, 1.2], [-.85, .75], [-1.2, 1.2]), -1).reshape(-1, 3)
+    return surface(shapes, view, box, width, round(.75 * width))
 
 
 def draw14(made):
@@ -220,10 +223,10 @@ def check1(made):
 
 
 def draw1(made):
-    (mesh, parts, _, without, ours), (voxels, _, _, runs) = made
+    (mesh, parts, _, without, ours), (voxels, inner, _, runs) = made
     rings, box = [sorted(p) for p in parts], common_box(without.x, ours.x)
     flat = [(t, planar(mesh, x, rings, box, width=200)) for t, x in (("ARAP: spillage", without.x), ("ours", ours.x))]
-    show = lambda run: solid(run.x, voxels.tets, (25, 14), width=230, height=200, color=(225, 110, 90))
+    show = lambda run: see_through(voxels, inner, run.x, width=250)
     return row([*flat, ("ARAP in space", show(runs[0])), ("ours in space", show(runs[1]))])
 
 

@@ -35,7 +35,8 @@ def between(made):
 def check8(made):
     mesh, vertex, target, run = made
     require(all(flips(frame, mesh[2]) == 0 for frame in run.frames), "an iterate is inverted")
-    # What the trace calls the constraint is α‖Cv − t‖², in other units than its residual ‖Cv − d‖²; they differ where t is not d.
+    # What the trace calls the constraint is α‖Cv − t‖², in other units than its residual ‖Cv − d‖².
+    # They differ where t is not d.
     weight = [step["constraint"] / max(step["alpha"] * step["residual"], 1e-300) for step in run.trace]
     relaxed = [k for k, w in enumerate(weight) if run.trace[k]["mu"] >= 1 and w < .5 * weight[0]]
     require(len(relaxed) >= 2, f"the target retreats in {len(relaxed)} steps")
@@ -63,8 +64,9 @@ def bend(mesh):
 
 def make21(work, fault):
     rows = []
-    for n, (title, barrier, switches) in ((4900, ("no alpha update, Neo-Hookean", "neohookean", {"substepping": True, "alpha_update": False})),
-                                          (12200, ("no substepping", "spline", {"substepping": False, "alpha_update": True}))):
+    failures = [(4900, "no alpha update, Neo-Hookean", "neohookean", {"substepping": True, "alpha_update": False}),
+                (12200, "no substepping", "spline", {"substepping": False, "alpha_update": True})]
+    for n, title, barrier, switches in failures:
         mesh = woody(work, n)
         parts = bend(mesh)
         pull = merged(parts)
