@@ -97,8 +97,9 @@ impl Problem {
             }
         }
         let gaps = Gaps { dim, targets, x };
+        let n_groups = targets.n_groups();
         for i in 0..targets.points.len() {
-            if !set.contains(&(targets.n_groups() + i)) {
+            if !set.contains(&(n_groups + i)) {
                 station.point_targets[dim * i..dim * (i + 1)].copy_from_slice(&gaps.point(i));
             }
         }

@@ -72,7 +72,7 @@ fn in_space_ways_bend_too() {
     // Two vertices inside a block change places.
     let block = block(CELLS);
     let body = Body::from(&block);
-    let [left, right] = [id([2, 3, 3]), id([4, 3, 3])];
+    let [left, right] = [id([1, 2, 2]), id([3, 2, 2])];
     let at = |v: u32| block.vertices()[v as usize].to_vec();
     let mut handles = vec![vertex(left, &at(right)), vertex(right, &at(left))];
     handles.extend(corners().map(|v| vertex(v, &at(v))));
@@ -82,7 +82,7 @@ fn in_space_ways_bend_too() {
     assert!(solution.worth.residual < 1e-16, "{:?}", solution.worth);
 }
 
-const CELLS: u32 = 6;
+const CELLS: u32 = 4;
 
 fn id([x, y, z]: [u32; 3]) -> u32 {
     ((CELLS + 1) * z + y) * (CELLS + 1) + x
@@ -139,10 +139,9 @@ fn nor_does_it_in_space() {
     let is_border = |&v: &u32| place(v).iter().any(|x| x.is_multiple_of(CELLS));
     let border: Vec<u32> = (0..(CELLS + 1).pow(3)).filter(is_border).collect();
     let handles = vec![
-        vertex(id([3, 3, 1]), &[3.0, 3.0, -2.0]),
-        vertex(id([2, 2, 3]), &[2.3, 2.4, 3.2]),
-        vertex(id([4, 2, 3]), &[3.8, 2.5, 3.0]),
-        vertex(id([2, 4, 4]), &[2.4, 4.0, 4.2]),
+        vertex(id([2, 2, 1]), &[2.0, 2.0, -2.0]),
+        vertex(id([1, 1, 3]), &[1.2, 1.3, 3.1]),
+        vertex(id([3, 2, 3]), &[2.8, 2.2, 2.9]),
     ];
     assert_only_the_first_is_not_reached(Body::from(&mesh), handles, &border);
 }
