@@ -12,6 +12,9 @@ use crate::energy::Row;
 use crate::numerics::square::{Matrix, Square};
 use crate::solver::Handles;
 
+/// What rounding leaves of the distance between equal coordinates, as a share of them.
+const ROUNDING: f64 = 1e-12;
+
 /// One handle; positions have as many coordinates as the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
@@ -118,13 +121,43 @@ where
         if self.vertices.is_empty() && self.points.is_empty() {
             return Err(ProblemError::NoHandle);
         }
-        let groups = self.body.groups(&self.vertices);
+        let groups = self.groups();
         let bound = paired(D, &self.vertices, &self.targets, &groups)?;
         let targets = with_points(bound, self.points, self.point_targets)?;
         Ok(Bound {
             stations: vec![targets],
             aims: self.aims,
         })
+    }
+
+    /// Vertices that are connected travel together, but for handles that stay: they are a group of their own, so that no
+    /// neighbor's travel moves them on the way.
+    fn groups(&self) -> Vec<u32> {
+        let mut is_moving = vec![false; self.vertices.len()];
+        let mut first = 0;
+        for aim in &self.aims {
+            let of_aim = first..first + aim.vertices.len();
+            first = of_aim.end;
+            let moves = of_aim.clone().any(|i| self.moves(i));
+            is_moving[of_aim].fill(moves);
+        }
+        let chosen = self.vertices.iter().zip(&is_moving);
+        let moving: Vec<u32> = chosen
+            .filter(|(_, moves)| **moves)
+            .map(|(v, _)| *v)
+            .collect();
+        let staying = moving.len() as u32;
+        let mut groups = self.body.groups(&moving).into_iter();
+        let group = |moves: bool| if moves { groups.next() } else { None };
+        let groups = is_moving.into_iter().map(group);
+        groups.map(|group| group.unwrap_or(staying)).collect()
+    }
+
+    /// Is a target elsewhere than its vertex, but for rounding?
+    fn moves(&self, i: usize) -> bool {
+        let rest = &self.body.rest[D * self.vertices[i] as usize..];
+        let mut pairs = rest.iter().zip(&self.targets[i]);
+        pairs.any(|(x, to)| (x - to).abs() > ROUNDING * x.abs().max(to.abs()))
     }
 
     fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {

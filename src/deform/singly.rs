@@ -1,5 +1,8 @@
 //! Handles that can be reached, beside those that cannot.
 
+use std::collections::HashSet;
+
+use super::aims::Aim;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
 use super::solve::Solution;
@@ -24,7 +27,15 @@ impl Problem {
         let [targets] = &self.stations[..] else {
             return Ok(best);
         };
-        let mut missing = self.missing(targets, &best.x);
+        let (parts, least) = (self.parts(targets), self.least_gap());
+        let gaps = Gaps {
+            dim: self.body.dim(),
+            targets,
+            x: &best.x,
+        };
+        let mut missing: Vec<&Aim> = (parts.iter())
+            .filter(|part| gaps.of(part) > least)
+            .collect();
         let mut objective = self.objective()?;
         let (mut x, mut total) = (best.x.clone(), best.summary);
         for _ in 0..ROUNDS {
@@ -67,39 +78,37 @@ impl Problem {
         Ok(self.solution(x, total))
     }
 
-    /// The ways whose handles are not at their targets, by their numbers.
-    fn missing(&self, targets: &Handles, x: &[f64]) -> Vec<usize> {
-        let dim = self.body.dim();
-        let gaps = Gaps { dim, targets, x };
-        let mut of_ways = vec![0.0_f64; targets.n_ways()];
-        for (i, &group) in targets.groups().iter().enumerate() {
-            let gap = &mut of_ways[group as usize];
-            *gap = gap.max(gaps.of_vertex(i));
+    /// What is pulled together: what one handle of the user's list holds, or else a group or a point.
+    fn parts(&self, targets: &Handles) -> Vec<Aim> {
+        if !self.aims.is_empty() {
+            return self.aims.clone();
         }
-        let of_points = of_ways[targets.n_groups()..].iter_mut();
-        for (i, gap) in of_points.enumerate() {
-            *gap = gaps.of_point(i);
+        let mut parts = vec![Aim::default(); targets.n_groups()];
+        for (&vertex, &group) in targets.vertices.iter().zip(&*targets.groups()) {
+            parts[group as usize].vertices.push(vertex);
         }
-        let least = self.least_gap();
-        let left = of_ways.iter().enumerate().filter(|(_, gap)| **gap > least);
-        left.map(|(way, _)| way).collect()
+        parts.extend((0..targets.points.len()).map(Aim::at_point));
+        parts
     }
 
-    /// The handles of these ways pulled to their targets, and all others held where they are.
-    fn only(&self, targets: &Handles, set: &[usize], x: &[f64]) -> Handles {
+    /// The handles of these parts pulled to their targets, and all others held where they are.
+    fn only(&self, targets: &Handles, set: &[&Aim], x: &[f64]) -> Handles {
         let dim = self.body.dim();
+        let pulled: HashSet<u32> = set.iter().flat_map(|part| part.vertices.clone()).collect();
         let mut station = targets.clone();
-        let groups = targets.groups();
-        for (i, (&v, &group)) in targets.vertices.iter().zip(&*groups).enumerate() {
-            if !set.contains(&(group as usize)) {
+        station.groups = targets.groups().to_vec();
+        // A group of their own, so that no neighbor's travel moves them.
+        let held = targets.n_groups() as u32;
+        for (i, &v) in targets.vertices.iter().enumerate() {
+            if !pulled.contains(&v) {
                 let place = &x[dim * v as usize..dim * (v as usize + 1)];
                 station.targets[dim * i..dim * (i + 1)].copy_from_slice(place);
+                station.groups[i] = held;
             }
         }
         let gaps = Gaps { dim, targets, x };
-        let n_groups = targets.n_groups();
         for i in 0..targets.points.len() {
-            if !set.contains(&(n_groups + i)) {
+            if !set.iter().any(|part| part.points.contains(&i)) {
                 station.point_targets[dim * i..dim * (i + 1)].copy_from_slice(&gaps.point(i));
             }
         }
@@ -108,8 +117,8 @@ impl Problem {
 }
 
 /// A set in two parts, the last of them first; one alone as it is.
-fn halves(set: &[usize]) -> Vec<Vec<usize>> {
+fn halves<T: Copy>(set: &[T]) -> Vec<Vec<T>> {
     let (first, second) = set.split_at(set.len() / 2);
     let parts = [second, first].into_iter().filter(|part| !part.is_empty());
-    parts.map(<[usize]>::to_vec).collect()
+    parts.map(<[T]>::to_vec).collect()
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::aims::Aim;
 use super::normalized::Frame;
 use super::problem::Problem;
 use super::solve::Solution;
@@ -31,15 +32,9 @@ impl Problem {
             targets,
             x: &solution.x,
         };
-        let of_handle = |(handle, aim): (usize, &super::Aim)| {
-            let held = (targets.vertices.iter().enumerate())
-                .filter(|(_, vertex)| aim.vertices.contains(vertex));
-            let distances = held.map(|(i, _)| gaps.of_vertex(i));
-            let distances = distances.chain(aim.points.iter().map(|&i| gaps.of_point(i)));
-            Unreached {
-                handle,
-                distance: distances.fold(0.0, f64::max),
-            }
+        let of_handle = |(handle, aim)| Unreached {
+            handle,
+            distance: gaps.of(aim),
         };
         let all = self.aims.iter().enumerate().map(of_handle);
         all.filter(|handle| handle.distance > self.least_gap())
@@ -60,15 +55,24 @@ pub(super) struct Gaps<'a> {
 }
 
 impl Gaps<'_> {
+    /// Of all that a handle holds, the largest.
+    pub fn of(&self, aim: &Aim) -> f64 {
+        let place = |vertex| self.targets.vertices.iter().position(|v| v == vertex);
+        let held = aim.vertices.iter().filter_map(place);
+        let distances = held.map(|i| self.of_vertex(i));
+        let distances = distances.chain(aim.points.iter().map(|&i| self.of_point(i)));
+        distances.fold(0.0, f64::max)
+    }
+
     /// Of the handle at a vertex, by its place among them.
-    pub fn of_vertex(&self, i: usize) -> f64 {
+    fn of_vertex(&self, i: usize) -> f64 {
         let first = self.dim * self.targets.vertices[i] as usize;
         let at = |k: usize| self.x[first + k] - self.targets.targets[self.dim * i + k];
         (0..self.dim).map(|k| at(k) * at(k)).sum::<f64>().sqrt()
     }
 
     /// Of a point.
-    pub fn of_point(&self, i: usize) -> f64 {
+    fn of_point(&self, i: usize) -> f64 {
         let place = self.point(i);
         let targets = self.targets.point_targets[self.dim * i..].iter();
         let squares = place.iter().zip(targets).map(|(x, t)| (x - t) * (x - t));
