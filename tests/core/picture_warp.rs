@@ -90,7 +90,7 @@ fn with_a_fixed_border_extreme_moves_are_bijective() {
             unreachable += 1;
         }
     }
-    // Handles move on straight lines: two that change places, or one that meets another's, stop short.
+    // Of handles whose targets are too near to each other for the grid some stop short.
     assert!(reached >= RUNS / 3, "{reached} reached");
     assert!(unreachable >= 1 && reached + unreachable >= RUNS * 9 / 10);
 }

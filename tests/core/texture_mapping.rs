@@ -126,10 +126,10 @@ fn extreme_moves_within_a_fixed_boundary_are_bijective() {
             reached += 1;
         }
     }
-    // Anchors move on straight lines: those that meet each other or the boundary on their way stop short.
+    // Anchors whose targets lie beyond the boundary, or too near to each other, stop short.
     assert!(reached >= 30, "{reached} reached");
     assert!(
-        unreachable >= 30 && reached + unreachable >= RUNS * 3 / 4,
+        unreachable >= 1 && reached + unreachable >= RUNS * 3 / 4,
         "{unreachable} unreachable"
     );
 }
