@@ -1,6 +1,6 @@
 //! Bends that keep handles apart from each other on their ways.
 
-use super::ways::{BEND, Way};
+use super::way::{BEND, Way};
 use crate::numerics::vec3;
 
 /// Places of a way at which it is compared with others.

@@ -38,6 +38,7 @@ mod unreached;
 mod untangle;
 pub mod uv;
 pub mod warp;
+mod way;
 mod ways;
 mod worth;
 
