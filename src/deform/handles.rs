@@ -1,19 +1,27 @@
 //! Handles as a user names them.
 
+use std::collections::HashMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::aims::Aim;
 use super::body::{Body, BodyElements};
+use super::bound::{Turned, Way, stations};
 use super::locate::{locate, sole_vertex};
 use super::numbers;
 use super::paired::{handles as paired, with_points};
 use super::problem_error::ProblemError;
 use crate::energy::Row;
+use crate::numerics::rotation::Rotation;
 use crate::numerics::square::{Matrix, Square};
+use crate::numerics::vec3;
 use crate::solver::Handles;
 
 /// What rounding leaves of the distance between equal coordinates, as a share of them.
 const ROUNDING: f64 = 1e-12;
+
+/// Degrees that a disc may turn at most: a hundred turns, in 2400 stations.
+const MOST_DEGREES: f64 = 36_000.0;
 
 /// One handle; positions have as many coordinates as the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,9 +46,13 @@ pub enum Handle {
         /// Where the center goes.
         #[serde(deserialize_with = "numbers::position")]
         to: Vec<f64>,
-        /// A turn about the center in degrees, counter-clockwise; in the plane only.
+        /// A turn about the center in degrees, counter-clockwise, of a hundred turns (36000) at
+        /// most. Half a turn and more is made in steps of 15 degrees.
         #[serde(default)]
         turn: f64,
+        /// In space: the direction to turn about, as seen by whom it points at.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axis: Option<[f64; 3]>,
     },
     /// A point of an element at rest, a vertex if it is one.
     Point {
@@ -53,7 +65,8 @@ pub enum Handle {
     },
 }
 
-/// Reads `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d}, …]}`.
+/// Reads `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d, "axis": […]},
+/// …]}`.
 #[cfg(feature = "files")]
 pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
     #[derive(Deserialize)]
@@ -73,9 +86,12 @@ pub struct Bound {
     pub stations: Vec<Handles>,
     /// What each takes hold of.
     pub aims: Vec<Aim>,
+    /// What turns.
+    pub turns: Vec<Turned>,
 }
 
-/// Finds the vertices and elements of a body that handles name.
+/// Finds the vertices and elements of a body that handles name, and the stations on their ways: several where a disc makes half
+/// a turn or more, which the nearest way to the target would not.
 ///
 /// A vertex may be named twice if both say the same. Errors name the handle by its place in the list, from 0.
 pub fn bind(body: &Body, handles: &[Handle]) -> Result<Bound, ProblemError> {
@@ -88,23 +104,25 @@ pub fn bind(body: &Body, handles: &[Handle]) -> Result<Bound, ProblemError> {
 struct Binder<'a, const D: usize> {
     body: &'a Body,
     vertices: Vec<u32>,
-    targets: Vec<Vec<f64>>,
+    ways: Vec<Way<D>>,
     points: Vec<Row>,
-    point_targets: Vec<f64>,
+    point_ways: Vec<Way<D>>,
+    turns: Vec<Turned>,
     aims: Vec<Aim>,
 }
 
 impl<'a, const D: usize> Binder<'a, D>
 where
-    Matrix<D>: Square<D>,
+    Matrix<D>: Square<D> + Rotation<D>,
 {
     fn new(body: &'a Body) -> Self {
         Self {
             body,
             vertices: Vec::new(),
-            targets: Vec::new(),
+            ways: Vec::new(),
             points: Vec::new(),
-            point_targets: Vec::new(),
+            point_ways: Vec::new(),
+            turns: Vec::new(),
             aims: Vec::new(),
         }
     }
@@ -122,10 +140,15 @@ where
             return Err(ProblemError::NoHandle);
         }
         let groups = self.groups();
-        let bound = paired(D, &self.vertices, &self.targets, &groups)?;
-        let targets = with_points(bound, self.points, self.point_targets)?;
+        let targets: Vec<Vec<f64>> = self.ways.iter().map(|way| way.at(1.0).to_vec()).collect();
+        let bound = paired(D, &self.vertices, &targets, &groups)?;
+        let point_targets = self.point_ways.iter().flat_map(|way| way.at(1.0));
+        let last = with_points(bound, self.points, point_targets.collect())?;
+        let way_of: HashMap<u32, usize> = self.vertices.iter().copied().zip(0..).collect();
+        let ways = (&*self.ways, &*self.point_ways);
         Ok(Bound {
-            stations: vec![targets],
+            stations: stations(last, &|vertex| way_of[&vertex], ways, &self.turns),
+            turns: self.turns,
             aims: self.aims,
         })
     }
@@ -153,11 +176,12 @@ where
         groups.map(|group| group.unwrap_or(staying)).collect()
     }
 
-    /// Is a target elsewhere than its vertex, but for rounding?
+    /// Does a vertex turn, or go elsewhere but for rounding?
     fn moves(&self, i: usize) -> bool {
         let rest = &self.body.rest[D * self.vertices[i] as usize..];
-        let mut pairs = rest.iter().zip(&self.targets[i]);
-        pairs.any(|(x, to)| (x - to).abs() > ROUNDING * x.abs().max(to.abs()))
+        let differ = |(x, to): (&f64, f64)| (x - to).abs() > ROUNDING * x.abs().max(to.abs());
+        let way = &self.ways[i];
+        way.spin != [[0.0; D]; D] || rest.iter().zip(way.at(1.0)).any(differ)
     }
 
     fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {
@@ -170,67 +194,99 @@ where
                         n_vertices: self.body.n_vertices(),
                     });
                 }
-                self.vertices.push(*vertex);
-                self.targets.push(position::<D>(index, to)?.to_vec());
+                self.add_vertex(*vertex, position(index, to)?);
             }
             Handle::Disc {
                 center,
                 radius,
                 to,
                 turn,
+                axis,
             } => {
-                let (center, to) = (position(index, center)?, position(index, to)?);
-                self.add_disc(index, center, *radius, to, *turn)?;
+                let center = (position(index, center)?, position(index, to)?);
+                self.add_disc(index, center, *radius, (*turn, *axis))?;
             }
             Handle::Point { at, to } => {
                 let (at, to) = (position(index, at)?, position::<D>(index, to)?);
                 let outside = ProblemError::HandleOutside { handle: index };
                 let row = locate(self.body, at).ok_or(outside)?;
                 if let Some(vertex) = sole_vertex(&row) {
-                    self.vertices.push(vertex);
-                    self.targets.push(to.to_vec());
+                    self.add_vertex(vertex, to);
                 } else {
                     self.points.push(row);
-                    self.point_targets.extend(to);
+                    self.point_ways.push(Way::straight(at, to));
                 }
             }
         }
         Ok(())
     }
 
+    fn place(&self, vertex: u32) -> [f64; D] {
+        std::array::from_fn(|k| self.body.rest[D * vertex as usize + k])
+    }
+
+    fn add_vertex(&mut self, vertex: u32, to: [f64; D]) {
+        self.vertices.push(vertex);
+        self.ways.push(Way::straight(self.place(vertex), to));
+    }
+
     fn add_disc(
         &mut self,
         index: usize,
-        center: [f64; D],
+        (center, to): ([f64; D], [f64; D]),
         radius: f64,
-        to: [f64; D],
-        turn: f64,
+        (turn, axis): (f64, Option<[f64; 3]>),
     ) -> Result<(), ProblemError> {
-        if !(radius >= 0.0 && radius.is_finite() && turn.is_finite()) || D == 3 && turn != 0.0 {
-            return Err(ProblemError::BadParameter {
-                name: "radius and turn",
-                range: "finite, the radius not negative, a turn in the plane only",
-            });
+        if !(radius >= 0.0 && radius.is_finite()) {
+            let (name, range) = ("radius", "finite and not negative");
+            return Err(ProblemError::BadParameter { name, range });
         }
-        let (sin, cos) = turn.to_radians().sin_cos();
+        let axis = turning_axis::<D>(turn, axis)?;
         let before = self.vertices.len();
-        for v in 0..self.body.n_vertices() {
-            let arm: [f64; D] = std::array::from_fn(|k| self.body.rest[D * v + k] - center[k]);
-            if arm.iter().map(|x| x * x).sum::<f64>() > radius * radius {
-                continue;
+        for v in 0..self.body.n_vertices() as u32 {
+            let place = self.place(v);
+            let arm: [f64; D] = std::array::from_fn(|k| place[k] - center[k]);
+            if arm.iter().map(|x| x * x).sum::<f64>() <= radius * radius {
+                self.vertices.push(v);
+                self.ways.push(Way {
+                    from: center,
+                    to,
+                    arm,
+                    spin: Matrix::<D>::about(axis, turn.to_radians()),
+                });
             }
-            let mut place: [f64; D] = std::array::from_fn(|k| to[k] + arm[k]);
-            if turn != 0.0 {
-                place[0] = to[0] + cos * arm[0] - sin * arm[1];
-                place[1] = to[1] + sin * arm[0] + cos * arm[1];
-            }
-            self.vertices.push(v as u32);
-            self.targets.push(place.to_vec());
         }
         if self.vertices.len() == before {
             return Err(ProblemError::HandleOutside { handle: index });
         }
+        if turn != 0.0 {
+            self.turns.push(Turned {
+                handle: index,
+                vertices: self.vertices[before..].to_vec(),
+                axis,
+                degrees: turn,
+            });
+        }
         Ok(())
+    }
+}
+
+/// The unit vector to turn about; in the plane there is none to give.
+fn turning_axis<const D: usize>(
+    turn: f64,
+    axis: Option<[f64; 3]>,
+) -> Result<[f64; 3], ProblemError> {
+    let unit = axis.map_or([0.0; 3], vec3::unit);
+    let has_axis = unit.iter().all(|x| x.is_finite()) && unit != [0.0; 3];
+    let is_turn = turn.abs() <= MOST_DEGREES;
+    match (D, axis.is_some()) {
+        (2, false) if is_turn => Ok(unit),
+        (3, true) if is_turn && has_axis => Ok(unit),
+        (3, false) if turn == 0.0 => Ok(unit),
+        _ => Err(ProblemError::BadParameter {
+            name: "turn and axis",
+            range: "at most 36000 degrees, and in space, but not in the plane, the axis a direction",
+        }),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::aims::Aim;
 use super::body::{Body, BodyElements};
+use super::bound::Turned;
 use super::boundary_barrier::BoundaryBarrier;
 use super::handles::{Bound, Handle, bind};
 use super::model::DeformationEnergy;
@@ -33,6 +34,8 @@ pub struct Problem {
     pub boundary_barrier: Option<BoundaryBarrier>,
     /// The stations of the handles, the last of them their targets.
     pub stations: Vec<Handles>,
+    /// What turns on the way, for those who ask which [turns](Self::turns) a map holds.
+    pub turned: Vec<Turned>,
     /// What each handle of a user's list takes hold of; none where nobody asks which of them are
     /// [unreached](Self::unreached).
     pub aims: Vec<Aim>,
@@ -121,7 +124,11 @@ impl Model {
 impl Problem {
     /// A body at rest and handles to pull it by.
     pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
-        let Bound { stations, aims } = bind(&body, handles)?;
+        let Bound {
+            stations,
+            aims,
+            turns,
+        } = bind(&body, handles)?;
         let problem = Self {
             start: body.rest.clone(),
             untangled: 0,
@@ -130,6 +137,7 @@ impl Problem {
             bound: model.max_conformal,
             boundary_barrier: None,
             stations,
+            turned: turns,
             aims,
             search: false,
             levenberg: LevenbergSettings::default(),

@@ -125,6 +125,7 @@ impl ProblemFile {
         let barrier = model.barrier(&body, self.eps)?;
         let mut problem = Problem {
             stations: self.stations(&body)?,
+            turned: Vec::new(),
             aims: self.handles.iter().map(|&v| Aim::at_vertex(v)).collect(),
             search: false,
             levenberg: self.levenberg(),

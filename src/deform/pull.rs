@@ -138,6 +138,7 @@ pub(super) fn pull(
         boundary_barrier: None,
         barrier: model.barrier(&body, Some(epsilon))?,
         stations: vec![holds.handles(&body, start)?],
+        turned: Vec::new(),
         aims: holds.aims(),
         search: false,
         levenberg: LevenbergSettings::default(),

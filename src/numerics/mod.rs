@@ -14,6 +14,7 @@ pub mod linear_solver;
 pub mod predicates;
 pub mod random;
 pub mod roots;
+pub mod rotation;
 pub mod square;
 pub mod stencils;
 pub mod support;

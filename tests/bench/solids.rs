@@ -114,6 +114,7 @@ fn ends(positions: &[[f64; 3]]) -> [Handle; 2] {
             radius: 2.0 * HELD * size[longest],
             to: to.to_vec(),
             turn: 0.0,
+            axis: None,
         }
     };
     [end(false, 0.0), end(true, 0.2)]

@@ -28,6 +28,7 @@ fn disc(center: [f64; 3], radius: f64, to: [f64; 3]) -> Handle {
         radius,
         to: to.to_vec(),
         turn: 0.0,
+        axis: None,
     }
 }
 

@@ -20,6 +20,7 @@ fn a_large_cage_starts_where_a_coarse_one_ends() {
         radius: 0.3,
         to: vec![0.5 + shift, 0.5, z],
         turn: 0.0,
+        axis: None,
     };
     let caged = Caged {
         surfaces: &[surface],

@@ -303,6 +303,7 @@ fn points_inside_elements_come_to_their_targets() {
             radius: 1.0,
             to: vec![0.0, 1.0],
             turn: 0.0,
+            axis: None,
         },
         Handle::Point {
             at: vec![7.3, 1.4],
@@ -347,6 +348,7 @@ fn handles_that_cannot_be_have_names() {
         radius,
         to: vec![0.0, 0.0],
         turn,
+        axis: None,
     };
     for (handles, code) in [
         (vec![], "no_handle"),

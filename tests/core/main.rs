@@ -76,6 +76,7 @@ mod taylor;
 mod terms;
 mod texture_mapping;
 mod threads;
+mod turns;
 mod unfolding;
 mod units;
 mod untangle;

@@ -72,6 +72,7 @@ pub fn problem(
             groups,
             ..Handles::default()
         }],
+        turned: Vec::new(),
         aims: Vec::new(),
         search: false,
         levenberg: LevenbergSettings::default(),

@@ -13,6 +13,7 @@ fn bent(model: &Model) -> Problem {
         radius: 1.1,
         to: to.to_vec(),
         turn,
+        axis: None,
     };
     let handles = [
         disc([0.0, 1.0], [0.0, 1.0], 0.0),
@@ -28,6 +29,7 @@ fn pulled(model: &Model, by_a_point: bool) -> Problem {
         radius: 1.0,
         to: to.to_vec(),
         turn: 0.0,
+        axis: None,
     };
     let held = ball([0.0, 0.5, 0.5], [0.0, 0.5, 0.5]);
     let pulled = if by_a_point {

@@ -33,6 +33,9 @@ impl Caged<'_> {
         problem.start = start;
         if problem.untangle_start().is_err() {
             problem.start.clone_from(&problem.body.rest);
+        } else if let Some(last) = problem.stations.pop() {
+            // The coarse cage has been at the others.
+            problem.stations = vec![last];
         }
         problem.untangled = 0;
     }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::cage_report::CageReport;
 use super::plan::Plan;
 use crate::certificate::boundary_crossings;
-use crate::deform::{BodyElements, Method, Problem, Solution, Units, Unreached, Worth};
+use crate::deform::{BodyElements, Method, Problem, Solution, Turns, Units, Unreached, Worth};
 use crate::document::Warning;
 use crate::pipeline::PipelineError;
 use crate::pipeline::tracker::Tracker;
@@ -56,6 +56,9 @@ pub struct DeformReport {
     /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crossings: Option<u64>,
+    /// Turns of handles, and how many of them the map holds, of each that makes half a turn or more.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub turns: Vec<Turns>,
     /// Elements of the supplied start that were inverted and had to be untangled.
     pub untangled: usize,
     /// The energy that the map tends to as the barrier strength tends to 0, if asked for.
@@ -119,7 +122,9 @@ pub fn solve(
         return Err(PipelineError::Crossed);
     }
     let unreached = problem.unreached(&solution);
+    let turns = problem.turns(&solution.x);
     let missed = missed(solution.summary.status, &unreached);
+    let warnings = tracker.warning().into_iter().chain(missed);
     let report = DeformReport {
         method: plan.method,
         summary: solution.summary,
@@ -132,13 +137,26 @@ pub fn solve(
         smallest_ever: trace.smallest().min(solution.worth.smallest),
         setup_seconds,
         solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
-        warnings: tracker.warning().into_iter().chain(missed).collect(),
+        warnings: warnings.chain(turns_lost(&turns)).collect(),
+        turns,
         cage: None,
     };
     Ok(Solved {
         solution,
         report,
         trace: trace.csv(),
+    })
+}
+
+/// Says of each handle whose turns are lost how many are left.
+fn turns_lost(turns: &[Turns]) -> impl Iterator<Item = Warning> {
+    let lost = turns.iter().filter(|turns| turns.are_lost());
+    lost.map(|Turns { handle, asked, left }| {
+        let message = format!(
+            "handle {handle} asks for {asked:.2} turns, of which the body holds {left:.2}: the others went into a coil, or were \
+             lost where it passed through itself; a body that is stretched as well keeps more"
+        );
+        Warning::new("turns_lost", message)
     })
 }
 

@@ -27,7 +27,8 @@ options! {
     files {
         /// Handles and their targets. A handle is a vertex, a point inside an element, or a disc of
         /// vertices: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …}, {"center":
-        /// …, "radius": r, "to": …}]}.
+        /// …, "radius": r, "to": …, "turn": degrees, "axis": …}]}. A disc may turn by any angle, in
+        /// space about an axis.
         pub handles: Vec<Handle>;
         /// Record the map of every iteration. Over HTTP these become files beside the result, at
         /// most 256 MiB. Not available for gltf, which consists of several files.

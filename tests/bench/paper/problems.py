@@ -26,7 +26,9 @@ def solve(program, problem, folder, *options):
 
 
 def read_mesh(path):
-    """Vertices and elements of an .off, .obj or .tet file."""
+    """Vertices and elements of an .off, .obj, .tet or .mesh file; of the last, tetrahedra."""
+    if path.suffix == ".mesh":
+        return read_medit(path.read_text().split())
     rows = [line.split() for line in path.read_text().splitlines() if line.strip()]
     if path.suffix == ".obj":
         vertices = [[float(w) for w in row[1:4]] for row in rows if row[0] == "v"]
@@ -36,6 +38,16 @@ def read_mesh(path):
     begin = 2 if is_off else 1
     vertices = [[float(w) for w in row[:3]] for row in rows[begin:begin + n]]
     return vertices, [[int(w) for w in row][1 if is_off else 0:] for row in rows[begin + n:begin + n + m]]
+
+
+def read_medit(words):
+    """The same of the words of a .mesh file. Rows end in a reference."""
+    def rows(name, width, number):
+        begin = words.index(name) + 2
+        count = int(words[begin - 1])
+        each = (words[begin + (width + 1) * row:][:width] for row in range(count))
+        return [[number(word) for word in row] for row in each]
+    return rows("Vertices", 3, float), rows("Tetrahedra", 4, lambda word: int(word) - 1)
 
 
 def read_positions(path):

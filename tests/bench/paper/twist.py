@@ -5,13 +5,14 @@ about the layers' common normal: the twist; what a coiled bar lacks of the turns
 inversion can hold no more than 90° between its layers. What a bar can hold with its energy at a minimum is less, and `limit`
 measures it: the bar starts as a straight screw, is settled, turned a little further as a screw, and so on, until a minimum with
 these turns is not found any more. Beyond, no method that minimizes ends with all turns, and none that keeps elements from
-inverting loses one turn alone: they go in pairs.
+inverting loses one turn alone: they go in pairs. A bar that is stretched as it is turned does not buckle, and keeps them:
+`stretched` turns the far end of bars by one handle of `deform`, and compares what its report says is left with a count of ours.
 """
 import json
 
 import numpy as np
 
-from problems import read_mesh, read_positions, solve, table
+from problems import read_mesh, read_positions, run, solve, table
 from published import FIGURES
 
 # Of turns that were applied a map has lost some if it has less by this: turns are lost in pairs.
@@ -22,6 +23,15 @@ BETA = 0.01
 
 # Turns by which a screw goes on.
 SCREW_STEP = 1 / 24
+
+# Of what is counted here, that a report may differ by.
+AGREES = 0.01
+
+# Slabs that bars without layers are counted in: for 7 turns less than 60 degrees each.
+SLABS = 48
+
+STRETCHED_HEADER = ("bar", "tets", "energy", "stretched to", "turns asked", "turns left, counted here", "turns left, by the report",
+                    "end", "it", "fact", "CPU s", "smallest", "inverted", "warned")
 
 HEADER = ("bar", "energy", "β", "turns applied", "° per layer", "turns kept", "largest ° between layers", "end", "it", "fact", "CPU s",
           "E", "smallest", "inverted", "authors' code: turns kept · it · s")
@@ -57,18 +67,18 @@ def rotated(x, angle, center):
     return np.stack([x[:, 0], center[0] + np.cos(angle) * y - np.sin(angle) * z, center[1] + np.sin(angle) * y + np.cos(angle) * z], 1)
 
 
-def turns(rest, x):
-    """The turns of a map of a bar, and the largest rotation between neighboring layers in degrees."""
-    angles = []
-    for layer in range(1, round(rest[:, 0].max()) + 1):
-        # The two axes of each layer, as the map takes them, in the least-squares sense.
-        frames = []
-        for place in (layer - 1, layer):
-            members = np.flatnonzero(np.abs(rest[:, 0] - place) < 0.5)
-            arms = rest[members, 1:] - rest[members, 1:].mean(0)
-            frames.append(np.linalg.pinv(arms) @ (x[members] - x[members].mean(0)))
-        (a0, b0), (a1, b1) = frames
-        angles.append(np.degrees(np.arctan2(b0 @ a1 - a0 @ b1, a0 @ a1 + b0 @ b1)))
+def turns(rest, x, layers=None):
+    """The turns of a map of a bar along x, and the largest rotation between neighboring layers in degrees; `layers` are lists of
+    vertices, by default the unit layers of its grid."""
+    if layers is None:
+        layers = [np.flatnonzero(np.abs(rest[:, 0] - place) < 0.5) for place in range(round(rest[:, 0].max()) + 1)]
+    frames = []
+    for members in layers:
+        # The two axes of the layer, as the map takes them, in the least-squares sense.
+        arms = rest[members] - rest[members].mean(0)
+        frames.append((np.linalg.pinv(arms) @ (x[members] - x[members].mean(0)))[1:])
+    pairs = zip(frames, frames[1:])
+    angles = [np.degrees(np.arctan2(b0 @ a1 - a0 @ b1, a0 @ a1 + b0 @ b1)) for (a0, b0), (a1, b1) in pairs]
     return -sum(angles) / 360, np.abs(angles).max()
 
 
@@ -137,6 +147,50 @@ def twisted(program, folder, mesh, energy, n_turns, beta=BETA, chunk=48, degrees
         yield row(mesh.stem, keys, rest, applied, report, positions, (int(work[0]), int(work[1]), work[2]))
 
 
+def end_ball(rest, axes, length, factor, degrees):
+    """A handle that holds the far end of a bar (the near one if `factor` is none): a ball so large that it cuts straight."""
+    low, high = rest.min(0), rest.max(0)
+    radius, depth = 100 * length, 0.01 * length
+    center = 0.5 * (low + high)
+    center[0] = high[0] + radius - depth if factor else low[0] - radius + depth
+    to = center + [length * ((factor or 1) - 1), 0, 0]
+    # From along, across, across back to the axes of the file.
+    given = lambda place: [place[axes.index(k)] for k in range(3)]
+    handle = {"center": given(center), "radius": radius, "to": given(to)}
+    return handle | ({"turn": degrees, "axis": given([1, 0, 0])} if degrees else {})
+
+
+def stretched(program, folder, mesh, energy, n_turns, factor):
+    """The row of a bar whose far end is turned about the bar and pulled away from the near one."""
+    places, elements = read_mesh(mesh)
+    places = np.array(places)
+    along = int(np.ptp(places, axis=0).argmax())
+    axes = [(along + k) % 3 for k in range(3)]
+    rest = places[:, axes]
+    length = np.ptp(rest[:, 0])
+    handles, written, report = folder / "handles.json", folder / "stretched.txt", folder / "stretched.json"
+    ends = [end_ball(rest, axes, length, None, 0), end_ball(rest, axes, length, factor, 360 * n_turns)]
+    handles.write_text(json.dumps({"handles": ends}))
+    seconds = run([program, "deform", mesh, "--handles", handles, "-o", written, "--report", report, "--energy", energy])
+    said = json.loads(report.read_text())
+    slabs = np.minimum((SLABS * (rest[:, 0] - rest[:, 0].min()) / length).astype(int), SLABS - 1)
+    layers = [np.flatnonzero(slabs == slab) for slab in range(SLABS)]
+    is_grid = np.allclose(rest[:, 0], rest[:, 0].round())
+    # The far end turns, not the near one.
+    counted = -turns(rest, np.array(read_positions(written))[:, axes], None if is_grid else layers)[0]
+    left = said["turns"][0]["left"]
+    if abs(left - counted) > AGREES * n_turns:
+        raise RuntimeError(f"{mesh.name}: the report has {left} turns, the positions {counted}")
+    warned = ", ".join(warning["code"] for warning in said["warnings"]) or "–"
+    return (mesh.stem, len(elements), energy, f"{factor:.2f}", n_turns, f"{counted:.3f}", f"{left:.3f}", said["status"],
+            said["iterations"], said["factorizations"], f"{seconds:.1f}", f"{said['smallest']:.4f}", said["inverted"], warned)
+
+
+def stretched_rows(arguments, folder):
+    for name, energy, factor in arguments.stretched:
+        yield stretched(arguments.unwrapd, folder, (arguments.reference / name).resolve(), energy, 7, factor)
+
+
 def reference_rows(arguments, cases, folder):
     """The reference problems of twisted bars, each in one run."""
     for case in cases:
@@ -166,4 +220,5 @@ def rows(arguments, cases, folder):
 
 def main(arguments, cases, folder):
     """Prints the table of reference problems, limits and long bars."""
+    table("Bars turned seven times by `deform` while they are stretched", STRETCHED_HEADER, stretched_rows(arguments, folder))
     table(f"Figure 20: bars twisted (the paper: {FIGURES['20']})", HEADER, rows(arguments, cases, folder))
