@@ -60,7 +60,7 @@
 //! | [`plane`] | plane geometry of many pieces, for those who make maps: a spatial index, segments, polygons, triangles that overlap |
 //! | [`cut`] | surfaces opened along seams to disks |
 //! | [`energy`], [`barrier`] | densities as functions of singular values, for triangles and tetrahedra; quadratic terms; what keeps elements from inverting |
-//! | [`solver`] | projected Newton, exact largest step, line search, status; handles that travel; the paper's own iteration |
+//! | [`solver`] | projected Newton, exact largest step, line search, status; handles that travel, or are dragged; the paper's own iteration |
 //! | [`embed`] | a valid start for every disk and the way from it to the optimum |
 //! | [`charts`] | where to cut: surfaces divided, mapped, and parted where the maps fold over themselves |
 //! | [`atlas`] | orientation, packing, pages, the integer grid |
@@ -78,7 +78,7 @@
     feature = "files",
     doc = "| [`bake`] | textures resampled from one UV map of a surface to another |"
 )]
-//! | [`deform`] | bodies of the plane and of space pulled by handles; from pictures, drawings and surfaces in cages |
+//! | [`deform`] | bodies of the plane and of space pulled by handles, at once or in a session, an iteration at a time; from pictures, drawings and surfaces in cages |
 //! | [`pipeline`] | every application as a function from arrays or a file's bytes to files' bytes and a report |
 #![cfg_attr(
     feature = "service",

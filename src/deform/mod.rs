@@ -1,7 +1,8 @@
 //! Bodies pulled by handles, no element inverted, and what lies in them carried along.
 //!
 //! A [`Body`] is a planar or tetrahedral mesh with rest shapes, a [`Problem`] a body with handles, their targets, a
-//! [`DeformationEnergy`] and a barrier; [`Problem::solve`] moves the handles to their targets over maps that are all valid.
+//! [`DeformationEnergy`] and a barrier; [`Problem::solve`] moves the handles to their targets over maps that are all valid;
+//! a [`Session`] does so an iteration at a time while handles are added, moved and removed.
 //! Bodies come from mesh files, from pictures and drawings (`outline`) and from surfaces put into a [`cage`], which carries
 //! them along. Maps of the plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
 #![doc = include_str!("guide.md")]
@@ -18,7 +19,9 @@ pub mod cage;
 mod cells;
 mod continuation;
 mod handles;
+mod history;
 mod idle;
+mod live;
 mod locate;
 mod model;
 mod normalized;
@@ -31,6 +34,7 @@ mod problem_error;
 #[cfg(feature = "files")]
 mod problem_file;
 mod pull;
+mod session;
 mod shake;
 mod singly;
 mod slices;
@@ -60,6 +64,7 @@ pub use problem_error::ProblemError;
 #[cfg(feature = "files")]
 pub use problem_file::{ProblemFile, Rest};
 pub use pull::PullSummary;
+pub use session::{HandleId, Session};
 pub use solve::{Method, Solution};
 pub use turns_left::Turns;
 pub use units::Units;

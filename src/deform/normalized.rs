@@ -57,6 +57,15 @@ impl Frame {
         x.iter().zip(origin).map(|(x, o)| o + x * self.unit)
     }
 
+    /// Handles with their targets in the unit of normalized positions.
+    pub fn handles(&self, handles: &Handles) -> Handles {
+        Handles {
+            targets: self.inward(&handles.targets),
+            point_targets: self.inward(&handles.point_targets),
+            ..handles.clone()
+        }
+    }
+
     /// A squared distance as one of those that were given.
     pub fn squared(&self, distance: f64) -> f64 {
         distance * self.unit * self.unit
@@ -101,11 +110,7 @@ impl Problem {
         };
         let mut barrier = self.barrier;
         barrier.epsilon /= frame.unit.powi(body.dim() as i32);
-        let stations = self.stations.iter().map(|handles| Handles {
-            targets: frame.inward(&handles.targets),
-            point_targets: frame.inward(&handles.point_targets),
-            ..handles.clone()
-        });
+        let stations = self.stations.iter().map(|handles| frame.handles(handles));
         let problem = Self {
             start,
             barrier,

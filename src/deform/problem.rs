@@ -129,6 +129,16 @@ impl Problem {
             aims,
             turns,
         } = bind(&body, handles)?;
+        Ok(Self {
+            stations,
+            aims,
+            turned: turns,
+            ..Self::at_rest(body, model)?
+        })
+    }
+
+    /// A body at rest, and nothing to pull it by yet.
+    pub(super) fn at_rest(body: Body, model: &Model) -> Result<Self, ProblemError> {
         let problem = Self {
             start: body.rest.clone(),
             untangled: 0,
@@ -136,9 +146,9 @@ impl Problem {
             barrier: model.barrier(&body, None)?,
             bound: model.max_conformal,
             boundary_barrier: None,
-            stations,
-            turned: turns,
-            aims,
+            stations: Vec::new(),
+            aims: Vec::new(),
+            turned: Vec::new(),
             search: false,
             levenberg: LevenbergSettings::default(),
             units: Units::Normalized,

@@ -31,6 +31,12 @@ pub enum ProblemError {
         /// How many there are.
         n_vertices: usize,
     },
+    /// A session has no such handle any more.
+    #[error("handle {handle} was removed, or never added")]
+    RemovedHandle {
+        /// Its number, from 0 in the order of adding.
+        handle: u32,
+    },
     /// The handles of a problem do not fit each other or the body.
     #[error(transparent)]
     Handles(#[from] HandlesError),
@@ -122,7 +128,7 @@ impl ProblemError {
             #[cfg(feature = "files")]
             Self::Read(error) => error.code(),
             Self::Element(error) => error.code(),
-            Self::UnknownHandle { .. } => "unknown_handle",
+            Self::UnknownHandle { .. } | Self::RemovedHandle { .. } => "unknown_handle",
             Self::Handles(error) => error.code(),
             Self::NoHandle => "no_handle",
             Self::HandleOutside { .. } => "handle_outside",

@@ -96,7 +96,7 @@ impl Holds {
     }
 
     /// All of them. Those that stay are a group of their own, so that no neighbor's travel moves them on the way.
-    fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
+    pub fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
         let pulled: Vec<u32> = self.pulled.iter().map(|hold| hold.0).collect();
         let mut groups = vec![0; self.fixed.len()];
         groups.extend(body.groups(&pulled).into_iter().map(|group| group + 1));
@@ -125,27 +125,11 @@ pub(super) fn pull(
     (model, unit): (&Model, f64),
     watch: &dyn Watch,
 ) -> Result<Pulled, ProblemError> {
-    let smallest = |sizes: Vec<f64>| sizes.into_iter().fold(f64::INFINITY, f64::min);
-    let epsilon = epsilon(
-        smallest(body.determinants()),
-        smallest(body.determinants_at(start.as_flattened())),
-    );
+    let handles = holds.handles(&body, start)?;
     let problem = Problem {
-        start: start.as_flattened().to_vec(),
-        untangled: 0,
-        energy: model.energy,
-        bound: model.max_conformal,
-        boundary_barrier: None,
-        barrier: model.barrier(&body, Some(epsilon))?,
-        stations: vec![holds.handles(&body, start)?],
-        turned: Vec::new(),
         aims: holds.aims(),
-        search: false,
-        levenberg: LevenbergSettings::default(),
-        units: Units::Given,
-        body,
-    }
-    .guarded(model)?;
+        ..pulled(body, start, handles, model)?
+    };
     let solution = problem.solve(&Settings::follow(), watch)?;
     let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
     arrive(&mut vertices, &problem.stations[0]);
@@ -163,13 +147,49 @@ pub(super) fn pull(
     })
 }
 
+/// The problem of a planar body whose mean triangle has area 1 or so.
+pub(super) fn pulled(
+    body: Body,
+    start: &[[f64; 2]],
+    handles: Handles,
+    model: &Model,
+) -> Result<Problem, ProblemError> {
+    let smallest = |sizes: Vec<f64>| sizes.into_iter().fold(f64::INFINITY, f64::min);
+    let epsilon = epsilon(
+        smallest(body.determinants()),
+        smallest(body.determinants_at(start.as_flattened())),
+    );
+    let problem = Problem {
+        start: start.as_flattened().to_vec(),
+        untangled: 0,
+        energy: model.energy,
+        bound: model.max_conformal,
+        boundary_barrier: None,
+        barrier: model.barrier(&body, Some(epsilon))?,
+        stations: vec![handles],
+        turned: Vec::new(),
+        aims: Vec::new(),
+        search: false,
+        levenberg: LevenbergSettings::default(),
+        units: Units::Given,
+        body,
+    };
+    problem.guarded(model)
+}
+
 /// Puts vertices that are at their targets but for rounding on them.
-fn arrive(vertices: &mut [[f64; 2]], handles: &Handles) {
+pub(super) fn arrive(vertices: &mut [[f64; 2]], handles: &Handles) {
     let targets = handles.targets.as_chunks::<2>().0;
     for (&v, target) in handles.vertices.iter().zip(targets) {
         let place = &mut vertices[v as usize];
-        if (0..2).all(|k| (place[k] - target[k]).abs() <= ARRIVED * target[k].abs().max(1.0)) {
+        if is_arrived(place, target) {
             *place = *target;
         }
     }
+}
+
+/// Is a place the target but for rounding?
+pub(super) fn is_arrived(place: &[f64], target: &[f64]) -> bool {
+    let is_near = |(x, t): (&f64, &f64)| (x - t).abs() <= ARRIVED * t.abs().max(1.0);
+    place.iter().zip(target).all(is_near)
 }

@@ -47,7 +47,7 @@ impl Problem {
         }
     }
 
-    fn worth_as_given(&self, x: &[f64]) -> Worth {
+    pub(super) fn worth_as_given(&self, x: &[f64]) -> Worth {
         let terms = |barrier| self.energy.terms(&self.body, barrier, None);
         let unmodified = terms(Barrier::NONE).unwrap_or_default();
         let guarded = terms(self.barrier).unwrap_or_default();

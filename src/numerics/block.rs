@@ -53,6 +53,31 @@ impl BlockPattern {
         (Self { dim, scalar }, slots)
     }
 
+    /// The slots of more stencils, if every pair of theirs has a block here.
+    pub fn slots(&self, stencils: &Stencils) -> Option<Slots> {
+        let mut are_all_here = true;
+        let slot = |(small, large): (u32, u32)| {
+            let found = self.pair_slot(small as usize, large as usize);
+            are_all_here &= found.is_some();
+            found.unwrap_or_default()
+        };
+        let slots = Slots::new(stencils, slot);
+        are_all_here.then_some(slots)
+    }
+
+    fn pair_slot(&self, small: usize, large: usize) -> Option<PairSlot> {
+        let (dim, pattern) = (self.dim, &self.scalar);
+        let column = *pattern.col_ptr.get(dim * small)?..*pattern.col_ptr.get(dim * small + 1)?;
+        let others = column.start + dim..column.end;
+        let rank = pattern.row_idx[others.clone()]
+            .binary_search(&(dim * large))
+            .ok()?;
+        Some(PairSlot {
+            first: (others.start + rank) as u32,
+            stride: others.len() as u32,
+        })
+    }
+
     /// The same pattern, entry by entry.
     pub fn scalar(&self) -> &SymmetricPattern {
         &self.scalar
@@ -138,7 +163,7 @@ pub struct Entry {
 }
 
 impl Slots {
-    fn new(stencils: &Stencils, slot: impl Fn((u32, u32)) -> PairSlot) -> Self {
+    fn new(stencils: &Stencils, slot: impl FnMut((u32, u32)) -> PairSlot) -> Self {
         let mut starts = vec![0];
         for stencil in stencils.iter() {
             let n = stencil.len() as u32;

@@ -11,20 +11,20 @@ use super::watch::{Continued, Control, Taken, Watch};
 use crate::numerics::square::{Matrix, Square};
 
 /// What a round of advances must gain for another to be worth while, as a share of the path.
-const LEAST_PROGRESS: f64 = 1e-3;
+pub(super) const LEAST_PROGRESS: f64 = 1e-3;
 
 /// How far the rest settles before handles that are stuck try again: see [`Settings::tolerance`].
 const SETTLED: f64 = 1e-6;
 
 /// By how much hardening must bring points nearer to their targets: it pulls 10⁶ times as strongly at the end, so points that can
 /// arrive come nearer by about as much.
-const HARDENED: f64 = 1e-3;
+pub(super) const HARDENED: f64 = 1e-3;
 
 /// What rounding leaves of the distance of points from their targets, as a share of their coordinates.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// The strength of the constraints at the end, beside the energy's mean curvature.
-const HARD: f64 = 1e9;
+pub(super) const HARD: f64 = 1e9;
 
 /// Moves the handles along their path to one station after another, the other vertices following; at each minimizes `objective`
 /// with the handles held.
@@ -89,7 +89,7 @@ where
     Ok(total)
 }
 
-impl<const D: usize> Travel<'_, D>
+impl<const D: usize> Travel<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {

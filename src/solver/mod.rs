@@ -8,7 +8,8 @@
 //! until the energy falls enough.
 //!
 //! [`follow()`] pulls handles to targets by Newton's method, the other vertices following each advance, and gives the
-//! removed curvature back little by little instead: between advances there are few steps. [`levenberg()`] is the
+//! removed curvature back little by little instead: between advances there are few steps. [`Drag`] does the same an iteration
+//! at a time, while the handles are being moved. [`levenberg()`] is the
 //! iteration of the paper itself, kept for comparison: it shifts the Hessian until it factors instead of projecting it,
 //! and holds handles by soft constraints.
 //!
@@ -17,6 +18,7 @@
 //! energy by name, has no clock and no randomness; who watches may end it early ([`Watch`]).
 
 mod directions;
+mod drag;
 mod follow;
 mod handles;
 mod held;
@@ -35,6 +37,7 @@ mod travel;
 mod trust_region;
 mod watch;
 
+pub use drag::{Drag, Stage};
 pub use follow::follow;
 pub use handles::{Handles, HandlesError};
 pub use levenberg::{LevenbergSettings, levenberg};

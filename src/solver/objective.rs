@@ -73,6 +73,22 @@ impl Objective {
         self.model.hold(vertices);
     }
 
+    /// Pulls at these points, and only these. Where each lies within one element, their pairs of vertices are in the pattern
+    /// already, and the analysis stays.
+    ///
+    /// # Panics
+    /// If a row names a vertex that there is not.
+    pub fn pull_at(&mut self, points: Positional) {
+        let slots = self.model.pattern().slots(&points.stencils());
+        self.constraints = Some(points);
+        self.slots.truncate(self.terms.len());
+        if let Some(slots) = slots {
+            self.slots.push(slots);
+        } else {
+            self.renew_pattern();
+        }
+    }
+
     /// Exchanges the terms for others with the same stencils, as where a parameter of an energy changes; the analysis stays.
     ///
     /// # Panics

@@ -13,6 +13,8 @@ pub(super) struct QuadraticModel {
     system: Option<LinearSolver>,
     /// Was the system analyzed for another pattern?
     is_stale: bool,
+    /// How often a pattern was analyzed.
+    analyses: usize,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
     held: Held,
@@ -30,6 +32,7 @@ impl QuadraticModel {
         Self {
             system: None,
             is_stale: false,
+            analyses: 0,
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
             held: Held::default(),
@@ -108,10 +111,14 @@ impl QuadraticModel {
             system,
             pattern,
             hessian,
+            analyses,
             ..
         } = self;
         let (scalar, block) = (pattern.scalar(), pattern.dim());
-        let analyze = || LinearSolver::within(scalar, block, MOST_BYTES);
+        let analyze = || {
+            *analyses += 1;
+            LinearSolver::within(scalar, block, MOST_BYTES)
+        };
         (system.get_or_insert_with(analyze), scalar, hessian)
     }
 
@@ -196,6 +203,10 @@ impl QuadraticModel {
 
     pub fn hessian(&self) -> &[f64] {
         &self.hessian
+    }
+
+    pub fn analyses(&self) -> usize {
+        self.analyses
     }
 
     pub fn work(&self) -> Option<Work> {

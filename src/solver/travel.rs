@@ -29,14 +29,14 @@ const SURPRISE: f64 = 2.0;
 const UNSTRAINED: f64 = 0.02;
 
 /// Steps without an advance after which the rest must settle first.
-const PATIENCE: usize = 20;
+pub(super) const PATIENCE: usize = 20;
 
 /// The strength of soft constraints beside the energy's mean curvature, while they travel; it rises tenfold at a time at the end.
 pub(super) const SOFT: f64 = 1e3;
 
 /// The handles and the map on the way.
-pub(super) struct Travel<'a, const D: usize> {
-    handles: &'a Handles,
+pub(super) struct Travel<const D: usize> {
+    vertices: Vec<u32>,
     path: Path<D>,
     pub points: Points,
     /// How much of the path lies behind.
@@ -51,7 +51,7 @@ pub(super) struct Travel<'a, const D: usize> {
     trial: Vec<f64>,
 }
 
-impl<'a, const D: usize> Travel<'a, D>
+impl<const D: usize> Travel<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -59,11 +59,11 @@ where
     pub fn new(
         objective: &mut Objective,
         x: &[f64],
-        handles: &'a Handles,
+        handles: &Handles,
         relaxation: Relaxation,
     ) -> Result<Self, HandlesError> {
         Ok(Self {
-            handles,
+            vertices: handles.vertices.clone(),
             path: Path::new(handles, x)?,
             points: Points::new(objective, x, handles),
             s: 0.0,
@@ -93,27 +93,11 @@ where
         let mut stuck = 0;
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
         {
-            let factorizations = &mut self.summary.factorizations;
-            let Some(decrement) = newton_direction(
-                objective,
-                x,
-                &mut self.relaxation,
-                &mut self.newton,
-                factorizations,
-            ) else {
+            let before = self.s;
+            let Some(sigma) = self.iterate(objective, x) else {
                 break;
             };
-            let sigma = if self.step(objective, x) {
-                stuck = 0;
-                1.0
-            } else if self.relaxation.after_useless_direction() {
-                self.start_over();
-                continue;
-            } else {
-                stuck += 1;
-                self.relax(objective, x, decrement)
-            };
-            self.summary.iterations += 1;
+            stuck = if self.s > before { 0 } else { stuck + 1 };
             let mu = objective.shift();
             if objective.show(x, &self.summary, Taken { mu, sigma }, watch) == Control::Finish {
                 self.summary.status = Status::Stopped;
@@ -121,6 +105,35 @@ where
             }
         }
         Control::Continue
+    }
+
+    /// One iteration: an advance together with the Newton step or, if none is possible, the Newton step alone. The length of that
+    /// as a share of the direction; `None` if no matrix gives one.
+    pub fn iterate(&mut self, objective: &mut Objective, x: &mut [f64]) -> Option<f64> {
+        loop {
+            let decrement = self.find_newton_step(objective, x)?;
+            let sigma = if self.step(objective, x) {
+                1.0
+            } else if self.relaxation.after_useless_direction() {
+                self.start_over();
+                continue;
+            } else {
+                self.relax(objective, x, decrement)
+            };
+            self.summary.iterations += 1;
+            return Some(sigma);
+        }
+    }
+
+    /// Leaves the Newton step in `newton`; its decrement, `None` if no matrix gives one.
+    pub fn find_newton_step(&mut self, objective: &mut Objective, x: &[f64]) -> Option<f64> {
+        newton_direction(
+            objective,
+            x,
+            &mut self.relaxation,
+            &mut self.newton,
+            &mut self.summary.factorizations,
+        )
     }
 
     /// An advance together with the Newton step; false if none that is worth while stays in the domain.
@@ -152,7 +165,7 @@ where
         x: &[f64],
         to: f64,
     ) -> Result<(), NotPositiveDefinite> {
-        for (i, &v) in self.handles.vertices.iter().enumerate() {
+        for (i, &v) in self.vertices.iter().enumerate() {
             let place = self.path.position(i, to);
             let at = D * v as usize;
             for k in 0..D {
@@ -186,7 +199,7 @@ where
     }
 
     /// The Newton step alone, with a line search; its length, 0 if none helps.
-    fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
+    pub fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
         let search = Search {
             x,
             direction: &self.newton,

@@ -69,6 +69,7 @@ mod progress;
 mod pulled;
 mod random;
 mod separation;
+mod session;
 #[cfg(feature = "files")]
 mod simple_polygons;
 mod solver;
@@ -84,6 +85,7 @@ mod untangle;
 mod unwrapped_polygons;
 mod uv_editing;
 mod uv_meshes;
+mod uv_session;
 #[cfg(feature = "files")]
 mod warp;
 mod ways;

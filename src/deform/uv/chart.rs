@@ -1,10 +1,12 @@
 //! Charts of a UV map as maps of the plane.
 
+use std::collections::BTreeMap;
+
 use super::map::UvMap;
 use super::{EditError, UvRest, body};
 use crate::deform::boundary::Boundary;
 use crate::deform::untangle::untangled;
-use crate::mesh::{UnionFind, UsedVertices, next, origin};
+use crate::mesh::{CornerUvs, UnionFind, UsedVertices, next, origin};
 use crate::numerics::predicates::orient2d_sign;
 
 /// The vertices of a UV map: corners that lie on each other in space, in UV space and in their chart.
@@ -51,6 +53,18 @@ impl UvVertices {
     pub fn uv(&self, map: &UvMap, vertex: u32) -> [f64; 2] {
         let corner = self.first_corner[vertex as usize] as usize;
         map.uvs[corner / 3][corner % 3]
+    }
+
+    /// UVs of corners with some vertices elsewhere.
+    pub fn moved(&self, uvs: &[CornerUvs], to: &BTreeMap<u32, [f64; 2]>) -> Vec<CornerUvs> {
+        let mut uvs = uvs.to_vec();
+        let corners = uvs.as_flattened_mut().iter_mut();
+        for (corner, vertex) in corners.zip(&self.of_corner) {
+            if let Some(uv) = to.get(vertex) {
+                *corner = *uv;
+            }
+        }
+        uvs
     }
 
     /// The chart that a vertex belongs to.
@@ -127,6 +141,19 @@ impl UvChart {
             .filter(is_flipped)
             .collect();
         Ok(chart)
+    }
+
+    /// The vertices of the UV map that are elsewhere if the chart's are at `uvs`: all of them where the chart had flips.
+    pub fn moved(
+        &self,
+        map: &UvMap,
+        vertices: &UvVertices,
+        uvs: &[[f64; 2]],
+    ) -> impl Iterator<Item = (u32, [f64; 2])> {
+        let is_elsewhere =
+            |&(&v, uv): &(&u32, &[f64; 2])| !self.flipped.is_empty() || *uv != vertices.uv(map, v);
+        let elsewhere = self.vertices.iter().zip(uvs).filter(is_elsewhere);
+        elsewhere.map(|(&v, &uv)| (v, uv))
     }
 
     fn is_flipped(&self, triangle: usize, map: &UvMap, positive: i8) -> bool {

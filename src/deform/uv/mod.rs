@@ -8,7 +8,9 @@
 mod anchors;
 mod chart;
 mod error;
+mod flat_chart;
 mod map;
+mod session;
 
 use std::collections::BTreeMap;
 
@@ -16,14 +18,14 @@ use serde::{Deserialize, Serialize};
 
 use self::anchors::{Held, Spot, hold};
 use self::chart::{UvChart, UvVertices};
+use self::flat_chart::FlatChart;
 use self::map::UvMap;
 use crate::deform::body::{Body, BodyElements};
 use crate::deform::boundary::Boundary;
-use crate::deform::locate::locate;
 use crate::deform::problem::Model;
-use crate::deform::pull::{Grip, Holds, PullSummary, pull};
+use crate::deform::pull::{PullSummary, pull};
 use crate::embed::rest_shapes;
-use crate::mesh::{CornerUvs, PlanarMesh};
+use crate::mesh::CornerUvs;
 use crate::solver::Watch;
 
 pub use anchors::Anchor;
@@ -31,6 +33,7 @@ pub use anchors::Anchor;
 pub use anchors::parse_anchors;
 pub use chart::ChartFaces;
 pub use error::EditError;
+pub use session::{AnchorId, UvSession};
 
 /// Which shape of a triangle is without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -132,19 +135,14 @@ pub fn edit_uvs(
         held.entry(chart).or_default().push(anchor);
     }
     let positive = map.chart_orientations();
-    let mut edited = EditedUvs {
-        uvs: mesh.uvs.to_vec(),
-        charts: Vec::new(),
-    };
+    let mut charts = Vec::new();
     let mut moved: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
     for (number, held) in held {
         let mut chart = UvChart::new(&map, &vertices, number, positive[number as usize])?;
         chart.untangle(options.boundary)?;
         let (uvs, summary) = edit_chart(&chart, &held, options, watch)?;
-        let before = |v: usize| vertices.uv(&map, chart.vertices[v]);
-        let changed = (0..uvs.len()).filter(|&v| !chart.flipped.is_empty() || uvs[v] != before(v));
-        moved.extend(changed.map(|v| (chart.vertices[v], uvs[v])));
-        edited.charts.push(EditedChart {
+        moved.extend(chart.moved(&map, &vertices, &uvs));
+        charts.push(EditedChart {
             chart: number,
             untangled: chart.flipped.len(),
             faces: chart.faces,
@@ -153,13 +151,10 @@ pub fn edit_uvs(
             triangles: chart.triangles,
         });
     }
-    let corners = edited.uvs.as_flattened_mut().iter_mut();
-    for (corner, vertex) in corners.zip(&vertices.of_corner) {
-        if let Some(uv) = moved.get(vertex) {
-            *corner = *uv;
-        }
-    }
-    Ok(edited)
+    Ok(EditedUvs {
+        uvs: vertices.moved(mesh.uvs, &moved),
+        charts,
+    })
 }
 
 /// The UVs of a chart's vertices after its anchors were pulled.
@@ -169,66 +164,17 @@ fn edit_chart(
     options: &UvEditOptions,
     watch: &dyn Watch,
 ) -> Result<(Vec<[f64; 2]>, PullSummary), EditError> {
-    PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
-    let (body, start, unit) = body(chart, options.rest);
-    let mut holds = Holds::new(options.boundary.held(chart.uvs.len(), &chart.triangles));
-    // The targets of vertices as the caller has them.
-    let mut targets = Vec::with_capacity(held.len());
-    for anchor in held {
-        targets.extend(take_hold(&mut holds, chart, (&body, unit), anchor)?);
-    }
-    let result = pull(body, &start, &holds, (&options.model, unit), watch)?;
-    // What did not move, and what arrived, is not rounded.
-    let uv = |v: usize| {
-        if result.vertices[v] == start[v] {
-            chart.uvs[v]
-        } else {
-            result.vertices[v].map(|x| x * unit)
-        }
-    };
-    let mut uvs: Vec<[f64; 2]> = (0..start.len()).map(uv).collect();
-    for (to, &(v, target)) in targets.iter().zip(&holds.pulled) {
-        if result.vertices[v as usize] == target {
-            uvs[v as usize] = *to;
-        }
-    }
-    Ok((uvs, result.summary))
-}
-
-/// Adds an anchor; the target of the vertex that it pulls, if it pulls one.
-fn take_hold(
-    holds: &mut Holds,
-    chart: &UvChart,
-    (body, unit): (&Body, f64),
-    &Held { anchor, spot, to }: &Held,
-) -> Result<Option<[f64; 2]>, EditError> {
-    let unknown = EditError::UnknownHandle(anchor);
-    let (at, grip) = match spot {
-        Spot::Vertex(vertex) => {
-            // The vertex of a face left out of its chart is not there.
-            let local = chart.vertices.binary_search(&vertex);
-            let local = local.map_err(|_| unknown)?;
-            (chart.uvs[local], holds.grip(vec![(local as u32, 1.0)]))
-        }
-        Spot::Place { at, .. } => {
-            let row = locate(body, at.map(|x| x / unit)).ok_or(unknown)?;
-            (at, holds.grip(row))
-        }
-    };
-    match grip {
-        Grip::Fixed if at == to => Ok(None),
-        Grip::Fixed => Err(EditError::OnBoundary(anchor)),
-        Grip::Vertex(vertex) => {
-            let place = chart.uvs[vertex as usize];
-            let to = [0, 1].map(|k| to[k] + (place[k] - at[k]));
-            holds.pulled.push((vertex, to.map(|x| x / unit)));
-            Ok(Some(to))
-        }
-        Grip::Point(row) => {
-            holds.points.push((row, to.map(|x| x / unit)));
-            Ok(None)
-        }
-    }
+    let flat = FlatChart::new(chart, options.rest)?;
+    let grips = flat.grips(chart, held, options.boundary)?;
+    let (body, unit) = (flat.body.clone(), flat.unit);
+    let result = pull(
+        body,
+        &flat.start,
+        &grips.holds,
+        (&options.model, unit),
+        watch,
+    )?;
+    Ok((flat.uvs(chart, &grips, &result.vertices), result.summary))
 }
 
 /// The chart as a body of mean rest area 1, its present UVs in that unit, and the unit.

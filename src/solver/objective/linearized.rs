@@ -9,9 +9,7 @@ impl Objective {
     pub fn linearize(&mut self, x: &[f64], tau: f64) {
         let renewed = self.terms.iter_mut().map(|term| term.renew(x));
         if renewed.fold(false, |any, is_renewed| any | is_renewed) {
-            let (pattern, slots) = pattern(self.n() / self.dim(), self.all());
-            self.model.exchange_pattern(pattern);
-            self.slots = slots;
+            self.renew_pattern();
         }
         self.model.clear();
         for (term, slots) in self.terms.iter().zip(&self.slots) {
@@ -23,6 +21,13 @@ impl Objective {
             self.model.add(constraints, slots, x, tau);
         }
         self.model.finish();
+    }
+
+    /// Takes the pattern from the terms' stencils anew.
+    pub(super) fn renew_pattern(&mut self) {
+        let (pattern, slots) = pattern(self.n() / self.dim(), self.all());
+        self.model.exchange_pattern(pattern);
+        self.slots = slots;
     }
 
     /// Adds to every diagonal entry of the last [`linearize`](Self::linearize).
@@ -117,5 +122,10 @@ impl Objective {
     /// [`MOST_BYTES`]: crate::numerics::linear_solver::MOST_BYTES
     pub fn work(&self) -> Option<Work> {
         self.model.work()
+    }
+
+    /// How often a pattern was ordered and analyzed: once, unless a term [renews](crate::energy::Term::renew) its stencils.
+    pub fn analyses(&self) -> usize {
+        self.model.analyses()
     }
 }
