@@ -179,7 +179,9 @@ impl Body {
         for (i, &v) in chosen.iter().enumerate() {
             group[v as usize] = i as u32;
         }
-        let corners = self.corners();
+        let is_chosen = |v: &&u32| group[**v as usize] != u32::MAX;
+        let mut corners = self.corners();
+        corners.retain(|element| element.iter().filter(is_chosen).count() >= 2);
         let mut changed = true;
         while changed {
             changed = false;

@@ -160,7 +160,8 @@ impl Session {
         self.live.stage()
     }
 
-    /// What was done since the beginning. The energy includes barriers and the pull of points.
+    /// What was done since the beginning. Energies include barriers and the pull of points; that of a map that no iteration has looked at
+    /// yet is not a number.
     pub fn summary(&self) -> &Summary {
         self.live.summary()
     }

@@ -113,10 +113,15 @@ where
     }
 
     fn add_derivatives(&self, x: &[f64], tau: f64, assembly: &mut Assembly) {
+        let wants_hessian = assembly.wants_hessian();
+        // The gradient is the same with nothing projected.
+        let tau = if wants_hessian { tau } else { 1.0 };
         for (index, element) in self.elements.iter().enumerate() {
             let pulled = self.pulled(element, x, tau);
             pulled.gradients(|vertex, gradient| assembly.add_gradient(vertex, &gradient));
-            pulled.add_blocks(index, assembly);
+            if wants_hessian {
+                pulled.add_blocks(index, assembly);
+            }
         }
     }
 

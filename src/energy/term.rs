@@ -61,6 +61,7 @@ pub struct Assembly<'a> {
     slots: &'a Slots,
     gradient: &'a mut [f64],
     hessian: &'a mut [f64],
+    wants_hessian: bool,
 }
 
 impl<'a> Assembly<'a> {
@@ -76,7 +77,28 @@ impl<'a> Assembly<'a> {
             slots,
             gradient,
             hessian,
+            wants_hessian: true,
         }
+    }
+
+    /// Sums into `gradient` alone: what is added to the Hessian is dropped, and need not be found.
+    pub fn of_gradient(
+        pattern: &'a BlockPattern,
+        slots: &'a Slots,
+        gradient: &'a mut [f64],
+    ) -> Self {
+        Self {
+            pattern,
+            slots,
+            gradient,
+            hessian: &mut [],
+            wants_hessian: false,
+        }
+    }
+
+    /// Is there a Hessian to add to?
+    pub fn wants_hessian(&self) -> bool {
+        self.wants_hessian
     }
 
     /// Adds to the gradient at a vertex.
@@ -94,25 +116,33 @@ impl<'a> Assembly<'a> {
 
     /// Adds a multiple of the identity to the block of one vertex.
     pub fn add_diagonal_identity(&mut self, vertex: u32, share: f64) {
-        self.pattern
-            .add_diagonal_identity(self.hessian, vertex, share);
+        if self.wants_hessian {
+            self.pattern
+                .add_diagonal_identity(self.hessian, vertex, share);
+        }
     }
 
     /// Adds a multiple of the identity to the block of two vertices of a stencil; `pair` counts them as
     /// [`Stencils::pairs`] does.
     pub fn add_pair_identity(&mut self, stencil: usize, pair: usize, share: f64) {
-        let slot = self.slots.of(stencil)[pair];
-        self.pattern.add_pair_identity(self.hessian, slot, share);
+        if self.wants_hessian {
+            let slot = self.slots.of(stencil)[pair];
+            self.pattern.add_pair_identity(self.hessian, slot, share);
+        }
     }
 
     /// Adds to the block of one vertex; the lower triangle of `block` is read.
     pub fn add_diagonal<const D: usize>(&mut self, vertex: u32, block: &Matrix<D>) {
-        self.pattern.add_diagonal(self.hessian, vertex, block);
+        if self.wants_hessian {
+            self.pattern.add_diagonal(self.hessian, vertex, block);
+        }
     }
 
     /// Adds to the block of two vertices of a stencil, its rows those of the larger; `pair` counts them as
     /// [`Stencils::pairs`] does.
     pub fn add_pair<const D: usize>(&mut self, stencil: usize, pair: usize, block: &Matrix<D>) {
-        BlockPattern::add_pair(self.hessian, self.slots.of(stencil)[pair], block);
+        if self.wants_hessian {
+            BlockPattern::add_pair(self.hessian, self.slots.of(stencil)[pair], block);
+        }
     }
 }

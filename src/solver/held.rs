@@ -68,6 +68,13 @@ impl Held {
         }
     }
 
+    /// Clears a gradient whose Hessian is not known.
+    pub fn clear_gradient(&self, gradient: &mut [f64]) {
+        for &i in &self.unknowns {
+            gradient[i] = 0.0;
+        }
+    }
+
     /// Takes the moves of the held unknowns out of `direction`, and leaves in it what these moves do to the others: a right
     /// side to solve for.
     pub fn take_moves(&mut self, direction: &mut [f64]) {

@@ -13,6 +13,9 @@ pub(super) struct QuadraticModel {
     system: Option<LinearSolver>,
     /// Was the system analyzed for another pattern?
     is_stale: bool,
+    /// Does the system solve with a factorization for the vertices that are held?
+    is_factored: bool,
+    factorizations: usize,
     /// How often a pattern was analyzed.
     analyses: usize,
     gradient: Vec<f64>,
@@ -32,6 +35,8 @@ impl QuadraticModel {
         Self {
             system: None,
             is_stale: false,
+            is_factored: false,
+            factorizations: 0,
             analyses: 0,
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
@@ -45,6 +50,7 @@ impl QuadraticModel {
     /// Holds these vertices, and only these.
     pub fn hold(&mut self, vertices: &[u32]) {
         self.held = Held::new(&self.pattern, vertices);
+        self.is_factored = false;
     }
 
     /// Takes another pattern of as many unknowns, of nothing yet. What was factored last still solves.
@@ -53,6 +59,7 @@ impl QuadraticModel {
         self.hessian = vec![0.0; pattern.scalar().row_idx.len()];
         self.pattern = pattern;
         self.is_stale = true;
+        self.is_factored = false;
     }
 
     /// Begins a model: then the summands are added, measured, and with the constraints finished.
@@ -75,6 +82,18 @@ impl QuadraticModel {
             tau,
             &mut Assembly::new(pattern, slots, gradient, hessian),
         );
+    }
+
+    /// Begins another gradient beside the Hessian that there is: summands are added by [`add_gradient`](Self::add_gradient).
+    pub fn clear_gradient(&mut self) {
+        self.gradient.fill(0.0);
+    }
+
+    /// Adds the gradient of a term, but for vertices that are held.
+    pub fn add_gradient(&mut self, term: &dyn Term, slots: &Slots, x: &[f64]) {
+        let mut assembly = Assembly::of_gradient(&self.pattern, slots, &mut self.gradient);
+        term.add_derivatives(x, 1.0, &mut assembly);
+        self.held.clear_gradient(&mut self.gradient);
     }
 
     /// Takes the mean diagonal of what was added so far for that of the energy.
@@ -132,8 +151,21 @@ impl QuadraticModel {
         if std::mem::take(&mut self.is_stale) {
             self.system = None;
         }
+        self.factorizations += 1;
         let (system, _, hessian) = self.prepare();
-        system.prepare(hessian)
+        let factored = system.prepare(hessian);
+        self.is_factored = factored.is_ok();
+        factored
+    }
+
+    /// Is there a factorization, perhaps of another point, for the vertices that are held?
+    pub fn is_factored(&mut self) -> bool {
+        self.is_factored && self.keeps_factor()
+    }
+
+    /// How many matrices were factored, failed attempts included.
+    pub fn factorizations(&self) -> usize {
+        self.factorizations
     }
 
     /// Solves with the matrix that was factored last; if none fits into memory, with H.
@@ -173,6 +205,19 @@ impl QuadraticModel {
         self.solve(direction)?;
         self.held.put_moves(direction);
         Ok(())
+    }
+
+    /// The Newton step, and how all vertices follow the moves of the held ones in `direction`, in one solve; the norm of its right
+    /// side.
+    pub fn step_and_follow(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
+        self.held.take_moves(direction);
+        for (d, g) in direction.iter_mut().zip(&self.gradient) {
+            *d -= g;
+        }
+        let norm = dot(direction, direction).sqrt();
+        self.solve(direction)?;
+        self.held.put_moves(direction);
+        Ok(norm)
     }
 
     /// g·d + ½d·Hd, held vertices included.

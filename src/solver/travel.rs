@@ -62,18 +62,48 @@ where
         handles: &Handles,
         relaxation: Relaxation,
     ) -> Result<Self, HandlesError> {
+        let start = Summary::at_start(objective.value(x));
+        Self::continued(objective, x, handles, (relaxation, start))
+    }
+
+    /// The same after what was done before, the energy being known.
+    pub fn continued(
+        objective: &mut Objective,
+        x: &[f64],
+        handles: &Handles,
+        (relaxation, summary): (Relaxation, Summary),
+    ) -> Result<Self, HandlesError> {
         Ok(Self {
             vertices: handles.vertices.clone(),
             path: Path::new(handles, x)?,
             points: Points::new(objective, x, handles),
             s: 0.0,
             stride: FIRST_ADVANCE,
-            summary: Summary::at_start(objective.value(x)),
+            summary,
             relaxation,
             newton: vec![0.0; x.len()],
             direction: vec![0.0; x.len()],
             trial: vec![0.0; x.len()],
         })
+    }
+
+    /// All the rest of the way at once with the factorization of another point, together with the Newton step, in one solve; the norm of
+    /// its right side. `None`, and nothing is moved, if the whole step does not stay in the domain.
+    ///
+    /// The energy is not looked at, and not known afterward.
+    pub fn step_with_kept(&mut self, objective: &mut Objective, x: &mut [f64]) -> Option<f64> {
+        self.take_moves(x, 1.0);
+        let norm = objective.step_and_follow(&mut self.direction).ok()?;
+        if SAFETY * objective.largest_step(x, &self.direction) < 1.0 {
+            return None;
+        }
+        for (x, d) in x.iter_mut().zip(&self.direction) {
+            *x += d;
+        }
+        self.s = 1.0;
+        self.summary.iterations += 1;
+        self.summary.energy_last = f64::NAN;
+        Some(norm)
     }
 
     /// Lets the next advance be long again, since the map has settled.
@@ -165,6 +195,17 @@ where
         x: &[f64],
         to: f64,
     ) -> Result<(), NotPositiveDefinite> {
+        self.take_moves(x, to);
+        let moves = self.points.moves::<D>(self.s, to);
+        objective.follow(&mut self.direction, moves)?;
+        for (d, n) in self.direction.iter_mut().zip(&self.newton) {
+            *d += n;
+        }
+        Ok(())
+    }
+
+    /// Leaves in `direction` the moves of the handles to `to`; elsewhere it has no meaning.
+    fn take_moves(&mut self, x: &[f64], to: f64) {
         for (i, &v) in self.vertices.iter().enumerate() {
             let place = self.path.position(i, to);
             let at = D * v as usize;
@@ -172,12 +213,6 @@ where
                 self.direction[at + k] = place[k] - x[at + k];
             }
         }
-        let moves = self.points.moves::<D>(self.s, to);
-        objective.follow(&mut self.direction, moves)?;
-        for (d, n) in self.direction.iter_mut().zip(&self.newton) {
-            *d += n;
-        }
-        Ok(())
     }
 
     /// Is the energy after the direction about what the model promises? Leaves the point in `trial`.

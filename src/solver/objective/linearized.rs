@@ -1,6 +1,6 @@
 //! The function as it looks from a point: its gradient, its Hessian and what is solved with that.
 
-use super::{Objective, pattern};
+use super::{Objective, all, pattern};
 use crate::numerics::block::BlockPattern;
 use crate::numerics::cholesky::{NotPositiveDefinite, Work};
 
@@ -21,6 +21,39 @@ impl Objective {
             self.model.add(constraints, slots, x, tau);
         }
         self.model.finish();
+    }
+
+    /// Evaluates the gradient alone at `x`; Hessian and factorization stay those of another point. False if there is no
+    /// factorization to go with it, as after vertices were fixed, or where a term [renews](crate::energy::Term::renew) its stencils.
+    ///
+    /// Cost: a third of a [`linearize`](Self::linearize).
+    pub fn renew_gradient(&mut self, x: &[f64]) -> bool {
+        if !self.model.is_factored() {
+            return false;
+        }
+        let renewed = self.terms.iter_mut().map(|term| term.renew(x));
+        if renewed.fold(false, |any, is_renewed| any | is_renewed) {
+            self.renew_pattern();
+            return false;
+        }
+        self.model.clear_gradient();
+        for (term, slots) in all(&self.terms, self.constraints.as_ref()).zip(&self.slots) {
+            self.model.add_gradient(term, slots, x);
+        }
+        true
+    }
+
+    /// The Newton step of the last gradient, and how all vertices follow the moves of the fixed ones in `direction`, both with the last
+    /// factorization; the norm of the right side.
+    ///
+    /// Cost: one solve.
+    pub fn step_and_follow(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
+        self.model.step_and_follow(direction)
+    }
+
+    /// How many matrices were factored, failed attempts included.
+    pub fn factorizations(&self) -> usize {
+        self.model.factorizations()
     }
 
     /// Takes the pattern from the terms' stencils anew.
