@@ -4,6 +4,9 @@ use super::problem::Problem;
 use super::problem_error::ProblemError;
 use crate::solver::{Drag, Handles, Objective, Stage, Summary};
 
+/// Handles that are nearer to their targets than this, the mean element having size 1, are there: a body at rest stays so.
+const NEAR: f64 = 1e-9;
+
 /// A problem in the units in which its numbers are meant, with its energy, its map and the drag of its handles.
 pub(super) struct Live {
     /// Its only station are the present handles.
@@ -45,7 +48,7 @@ impl Live {
         handles.check(objective.dim(), x.len())?;
         self.problem.stations = vec![handles];
         let handles = &self.problem.stations[0];
-        if *x == self.problem.body.rest && self.problem.worth_as_given(x).residual > 0.0 {
+        if *x == self.problem.body.rest && self.problem.worth_as_given(x).residual > NEAR * NEAR {
             self.problem.shake(objective, x);
         }
         match &mut self.drag {

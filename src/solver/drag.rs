@@ -2,6 +2,7 @@
 
 use super::follow::{HARD, HARDENED, LEAST_PROGRESS, ROUNDING};
 use super::handles::{Handles, HandlesError};
+use super::kept::Kept;
 use super::objective::Objective;
 use super::path::Rotation;
 use super::relaxation::Relaxation;
@@ -16,15 +17,6 @@ const TOLERANCE: f64 = 1e-9;
 
 /// A step of at least this length confirms what the model promised.
 const CONFIRMING: f64 = 0.5;
-
-/// A factorization of more operations than this takes longer than all else in a frame together, some 5 ms; it is kept for several.
-const COSTLY: f64 = 1e8;
-
-/// Steps with one factorization at most.
-const MOST_STEPS: usize = 24;
-
-/// What a step with a kept factorization leaves of the right side of its system, at most: else it has to be renewed.
-const WORN: f64 = 0.5;
 
 /// Where a drag stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,16 +38,8 @@ pub struct Drag<const D: usize> {
     travel: Travel<D>,
     vertices: Vec<u32>,
     phase: Phase,
-    /// How well the last factorization has served since; `None` if it is not to be kept.
-    service: Option<Service>,
-}
-
-/// What became of the gradient in steps with one factorization.
-#[derive(Clone, Copy, Default)]
-struct Service {
-    steps: usize,
-    /// The norm of the last right side.
-    norm: f64,
+    /// The last factorization, if it is to be kept.
+    kept: Option<Kept>,
 }
 
 /// What comes next.
@@ -87,7 +71,7 @@ where
             travel,
             vertices: Vec::new(),
             phase: Phase::Settle { from: 1.0 },
-            service: None,
+            kept: None,
         })
     }
 
@@ -142,10 +126,13 @@ where
     /// rest, most advances take one gradient and one solve with that of an iteration before.
     pub fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> Stage {
         if let Phase::Advance { from, .. } = self.phase
-            && self.advance_with_kept(objective, x)
+            && let Some(kept) = self.kept.take()
         {
-            self.phase = Phase::Settle { from };
-            return self.stage();
+            self.kept = kept.advance(&mut self.travel, objective, x);
+            if self.kept.is_some() {
+                self.phase = Phase::Settle { from };
+                return self.stage();
+            }
         }
         if self.travel.summary.energy_last.is_nan() {
             self.travel.summary.energy_last = objective.value(x);
@@ -178,34 +165,6 @@ where
         &self.travel.summary
     }
 
-    /// Brings the handles to their targets with the factorization that there is; false, and nothing has changed, if that would not do.
-    ///
-    /// A step of the modified Newton method leaves little of the gradient while the matrix is good. It is looked at before the next:
-    /// where more than half of the right side is left, the factorization is renewed.
-    fn advance_with_kept(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
-        let Some(Service { steps, norm }) = self.service.take() else {
-            return false;
-        };
-        if steps >= MOST_STEPS || !self.travel.points.is_empty() || !objective.renew_gradient(x) {
-            return false;
-        }
-        let gradient = objective
-            .gradient()
-            .iter()
-            .map(|g| g * g)
-            .sum::<f64>()
-            .sqrt();
-        if steps > 0 && gradient > WORN * norm {
-            return false;
-        }
-        let Some(norm) = self.travel.step_with_kept(objective, x) else {
-            return false;
-        };
-        let steps = steps + 1;
-        self.service = Some(Service { steps, norm });
-        true
-    }
-
     fn advance(
         &mut self,
         objective: &mut Objective,
@@ -215,8 +174,7 @@ where
     ) -> Phase {
         let before = self.travel.s;
         let found = self.travel.iterate(objective, x);
-        let is_costly = objective.work().is_some_and(|work| work.flops > COSTLY);
-        self.service = is_costly.then(Service::default);
+        self.kept = Kept::of(objective);
         let stuck = if self.travel.s > before { 0 } else { stuck + 1 };
         if found.is_none() || self.travel.s >= 1.0 || stuck >= PATIENCE {
             Phase::Settle { from }
@@ -232,8 +190,7 @@ where
         let Some(decrement) = travel.find_newton_step(objective, x) else {
             return true;
         };
-        // It may well serve the next advance.
-        self.service = self.service.map(|_| Service::default());
+        self.kept = Kept::of(objective);
         let length = travel.relax(objective, x, decrement);
         travel.summary.iterations += 1;
         let unit = objective.reference(energy);

@@ -22,6 +22,7 @@ mod drag;
 mod follow;
 mod handles;
 mod held;
+mod kept;
 mod levenberg;
 mod line_search;
 mod newton;

@@ -24,6 +24,7 @@ mod disk;
 mod disks;
 #[cfg(feature = "files")]
 mod document;
+mod dragged;
 #[cfg(feature = "files")]
 mod early_end;
 mod elements;

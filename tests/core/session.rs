@@ -1,29 +1,25 @@
-//! Sessions: valid at every iterate, where a problem ends, undo to the bit, one analysis whatever becomes of the handles.
+//! Sessions: valid at every iterate, where a problem ends, undo to the bit, one analysis whatever becomes of the handles, errors.
 
-use unwrapd::certificate::boundary_crossings;
-use unwrapd::deform::cage::{Cage, CagedSurface};
 use unwrapd::deform::{Body, Handle, HandleId, Model, Problem, ProblemError, Session};
-use unwrapd::mesh::PlanarMesh;
 use unwrapd::solver::{Control, Iterate, Settings, Stage};
 
 use crate::pulled::{bar, strip};
-use crate::zoo;
 
-fn vertex(vertex: u32, to: &[f64]) -> Handle {
+pub fn vertex(vertex: u32, to: &[f64]) -> Handle {
     Handle::Vertex {
         vertex,
         to: to.to_vec(),
     }
 }
 
-fn point(at: &[f64], to: &[f64]) -> Handle {
+pub fn point(at: &[f64], to: &[f64]) -> Handle {
     Handle::Point {
         at: at.to_vec(),
         to: to.to_vec(),
     }
 }
 
-fn disc(center: &[f64], radius: f64, to: &[f64]) -> Handle {
+pub fn disc(center: &[f64], radius: f64, to: &[f64]) -> Handle {
     Handle::Disc {
         center: center.to_vec(),
         radius,
@@ -32,7 +28,7 @@ fn disc(center: &[f64], radius: f64, to: &[f64]) -> Handle {
     }
 }
 
-fn session(body: &Body, handles: &[Handle], model: &Model) -> (Session, Vec<HandleId>) {
+pub fn session(body: &Body, handles: &[Handle], model: &Model) -> (Session, Vec<HandleId>) {
     let mut session = Session::new(body.clone(), model).expect("an energy of this dimension");
     let add = |handle: &Handle| session.add(handle.clone()).expect("a handle of the body");
     let ids = handles.iter().map(add).collect();
@@ -41,7 +37,7 @@ fn session(body: &Body, handles: &[Handle], model: &Model) -> (Session, Vec<Hand
 
 /// Settles, every iterate being looked at.
 #[track_caller]
-fn settle(session: &mut Session) {
+pub fn settle(session: &mut Session) {
     let mut steps = 0;
     while session.step() == Stage::Moving {
         assert!(session.worth().smallest > 0.0);
@@ -53,7 +49,7 @@ fn settle(session: &mut Session) {
 
 /// Settled, a session has the energy that a problem with its handles ends with.
 #[track_caller]
-fn assert_solved(session: &Session, body: &Body, model: &Model) {
+pub fn assert_solved(session: &Session, body: &Body, model: &Model) {
     let handles: Vec<Handle> = session
         .handles()
         .map(|(_, handle)| handle.clone())
@@ -172,110 +168,6 @@ fn undo_is_exact() {
         .expect("it is back");
     settle(&mut session);
     assert_eq!(session.analyses(), 1);
-}
-
-#[test]
-fn tetrahedra_follow() {
-    let body = Body::from(&bar(8));
-    let model = Model::default();
-    let handles = [
-        disc(&[0.0, 0.5, 0.5], 0.8, &[0.0, 0.5, 0.5]),
-        disc(&[8.0, 0.5, 0.5], 0.8, &[8.0, 0.5, 0.5]),
-        point(&[4.4, 0.3, 0.2], &[4.4, 0.3, 0.2]),
-    ];
-    let (mut session, ids) = session(&body, &handles, &model);
-    for frame in 1..=8 {
-        let way = 0.25 * f64::from(frame);
-        session
-            .move_handle(ids[1], &[8.0 - 0.5 * way, 0.5 + way, 0.5])
-            .expect("a target");
-        session
-            .move_handle(ids[2], &[4.4, 0.3, 0.2 + 0.5 * way])
-            .expect("a target");
-        session.step();
-        assert!(session.worth().smallest > 0.0);
-    }
-    settle(&mut session);
-    assert_solved(&session, &body, &model);
-    assert_eq!(session.analyses(), 1);
-}
-
-#[test]
-fn a_cage_carries_its_surface() {
-    let sphere = zoo::sphere(16, 12);
-    let positions: Vec<[f64; 3]> = sphere.positions.iter().map(|p| p.map(f64::from)).collect();
-    let surfaces = [CagedSurface {
-        positions: &positions,
-        triangles: &sphere.triangles,
-    }];
-    let cage = Cage::around(&surfaces, 6).expect("a cage");
-    let embedding = cage.embed(&positions).expect("places");
-    let handles = [
-        disc(&[0.0, 0.0, -1.0], 0.7, &[0.0, 0.0, -1.0]),
-        disc(&[0.0, 0.0, 1.0], 0.7, &[0.0, 0.0, 1.0]),
-    ];
-    let body = Body::from(cage.mesh());
-    let (mut session, ids) = session(&body, &handles, &Model::default());
-    session
-        .move_handle(ids[1], &[0.5, 0.25, 1.0])
-        .expect("a target");
-    settle(&mut session);
-    let carried = cage.interpolate(&embedding, session.positions().as_chunks().0);
-    let top = positions.iter().zip(&carried).find(|(p, _)| p[2] > 0.99);
-    let (before, after) = top.expect("a pole");
-    for (k, way) in [0.5, 0.25, 0.0].into_iter().enumerate() {
-        assert!((after[k] - before[k] - way).abs() < 1e-9, "{after:?}");
-    }
-}
-
-/// A strip two cells wide along five sixths of a circle.
-fn horseshoe() -> PlanarMesh {
-    let vertex = |v: u32| {
-        let angle = (f64::from(v / 3) * 10.0 + 30.0).to_radians();
-        let radius = 3.0 + 0.5 * f64::from(v % 3);
-        [radius * angle.cos(), radius * angle.sin()]
-    };
-    let triangles = (0..60).flat_map(|cell| {
-        let a = cell / 2 * 3 + cell % 2;
-        [[a, a + 1, a + 4], [a, a + 4, a + 3]]
-    });
-    PlanarMesh::new((0..93).map(vertex).collect(), triangles.collect()).expect("a horseshoe")
-}
-
-#[test]
-fn the_boundary_never_crosses_itself() {
-    let mesh = horseshoe();
-    let [start, end] = [1, 91].map(|v: usize| mesh.vertices()[v]);
-    let back = mesh.vertices()[46];
-    for bijective in [true, false] {
-        let model = Model {
-            bijective,
-            ..Model::default()
-        };
-        let handles = [vertex(46, &back), vertex(1, &start), vertex(91, &end)];
-        let (mut session, ids) = session(&Body::from(&mesh), &handles, &model);
-        let mut most = 0;
-        for frame in 1..=40 {
-            let (s, t) = (f64::from(frame) / 40.0, 1.0 - f64::from(frame) / 40.0);
-            let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| t * a[k] + s * b[k]);
-            session
-                .move_handle(ids[1], &between(start, end))
-                .expect("a target");
-            session
-                .move_handle(ids[2], &between(end, start))
-                .expect("a target");
-            session.step();
-            let x = session.positions();
-            assert!(session.worth().smallest > 0.0);
-            most = most.max(boundary_crossings(x.as_chunks().0, mesh.triangles()));
-        }
-        assert_eq!(most == 0, bijective);
-        session.step_while(|session| session.summary().iterations < 2000);
-        let x = session.positions();
-        let crossings = boundary_crossings(x.as_chunks().0, mesh.triangles());
-        assert!(crossings == 0 || !bijective);
-        assert_ne!(session.stage(), Stage::Moving);
-    }
 }
 
 #[test]

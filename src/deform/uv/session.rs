@@ -269,16 +269,17 @@ impl UvSession {
 
     /// Charts that were not held then go back to their start.
     fn restore(&mut self, state: Option<State>) -> bool {
-        let Some(mut state) = state else {
+        let Some(State { anchors, charts }) = state else {
             return false;
         };
-        for (number, chart) in &mut self.charts {
-            let start = || chart.flat.start.as_flattened().to_vec();
-            let places = state.charts.remove(number).unwrap_or_else(start);
-            if chart.live.put(places).is_err() {
-                return false;
-            }
+        // First the anchors, then the places: others would set a map that is at rest in motion.
+        if self.take(anchors).is_err() {
+            return false;
         }
-        self.take(state.anchors).is_ok()
+        self.charts.iter_mut().all(|(number, chart)| {
+            let start = || chart.flat.start.as_flattened().to_vec();
+            let places = charts.get(number).cloned().unwrap_or_else(start);
+            chart.live.put(places).is_ok()
+        })
     }
 }
