@@ -90,6 +90,7 @@ impl Drag {
                 radius,
                 to: low.to_vec(),
                 turn: 0.0,
+                axis: None,
             },
             center: high.to_vec(),
             radius,
@@ -112,6 +113,7 @@ impl Drag {
             radius: self.radius,
             to: self.target(frame),
             turn: 0.0,
+            axis: None,
         };
         [self.held.clone(), dragged]
     }

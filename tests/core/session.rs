@@ -25,6 +25,7 @@ pub fn disc(center: &[f64], radius: f64, to: &[f64]) -> Handle {
         radius,
         to: to.to_vec(),
         turn: 0.0,
+        axis: None,
     }
 }
 
