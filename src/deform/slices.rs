@@ -59,9 +59,9 @@ impl Problem {
 }
 
 /// Vertices in the order of their places, at least so many to a slice, those of one place together; what is left over at the end
-/// is in none.
+/// joins the last.
 fn sliced(places: &[(f64, u32)], least: usize) -> Vec<Vec<u32>> {
-    let (mut slices, mut slice) = (Vec::new(), Vec::new());
+    let (mut slices, mut slice) = (Vec::<Vec<u32>>::new(), Vec::new());
     let mut last = f64::NEG_INFINITY;
     for &(place, v) in places {
         if slice.len() >= least && place > last + SAME {
@@ -70,8 +70,9 @@ fn sliced(places: &[(f64, u32)], least: usize) -> Vec<Vec<u32>> {
         slice.push(v);
         last = place;
     }
-    if slice.len() >= least {
-        slices.push(slice);
+    match slices.last_mut() {
+        Some(last) if slice.len() < least => last.extend(slice),
+        _ => slices.push(slice),
     }
     slices
 }

@@ -43,14 +43,12 @@ fn main() {
 }
 
 fn body(case: &str) -> Body {
-    match case.strip_prefix("plane-") {
-        Some(n) => Body::from(&plane(n.parse().expect("a number of squares"))),
-        None => {
-            let bytes = std::fs::read(meshes::path("tet/Armadillo13K.msh")).expect("test data");
-            let elements = gmsh::read(&bytes).expect("a mesh");
-            Body::from(&elements.into_tet_mesh().expect("tetrahedra"))
-        }
+    if let Some(n) = case.strip_prefix("plane-") {
+        return Body::from(&plane(n.parse().expect("a number of squares")));
     }
+    let bytes = std::fs::read(meshes::path("tet/Armadillo13K.msh")).expect("test data");
+    let elements = gmsh::read(&bytes).expect("a mesh");
+    Body::from(&elements.into_tet_mesh().expect("tetrahedra"))
 }
 
 /// A sheet of `n` by `n` unit squares.
