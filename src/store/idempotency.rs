@@ -42,7 +42,8 @@ pub(super) async fn remember(
     job: &Job,
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<()> {
-    sqlx::query("INSERT INTO idempotency VALUES ($1, $2, $3, $4)")
+    let insert = "INSERT INTO idempotency (key, fingerprint, job, created) VALUES ($1, $2, $3, $4)";
+    sqlx::query(insert)
         .bind(&key.key)
         .bind(&key.fingerprint)
         .bind(job.id.to_string())

@@ -20,9 +20,11 @@ mod files;
 mod hints;
 mod idempotency;
 mod objects;
+mod reading;
 mod records;
 mod reserve;
 mod rows;
+mod submissions;
 mod transitions;
 
 pub use address::blobs_at;

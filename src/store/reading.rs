@@ -1,0 +1,90 @@
+//! Records that are only looked at.
+
+use sqlx::any::AnyRow;
+use sqlx::{AnyConnection, AssertSqlSafe, Row};
+
+use super::database::Database;
+use super::rows;
+use crate::jobs::{Event, Job, JobId, Listing, State, StoreResult};
+
+/// Jobs that are looked at together.
+const BATCH: usize = 64;
+
+/// A page of jobs, the newest first, without those of calls.
+pub(super) async fn page(database: &Database, listing: Listing) -> StoreResult<Vec<Job>> {
+    let page = "SELECT {columns} FROM job
+         WHERE ephemeral = 0 AND ($1 = '' OR state = $1) AND ($2 = '' OR id < $2)
+         ORDER BY id DESC LIMIT $3";
+    let found = sqlx::query(database.sql(page))
+        .bind(listing.state.map_or("", State::word))
+        .bind(listing.before.map_or_else(String::new, |id| id.to_string()))
+        .bind(i64::from(listing.limit))
+        .fetch_all(&database.readers)
+        .await?;
+    jobs(&found)
+}
+
+/// The present events of those of these jobs that there are.
+pub(super) async fn events(database: &Database, ids: &[JobId]) -> StoreResult<Vec<(JobId, Event)>> {
+    let places: Vec<String> = (1..=BATCH).map(|place| format!("${place}")).collect();
+    let statement = database.sql(&format!(
+        "SELECT id, state, seq, progress, started, finished, {{now}} AS now
+         FROM job WHERE id IN ({})",
+        places.join(", ")
+    ));
+    let mut events = Vec::new();
+    for batch in ids.chunks(BATCH) {
+        let mut query = sqlx::query(AssertSqlSafe(statement.0.clone()));
+        // One statement for all: the last batch is filled up with its own last id.
+        for place in 0..BATCH {
+            query = query.bind(batch[place.min(batch.len() - 1)].to_string());
+        }
+        for row in query.fetch_all(&database.readers).await? {
+            events.push(rows::event(&row)?);
+        }
+    }
+    Ok(events)
+}
+
+/// How many jobs there are in each state.
+pub(super) async fn counts(database: &Database) -> StoreResult<Vec<(State, u64)>> {
+    let found = sqlx::query("SELECT state, count(*) AS jobs FROM job GROUP BY state")
+        .fetch_all(&database.readers)
+        .await?;
+    let mut counts = State::ALL.map(|state| (state, 0)).to_vec();
+    for row in found {
+        let state: State = rows::word(&row.try_get::<String, _>("state")?)?;
+        let count: i64 = row.try_get("jobs")?;
+        counts
+            .iter_mut()
+            .filter(|(s, _)| *s == state)
+            .for_each(|c| c.1 = count as u64);
+    }
+    Ok(counts)
+}
+
+/// The ids that a statement with these numbers finds.
+pub(super) async fn ids(
+    database: &Database,
+    statement: &str,
+    numbers: &[i64],
+) -> StoreResult<Vec<JobId>> {
+    let mut query = sqlx::query(database.sql(statement));
+    for number in numbers {
+        query = query.bind(*number);
+    }
+    let found = query.fetch_all(&database.readers).await?;
+    found.iter().map(rows::id).collect()
+}
+
+/// Bytes of the files of all jobs.
+pub(super) async fn stored_bytes(connection: &mut AnyConnection) -> StoreResult<u64> {
+    let sum = "SELECT CAST(coalesce(sum(bytes), 0) AS BIGINT) AS bytes FROM job";
+    let row = sqlx::query(sum).fetch_one(connection).await?;
+    Ok(row.try_get::<i64, _>("bytes")? as u64)
+}
+
+/// The jobs that rows hold.
+pub(super) fn jobs(found: &[AnyRow]) -> StoreResult<Vec<Job>> {
+    found.iter().map(rows::job).collect()
+}

@@ -1,0 +1,70 @@
+//! Records of new jobs, if there is room for them and their key is new.
+
+use sqlx::{Any, Row, Transaction};
+
+use super::database::Database;
+use super::hints::Hints;
+use super::reading::stored_bytes;
+use super::{idempotency, rows};
+use crate::jobs::{
+    Capacity, Enqueued, IdempotencyKey, Job, State, StoreError, StoreResult, Timestamp,
+};
+
+/// Adds a job, by the time of the database.
+pub(super) async fn enqueue(
+    database: &Database,
+    hints: &Hints,
+    job: &Job,
+    key: Option<&IdempotencyKey>,
+    capacity: Capacity,
+) -> StoreResult<Enqueued> {
+    let mut transaction = database.begin().await?;
+    if let Some(lock) = database.dialect.lock_submissions() {
+        sqlx::query(lock).execute(&mut *transaction).await?;
+    }
+    let (queued, now) = queued(database, &mut transaction).await?;
+    let mut job = job.clone();
+    (job.created, job.due) = (now, now);
+    job.finished = job.finished.map(|_| now);
+    if let Some(key) = key
+        && let Some(earlier) =
+            idempotency::earlier_use(database, key, now, &mut transaction).await?
+    {
+        return Ok(earlier);
+    }
+    if job.state == State::Queued && i64::from(capacity.depth) <= queued {
+        return Ok(Enqueued::Full);
+    }
+    if let Some(bytes) = capacity.bytes
+        && bytes < stored_bytes(&mut transaction).await? + job.stored_bytes()
+    {
+        return Ok(Enqueued::OverQuota);
+    }
+    rows::insert(&job, &mut transaction).await?;
+    if let Some(key) = key {
+        idempotency::remember(key, &job, &mut transaction).await?;
+    }
+    hints.give(&job, &mut transaction).await?;
+    transaction.commit().await.map_err(unanswered)?;
+    Ok(Enqueued::New(Box::new(job)))
+}
+
+/// How many jobs wait, and what time it is.
+async fn queued(
+    database: &Database,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<(i64, Timestamp)> {
+    let count = "SELECT count(*) AS queued, {now} AS now FROM job WHERE state = 'queued'";
+    let row = sqlx::query(database.sql(count))
+        .fetch_one(&mut **transaction)
+        .await?;
+    Ok((row.try_get("queued")?, rows::now(&row)?))
+}
+
+/// Why nobody knows whether a transaction was committed, if so.
+fn unanswered(error: sqlx::Error) -> StoreError {
+    match error.into() {
+        StoreError::Unavailable(text) => StoreError::Unanswered(text),
+        error => error,
+    }
+}
