@@ -4,26 +4,24 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::time::{Instant, MissedTickBehavior};
+use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 
 use super::cgroup::Kills;
 use super::checksum;
 use super::child::{Child, Exit};
-use super::deadline::{given_up_after, timed_out};
+use super::conclusion::{conclude, disown};
 use super::job::{Failure, Job};
-use super::keys::{input_key, output_folder, output_key};
-use super::progress::Event;
+use super::keys::{input_key, output_key};
+use super::memory_failure::{killed_for_memory, out_of_memory};
 use super::queue::Jobs;
 use super::running::Attempt;
-use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
-use super::task::{self, ERROR, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
-use super::transition::{Ending, Happening};
+use super::supervision::{Watched, watch};
+use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
+use super::transition::Ending;
 use crate::pipeline::Limits;
 
-/// How often the child's memory and the lease are looked at.
-const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 /// After which a job is tried again that could not be computed for want of space or of files.
 const PAUSE: Duration = Duration::from_secs(1);
 
@@ -142,133 +140,6 @@ async fn compute(
     } else {
         failure
     })))
-}
-
-/// Why a child is not watched any more.
-enum Watched {
-    /// Its output ended.
-    Silent,
-    /// There is a reason to end it.
-    EndedBy(Ending),
-    /// The job is somebody else's.
-    Outdated,
-}
-
-/// Passes on progress and wishes.
-async fn watch(
-    jobs: &Jobs,
-    job: &Job,
-    attempt: &Attempt,
-    child: &mut Child,
-    leave: &CancellationToken,
-) -> Watched {
-    let limits = &jobs.settings;
-    let deadline = Instant::now() + given_up_after(limits.time);
-    let mut interval = tokio::time::interval(WATCH_INTERVAL);
-    interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    let mut event = attempt.event();
-    let (mut is_ready, mut is_told) = (false, false);
-    loop {
-        tokio::select! {
-            message = child.next_message() => match message {
-                None => return Watched::Silent,
-                Some(Message::Ready) => is_ready = true,
-                Some(Message::Progress(progress)) => {
-                    event.progress.advance(progress);
-                    event = Event { seq: event.seq + 1, ..job_event(job, event) };
-                    attempt.set_event(event);
-                    jobs.live.publish(job.id, event);
-                }
-            },
-            () = attempt.outdated.cancelled() => return Watched::Outdated,
-            () = attempt.cancel.cancelled() => return Watched::EndedBy(Ending::Cancelled),
-            () = leave.cancelled() => {
-                return Watched::EndedBy(Ending::HandedBack(Duration::ZERO));
-            }
-            () = tokio::time::sleep_until(deadline) => {
-                return Watched::EndedBy(Ending::Failed(timed_out(limits.time)));
-            }
-            () = attempt.finish.cancelled(), if is_ready && !is_told => {
-                child.interrupt();
-                is_told = true;
-            }
-            _ = interval.tick() => {
-                if attempt.has_lapsed() {
-                    return Watched::Outdated;
-                }
-                if limits.memory < child.resident_bytes() {
-                    return Watched::EndedBy(Ending::Failed(out_of_memory(limits.memory)));
-                }
-            }
-        }
-    }
-}
-
-/// An event with the time since the attempt started.
-fn job_event(job: &Job, event: Event) -> Event {
-    Event {
-        elapsed_ms: job.event().elapsed_ms,
-        ..event
-    }
-}
-
-/// What a job is told that needs more than its share.
-pub(super) fn out_of_memory(limit: u64) -> Failure {
-    let detail = format!(
-        "needs more than {} MiB, the memory limit of a job",
-        limit >> 20
-    );
-    Failure::new("out_of_memory", detail)
-}
-
-/// What a job is told that the system ended for the memory of all.
-fn killed_for_memory() -> Failure {
-    let detail = "the system ended it because the memory of the container or machine was used up";
-    Failure::new("out_of_memory", detail)
-}
-
-/// Records how an attempt ended, however long that takes: what it made is not thrown away because
-/// the store is away for a while. If the job went to another worker meanwhile, the store says so.
-/// A worker that has to leave does not wait: once the lease is over, another one takes the job.
-async fn conclude(
-    jobs: &Jobs,
-    job: &Job,
-    attempt: &Attempt,
-    ending: Ending,
-    leave: &CancellationToken,
-) {
-    let happening = Happening::Ended(attempt.token, attempt.saying(), ending);
-    loop {
-        match jobs.store.change(job.id, &happening).await {
-            Ok(Changed::Yes(job)) => {
-                let failure = job.failure.as_ref();
-                let code = failure.map(|failure| failure.code.as_str());
-                tracing::info!(job = %job.id, state = job.state.word(), code, "ended");
-                return jobs.tell(&job).await;
-            }
-            Ok(Changed::No(..) | Changed::Missing) => return disown(jobs, job).await,
-            Err(error) if error.is_passing() => {
-                tracing::warn!(job = %job.id, %error, "end not recorded yet");
-                tokio::select! {
-                    () = tokio::time::sleep(PAUSE) => {}
-                    () = leave.cancelled() => return,
-                }
-            }
-            Err(error) => {
-                tracing::error!(job = %job.id, %error, "end not recorded");
-                return;
-            }
-        }
-    }
-}
-
-/// Removes what an outdated attempt made.
-async fn disown(jobs: &Jobs, job: &Job) {
-    tracing::warn!(job = %job.id, attempt = job.attempt, "outdated attempt");
-    let folder = output_folder(job.id, job.token);
-    if let Err(error) = jobs.blobs.remove(&folder).await {
-        tracing::warn!(job = %job.id, %error, "files of an outdated attempt not removed");
-    }
 }
 
 /// An attempt at a job that was just claimed; its lease counts from before the claim was sent.

@@ -22,7 +22,8 @@
 //! that exhausts memory, overflows a stack or finds a bug ends its own attempt; memory goes back to
 //! the system; a cancel always works, because it is a signal. The child ends when its standard
 //! input closes, so a killed worker leaves no orphans. A worker that cannot renew its lease in time
-//! ends its child.
+//! ends its child and hands the job back. After an outage of the store, workers get the time of a
+//! lease for that before anybody takes jobs from them.
 //!
 //! A job whose input, options and engine equal those of an earlier one gets a copy of its result
 //! instead (`reuse.rs`), unless the client refuses.
@@ -39,6 +40,7 @@ mod cgroup;
 mod checksum;
 mod child;
 pub mod compute;
+mod conclusion;
 mod contained;
 mod deadline;
 mod digest;
@@ -49,6 +51,7 @@ mod job;
 mod keys;
 mod lease;
 mod live;
+mod memory_failure;
 mod output;
 mod pace;
 mod progress;
@@ -65,6 +68,8 @@ mod storage;
 mod store_error;
 mod submit;
 mod subscription;
+mod supervision;
+mod sweeping;
 mod task;
 mod timestamp;
 mod transition;

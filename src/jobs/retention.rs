@@ -1,4 +1,4 @@
-//! The store kept in order: jobs of silent workers, jobs whose time is over, files without a job.
+//! The store kept in order: jobs whose time is over, files without a job.
 
 use std::collections::HashMap;
 use std::time::Duration;
@@ -14,8 +14,6 @@ use super::store_error::StoreResult;
 use super::timestamp::Timestamp;
 use super::transition::Wish;
 
-/// Sweeps per lease: a job is taken from a silent worker that much later at most.
-const SWEEPS: u32 = 3;
 /// Searches for expired jobs per retention time: a job outlives it by a tenth at most,
 const SEARCHES: u32 = 10;
 /// and by no more than an hour. More than one search per second would keep the server busy.
@@ -48,14 +46,12 @@ impl Jobs {
         Ok(())
     }
 
-    /// Sweeps and removes expired jobs from time to time until told to stop.
+    /// Removes expired jobs and files without a job from time to time until told to stop.
     pub(super) async fn keep_until(&self, stop: &CancellationToken) {
         let retention = self.settings.retention.unwrap_or(Duration::MAX);
         let search = (retention / SEARCHES).clamp(SHORTEST_PAUSE, LONGEST_PAUSE);
-        let pace = (self.settings.rules.lease / SWEEPS).min(search);
-        let mut interval = tokio::time::interval(pace);
+        let mut interval = tokio::time::interval(search);
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        let mut searched: Option<Instant> = None;
         // The only process has looked at its start.
         let is_only = self.settings.deployment == Deployment::Embedded;
         let mut looked = is_only.then(Instant::now);
@@ -64,15 +60,8 @@ impl Jobs {
                 _ = interval.tick() => {}
                 () = stop.cancelled() => return,
             }
-            if let Err(error) = self.sweep(Sweep::Overdue).await {
-                tracing::error!(%error, "jobs of silent workers not looked for");
-            }
-            if searched.is_some_and(|last| last.elapsed() < search) {
-                continue;
-            }
-            searched = Some(Instant::now());
             if self.settings.retention.is_some() && looked.is_none_or(is_long_ago) {
-                looked = searched;
+                looked = Some(Instant::now());
                 if let Err(error) = self.remove_orphaned_files(SUBMISSION).await {
                     tracing::warn!(%error, "files without a job not looked for");
                 }
@@ -83,17 +72,6 @@ impl Jobs {
                 Err(error) => tracing::error!(%error, "expired jobs not removed"),
             }
         }
-    }
-
-    async fn sweep(&self, sweep: Sweep) -> StoreResult<()> {
-        for job in self.store.sweep(sweep).await? {
-            if job.state != State::Running {
-                let (state, lost) = (job.state.word(), job.lost);
-                tracing::warn!(job = %job.id, state, lost, "taken from its worker");
-            }
-            self.tell(&job).await;
-        }
-        Ok(())
     }
 
     async fn remove_expired(&self) -> StoreResult<usize> {

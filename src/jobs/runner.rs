@@ -32,6 +32,10 @@ impl Jobs {
         let stopped = stop.clone();
         self.tasks
             .spawn(async move { upkeep.keep_until(&stopped).await });
+        let sweeper = Arc::clone(&self);
+        let stopped = stop.clone();
+        self.tasks
+            .spawn(async move { sweeper.sweep_until(&stopped).await });
         let watcher = Arc::clone(&self);
         let stopped = stop.clone();
         self.tasks

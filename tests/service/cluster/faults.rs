@@ -103,6 +103,9 @@ async fn a_killed_database_is_waited_for() {
     let next = submitted(&api, 1).await;
     assert_whole(&api, &next[0]).await;
     assert_whole(&api, &job).await;
+    // It was not the worker that was away.
+    let id = job["id"].as_str().expect("an id");
+    assert_eq!(cluster.attempts()[id], ("succeeded".to_owned(), 2, 0));
     let ready = api.get("/readyz").send().await.expect("an answer");
     assert_eq!(ready.status(), 200);
 }

@@ -1,0 +1,51 @@
+//! Jobs of silent workers, which go back to the queue.
+
+use tokio::time::{Instant, MissedTickBehavior};
+use tokio_util::sync::CancellationToken;
+
+use super::queue::Jobs;
+use super::state::State;
+use super::storage::Sweep;
+use super::store_error::StoreResult;
+
+/// Sweeps per lease: a job is taken from a silent worker that much later at most.
+const SWEEPS: u32 = 3;
+
+impl Jobs {
+    /// Sweeps from time to time until told to stop. For the time of a lease after the store did not
+    /// answer, and after the start, nothing is taken: workers that could not reach the store are
+    /// not silent, and hand their jobs back.
+    pub(super) async fn sweep_until(&self, stop: &CancellationToken) {
+        let lease = self.settings.rules.lease;
+        let mut interval = tokio::time::interval(lease / SWEEPS);
+        interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        let mut unknown = Instant::now();
+        loop {
+            tokio::select! {
+                _ = interval.tick() => {}
+                () = stop.cancelled() => return,
+            }
+            let answer = if unknown.elapsed() < lease {
+                self.store.check().await
+            } else {
+                self.sweep(Sweep::Overdue).await
+            };
+            if let Err(error) = answer {
+                tracing::error!(%error, "jobs of silent workers not looked for");
+                unknown = Instant::now();
+            }
+        }
+    }
+
+    /// Takes jobs from their workers, and tells those who watch.
+    pub(super) async fn sweep(&self, sweep: Sweep) -> StoreResult<()> {
+        for job in self.store.sweep(sweep).await? {
+            if job.state != State::Running {
+                let (state, lost) = (job.state.word(), job.lost);
+                tracing::warn!(job = %job.id, state, lost, "taken from its worker");
+            }
+            self.tell(&job).await;
+        }
+        Ok(())
+    }
+}
