@@ -27,8 +27,9 @@ impl Drain {
 /// Drain this process.
 ///
 /// From now on it refuses new jobs with `draining`, `/readyz` answers 503, and waiting jobs are not
-/// started. Running jobs end as usual. When `running` is 0, the process can be stopped without
-/// handing a job back. Workers in other processes are not affected: they drain on SIGTERM.
+/// started. Running jobs end as usual, and the process removes no expired ones. When `running` is 0,
+/// the process can be stopped without handing a job back. Other processes are not affected: workers
+/// drain on SIGTERM.
 #[utoipa::path(
     put, path = "/v1/drain", operation_id = "startDrain", tag = "service",
     responses((status = 200, description = "The process is draining", body = Drain))

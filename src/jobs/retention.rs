@@ -60,6 +60,10 @@ impl Jobs {
                 _ = interval.tick() => {}
                 () = stop.cancelled() => return,
             }
+            // A process that is paused removes nothing.
+            if self.is_draining() {
+                continue;
+            }
             if self.settings.retention.is_some() && looked.is_none_or(is_long_ago) {
                 looked = Some(Instant::now());
                 if let Err(error) = self.remove_orphaned_files(SUBMISSION).await {

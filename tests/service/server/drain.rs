@@ -1,6 +1,8 @@
 //! A process that takes in no more jobs, and ends what it has.
 
-use super::{Server, assert_problem, json};
+use std::time::{Duration, Instant};
+
+use super::{SOON, Server, assert_problem, json};
 use crate::meshes;
 
 async fn drain(server: &Server, method: &str) -> serde_json::Value {
@@ -35,4 +37,29 @@ async fn a_drained_service_ends_what_runs_and_starts_nothing() {
     assert_eq!(server.ended(&waiting).await["state"], "succeeded");
     let ready = server.get("/readyz").send().await.expect("an answer");
     assert_eq!(ready.status(), 200);
+}
+
+#[tokio::test]
+async fn a_drained_service_removes_nothing() {
+    // Two seconds.
+    let server = Server::with(&[("UNWRAPD_RETAIN_DAYS", "0.000023")]);
+    let job = server.submit(meshes::hills(250), "cut=disk").await;
+    server.mapping(&job).await;
+    drain(&server, "PUT").await;
+    let path = job["links"]["self"].as_str().expect("a link");
+    let finish = server.post(&format!("{path}/finish")).send().await;
+    assert_eq!(finish.expect("an answer").status(), 202);
+    assert_eq!(server.ended(&job).await["state"], "succeeded");
+    // Its time is over, and that of two searches, which are a second apart.
+    tokio::time::sleep(Duration::from_secs(4)).await;
+    let kept = server.get(path).send().await.expect("an answer");
+    assert_eq!(kept.status(), 200);
+
+    drain(&server, "DELETE").await;
+    let start = Instant::now();
+    while server.get(path).send().await.expect("an answer").status() == 200 {
+        assert!(start.elapsed() < SOON, "it is still there");
+    }
+    let gone = server.get(path).send().await.expect("an answer");
+    assert_problem(gone, 410, "job_expired").await;
 }
