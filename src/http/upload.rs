@@ -19,7 +19,10 @@ use crate::mesh::io::{Content, Format};
 const DRAIN_TIME: Duration = Duration::from_secs(5);
 
 /// Media types of raw bodies that leave the format to the content.
-const UNTOLD: [&str; 2] = ["text/plain", "application/octet-stream"];
+const UNTOLD: [&str; 2] = ["text/plain", BYTES];
+const BYTES: &str = "application/octet-stream";
+/// What `curl --data-binary` says of every body if it is not told otherwise.
+const CURL: &str = "application/x-www-form-urlencoded";
 
 /// Those of surfaces.
 pub(super) fn surface_types() -> impl Iterator<Item = &'static str> {
@@ -118,15 +121,16 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
     receiver.finish(kind, query).await
 }
 
-/// The media type without parameters, in lower case; a missing one is that of bytes.
+/// The media type without parameters, in lower case. A missing one is that of bytes, and so is the
+/// one that says nothing.
 fn media_type(headers: &HeaderMap) -> String {
-    let value = headers
-        .get(header::CONTENT_TYPE)
-        .map_or("application/octet-stream", |value| {
-            value.to_str().unwrap_or_default()
-        });
+    let value = headers.get(header::CONTENT_TYPE);
+    let value = value.map_or(BYTES, |value| value.to_str().unwrap_or_default());
     let essence = value.split(';').next().unwrap_or_default();
-    essence.trim().to_ascii_lowercase()
+    match essence.trim().to_ascii_lowercase() {
+        essence if essence == CURL => BYTES.to_owned(),
+        essence => essence,
+    }
 }
 
 /// `filename="…"` of a Content-Disposition header.

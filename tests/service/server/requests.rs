@@ -6,6 +6,9 @@ use reqwest::multipart::{Form, Part};
 use crate::meshes;
 use crate::server::{Server, assert_problem, json};
 
+/// What curl says of a body if it is not told otherwise.
+const CURL: &str = "application/x-www-form-urlencoded";
+
 fn raw(
     server: &Server,
     query: &str,
@@ -22,8 +25,9 @@ fn raw(
 async fn what_is_not_a_mesh_is_refused_before_202() {
     let server = Server::start();
     let bytes = "application/octet-stream";
-    let cases: [(&str, &str, Vec<u8>, u16, &str); 12] = [
+    let cases: [(&str, &str, Vec<u8>, u16, &str); 13] = [
         ("", bytes, b"hello, world".to_vec(), 422, "unknown_format"),
+        ("", CURL, b"name=value".to_vec(), 422, "unknown_format"),
         ("", bytes, Vec::new(), 422, "unknown_format"),
         (
             "",
@@ -87,6 +91,19 @@ async fn what_is_not_a_mesh_is_refused_before_202() {
     }
     let jobs = json(server.get("/v1/jobs").send().await.expect("an answer")).await;
     assert_eq!(jobs["jobs"], serde_json::json!([]));
+}
+
+/// `curl --data-binary @mesh.glb` names a type that has nothing to do with the file.
+#[tokio::test]
+async fn a_mesh_is_known_by_its_content_where_curl_is_not_told_its_type() {
+    let server = Server::start();
+    for mesh in [meshes::small(), meshes::TRIANGLE.into()] {
+        let answer = raw(&server, "", CURL, mesh).send().await;
+        let answer = answer.expect("an answer");
+        assert_eq!(answer.status(), 202);
+        let job = server.ended(&json(answer).await).await;
+        assert_eq!(job["state"], "succeeded", "{job}");
+    }
 }
 
 #[tokio::test]
