@@ -1,5 +1,7 @@
 //! Work done by child processes on this machine.
 
+use std::time::Duration;
+
 use super::worker::{Task, Worker};
 use crate::jobs::{Contained, Failure, Kind};
 
@@ -15,6 +17,10 @@ pub struct Local {
 impl Worker for Local {
     fn version(&self) -> &'static str {
         env!("CARGO_PKG_VERSION")
+    }
+
+    fn time_limit(&self) -> Option<Duration> {
+        Some(self.contained.time)
     }
 
     async fn work(&self, task: Task<'_>) -> Result<Vec<String>, Failure> {

@@ -29,10 +29,12 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
         }
     };
     let digest = block_in_place(|| order.recipe.with(&upload));
+    let time_limit = worker.time_limit().map(|limit| limit.as_secs_f64());
     let old = Record::load(&order.place, asset);
     let same = old.as_ref().filter(|old| old.digest == digest);
     if let Some(same) = same.filter(|same| same.is_whole(&order.place))
-        && !(same.may_pass() || (order.retries && same.has_failed()))
+        && !(same.may_pass() || same.was_cut_short(time_limit))
+        && !(order.retries && same.has_failed())
     {
         // The record may have another name of the input.
         let Row {
@@ -50,6 +52,7 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
     let mut record = Record {
         digest,
         attempt,
+        time_limit,
         files,
         row: row(begin.elapsed().as_secs_f64(), status),
     };

@@ -19,6 +19,9 @@ pub struct Record {
     /// How often the work on that has failed before.
     #[serde(default)]
     pub(super) attempt: u32,
+    /// Seconds that the work had, if they are known.
+    #[serde(default)]
+    pub(super) time_limit: Option<f64>,
     /// Path within the output folder, and size, of each file that was written.
     pub(super) files: Vec<(PathBuf, u64)>,
     /// What became of it.
@@ -69,6 +72,15 @@ impl Record {
             }
             Status::Written(_) | Status::Missing => false,
         }
+    }
+
+    /// Whether it ended before it was done, and may get further in more time than it had.
+    pub(super) fn was_cut_short(&self, time_limit: Option<f64>) -> bool {
+        let has_more = self
+            .time_limit
+            .zip(time_limit)
+            .is_some_and(|(had, has)| had < has);
+        matches!(&self.row.status, Status::Written(figures) if figures.ended_early) && has_more
     }
 
     /// The number of the next attempt. What failed before or after the work itself is not one more.

@@ -1,6 +1,5 @@
 //! What became of an asset: one line of the summary.
 
-use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::asset::Asset;
@@ -52,6 +51,9 @@ pub struct Figures {
     pub stretch: Option<f64>,
     /// Warnings in the report.
     pub warnings: u64,
+    /// Whether a limit ended it before it was done.
+    #[serde(default)]
+    pub ended_early: bool,
 }
 
 impl Row {
@@ -76,8 +78,13 @@ impl From<Failure> for Status {
 #[derive(Deserialize)]
 struct ReportRead {
     certified: bool,
-    warnings: Vec<IgnoredAny>,
+    warnings: Vec<WarningRead>,
     groups: Vec<GroupRead>,
+}
+
+#[derive(Deserialize)]
+struct WarningRead {
+    code: String,
 }
 
 #[derive(Deserialize)]
@@ -111,6 +118,7 @@ impl Figures {
                 .reduce(f64::max),
             stretch: measures().filter_map(|m| m.stretch_p99).reduce(f64::max),
             warnings: warnings.len() as u64,
+            ended_early: warnings.iter().any(|it| it.code == "ended_early"),
         })
     }
 }

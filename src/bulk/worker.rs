@@ -1,6 +1,7 @@
 //! Who does the work on an asset.
 
 use std::path::Path;
+use std::time::Duration;
 
 use crate::document::Upload;
 use crate::jobs::Failure;
@@ -52,6 +53,9 @@ pub struct Task<'a> {
 pub trait Worker: Send + Sync + 'static {
     /// Version of what unwraps: outputs of another one are made again.
     fn version(&self) -> &str;
+
+    /// The time after which an asset ends with the map it has, if this worker sets it.
+    fn time_limit(&self) -> Option<Duration>;
 
     /// Unwraps an asset, and gives the roles of the files that it made. The n-th is left in the
     /// task's folder as [`output_file`](crate::jobs::output_file)`(n)`. Dropped before its end, it

@@ -24,7 +24,7 @@ pub(super) struct Args {
     /// result. An asset that has none fails after a quarter of the limit more, or 10 s if that is
     /// longer
     ///
-    /// A later run keeps such a result, also with a higher limit.
+    /// A later run keeps such a result, unless its limit is higher.
     #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = seconds)]
     asset_seconds: f64,
     /// Memory limit of an asset, in MiB [default: 8192, or an equal part of the machine's if less]

@@ -20,6 +20,11 @@ pub(super) struct Args {
         value_parser = clap::value_parser!(u16).range(1..)
     )]
     jobs: u16,
+    /// Have every asset computed, even if the service has the result of an equal job
+    ///
+    /// A run that follows within a day finds the jobs that this one made.
+    #[arg(long)]
+    no_cache: bool,
     #[command(flatten)]
     bulk: BulkArgs,
 }
@@ -30,6 +35,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let options = options.map_err(|error| Failure::other(error.to_string()))?;
     let runtime = runtime()?;
     let remote = Remote::connect(&args.server, &options, args.bulk.extras());
-    let remote = runtime.block_on(remote)?;
+    let mut remote = runtime.block_on(remote)?;
+    remote.is_fresh = args.no_cache;
     run_with(&args.bulk, usize::from(args.jobs), remote, &runtime)
 }

@@ -7,7 +7,9 @@ mod client;
 mod job;
 
 use std::path::Path;
+use std::time::Duration;
 
+use reqwest::header::CACHE_CONTROL;
 use reqwest::multipart::{Form, Part};
 use reqwest::{Method, Url};
 
@@ -32,6 +34,8 @@ pub struct Remote {
     extras: Vec<Extra>,
     /// Version of the service.
     version: String,
+    /// Whether results of equal jobs are refused.
+    pub is_fresh: bool,
 }
 
 impl Remote {
@@ -51,17 +55,22 @@ impl Remote {
             options: options.to_string(),
             extras,
             version,
+            is_fresh: false,
         })
     }
 
     /// The job of an asset: a new one, or the one that an earlier submission made.
     async fn submitted(&self, task: &Task<'_>) -> Result<Job, Failure> {
         let url = self.client.url(&["v1", "jobs"]);
-        let key = format!("{}-{}", task.digest, task.attempt);
+        // A run that refuses copies does not want the job of one that takes them.
+        let suffix = if self.is_fresh { "-fresh" } else { "" };
+        let key = format!("{}-{}{suffix}", task.digest, task.attempt);
         let answer = self.client.answer(|http| {
-            http.post(url.clone())
-                .header("idempotency-key", &key)
-                .multipart(form(task.upload, &self.options))
+            let mut request = http.post(url.clone()).header("idempotency-key", &key);
+            if self.is_fresh {
+                request = request.header(CACHE_CONTROL, "no-cache");
+            }
+            request.multipart(form(task.upload, &self.options))
         });
         let answer = answer.await?;
         answer.json().await.map_err(|error| unreadable(&error))
@@ -103,6 +112,11 @@ impl Remote {
 impl Worker for Remote {
     fn version(&self) -> &str {
         &self.version
+    }
+
+    /// That is the service's own.
+    fn time_limit(&self) -> Option<Duration> {
+        None
     }
 
     async fn work(&self, task: Task<'_>) -> Result<Vec<String>, Failure> {

@@ -4,6 +4,7 @@ use std::fs;
 
 use super::{Folders, mesh};
 use crate::cli::{assert_status, unwrapd};
+use crate::meshes;
 
 #[test]
 fn outputs_mirror_the_folder_and_a_second_run_does_nothing() {
@@ -62,6 +63,23 @@ fn what_changed_or_went_away_is_done_again_and_nothing_else() {
     // Results do not depend on threads and gates.
     let same = ["--padding", "3", "--threads", "1", "--accept", "written"];
     assert!(changed(&|| (), &same).is_empty());
+}
+
+#[test]
+fn what_was_cut_short_is_done_again_where_it_has_more_time() {
+    let folders = Folders::with(&[]);
+    fs::write(folders.path("in/a.glb"), meshes::hills(100)).expect("a file");
+    let within = |seconds: &str| {
+        let run = folders.batch(&["--cut", "disk", "--asset-seconds", seconds]);
+        assert_status(&run, 0);
+        let said = String::from_utf8_lossy(&run.stdout).into_owned();
+        said.contains("1 done now")
+    };
+    assert!(within("0.02"));
+    assert!(!within("0.02"));
+    assert!(!within("0.01"));
+    assert!(within("0.03"));
+    assert!(!within("0.03"));
 }
 
 #[test]

@@ -75,6 +75,26 @@ async fn a_failed_job_is_made_again_only_on_request() {
 }
 
 #[tokio::test]
+async fn a_copy_can_be_refused() {
+    let server = Server::start();
+    let folders = Folders::of(1);
+    for (arguments, count, cached) in [
+        (&[][..], 1, false),
+        // Another submission of the same.
+        (&["--report"], 2, true),
+        (&["--report", "--no-cache"], 3, false),
+        // The same submission.
+        (&["--report", "--no-cache"], 3, false),
+    ] {
+        assert_status(&folders.submit(&server.url(""), arguments), 0);
+        let jobs = jobs(&server).await;
+        assert_eq!(jobs.len(), count, "{arguments:?}");
+        assert_eq!(jobs[0]["cached"], cached, "{arguments:?}");
+        fs::remove_dir_all(folders.path("out")).expect("a folder");
+    }
+}
+
+#[tokio::test]
 async fn a_killed_run_finds_its_jobs_again() {
     const COUNT: usize = 4;
     let server = Server::start();
