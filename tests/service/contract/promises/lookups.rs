@@ -1,0 +1,92 @@
+//! Jobs that are looked for.
+
+use std::sync::Arc;
+
+use unwrapd::jobs::{Job, JobId, JobStore, Listing, State, Timestamp};
+use unwrapd::store::RecordStore;
+
+use super::{get, succeed};
+use crate::contract::{claim, claimed, enqueued, job, saying};
+
+pub async fn what_is_stored_is_found(store: Arc<RecordStore>) {
+    let new = enqueued(&store, &job()).await;
+    assert!(new.created.since(Timestamp(1_600_000_000_000)) > 0);
+    let found = get(&store, new.id).await;
+    assert_eq!(format!("{found:?}"), format!("{new:?}"));
+    assert!(
+        store
+            .get(JobId::fresh())
+            .await
+            .expect("an answer")
+            .is_none()
+    );
+    let counts = store.counts().await.expect("an answer");
+    assert_eq!(counts[0], (State::Queued, 1));
+    assert_eq!(store.stored_bytes().await.expect("an answer"), 100);
+    store.check().await.expect("it can be written to");
+}
+
+pub async fn events_are_those_of_the_records(store: Arc<RecordStore>) {
+    let mut ids = Vec::new();
+    for _ in 0..70 {
+        ids.push(enqueued(&store, &job()).await.id);
+    }
+    let running = claim(&store).await.expect("it waits");
+    let beat = (running.id, running.token, saying(running.seq + 3, 0.75));
+    store.beat(&[beat]).await.expect("an answer");
+    ids.push(JobId::fresh());
+    let mut events = store.events(&ids).await.expect("an answer");
+    events.sort_by_key(|(id, _)| *id);
+    let found: Vec<JobId> = events.iter().map(|(id, _)| *id).collect();
+    assert_eq!(found, ids[..70]);
+    let event = events[0].1;
+    assert_eq!((event.state, event.seq), (State::Running, running.seq + 3));
+    assert_eq!(event.progress.fraction, 0.75);
+    assert_eq!(events[1].1.state, State::Queued);
+    assert_eq!(store.events(&[]).await.expect("an answer"), []);
+}
+
+pub async fn the_list_has_pages_and_no_guests(store: Arc<RecordStore>) {
+    let mut ids = Vec::new();
+    for ephemeral in [false, true, false, false] {
+        let job = Job { ephemeral, ..job() };
+        ids.push(enqueued(&store, &job).await.id);
+    }
+    assert_eq!(store.ephemeral().await.expect("an answer"), [ids[1]]);
+    let page = async |state, before, limit| {
+        let listing = Listing {
+            state,
+            before,
+            limit,
+        };
+        let page = store.list(listing).await.expect("an answer");
+        page.iter().map(|job| job.id).collect::<Vec<_>>()
+    };
+    assert_eq!(page(None, None, 2).await, [ids[3], ids[2]]);
+    assert_eq!(page(None, Some(ids[2]), 2).await, [ids[0]]);
+    claim(&store).await.expect("it waits");
+    assert_eq!(page(Some(State::Running), None, 9).await, [ids[0]]);
+    assert!(page(Some(State::Failed), None, 9).await.is_empty());
+}
+
+pub async fn equal_jobs_are_those_that_succeeded(store: Arc<RecordStore>) {
+    let equal = async |digest| {
+        let equal = store.equal(digest).await.expect("an answer");
+        equal.into_iter().map(|job| job.id).collect::<Vec<_>>()
+    };
+    let first = claimed(&store).await;
+    assert!(equal("cd").await.is_empty());
+    succeed(&store, &first).await;
+    assert_eq!(equal("cd").await, [first.id]);
+    assert!(equal("other").await.is_empty());
+    let guest = Job {
+        ephemeral: true,
+        ..job()
+    };
+    enqueued(&store, &guest).await;
+    let guest = claim(&store).await.expect("it waits");
+    succeed(&store, &guest).await;
+    let second = claimed(&store).await;
+    succeed(&store, &second).await;
+    assert_eq!(equal("cd").await, [second.id, first.id]);
+}

@@ -1,0 +1,153 @@
+//! What every store of records promises: the same functions run over SQLite and PostgreSQL.
+
+mod claims;
+mod ends;
+mod leases;
+mod lookups;
+mod submissions;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use futures_util::future::{BoxFuture, FutureExt};
+use unwrapd::jobs::{
+    Ending, Happening, IdempotencyKey, Job, JobId, JobStore, Listing, OutputFile, Reason, Sweep,
+    Verdict,
+};
+use unwrapd::store::RecordStore;
+
+use super::{ROOM, RULES, change, claim, claim_soon, enqueued, job, saying, yes};
+use crate::harness::postgres::Postgres;
+
+type Promise = fn(Arc<RecordStore>) -> BoxFuture<'static, ()>;
+
+/// All promises, by their names.
+macro_rules! promises {
+    ($($of:ident::$name:ident),* $(,)?) => {
+        const PROMISES: &[(&str, Promise)] =
+            &[$((stringify!($name), |store| $of::$name(store).boxed())),*];
+    };
+}
+
+promises!(
+    lookups::what_is_stored_is_found,
+    claims::the_oldest_is_claimed_first,
+    claims::the_highest_priority_is_claimed_first,
+    claims::no_job_is_claimed_twice,
+    ends::an_end_is_recorded_once,
+    leases::a_beat_renews_the_lease_and_brings_wishes,
+    leases::beats_are_answered_in_their_order,
+    leases::a_silent_worker_loses_its_job,
+    leases::a_former_holder_changes_nothing,
+    leases::a_job_that_kills_its_workers_is_parked,
+    claims::a_job_handed_back_waits_and_counts_no_loss,
+    claims::a_retry_does_not_wait_behind_the_backlog,
+    leases::all_is_abandoned_at_once,
+    ends::a_queued_job_is_cancelled_at_once,
+    ends::only_a_failed_job_is_tried_again,
+    submissions::the_depth_holds_under_contention,
+    submissions::the_quota_holds_under_contention,
+    submissions::a_key_makes_one_job_under_contention,
+    ends::only_ended_jobs_are_deleted,
+    ends::what_expired_is_remembered,
+    lookups::events_are_those_of_the_records,
+    lookups::the_list_has_pages_and_no_guests,
+    lookups::equal_jobs_are_those_that_succeeded,
+    submissions::an_ended_job_is_stored_however_many_wait,
+);
+
+#[tokio::test]
+async fn sqlite_keeps_all_promises() {
+    for (name, promise) in PROMISES {
+        println!("{name}");
+        let folder = tempfile::tempdir().expect("a folder");
+        let url = format!("sqlite://{}/jobs?mode=rwc", folder.path().display());
+        let store = RecordStore::open(&url, RULES).await.expect("a store");
+        promise(Arc::new(store)).await;
+    }
+}
+
+#[tokio::test]
+async fn postgres_keeps_all_promises() {
+    let postgres = Postgres::start();
+    for (name, promise) in PROMISES {
+        println!("{name}");
+        let url = postgres.database(name);
+        let store = RecordStore::open(&url, RULES).await.expect("a store");
+        promise(Arc::new(store)).await;
+    }
+}
+
+/// During a rolling update a newer program adds columns while older ones go on.
+#[tokio::test]
+async fn postgres_serves_who_has_used_an_older_schema() {
+    let postgres = Postgres::start();
+    let url = postgres.database("updated");
+    let store = RecordStore::open(&url, RULES).await.expect("a store");
+    let use_all = async |key: &str| {
+        let key = IdempotencyKey {
+            key: key.to_owned(),
+            fingerprint: "a mesh".to_owned(),
+        };
+        let new = job();
+        let made = store.enqueue(&new, Some(&key), ROOM).await;
+        made.expect("an answer");
+        for _ in 0..2 {
+            enqueued(&store, &job()).await;
+        }
+        let claimed = claim(&store).await.expect("it waits");
+        let beat = (claimed.id, claimed.token, saying(claimed.seq, 0.5));
+        store.beat(&[beat]).await.expect("an answer");
+        succeed(&store, &claimed).await;
+        get(&store, claimed.id).await;
+        let listing = Listing {
+            state: None,
+            before: None,
+            limit: 9,
+        };
+        store.list(listing).await.expect("an answer");
+        store.equal("cd").await.expect("an answer");
+        store.events(&[claimed.id]).await.expect("an answer");
+        claim(&store).await.expect("it waits");
+        store.sweep(Sweep::Abandoned).await.expect("an answer");
+        claim_soon(&store).await;
+        let deleted = store.delete(claimed.id, Reason::Expired).await;
+        assert!(deleted.expect("an answer"));
+    };
+    use_all("a key").await;
+    for table in ["job", "idempotency", "expired"] {
+        let newer = format!("ALTER TABLE {table} ADD COLUMN newer BIGINT NOT NULL DEFAULT 0");
+        postgres.psql("updated", &newer);
+    }
+    use_all("another key").await;
+}
+
+async fn get(store: &RecordStore, id: JobId) -> Job {
+    store.get(id).await.expect("an answer").expect("a job")
+}
+
+fn success() -> Ending {
+    let output = OutputFile {
+        role: "result".to_owned(),
+        name: "mesh.glb".to_owned(),
+        bytes: 11,
+        sha256: None,
+    };
+    Ending::Succeeded(vec![output], Verdict::default())
+}
+
+async fn succeed(store: &RecordStore, job: &Job) -> Job {
+    let happening = Happening::Ended(job.token, saying(job.seq, 0.5), success());
+    yes(change(store, job.id, happening).await)
+}
+
+/// Sweeps until something is found: leases end by the clock of the store.
+async fn swept(store: &RecordStore) -> Vec<Job> {
+    loop {
+        let swept = store.sweep(Sweep::Overdue).await.expect("an answer");
+        if !swept.is_empty() {
+            return swept;
+        }
+        tokio::time::sleep(Duration::from_millis(10)).await;
+    }
+}
