@@ -12,6 +12,7 @@ use super::fault::Fault;
 use super::history;
 use super::postgres::Postgres;
 use super::process::{Process, Role};
+use super::program;
 use super::proxy::Proxy;
 use super::s3::S3;
 
@@ -51,8 +52,13 @@ impl Machines {
     /// Starts them in order for a fault; `None` where that one cannot be made. Each process tells
     /// what it does to a file in `logs`, if there is that folder.
     pub fn start(fault: Fault, logs: Option<&Path>) -> Option<Self> {
+        Self::of(&program(), Some(fault), logs)
+    }
+
+    /// The same with processes of this program, for a fault or none.
+    pub fn of(program: &Path, fault: Option<Fault>, logs: Option<&Path>) -> Option<Self> {
         let disks = match fault {
-            Fault::Disk => {
+            Some(Fault::Disk) => {
                 let sizes = ROLES.map(|_| MEGABYTES).into_iter();
                 let disks = sizes.chain([FILES_MEGABYTES]).map(Disk::mount);
                 disks.collect::<Option<_>>()?
@@ -60,7 +66,7 @@ impl Machines {
             _ => Vec::new(),
         };
         let clocks: Vec<Clock> = match fault {
-            Fault::Clock => (0..=ROLES.len()).map(|_| Clock::ahead(0)).collect(),
+            Some(Fault::Clock) => (0..=ROLES.len()).map(|_| Clock::ahead(0)).collect(),
             _ => Vec::new(),
         };
         let folder = |index: usize| match disks.get(index) {
@@ -72,7 +78,7 @@ impl Machines {
         postgres.database("unwrapd");
         let s3 = S3::on(folder(ROLES.len()), &[]);
         let links: Vec<Links> = match fault {
-            Fault::Network => ROLES.map(|_| Links::to(&postgres, &s3)).into(),
+            Some(Fault::Network) => ROLES.map(|_| Links::to(&postgres, &s3)).into(),
             _ => Vec::new(),
         };
         let processes = ROLES.iter().enumerate().map(|(index, &role)| {
@@ -83,13 +89,9 @@ impl Machines {
                 });
             let mut settings = settings(role, &s3, ports);
             settings.extend(clock(index));
-            match logs {
-                Some(logs) => {
-                    let log = File::create(logs.join(format!("{index}.log"))).expect("a file");
-                    Process::logged(role, folder(index), &settings, log)
-                }
-                None => Process::start(role, folder(index), &settings),
-            }
+            let log = logs.map(|logs| logs.join(format!("{index}.log")));
+            let log = log.map(|log| File::create(log).expect("a file"));
+            Process::of(program, role, folder(index), &settings, log)
         });
         let processes = processes.collect();
         history::keep(&postgres);

@@ -16,6 +16,7 @@ pub mod postgres;
 pub mod process;
 pub mod proxy;
 pub mod s3;
+pub mod update;
 
 use std::path::PathBuf;
 use std::time::Duration;

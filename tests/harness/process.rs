@@ -1,5 +1,6 @@
 //! Processes of the service.
 
+use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
@@ -33,23 +34,22 @@ pub struct Process {
 impl Process {
     /// Starts one on a folder with these environment variables.
     pub fn start(role: Role, folder: TempDir, settings: &[(String, String)]) -> Self {
-        let command = command(role, folder.path(), settings);
-        Self::run(role, folder, command)
+        Self::of(&super::program(), role, folder, settings, None)
     }
 
-    /// The same, which tells what it does to this file instead of the reader of the test.
-    pub fn logged(
+    /// The same by this program, which tells what it does to a file instead of the reader of the
+    /// test, if there is one.
+    pub fn of(
+        program: &Path,
         role: Role,
         folder: TempDir,
         settings: &[(String, String)],
-        log: std::fs::File,
+        log: Option<File>,
     ) -> Self {
-        let mut command = command(role, folder.path(), settings);
-        command.stderr(log);
-        Self::run(role, folder, command)
-    }
-
-    fn run(role: Role, folder: TempDir, mut command: Command) -> Self {
+        let mut command = command(program, role, folder.path(), settings);
+        if let Some(log) = log {
+            command.stderr(log);
+        }
         let (running, stdout, address) = spawn(role, &mut command);
         Self {
             role,
@@ -95,9 +95,21 @@ impl Process {
         (self.running, self.stdout, self.address) = spawn(self.role, &mut self.command);
     }
 
+    /// Starts another program in its place.
+    pub fn restart_as(&mut self, program: &Path) {
+        let mut command = Command::new(program);
+        command.args(self.command.get_args());
+        for (name, value) in self.command.get_envs() {
+            command.env(name, value.expect("none is removed"));
+        }
+        self.command = command;
+        self.restart();
+    }
+
     /// Starts it again on the same folder, with other environment variables.
     pub fn restart_with(&mut self, settings: &[(String, String)]) {
-        self.command = command(self.role, self.folder.path(), settings);
+        let program = super::program();
+        self.command = command(&program, self.role, self.folder.path(), settings);
         self.restart();
     }
 
@@ -124,8 +136,8 @@ impl Drop for Process {
     }
 }
 
-fn command(role: Role, folder: &Path, settings: &[(String, String)]) -> Command {
-    let mut command = Command::new(super::program());
+fn command(program: &Path, role: Role, folder: &Path, settings: &[(String, String)]) -> Command {
+    let mut command = Command::new(program);
     match role {
         Role::Serve => command.args(["serve", "--listen", "127.0.0.1:0"]),
         Role::Worker => command.args(["worker", "--workers", "1"]),

@@ -7,6 +7,7 @@ mod holders;
 mod judged;
 mod s3;
 mod sharing;
+mod update;
 
 use std::collections::HashMap;
 
