@@ -88,6 +88,9 @@ async fn a_child_that_the_system_ends_for_its_memory_says_so() {
     group.take(server.process_id());
     let job = server.submit(meshes::large(), "cut=disk").await;
     assert_failed(&server, &job, "out_of_memory").await;
+    let detail = server.ended(&job).await["error"]["detail"].clone();
+    let detail = detail.as_str().expect("text");
+    assert!(detail.starts_with("the system ended it"), "{detail}");
     drop((server, group));
 }
 
