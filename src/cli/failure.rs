@@ -41,12 +41,15 @@ impl Failure {
         }
     }
 
-    /// Written, but handles are not at their targets.
-    pub(super) fn unreachable() -> Self {
-        Self {
+    /// Written; a failure if handles are not at their targets.
+    pub(super) fn unless_complete(is_complete: bool) -> Result<(), Self> {
+        if is_complete {
+            return Ok(());
+        }
+        Err(Self {
             exit_code: 5,
             message: "not all targets can be reached (targets_unreachable)".to_owned(),
-        }
+        })
     }
 
     /// Anything else.

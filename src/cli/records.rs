@@ -56,11 +56,7 @@ impl Records {
             print_json(&deformed.report)?;
         }
         summarize(deformed);
-        if deformed.report.is_complete() {
-            Ok(())
-        } else {
-            Err(Failure::unreachable())
-        }
+        Failure::unless_complete(deformed.report.is_complete())
     }
 }
 

@@ -8,6 +8,7 @@ use super::format::check_png;
 use super::input::{read_file, read_upload};
 use super::output::{OutputArgs, Outputs, caller};
 use super::progress::Display;
+use crate::deform::Units;
 use crate::deform::warp::parse_handles;
 use crate::options::help_of;
 use crate::pipeline::{CommandOptions, PullReport, WarpOptions, warp_file};
@@ -32,7 +33,7 @@ pub(super) struct Args {
     options: WarpOptions,
 }
 
-/// Runs `warp`; exit 4 if the map has an inverted triangle, or with a fixed border is not bijective.
+/// Runs `warp`; exit 4 if the map has an inverted triangle, or with a fixed border is not bijective, 5 if targets cannot be reached.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut options = WarpOptions {
         caller: caller(&args.output),
@@ -54,22 +55,22 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     warn(&warped.report.warnings);
     print_pull("", &warped.report.map);
-    if warped.report.certified {
-        Ok(())
-    } else {
-        Err(Failure::uncertified("the map is not valid"))
+    if !warped.report.certified {
+        return Err(Failure::uncertified("the map is not valid"));
     }
+    Failure::unless_complete(warped.report.is_complete())
 }
 
 /// One line about a map.
 pub(super) fn print_pull(name: &str, report: &PullReport) {
     let summary = &report.summary;
     say(format_args!(
-        "{name}{:?}: {} iterations, {} factorizations, energy {:.6e}, residual {:.1e}, {} inverted, {}",
+        "{name}{:?}: {} iterations, {} factorizations, energy {:.6e} {}, residual {:.1e}, {} inverted, {}",
         summary.status,
         summary.iterations,
         summary.factorizations,
         summary.energy,
+        Units::Normalized,
         summary.residual,
         report.certificate.inverted,
         if report.bijective {

@@ -9,6 +9,7 @@ use super::paired::{handles, with_points};
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
 use super::units::Units;
+use super::unreached::Unreached;
 use crate::barrier::epsilon;
 use crate::energy::Row;
 use crate::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
@@ -33,6 +34,8 @@ pub struct PullSummary {
     pub residual: f64,
     /// The smallest area of a triangle over its area at rest.
     pub smallest: f64,
+    /// The handles that did not come to their targets, in the order of their list; distances in the caller's unit.
+    pub unreached: Vec<Unreached>,
 }
 
 /// The least weight of vertices that may move in a point that is pulled itself: with less, they would have to move more than
@@ -45,6 +48,9 @@ pub(super) struct Holds {
     pub fixed: Vec<u32>,
     pub pulled: Vec<(u32, [f64; 2])>,
     pub points: Vec<(Row, [f64; 2])>,
+    /// The places in the caller's list of the handles that pull these vertices, and of those that pull these points.
+    of_vertices: Vec<usize>,
+    of_points: Vec<usize>,
 }
 
 /// What a handle at a point takes hold of.
@@ -64,7 +70,21 @@ impl Holds {
             fixed,
             pulled: Vec::new(),
             points: Vec::new(),
+            of_vertices: Vec::new(),
+            of_points: Vec::new(),
         }
+    }
+
+    /// A handle pulls a vertex.
+    pub fn pull_vertex(&mut self, handle: usize, vertex: u32, to: [f64; 2]) {
+        self.pulled.push((vertex, to));
+        self.of_vertices.push(handle);
+    }
+
+    /// A handle pulls a point.
+    pub fn pull_point(&mut self, handle: usize, row: Row, to: [f64; 2]) {
+        self.points.push((row, to));
+        self.of_points.push(handle);
     }
 
     pub fn is_fixed(&self, vertex: u32) -> bool {
@@ -93,6 +113,18 @@ impl Holds {
         let vertices = self.pulled.iter().map(|hold| Aim::at_vertex(hold.0));
         let points = (0..self.points.len()).map(Aim::at_point);
         vertices.chain(points).collect()
+    }
+
+    /// Unreached [aims](Self::aims) as the caller's handles, with distances in his unit.
+    fn named(&self, unreached: Vec<Unreached>, unit: f64) -> Vec<Unreached> {
+        let handles = [&self.of_vertices[..], &self.of_points].concat();
+        let named = unreached.into_iter().map(|aim| Unreached {
+            handle: handles[aim.handle],
+            distance: aim.distance * unit,
+        });
+        let mut named: Vec<Unreached> = named.collect();
+        named.sort_by_key(|unreached| unreached.handle);
+        named
     }
 
     /// All of them. Those that stay are a group of their own, so that no neighbor's travel moves them on the way.
@@ -131,9 +163,14 @@ pub(super) fn pull(
         ..pulled(body, start, handles, model)?
     };
     let solution = problem.solve(&Settings::follow(), watch)?;
+    let unreached = holds.named(problem.unreached(&solution), unit);
     let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
     arrive(&mut vertices, &problem.stations[0]);
-    let worth = problem.worth(vertices.as_flattened());
+    let normalized = Problem {
+        units: Units::Normalized,
+        ..problem
+    };
+    let worth = normalized.worth(vertices.as_flattened());
     Ok(Pulled {
         summary: PullSummary {
             status: solution.summary.status,
@@ -142,6 +179,7 @@ pub(super) fn pull(
             energy: worth.energy,
             residual: worth.residual * unit * unit,
             smallest: worth.smallest,
+            unreached,
         },
         vertices,
     })

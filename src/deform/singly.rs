@@ -28,11 +28,7 @@ impl Problem {
             return Ok(best);
         };
         let (parts, least) = (self.parts(targets), self.least_gap());
-        let gaps = Gaps {
-            dim: self.body.dim(),
-            targets,
-            x: &best.x,
-        };
+        let gaps = Gaps::new(self.body.dim(), targets, &best.x);
         let mut missing: Vec<&Aim> = (parts.iter())
             .filter(|part| gaps.of(part) > least)
             .collect();
@@ -106,7 +102,7 @@ impl Problem {
                 station.groups[i] = held;
             }
         }
-        let gaps = Gaps { dim, targets, x };
+        let gaps = Gaps::new(dim, targets, x);
         for i in 0..targets.points.len() {
             if !set.iter().any(|part| part.points.contains(&i)) {
                 station.point_targets[dim * i..dim * (i + 1)].copy_from_slice(&gaps.point(i));

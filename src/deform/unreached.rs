@@ -1,5 +1,7 @@
 //! Handles that did not come to their targets.
 
+use std::collections::HashMap;
+
 use serde::Serialize;
 
 use super::aims::Aim;
@@ -27,18 +29,14 @@ impl Problem {
         let Some(targets) = self.stations.last() else {
             return Vec::new();
         };
-        let gaps = Gaps {
-            dim: self.body.dim(),
-            targets,
-            x: &solution.x,
-        };
+        let gaps = Gaps::new(self.body.dim(), targets, &solution.x);
+        let least = self.least_gap();
         let of_handle = |(handle, aim)| Unreached {
             handle,
             distance: gaps.of(aim),
         };
         let all = self.aims.iter().enumerate().map(of_handle);
-        all.filter(|handle| handle.distance > self.least_gap())
-            .collect()
+        all.filter(|handle| handle.distance > least).collect()
     }
 
     /// A distance that counts as none.
@@ -49,17 +47,28 @@ impl Problem {
 
 /// How far handles are from their targets.
 pub(super) struct Gaps<'a> {
-    pub dim: usize,
-    pub targets: &'a Handles,
-    pub x: &'a [f64],
+    dim: usize,
+    targets: &'a Handles,
+    x: &'a [f64],
+    /// The place of each held vertex among the handles.
+    places: HashMap<u32, usize>,
 }
 
-impl Gaps<'_> {
+impl<'a> Gaps<'a> {
+    /// In the map `x` of so many coordinates to a vertex.
+    pub fn new(dim: usize, targets: &'a Handles, x: &'a [f64]) -> Self {
+        Self {
+            dim,
+            targets,
+            x,
+            places: targets.vertices.iter().copied().zip(0..).collect(),
+        }
+    }
+
     /// Of all that a handle holds, the largest.
     pub fn of(&self, aim: &Aim) -> f64 {
-        let place = |vertex| self.targets.vertices.iter().position(|v| v == vertex);
-        let held = aim.vertices.iter().filter_map(place);
-        let distances = held.map(|i| self.of_vertex(i));
+        let held = aim.vertices.iter().filter_map(|v| self.places.get(v));
+        let distances = held.map(|&i| self.of_vertex(i));
         let distances = distances.chain(aim.points.iter().map(|&i| self.of_point(i)));
         distances.fold(0.0, f64::max)
     }

@@ -69,7 +69,9 @@ pub use documents::texel_weight::TexelWeight;
 #[cfg(feature = "files")]
 pub use documents::unwrap::{Outcome, unwrap_document};
 #[cfg(feature = "files")]
-pub use edit::uvs::{ChartEditReport, EditReport, EditedDocument, edit_document};
+pub use edit::report::{ChartEditReport, EditReport};
+#[cfg(feature = "files")]
+pub use edit::uvs::{EditedDocument, edit_document};
 #[cfg(feature = "files")]
 pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
 #[cfg(feature = "files")]

@@ -83,6 +83,8 @@ fn with_a_fixed_border_extreme_moves_are_bijective() {
             let on_border = (0..2).any(|k| p[k] == 0.0 || p[k] == size[k]);
             assert!(!on_border || p == q, "{context}");
         }
+        let is_missed = warp.summary.status == Status::TargetsUnreachable;
+        assert_eq!(!warp.summary.unreached.is_empty(), is_missed, "{context}");
         if warp.summary.residual < 1e-6 {
             reached += 1;
         } else {
@@ -107,6 +109,12 @@ fn a_target_outside_a_fixed_border_is_out_of_reach() {
     assert_eq!(warp.summary.status, Status::TargetsUnreachable);
     assert_bijective(&warp, "outside");
     assert!(warp.summary.residual > 68.0 * 68.0);
+    let [unreached] = warp.summary.unreached[..] else {
+        panic!("{:?}", warp.summary);
+    };
+    assert_eq!(unreached.handle, 0);
+    let gap = warp.summary.residual.sqrt();
+    assert!((unreached.distance - gap).abs() < 1e-9 * gap);
     assert_eq!(
         (warp.picture.image.width, warp.picture.image.height),
         (32, 24)

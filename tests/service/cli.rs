@@ -438,6 +438,21 @@ fn a_picture_is_warped_and_proven() {
     assert_status(&run, 0);
     assert_eq!(report["bijective"], true);
 
+    // A place beyond the border that stays, and one that can be reached.
+    let beyond = r#"{"handles": [{"at": [500, 300], "to": [-90, 300]}, {"at": [800, 300], "to": [780, 330]}]}"#;
+    let (run, report) = warp(beyond, &["--fix-border", "--grid=20"]);
+    assert_status(&run, 5);
+    assert_eq!(
+        (&report["bijective"], &report["status"]),
+        (&true.into(), &"targets-unreachable".into())
+    );
+    let unreached = report["unreached"].as_array().expect("handles");
+    assert_eq!(unreached.len(), 1);
+    assert_eq!(unreached[0]["handle"], 0);
+    let distance = unreached[0]["distance"].as_f64();
+    assert!(distance.is_some_and(|pixels| pixels > 90.0), "{distance:?}");
+    assert_eq!(report["warnings"][0]["code"], "targets_unreachable");
+
     for (handles, more, words) in [
         ("{}", "--grid=8", "malformed_handles"),
         (r#"{"handles": []}"#, "--grid=8", "handle_count"),

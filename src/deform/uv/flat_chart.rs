@@ -75,10 +75,10 @@ impl FlatChart {
             Grip::Vertex(vertex) => {
                 let place = chart.uvs[vertex as usize];
                 let to = [0, 1].map(|k| to[k] + (place[k] - at[k]));
-                holds.pulled.push((vertex, to.map(|x| x / self.unit)));
+                holds.pull_vertex(anchor, vertex, to.map(|x| x / self.unit));
                 targets.push(to);
             }
-            Grip::Point(row) => holds.points.push((row, to.map(|x| x / self.unit))),
+            Grip::Point(row) => holds.pull_point(anchor, row, to.map(|x| x / self.unit)),
         }
         Ok(())
     }

@@ -129,7 +129,8 @@ pub struct PictureWarp {
 /// A handle takes hold of its own point. Only next to a fixed border, where most of a point's weight stays, it takes the nearest
 /// vertex that does not, whose target is the handle's shifted by the same offset. Handles at one place must agree. Targets that
 /// cannot be reached end in
-/// [`Status::TargetsUnreachable`](crate::solver::Status::TargetsUnreachable) with a map that is valid all the same.
+/// [`Status::TargetsUnreachable`](crate::solver::Status::TargetsUnreachable) with a map that is valid all the same, and
+/// [`PullSummary::unreached`] names their handles.
 pub fn warp_picture(
     image: &Image,
     handles: &[PictureHandle],
@@ -184,7 +185,8 @@ fn warp_grid(
         if !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
             return Err(WarpError::BadTarget(index));
         }
-        take_hold(&mut holds, &body, to_unit(handle.at), to_unit(handle.to))?;
+        let way = (to_unit(handle.at), to_unit(handle.to));
+        take_hold(&mut holds, &body, index, way)?;
     }
     let pulled = pull(body, &scaled, &holds, (&options.model, unit), watch)?;
     let deformed = pulled.vertices.iter().map(|p| p.map(|x| x * unit));
@@ -197,12 +199,17 @@ fn mean_area(grid: &PlanarMesh) -> f64 {
 }
 
 /// Adds a handle.
-fn take_hold(holds: &mut Holds, body: &Body, at: [f64; 2], to: [f64; 2]) -> Result<(), WarpError> {
+fn take_hold(
+    holds: &mut Holds,
+    body: &Body,
+    handle: usize,
+    (at, to): ([f64; 2], [f64; 2]),
+) -> Result<(), WarpError> {
     let vertices: &[[f64; 2]] = body.rest.as_chunks().0;
     let nearest = || nearest(vertices, |v| !holds.is_fixed(v), at).ok_or(WarpError::NothingInside);
     let vertex = match locate(body, at).map_or(Grip::Fixed, |row| holds.grip(row)) {
         Grip::Point(row) => {
-            holds.points.push((row, to));
+            holds.pull_point(handle, row, to);
             return Ok(());
         }
         Grip::Vertex(vertex) => vertex,
@@ -210,7 +217,7 @@ fn take_hold(holds: &mut Holds, body: &Body, at: [f64; 2], to: [f64; 2]) -> Resu
     };
     let place = vertices[vertex as usize];
     let target = [0, 1].map(|k| to[k] + (place[k] - at[k]));
-    holds.pulled.push((vertex, target));
+    holds.pull_vertex(handle, vertex, target);
     Ok(())
 }
 

@@ -6,13 +6,14 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::cage_report::CageReport;
+use super::missed::{is_complete, missed, missed_warning};
 use super::plan::Plan;
 use crate::certificate::boundary_crossings;
 use crate::deform::{BodyElements, Method, Problem, Solution, Turns, Units, Unreached, Worth};
 use crate::document::Warning;
 use crate::pipeline::PipelineError;
 use crate::pipeline::tracker::Tracker;
-use crate::solver::{Control, Iterate, Status, Summary, Watch};
+use crate::solver::{Control, Iterate, Summary, Watch};
 
 /// What a body became.
 #[derive(Clone, Debug)]
@@ -26,14 +27,10 @@ pub struct Deformed {
     pub trace: String,
 }
 
-/// The code of the warning that handles did not come to their targets.
-const TARGETS_UNREACHABLE: &str = "targets_unreachable";
-
 impl DeformReport {
     /// Is every handle at its target, or was there no time to bring it there?
     pub fn is_complete(&self) -> bool {
-        let mut codes = self.warnings.iter().map(|warning| &*warning.code);
-        !codes.any(|code| code == TARGETS_UNREACHABLE)
+        is_complete(&self.warnings)
     }
 }
 
@@ -123,7 +120,7 @@ pub fn solve(
     }
     let unreached = problem.unreached(&solution);
     let turns = problem.turns(&solution.x);
-    let missed = missed(solution.summary.status, &unreached);
+    let missed = missed_warning(missed(solution.summary.status, &unreached));
     let warnings = tracker.warning().into_iter().chain(missed);
     let report = DeformReport {
         method: plan.method,
@@ -158,23 +155,6 @@ fn turns_lost(turns: &[Turns]) -> impl Iterator<Item = Warning> {
         );
         Warning::new("turns_lost", message)
     })
-}
-
-/// What to know of handles that did not come to their targets although there was time.
-fn missed(status: Status, unreached: &[Unreached]) -> Option<Warning> {
-    const NAMED: usize = 8;
-    if status == Status::Stopped || unreached.is_empty() {
-        return None;
-    }
-    let named = unreached.iter().take(NAMED);
-    let named = named.map(|one| format!("{} (by {:.3e})", one.handle, one.distance));
-    let mut names = named.collect::<Vec<_>>().join(", ");
-    if unreached.len() > NAMED {
-        names = format!("{names} and {} more", unreached.len() - NAMED);
-    }
-    let message =
-        format!("no way was found to the targets of these handles, counted from 0: {names}");
-    Some(Warning::new(TARGETS_UNREACHABLE, message))
 }
 
 /// How often the boundary of a body of the plane meets itself.

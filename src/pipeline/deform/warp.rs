@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::missed::{is_complete, missed, missed_warning};
 use super::pull_report::PullReport;
 use crate::barrier::BarrierKind;
 use crate::certificate::{boundary_crossings, certify_planar};
@@ -39,6 +40,13 @@ pub struct WarpReport {
     pub map: PullReport,
 }
 
+impl WarpReport {
+    /// Is every handle at its target, or was there no time to bring it there?
+    pub fn is_complete(&self) -> bool {
+        is_complete(&self.warnings)
+    }
+}
+
 /// Warps a picture without folding it, and proves that on the map of its grid.
 pub fn warp_file(
     upload: &Upload,
@@ -66,13 +74,15 @@ pub fn warp_file(
         if !certified && options.model.barrier != BarrierKind::None {
             return Err(PipelineError::Inverted);
         }
+        let missed = missed(map.summary.status, &map.summary.unreached);
+        let warnings = tracker.warning().into_iter().chain(missed_warning(missed));
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
         Ok(WarpedPicture {
             files: vec![(format!("{stem}.png"), warped.picture.image.png())],
             report: WarpReport {
                 certified,
-                warnings: tracker.warning().into_iter().collect(),
+                warnings: warnings.collect(),
                 origin: warped.picture.origin,
                 map,
             },

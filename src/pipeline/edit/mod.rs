@@ -1,4 +1,5 @@
 //! UVs of a document edited by anchors.
 
+pub(super) mod report;
 pub(super) mod terms;
 pub(super) mod uvs;

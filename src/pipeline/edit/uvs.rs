@@ -1,7 +1,6 @@
 //! UVs of a document edited by anchors, and judged in the bytes that are written.
 
-use serde::Serialize;
-
+use super::report::{ChartEditReport, EditReport, unreached};
 use super::terms::{edited_terms, holds};
 use crate::barrier::BarrierKind;
 use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar, chart_ids};
@@ -24,35 +23,6 @@ pub struct EditedDocument {
     pub files: Vec<(String, Vec<u8>)>,
     /// What was done.
     pub report: EditReport,
-}
-
-/// What was done to the UVs of a document.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub struct EditReport {
-    /// Whether every chart with an anchor is proven to be without flips in the bytes written.
-    pub certified: bool,
-    /// Whether, beyond that, none of them overlaps itself.
-    pub bijective: bool,
-    /// What users should know of the file that was read, of the work and of the file that was written.
-    pub warnings: Vec<Warning>,
-    /// The shapes that were kept.
-    pub rest: UvRest,
-    /// The charts with anchors.
-    pub charts: Vec<ChartEditReport>,
-}
-
-/// What was done to a chart.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-pub struct ChartEditReport {
-    /// Its number among the charts of the document, in the order of their first faces.
-    pub chart: u32,
-    /// How many of its faces were flipped or empty and had to be untangled first.
-    pub untangled: usize,
-    /// What the map is worth; the certificate is about the bytes written.
-    #[serde(flatten)]
-    pub map: PullReport,
 }
 
 /// Pulls anchors of a document's UVs to their targets and judges the bytes it writes. UVs are in the numbers of the file, in
@@ -89,6 +59,7 @@ pub fn edit_document(
         let places = places(&written, edited.uvs.len());
         let mut warnings = [document.warnings(), &written.notes.warnings].concat();
         warnings.extend(tracker.warning());
+        warnings.extend(unreached(&edited));
         let report = judge(
             &edited,
             (&document, &again),
