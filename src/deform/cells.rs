@@ -8,37 +8,39 @@ use crate::numerics::square::{Matrix, Square, times};
 
 impl Problem {
     /// For each element of the body at the positions `x`: its singular values, greatest first; its size over its rest size, the
-    /// product of these; and its energy per rest size, where the energy is a sum over elements.
+    /// product of these; and its energy before it is weighted by its rest size, where that is a function of the singular values.
     pub fn cells(&self, x: &[f64]) -> Vec<CellData> {
         match &self.body.elements {
             BodyElements::Triangles { corners, rest } => {
-                self.cells_of(&singular_values(corners, rest, x))
+                let density = self.energy.planar_density();
+                cells_of(&singular_values(corners, rest, x), density)
             }
             BodyElements::Tetrahedra { corners, rest } => {
-                self.cells_of(&singular_values(corners, rest, x))
+                cells_of(&singular_values(corners, rest, x), self.energy.density())
             }
         }
     }
+}
 
-    fn cells_of<const D: usize>(&self, sigma: &[[f64; D]]) -> Vec<CellData> {
-        let values = |name, of: &dyn Fn(&[f64; D]) -> f64| CellData {
-            name,
-            components: 1,
-            values: sigma.iter().map(of).collect(),
-        };
-        let mut cells = vec![
-            CellData {
-                name: "singular_values",
-                components: D,
-                values: sigma.as_flattened().to_vec(),
-            },
-            values("relative_size", &|sigma| sigma.iter().product()),
-        ];
-        let density: Option<Box<dyn Density<D>>> = self.energy.density();
-        cells
-            .extend(density.map(|density| values("energy_density", &|sigma| density.value(sigma))));
-        cells
-    }
+fn cells_of<const D: usize>(
+    sigma: &[[f64; D]],
+    density: Option<Box<dyn Density<D>>>,
+) -> Vec<CellData> {
+    let values = |name, of: &dyn Fn(&[f64; D]) -> f64| CellData {
+        name,
+        components: 1,
+        values: sigma.iter().map(of).collect(),
+    };
+    let mut cells = vec![
+        CellData {
+            name: "singular_values",
+            components: D,
+            values: sigma.as_flattened().to_vec(),
+        },
+        values("relative_size", &|sigma| sigma.iter().product()),
+    ];
+    cells.extend(density.map(|density| values("energy_density", &|sigma| density.value(sigma))));
+    cells
 }
 
 /// Of each element with N = D + 1 corners, that of an inverted one with a negative last.

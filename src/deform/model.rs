@@ -80,9 +80,9 @@ impl DeformationEnergy {
     ) -> Option<Vec<Box<dyn Term>>> {
         match &body.elements {
             BodyElements::Triangles { corners, rest } => {
-                let (quadratic, mut density) = match self {
-                    Self::Lscm => (None, Box::new(Lscm) as Box<dyn Density<2>>),
-                    _ => self.parts(body, rest)?,
+                let (quadratic, mut density) = match self.planar_density() {
+                    Some(density) => (None, density),
+                    None => self.parts(body, rest)?,
                 };
                 if let Some(bound) = bound {
                     density = Box::new(Bounded {
@@ -119,6 +119,14 @@ impl DeformationEnergy {
             _ => return Some((None, self.density()?)),
         };
         Some((Some(quadratic), Box::new(Zero)))
+    }
+
+    /// [`density`](Self::density), that of [`Self::Lscm`] too.
+    pub(super) fn planar_density(self) -> Option<Box<dyn Density<2>>> {
+        match self {
+            Self::Lscm => Some(Box::new(Lscm)),
+            _ => self.density(),
+        }
     }
 
     /// The energy of an element as a function of its singular values; `None` for quadratic forms and for [`Self::Lscm`].

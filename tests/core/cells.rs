@@ -39,10 +39,15 @@ fn weights(problem: &Problem) -> Vec<f64> {
 
 #[test]
 fn elements_tell_how_they_are_stretched_and_their_energies_add_up() {
-    let stretches: [&[f64]; 2] = [&[0.5, 3.0], &[0.5, 3.0, 1.5]];
-    let bodies = [Body::from(&sheet(3)), Body::from(&block(2))];
-    for (body, stretch) in bodies.into_iter().zip(stretches) {
-        let problem = problem(body, DeformationEnergy::SymmetricDirichlet);
+    use DeformationEnergy::{Lscm, SymmetricDirichlet};
+    let flat = || (Body::from(&sheet(3)), &[0.5, 3.0][..]);
+    let solid = (Body::from(&block(2)), &[0.5, 3.0, 1.5][..]);
+    for ((body, stretch), energy) in [
+        (flat(), SymmetricDirichlet),
+        (flat(), Lscm),
+        (solid, SymmetricDirichlet),
+    ] {
+        let problem = problem(body, energy);
         let x = moved(&problem, stretch);
         let cells = problem.cells(&x);
         let names: Vec<_> = cells.iter().map(|of| of.name).collect();
