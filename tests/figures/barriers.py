@@ -19,12 +19,13 @@ def make3(work, fault):
     x = mesh[1]
     parts = [{int(v): x[v] for v in np.unique(border(mesh[2]))}, pulled(x, ((.375, .5), (.34, 0)), radius=.1)]
     pull = merged(parts)
+    to = moved(fault, pull, x)
     runs = {}
     for energy in ("green", "arap"):
-        runs[energy] = [work.solve(f"{energy}-none", mesh, moved(fault, pull), energy, "none")]
+        runs[energy] = [work.solve(f"{energy}-none", mesh, to, energy, "none")]
         for beta in BETAS:
             kind = "none" if fault == "barrier off" else "spline"
-            runs[energy].append(work.solve(f"{energy}-{beta:g}", mesh, moved(fault, pull), energy, kind, beta=beta))
+            runs[energy].append(work.solve(f"{energy}-{beta:g}", mesh, to, energy, kind, beta=beta))
     return mesh, parts, pull, runs
 
 
@@ -127,8 +128,8 @@ def make7(work, fault):
     ends = [np.flatnonzero(x[:, 0] == side) for side in (0, 1)]
     pull = {int(v): x[v] + [.8 * k, 0] for k, end in enumerate(ends) for v in end}
     kinds = {"none": "none", "auglog": "auglog", "spline": "auglog" if fault == "barriers exchanged" else "spline"}
-    return mesh, ends, pull, {kind: work.solve(f"stretch-{kind}", mesh, moved(fault, pull), "green", use, beta=100.0)
-                              for kind, use in kinds.items()}
+    to = moved(fault, pull, x)
+    return mesh, ends, pull, {kind: work.solve(f"stretch-{kind}", mesh, to, "green", use, beta=100.0) for kind, use in kinds.items()}
 
 
 def check7(made):

@@ -164,7 +164,7 @@ def make18(work, fault):
         parts = [pulled(x, ((0, -.75), (0, .95 * share)), radius=.04), pulled(x, ((-.6, .35), (-.5 * share, .25 * share)), radius=.04),
                  pulled(x, ((.6, .35), (.5 * share, .25 * share)), radius=.04)]
         pull = merged(parts)
-        without, ours = both(work, f"pull{share:g}", mesh, moved(fault, pull), "arap", fault)
+        without, ours = both(work, f"pull{share:g}", mesh, moved(fault, pull, mesh[1]), "arap", fault)
         cases.append((mesh, parts, pull, without, ours))
     return cases
 

@@ -31,13 +31,11 @@ def require_pair(mesh, pull, without, ours, what, least=1):
     return n_without
 
 
-def moved(fault, pull):
-    """With the fault, one handle's target is a different one."""
+def moved(fault, pull, rest):
+    """With the fault, the handles stop a tenth of their way short of their targets."""
     if fault != "wrong handle":
         return pull
-    wrong = dict(pull)
-    wrong[max(wrong)] = np.asarray(wrong[max(wrong)]) + 0.1
-    return wrong
+    return {v: .9 * np.asarray(to) + .1 * rest[v] for v, to in pull.items()}
 
 
 def squeeze(mesh):
@@ -54,7 +52,7 @@ def make2(work, fault):
     mesh = woody(work)
     parts = squeeze(mesh)
     pull = merged(parts)
-    without, ours = both(work, "arap", mesh, moved(fault, pull), "arap", fault)
+    without, ours = both(work, "arap", mesh, moved(fault, pull, mesh[1]), "arap", fault)
     return mesh, parts, pull, without, ours
 
 
@@ -92,7 +90,7 @@ def make9(work, fault):
     cases = []
     for mesh, parts in zip(meshes, pulls9(*meshes)):
         pull = merged(parts)
-        runs = {energy: both(work, f"{mesh[0]}-{energy}", mesh, moved(fault, pull), energy, fault) for energy in ENERGIES}
+        runs = {energy: both(work, f"{mesh[0]}-{energy}", mesh, moved(fault, pull, mesh[1]), energy, fault) for energy in ENERGIES}
         cases.append((mesh, parts, pull, runs))
     return cases
 
@@ -119,7 +117,7 @@ def make10(work, fault):
     side = {int(v): x[v] for v in np.flatnonzero((x[:, 0] == 0) | (x[:, 0] == 1) | (x[:, 1] == 0) | (x[:, 1] == 1))}
     knob = pulled(x, ((.35, .5), (.37, 0)), radius=.08)
     pull = {**side, **knob}
-    runs = {energy: both(work, energy, mesh, moved(fault, pull), energy, fault) for energy in ("dirichlet", "laplacian")}
+    runs = {energy: both(work, energy, mesh, moved(fault, pull, mesh[1]), energy, fault) for energy in ("dirichlet", "laplacian")}
     return mesh, knob, pull, runs
 
 
@@ -144,7 +142,7 @@ def make19(work, fault):
     for hand, foot in zip(HANDS, FEET[::-1]):
         parts += [pulled(x, (hand, foot - hand), radius=.1), pulled(x, (foot, hand - foot), radius=.1)]
     pull = merged(parts)
-    without, ours = both(work, "swap", mesh, moved(fault, pull), "arap", fault)
+    without, ours = both(work, "swap", mesh, moved(fault, pull, mesh[1]), "arap", fault)
     return mesh, parts, pull, without, ours
 
 

@@ -43,7 +43,7 @@ def make5(work, fault):
     pull = ends_moved(voxels.x, lambda p: p + [4.0, 0, 0])
     out = "frames" if fault is None else f"frames-{fault[:5]}"
     kind = "none" if fault == "barrier off" else "spline"
-    run = work.solve("stretch", ("rod", voxels.x, voxels.tets), moved(fault, pull), "arap", kind, "--frames", out)
+    run = work.solve("stretch", ("rod", voxels.x, voxels.tets), moved(fault, pull, voxels.x), "arap", kind, "--frames", out)
     if fault == "an iterate inverted":
         run.frames[1][voxels.tets[0, 3]] = 2 * run.frames[1][voxels.tets[0, 0]] - run.frames[1][voxels.tets[0, 3]]
     return voxels, x, triangles, pull, run
@@ -79,7 +79,7 @@ def make11(work, fault):
     for energy in ("green", "arap"):
         for kind in ("none", "spline"):
             use = "none" if fault == "barrier off" else kind
-            last = [*stations[:-1], moved(fault, pull)]
+            last = [*stations[:-1], moved(fault, pull, voxels.x)]
             runs[energy, kind] = work.solve(f"bend-{energy}-{kind}", mesh, last[-1], energy, use, sequence=last)
     return voxels, x, triangles, pull, runs
 
@@ -97,7 +97,7 @@ TITLES = {"green": "Green's strain", "arap": "ARAP"}
 
 def draw11(made):
     voxels, x, triangles, _, runs = made
-    box = np.stack(np.meshgrid(*zip(*common_box(*(run.x for run in runs.values())))), -1).reshape(-1, 3)
+    box = np.stack(np.meshgrid(*zip(*common_box(voxels.x, *(run.x for run in runs.values())))), -1).reshape(-1, 3)
     show = lambda at: surface([(voxels.carried(x, at), triangles, (150, 185, 220))], (8, 12), box, 210, 210, (60, 70, 90, 70))
     return row([("rest", show(voxels.x)), *((TITLES[e] + (", barrier" if k == "spline" else ", none"), show(run.x))
                                             for (e, k), run in runs.items())])
@@ -131,7 +131,8 @@ def make13(work, fault):
     pull = {**{int(k): v[k] for k in legs}, **{int(k): p for k, p in zip(head, to)}}
     mesh = ("spot", v, voxels.tets)
     kind = "none" if fault == "barrier off" else "spline"
-    runs = [work.solve(f"green-{k}", mesh, moved(fault, pull), "green", k if i == 0 else kind) for i, k in enumerate(("none", "spline"))]
+    to = moved(fault, pull, v)
+    runs = [work.solve(f"green-{k}", mesh, to, "green", k if i == 0 else kind) for i, k in enumerate(("none", "spline"))]
     return voxels, pull, runs
 
 
@@ -169,7 +170,8 @@ def make14(work, fault):
     pull = {**{int(k): v[k] for k in bottom}, **{int(k): p for k, p in zip(top, to)}}
     kind = "none" if fault == "barrier off" else "spline"
     mesh = ("fruit", v, voxels.tets)
-    runs = [work.solve(f"arap-{k}", mesh, moved(fault, pull), "arap", k if i == 0 else kind) for i, k in enumerate(("none", "spline"))]
+    to = moved(fault, pull, v)
+    runs = [work.solve(f"arap-{k}", mesh, to, "arap", k if i == 0 else kind) for i, k in enumerate(("none", "spline"))]
     return voxels, parts, pull, runs
 
 
