@@ -7,14 +7,17 @@
 //! a third bijective; `impossible` sends one of five handles through a fixed wall, in the plane and in space. Seconds are those on
 //! the wall.
 
+#[path = "../core/bodies.rs"]
+mod bodies;
+
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use bodies::{block, sheet};
 use unwrapd::certificate::certify_planar;
 use unwrapd::deform::warp::{PictureHandle, PictureWarp, WarpOptions, warp_picture};
 use unwrapd::deform::{Body, Boundary, Handle, Model, Problem, ProblemFile};
 use unwrapd::mesh::io::ElementFormat;
-use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::numerics::random::Random;
 use unwrapd::picture::Image;
 use unwrapd::solver::{Control, Iterate, Settings, Status};
@@ -65,7 +68,7 @@ fn woody() {
         .filter(|name| name.contains("_swap") && name.ends_with("_spline.json"))
         .collect();
     names.sort();
-    let mut arrived = 0;
+    let mut all = Vec::new();
     for name in &names {
         let problem = read(name);
         let begun = Instant::now();
@@ -73,19 +76,19 @@ fn woody() {
             .solve(&Settings::follow(), &go_on)
             .expect("a problem");
         let summary = solution.summary;
-        arrived += usize::from(summary.status == Status::Converged);
+        let seconds = begun.elapsed().as_secs_f64();
+        all.push((summary.status == Status::Converged, seconds));
         println!(
-            "{name}: {:?}, {} iterations, {} factorizations, {:.2} s, energy {:.6e}, residual {:.1e}, {} inverted",
+            "{name}: {:?}, {} iterations, {} factorizations, {seconds:.2} s, energy {:.6e}, residual {:.1e}, {} inverted",
             summary.status,
             summary.iterations,
             summary.factorizations,
-            begun.elapsed().as_secs_f64(),
             solution.worth.energy + solution.worth.barrier,
             solution.worth.residual,
             solution.worth.inverted
         );
     }
-    println!("woody: {arrived} of {} arrived", names.len());
+    conclude("woody", &all);
 }
 
 fn read(name: &str) -> Problem {
@@ -132,12 +135,13 @@ fn warped(handles: &[PictureHandle], options: &WarpOptions) -> (PictureWarp, f64
 
 fn report(name: &str, warp: &PictureWarp, seconds: f64) {
     println!(
-        "{name}: {:?}, {} iterations, {} factorizations, {seconds:.2} s, energy {:.4e}, residual {:.1e}",
+        "{name}: {:?}, {} iterations, {} factorizations, {seconds:.2} s, energy {:.4e}, residual {:.1e}, {} unreached",
         warp.summary.status,
         warp.summary.iterations,
         warp.summary.factorizations,
         warp.summary.energy,
-        warp.summary.residual
+        warp.summary.residual,
+        warp.summary.unreached.len()
     );
 }
 
@@ -215,65 +219,26 @@ fn conclude(name: &str, all: &[(bool, f64)]) {
 /// A square whose border is held, and five handles in it, the first of which is to leave it.
 fn plane() -> (Body, Vec<Handle>) {
     const CELLS: u32 = 60;
-    let id = |x: u32, y: u32| y * (CELLS + 1) + x;
-    let n = (CELLS + 1) * (CELLS + 1);
-    let vertices = (0..n)
-        .map(|v| [v % (CELLS + 1), v / (CELLS + 1)].map(f64::from))
-        .collect();
-    let squares = (0..CELLS * CELLS).map(|c| [c % CELLS, c / CELLS]);
-    let triangles = squares.flat_map(|[x, y]| {
-        let [a, b, c, d] = [id(x, y), id(x + 1, y), id(x + 1, y + 1), id(x, y + 1)];
-        [[a, b, c], [a, c, d]]
-    });
-    let mesh = PlanarMesh::new(vertices, triangles.collect()).expect("a square");
-    let mut handles = vec![vertex(id(30, 10), &[30.0, -15.0])];
-    for [x, y, i, j] in [
-        [15, 20, 20, 30],
-        [45, 20, 42, 31],
-        [15, 45, 24, 46],
-        [45, 45, 45, 36],
+    let id = |[x, y]: [u32; 2]| y * (CELLS + 1) + x;
+    let mut handles = vec![vertex(id([30, 10]), &[30.0, -15.0])];
+    for (at, to) in [
+        ([15, 20], [20.0, 30.0]),
+        ([45, 20], [42.0, 31.0]),
+        ([15, 45], [24.0, 46.0]),
+        ([45, 45], [45.0, 36.0]),
     ] {
-        handles.push(vertex(id(x, y), &[i, j].map(f64::from)));
+        handles.push(vertex(id(at), &to));
     }
-    let is_border = |x: u32| x.is_multiple_of(CELLS);
-    let border = (0..n).filter(|v| is_border(v % (CELLS + 1)) || is_border(v / (CELLS + 1)));
-    handles.extend(border.map(|v| {
-        let place = [v % (CELLS + 1), v / (CELLS + 1)].map(f64::from);
-        vertex(v, &place)
-    }));
-    (Body::from(&mesh), handles)
+    let body = Body::from(&sheet(CELLS));
+    handles.extend(border(&body, CELLS));
+    (body, handles)
 }
 
 /// The same in a cube.
 fn space() -> (Body, Vec<Handle>) {
     const CELLS: u32 = 12;
-    const SIDE: u32 = CELLS + 1;
-    let id = |[x, y, z]: [u32; 3]| (z * SIDE + y) * SIDE + x;
-    let place = |v: u32| [v % SIDE, v / SIDE % SIDE, v / SIDE / SIDE];
-    let vertices: Vec<[f64; 3]> = (0..SIDE.pow(3)).map(|v| place(v).map(f64::from)).collect();
-    let mut tets = Vec::new();
-    for cell in (0..SIDE.pow(3))
-        .map(place)
-        .filter(|p| p.iter().all(|&x| x < CELLS))
-    {
-        for steps in [
-            [0, 1, 2],
-            [0, 2, 1],
-            [1, 0, 2],
-            [1, 2, 0],
-            [2, 0, 1],
-            [2, 1, 0],
-        ] {
-            let mut corner = cell;
-            let mut tet = [id(corner); 4];
-            for (step, axis) in steps.into_iter().enumerate() {
-                corner[axis] += 1;
-                tet[step + 1] = id(corner);
-            }
-            tets.push(tet);
-        }
-    }
-    let mesh = TetMesh::new(vertices, tets).expect("a cube");
+    const ROW: u32 = CELLS + 1;
+    let id = |[x, y, z]: [u32; 3]| (z * ROW + y) * ROW + x;
     let mut handles = vec![vertex(id([6, 6, 2]), &[6.0, 6.0, -3.0])];
     for (at, to) in [
         ([3, 3, 6], [4.0, 4.0, 7.0]),
@@ -283,10 +248,17 @@ fn space() -> (Body, Vec<Handle>) {
     ] {
         handles.push(vertex(id(at), &to));
     }
-    let is_border = |v: &u32| place(*v).iter().any(|x| x.is_multiple_of(CELLS));
-    let border = (0..SIDE.pow(3)).filter(is_border);
-    handles.extend(border.map(|v| vertex(v, &place(v).map(f64::from))));
-    (Body::from(&mesh), handles)
+    let body = Body::from(&block(CELLS));
+    handles.extend(border(&body, CELLS));
+    (body, handles)
+}
+
+/// Handles that hold the border of a sheet or a block of so many cells along a side.
+fn border(body: &Body, cells: u32) -> Vec<Handle> {
+    let places = body.rest.chunks_exact(body.dim()).zip(0..);
+    let is_side = |x: &f64| *x == 0.0 || *x == f64::from(cells);
+    let held = places.filter(|(place, _)| place.iter().any(is_side));
+    held.map(|(place, v)| vertex(v, place)).collect()
 }
 
 fn vertex(vertex: u32, to: &[f64]) -> Handle {
@@ -306,8 +278,18 @@ fn impossible((body, handles): (Body, Vec<Handle>)) {
         .expect("a problem");
     let seconds = begun.elapsed().as_secs_f64();
     let unreached = problem.unreached(&solution);
+    let distance = |handle: &Handle| match handle {
+        Handle::Vertex { vertex, to } => {
+            let place = &solution.x[dim * *vertex as usize..];
+            let squares = place.iter().zip(to).map(|(x, t)| (x - t) * (x - t));
+            squares.sum::<f64>().sqrt()
+        }
+        Handle::Disc { .. } | Handle::Point { .. } => f64::NAN,
+    };
+    let easy: Vec<f64> = handles[1..5].iter().map(distance).collect();
     println!(
-        "impossible in {dim} dimensions: {:?}, {} iterations, {} factorizations, {seconds:.2} s, {} inverted, unreached {unreached:?}",
+        "impossible in {dim} dimensions: {:?}, {} iterations, {} factorizations, {seconds:.2} s, {} inverted, unreached {unreached:?}, \
+         the easy ones by {easy:?}",
         solution.summary.status,
         solution.summary.iterations,
         solution.summary.factorizations,

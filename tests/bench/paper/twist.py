@@ -1,8 +1,8 @@
 """Figure 20: bars twisted by turns of one end, and how many of the turns the map keeps.
 
-The turns of a map are the sum over neighboring layers of the rotation that best takes one to the next, each in (-180°, 180°],
-about the layers' common normal: the twist; what a coiled bar lacks of the turns applied is in its coil. An element without
-inversion can hold no more than 90° between its layers. What a bar can hold with its energy at a minimum is less, and `limit`
+The turns of a map are the sum over neighboring layers of the rotation that best takes one to the next, at most 180°, of which
+the part about the bar's own axis counts: the twist, exact for a helix; what a coiled bar lacks of the turns applied is in its
+coil. An element without inversion can hold no more than 90° between its layers. What a bar can hold with its energy at a minimum is less, and `limit`
 measures it: the bar starts as a straight screw, is settled, turned a little further as a screw, and so on, until a minimum with
 these turns is not found any more. Beyond, no method that minimizes ends with all turns, and none that keeps elements from
 inverting loses one turn alone: they go in pairs. A bar that is stretched as it is turned does not buckle, and keeps them:
@@ -72,14 +72,32 @@ def turns(rest, x, layers=None):
     vertices, by default the unit layers of its grid."""
     if layers is None:
         layers = [np.flatnonzero(np.abs(rest[:, 0] - place) < 0.5) for place in range(round(rest[:, 0].max()) + 1)]
-    frames = []
-    for members in layers:
-        # The two axes of the layer, as the map takes them, in the least-squares sense.
-        arms = rest[members] - rest[members].mean(0)
-        frames.append((np.linalg.pinv(arms) @ (x[members] - x[members].mean(0)))[1:])
-    pairs = zip(frames, frames[1:])
-    angles = [np.degrees(np.arctan2(b0 @ a1 - a0 @ b1, a0 @ a1 + b0 @ b1)) for (a0, b0), (a1, b1) in pairs]
-    return -sum(angles) / 360, np.abs(angles).max()
+    frames = [rotation(rest[members] - rest[members].mean(0), x[members] - x[members].mean(0)) for members in layers]
+    angles = [np.degrees(rotation_vector(first.T @ second)[0]) for first, second in zip(frames, frames[1:])]
+    return sum(angles) / 360, np.abs(angles).max()
+
+
+def rotation(arms, at):
+    """The rotation that best takes `arms` to `at` (Kabsch)."""
+    u, _, v = np.linalg.svd(at.T @ arms)
+    return u @ np.diag([1, 1, np.linalg.det(u @ v)]) @ v
+
+
+def rotation_vector(r):
+    """The axis of a rotation, as long as its angle."""
+    w, v = np.linalg.eigh(rotor(r))
+    x, y, z, c = v[:, np.argmax(w)] * (1 if v[3, np.argmax(w)] >= 0 else -1)
+    sine = np.linalg.norm([x, y, z])
+    return np.array([x, y, z]) * (2 * np.arctan2(sine, c) / sine if sine > 0 else 2)
+
+
+def rotor(r):
+    """The symmetric matrix whose eigenvector to the largest eigenvalue is the unit quaternion (x, y, z, w) of a rotation."""
+    k = np.empty((4, 4))
+    k[:3, :3] = r + r.T - np.trace(r) * np.eye(3)
+    k[3, :3] = k[:3, 3] = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    k[3, 3] = np.trace(r)
+    return k
 
 
 def write_positions(path, x):
@@ -176,8 +194,7 @@ def stretched(program, folder, mesh, energy, n_turns, factor):
     slabs = np.minimum((SLABS * (rest[:, 0] - rest[:, 0].min()) / length).astype(int), SLABS - 1)
     layers = [np.flatnonzero(slabs == slab) for slab in range(SLABS)]
     is_grid = np.allclose(rest[:, 0], rest[:, 0].round())
-    # The far end turns, not the near one.
-    counted = -turns(rest, np.array(read_positions(written))[:, axes], None if is_grid else layers)[0]
+    counted = turns(rest, np.array(read_positions(written))[:, axes], None if is_grid else layers)[0]
     left = said["turns"][0]["left"]
     if abs(left - counted) > AGREES * n_turns:
         raise RuntimeError(f"{mesh.name}: the report has {left} turns, the positions {counted}")
