@@ -5,12 +5,12 @@ use crate::places;
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
 use std::cell::Cell;
+use std::f64::consts::{FRAC_PI_3, FRAC_PI_6};
 use std::path::Path;
 use unwrapd::charts::{Chart, Cut, MappedChart, charts, halves, min_cut, seam_length};
-use unwrapd::embed::Embedding;
 use unwrapd::mesh::{CUT, Disk, Surface};
 use unwrapd::numerics::vec3::{area_vector, dot, norm};
-use unwrapd::solver::{Control, Summary};
+use unwrapd::solver::Control;
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
@@ -352,8 +352,8 @@ proptest! {
     }
 }
 
-/// A flat chart of some of the unit squares of 3 by 3, each of 8 by 8 cells, mapped as it lies.
-fn plate(squares: &[[u32; 2]]) -> MappedChart {
+/// A chart of some of the unit squares of 3 by 3, each of 8 by 8 cells, mapped as they lie, and bent by 60° along x = `fold`.
+fn plate(squares: &[[u32; 2]], fold: f64) -> MappedChart {
     let mut mesh = zoo::grid(24, 24);
     for p in &mut mesh.positions {
         *p = [p[0] / 8.0, p[1] / 8.0, 0.0];
@@ -366,26 +366,27 @@ fn plate(squares: &[[u32; 2]]) -> MappedChart {
         });
         squares.contains(&middle)
     });
-    let chart = charts(&surface(&mesh), Cut::Disk).swap_remove(0);
-    MappedChart {
-        embedding: Embedding {
-            uv: chart.positions.iter().map(|p| [p[0], p[1]]).collect(),
-            summary: Summary::at_start(0.0),
-        },
-        chart,
-        seconds: 0.0,
+    let mut chart = charts(&surface(&mesh), Cut::Disk).swap_remove(0);
+    let uv = chart.positions.iter().map(|p| [p[0], p[1]]).collect();
+    let (sin, cos) = FRAC_PI_3.sin_cos();
+    for p in &mut chart.positions {
+        let beyond = (p[0] - fold).max(0.0);
+        *p = [p[0] - beyond * (1.0 - cos), p[1], beyond * sin];
     }
+    MappedChart::given(chart, uv)
 }
+
+/// A square with a spike.
+const SPIKY: [[u32; 2]; 5] = [[0, 0], [1, 0], [0, 1], [1, 1], [2, 0]];
 
 #[test]
 fn a_spiky_chart_is_cut_at_the_root_of_a_spike() {
-    // A square with a spike: the hull shrinks by a unit when it is cut off along its side of length 1,
-    // which counts eight times across a plane.
-    let chart = plate(&[[0, 0], [1, 0], [0, 1], [1, 1], [2, 0]]);
+    // The hull shrinks by a unit when the spike is cut off along its side of length 1.
+    let chart = plate(&SPIKY, 2.0);
     let split = chart
         .best_split(chart.area().sqrt(), &go_on)
         .expect("two parts");
-    assert!((split.length - 8.0).abs() < 1.6, "{}", split.length);
+    assert!((split.length - 1.0).abs() < 1e-9, "{}", split.length);
     let parts = chart.parted(&split);
     let mut areas: Vec<f64> = parts.iter().map(MappedChart::area).collect();
     areas.sort_by(f64::total_cmp);
@@ -401,13 +402,23 @@ fn a_spiky_chart_is_cut_at_the_root_of_a_spike() {
         } = &part.chart;
         assert!(Disk::new(disk.n_vertices, disk.triangles.clone()).is_ok());
         let lies = positions.iter().zip(&part.embedding.uv);
-        assert!(lies.into_iter().all(|(p, uv)| [p[0], p[1]] == *uv));
+        let unbent = |p: &[f64; 3]| p[0] + p[2] * FRAC_PI_6.tan();
+        let is_there = |p: &[f64; 3], [x, y]: [f64; 2]| p[1] == y && (unbent(p) - x).abs() < 1e-9;
+        assert!(lies.into_iter().all(|(p, uv)| is_there(p, *uv)));
     }
 }
 
 #[test]
+fn a_plane_stays_whole_unless_the_page_is_much_too_small_for_it() {
+    let chart = plate(&SPIKY, 3.0);
+    let unit = chart.area().sqrt();
+    assert!(chart.best_split(unit, &go_on).is_none());
+    assert!(chart.best_split(unit / 3.0, &go_on).is_some());
+}
+
+#[test]
 fn a_crumb_is_not_cut_off() {
-    let chart = plate(&[[0, 0]]);
+    let chart = plate(&[[0, 0]], 0.5);
     let unit = chart.area().sqrt();
     assert!(chart.best_split(unit, &go_on).is_some());
     // In an atlas two hundred times as large even a half is a crumb.

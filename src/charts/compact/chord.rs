@@ -27,6 +27,13 @@ pub struct Chord {
     pub gain: f64,
 }
 
+impl Chord {
+    /// Whether both, as good as surely, cut off the same clusters: lines of many directions do.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.area == other.area && self.length == other.length
+    }
+}
+
 /// A connected part of a map.
 #[derive(Clone)]
 struct Part {

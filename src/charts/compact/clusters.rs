@@ -1,5 +1,6 @@
 //! The faces of a map in small clusters.
 
+use super::planes::Planes;
 use crate::cut::Sheet;
 use crate::mesh::{CUT, UnionFind};
 use crate::numerics::support::{Directions, Support};
@@ -28,8 +29,8 @@ pub struct Clusters {
 
 impl Clusters {
     /// The clusters of a sheet with vertices at `uv`; `cost` is that of a seam along each halfedge.
-    /// Between planes clusters end at creases.
-    pub fn new(sheet: &Sheet, uv: &[[f64; 2]], cost: &[f64]) -> Self {
+    /// Between planes clusters end at creases. A plane that is not to be cut is in one cluster.
+    pub fn new(sheet: &Sheet, uv: &[[f64; 2]], cost: &[f64], planes: Planes) -> Self {
         let corners =
             |f: usize| [3 * f, 3 * f + 1, 3 * f + 2].map(|c| uv[sheet.vertex[c] as usize]);
         let n_faces = sheet.triangles.len();
@@ -45,7 +46,9 @@ impl Clusters {
         let is_crease = |h: u32| has_planes && cost[h as usize] < CREASE * sheet.length(h);
         let mut sets = UnionFind::new(n_faces);
         for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
-            if !is_crease(h) && place(h as usize / 3) == place(t as usize / 3) {
+            let is_near = !is_crease(h) && place(h as usize / 3) == place(t as usize / 3);
+            let in_plane = cost[h as usize] > sheet.length(h);
+            if is_near || planes == Planes::Whole && in_plane {
                 sets.unite(h / 3, t / 3);
             }
         }

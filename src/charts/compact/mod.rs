@@ -3,3 +3,5 @@
 pub(super) mod best_split;
 mod chord;
 mod clusters;
+mod planes;
+pub(super) mod splitter;

@@ -1,0 +1,239 @@
+//! Seams near chords of a map.
+
+use super::chord::Chord;
+use super::clusters::Clusters;
+use super::planes::Planes;
+use crate::charts::MappedChart;
+use crate::charts::chart::connected_faces;
+use crate::charts::crease::edge_costs;
+use crate::charts::min_cut::min_cut;
+use crate::charts::parts::{parted, twins_among};
+use crate::charts::unfold::overlaps::capacities;
+use crate::cut::Sheet;
+use crate::mesh::CUT;
+use crate::numerics::support::{Directions, Support};
+use crate::numerics::vec2::{dot, doubled_area};
+use crate::solver::Control;
+
+/// How far a seam may leave its chord, in square roots of the chart's area; clusters are narrower.
+const BAND: f64 = 0.04;
+/// The least area of a part, as a share of the atlas'.
+const CRUMB: f64 = 0.005;
+/// What a seam costs beside its length, in the unit of the price.
+const PER_SEAM: f64 = 0.05;
+/// What a cut is worth beside the room it gains, as a share of the smaller part's area: small charts leave less of a square
+/// empty than large ones.
+const SMALLER: f64 = 0.05;
+/// The share of its square that an atlas should fill: no square around one chart should be larger.
+const HOPE: f64 = 0.85;
+/// The cost of a seam over its length where none may be, for the minimum cut that looks for others.
+const NEVER: f64 = 1e3;
+/// A chart is too large for the page if the area of the square around it exceeds that of this one so many times.
+const TOO_LARGE: f64 = 2.0;
+
+/// A seam that parts a chart in two.
+#[derive(Clone, Debug)]
+pub struct Split {
+    /// For each face whether it belongs to the one part.
+    pub(super) is_piece: Vec<bool>,
+    /// Length of the seam on the surface; where it crosses a plane it counts several times.
+    pub length: f64,
+    /// How much the atlas may be expected to gain from it, for its length.
+    pub worth: f64,
+}
+
+/// A chart whose chords become seams.
+pub(super) struct Splitter<'a> {
+    sheet: &'a Sheet,
+    uv: Vec<[f64; 2]>,
+    pub clusters: Clusters,
+    /// For each halfedge what a seam along it costs.
+    cost: Vec<f64>,
+    area: f64,
+    /// The room that it takes up, and the square that should be enough for the atlas.
+    room: f64,
+    pub square: f64,
+    /// Those of a chart that is much larger than that may be cut.
+    planes: Planes,
+    /// The least area of a part, and what a seam costs beside its length.
+    pub crumb: f64,
+    per_seam: f64,
+    directions: Directions,
+}
+
+impl<'a> Splitter<'a> {
+    /// The vertices of the sheet are numbered anew.
+    pub(super) fn new(mapped: &MappedChart, sheet: &'a Sheet, unit: f64) -> Self {
+        let mut uv = vec![[0.0; 2]; sheet.positions.len()];
+        let corners = mapped.chart.disk.triangles.as_flattened();
+        for (&v, &of_chart) in sheet.vertex.iter().zip(corners) {
+            uv[v as usize] = mapped.embedding.uv[of_chart as usize];
+        }
+        let directions = Directions::default();
+        let square = unit * unit / HOPE;
+        let hull = hull_of(sheet, &uv, &directions, |_| true);
+        let cost = edge_costs(sheet);
+        let planes = Planes::of(sheet, &uv, &cost, hull.square() > TOO_LARGE * square);
+        let clusters = Clusters::new(sheet, &uv, &cost, planes);
+        Self {
+            cost,
+            area: clusters.area.iter().sum(),
+            room: hull.room(square),
+            square,
+            planes,
+            crumb: CRUMB * unit * unit,
+            per_seam: PER_SEAM * unit,
+            directions,
+            sheet,
+            uv,
+            clusters,
+        }
+    }
+
+    /// The seam near a chord, if it leaves parts of some size and crosses no plane. A chart for which the page is too small is cut
+    /// across planes too.
+    pub(super) fn split(&self, chord: &Chord, control: &dyn Fn() -> Control) -> Option<Split> {
+        let is_piece = self.refined(&self.beyond(chord), chord, control);
+        let twin = &self.sheet.twin;
+        let seam = || {
+            (0u32..).zip(twin).filter(|&(h, &t)| {
+                t != CUT && h < t && is_piece[h as usize / 3] != is_piece[t as usize / 3]
+            })
+        };
+        let cost = |h: u32| self.cost[h as usize].max(self.sheet.length(h));
+        let crosses_plane = seam().any(|(h, _)| self.cost[h as usize] > self.sheet.length(h));
+        if crosses_plane && self.planes == Planes::Whole {
+            return None;
+        }
+        let (part, n_parts) = connected_faces(&parted(twin, &is_piece));
+        let mut areas = vec![0.0; n_parts];
+        for (face, &part) in part.iter().enumerate() {
+            areas[part as usize] += self.face_area(face);
+        }
+        if n_parts < 2 || areas.iter().any(|&area| area < self.crumb) {
+            return None;
+        }
+        let rooms = (0..).zip(&areas);
+        let rooms = rooms.map(|(of, _)| self.room_of(|f| part[f] == of));
+        let gain = self.room - rooms.sum::<f64>();
+        let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
+        let length = seam().map(|(h, _)| cost(h)).sum();
+        Some(Split {
+            worth: self.worth(gain, smallest, length),
+            is_piece,
+            length,
+        })
+    }
+
+    /// What a cut is worth that gains so much room and of which the one part has some.
+    pub(super) fn worth(&self, gain: f64, area: f64, length: f64) -> f64 {
+        (gain + SMALLER * area.min(self.area - area)) / (length + self.per_seam)
+    }
+
+    /// The faces of the clusters that the chord cuts off.
+    fn beyond(&self, chord: &Chord) -> Vec<bool> {
+        let Clusters {
+            centre,
+            neighbors,
+            of_face,
+            ..
+        } = &self.clusters;
+        let mut is_in = vec![false; centre.len()];
+        is_in[chord.cluster as usize] = true;
+        let mut open = vec![chord.cluster];
+        while let Some(cluster) = open.pop() {
+            for &(next, _) in &neighbors[cluster as usize] {
+                let is_beyond = dot(centre[next as usize], chord.direction) > chord.offset;
+                if is_beyond && !std::mem::replace(&mut is_in[next as usize], true) {
+                    open.push(next);
+                }
+            }
+        }
+        of_face
+            .iter()
+            .map(|&cluster| is_in[cluster as usize])
+            .collect()
+    }
+
+    /// The piece with the cheapest border within a band around the chord.
+    fn refined(
+        &self,
+        is_piece: &[bool],
+        chord: &Chord,
+        control: &dyn Fn() -> Control,
+    ) -> Vec<bool> {
+        let band = BAND * self.area.sqrt();
+        let is_near = |f: u32| (self.reach(f, chord.direction) - chord.offset).abs() < band;
+        let sheet = self.sheet;
+        let touches = |f: u32, what: &dyn Fn(u32) -> bool| {
+            (3 * f..3 * f + 3)
+                .any(|h| sheet.twin[h as usize] != CUT && what(sheet.twin[h as usize] / 3))
+        };
+        // The band and the faces beside it.
+        let faces: Vec<u32> = (0..is_piece.len() as u32)
+            .filter(|&f| is_near(f) || touches(f, &is_near))
+            .collect();
+        let twin = twins_among(&sheet.twin, &faces);
+        let halfedges = faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
+        let cost = |h: u32| match self.planes {
+            Planes::Whole if self.cost[h as usize] > sheet.length(h) => NEVER * sheet.length(h),
+            _ => self.cost[h as usize],
+        };
+        let cost: Vec<f64> = halfedges.map(cost).collect();
+        let beside = |side: bool| -> Vec<u32> {
+            let far = (0..)
+                .zip(&faces)
+                .filter(|&(_, &f)| !is_near(f) && is_piece[f as usize] == side);
+            far.map(|(i, _)| i).collect()
+        };
+        let stays = min_cut(
+            &twin,
+            &capacities(&twin, &cost),
+            (&beside(true), &beside(false)),
+            control,
+        );
+        let mut refined = is_piece.to_vec();
+        for (&f, stays) in faces.iter().zip(stays) {
+            refined[f as usize] = stays;
+        }
+        refined
+    }
+
+    fn corners(&self, face: usize) -> [[f64; 2]; 3] {
+        [3 * face, 3 * face + 1, 3 * face + 2].map(|c| self.uv[self.sheet.vertex[c] as usize])
+    }
+
+    fn face_area(&self, face: usize) -> f64 {
+        let [a, b, c] = self.corners(face);
+        doubled_area(a, b, c) / 2.0
+    }
+
+    /// How far a face's center lies in a direction.
+    fn reach(&self, face: u32, direction: [f64; 2]) -> f64 {
+        let corners = self.corners(face as usize);
+        corners.iter().map(|&p| dot(p, direction)).sum::<f64>() / 3.0
+    }
+
+    /// The room that some faces take up.
+    fn room_of(&self, is_in: impl Fn(usize) -> bool) -> f64 {
+        hull_of(self.sheet, &self.uv, &self.directions, is_in).room(self.square)
+    }
+}
+
+/// The hull of some faces, from the edges at which they end.
+fn hull_of(
+    sheet: &Sheet,
+    uv: &[[f64; 2]],
+    directions: &Directions,
+    is_in: impl Fn(usize) -> bool,
+) -> Support {
+    let mut hull = Support::EMPTY;
+    for (h, &t) in (0u32..).zip(&sheet.twin) {
+        if is_in(h as usize / 3) && (t == CUT || !is_in(t as usize / 3)) {
+            for v in sheet.ends(h) {
+                hull.add(uv[v as usize], directions);
+            }
+        }
+    }
+    hull
+}
