@@ -136,9 +136,11 @@
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as a draft of the
 //!   atlas gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
-//! - Placing charts one after the other leaves room between them. On square pages all of a page move and turn at once afterward,
-//!   pushed apart by Levenberg's method on rasters of their distances while the square shrinks, and end exactly as far from each
-//!   other as they must be; a raster decides only where that fails, on pages that are not square, and for crowds.
+//! - Placing charts one after the other leaves room between them. All of a page move and turn at once afterward,
+//!   pushed apart by Levenberg's method on rasters of their distances while the page shrinks, and end exactly as far from each
+//!   other as they must be; a raster decides only where that fails, and for crowds.
+//! - Layouts are searched on a raster of only 96 cells, on which charts may overlap by half a cell: looked at briefly, many ways to
+//!   cut charts can be compared, and what a fine raster would add is found again when charts are pushed apart.
 //! - Unwrapping minimizes the symmetric Dirichlet energy by default ([`pipeline::Mapping`]), in which the bound is stated:
 //!   at the bound of 4.1 it needs fewer charts than ARAP (1 against 3 on a closed surface with four handles), and folds
 //!   over itself less often. [`embed::Options`] and the deformations of [`deform`] default to ARAP, as in the paper.

@@ -1,4 +1,5 @@
 //! One way to arrange charts.
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::poses::Poses;
@@ -19,27 +20,26 @@ pub(super) struct Arrangement {
 }
 
 impl Arrangement {
-    /// Places all charts, of which those before `first` in the order stay where they are; none if that takes more than a square
-    /// of side `largest`.
+    /// Places the charts of some places in the order; those before stay where they are, those behind do not count. None if that takes
+    /// more than a page of side `largest`.
     pub(super) fn lay_out(
         &mut self,
         poses: &[Arc<Poses>],
         sheet: &mut Sheet,
-        first: usize,
+        places: Range<usize>,
         largest: u32,
     ) -> Option<()> {
         sheet.clear(largest);
         let form = sheet.form;
         let (mut reach, mut side) = (0, 0);
-        let last = self.order.len().saturating_sub(1);
-        for (place, &chart) in self.order.iter().enumerate() {
+        for (place, &chart) in self.order[..places.end].iter().enumerate() {
             let mask = poses[chart].mask(self.pose[chart]);
-            if place >= first {
+            if place >= places.start {
                 let (_, spot) = sheet.find(std::slice::from_ref(mask), Window::ALL)?;
                 self.corners[chart] = spot.corner;
             }
             let corner = self.corners[chart];
-            if place < last {
+            if place + 1 < places.end {
                 sheet.take(mask, corner);
             }
             let [width, height] = mask.size;
@@ -51,16 +51,16 @@ impl Arrangement {
             return None;
         }
         self.side = side;
-        let most = f64::from(side) * self.order.len() as f64 + 1.0;
+        let most = f64::from(side) * places.end as f64 + 1.0;
         self.cost = f64::from(side) + f64::from(reach) / most;
         Some(())
     }
 
-    /// Another place in the order, or another pose, for one chart; returns the first place in the order that is concerned.
-    pub(super) fn change(&mut self, random: &mut Random) -> usize {
-        let n = self.order.len();
+    /// Another place among the first `n` of the order, or another pose, for one chart; returns the first place that is concerned.
+    pub(super) fn change(&mut self, n: usize, poses: &[Arc<Poses>], random: &mut Random) -> usize {
         let [i, j] = [random.below(n), random.below(n)];
         let chart = self.order[i];
+        let of_chart = &poses[chart];
         let pose = &mut self.pose[chart];
         match random.below(4) {
             0 => self.order.swap(i, j),
@@ -69,11 +69,12 @@ impl Arrangement {
                 self.order.insert(j, chart);
             }
             2 => {
-                *pose = Poses::next_angle(*pose, random.below(2) == 0);
+                *pose = of_chart.next_angle(*pose, random.below(2) == 0);
                 return i;
             }
             _ => {
-                *pose = random.below(Poses::COUNT);
+                let distinct = of_chart.distinct();
+                *pose = distinct[random.below(distinct.len())];
                 return i;
             }
         }

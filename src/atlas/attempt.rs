@@ -3,7 +3,7 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 
 use super::OnRead;
-use super::mask::{Distances, Mask};
+use super::mask::{Distances, Mask, Rounding};
 use super::outline::Outline;
 use super::plan::{Near, Plan, QuarterTurns};
 use super::sheet::Sheet;
@@ -140,7 +140,12 @@ impl Packing<'_> {
         let longest = outline.extent[0].max(outline.extent[1]);
         let fits = longest * scale * stretch + 2.0 * around < f64::from(capacity);
         fits.then(|| {
-            let mask = Mask::new(outline, scale * stretch, Distances { around, padding });
+            let distances = Distances {
+                around,
+                padding,
+                rounding: Rounding::Outward,
+            };
+            let mask = Mask::new(outline, scale * stretch, distances);
             let turned = match self.plan.turns[i] {
                 QuarterTurns::Only(turns) => vec![Turned::new(mask, turns)],
                 // The first chart goes to the corner of a square, whichever way it is turned.

@@ -54,8 +54,8 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let draft = Draft::new(charts, &largest)?;
-    let drafts = searched(draft.as_ref(), &largest, UNHEARD);
-    let fullest = best(&first, &drafts, &slack, &largest, UNHEARD);
+    let draft = searched(draft.as_ref(), &largest, UNHEARD);
+    let fullest = best(&first, draft.as_ref(), &slack, &largest, UNHEARD);
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {

@@ -1,8 +1,12 @@
-//! Charts on a raster of square cells, conservatively.
+//! Charts on a raster of square cells.
 //!
 //! The *body* is every cell a triangle touches. The *reach* is every cell within the padding of
 //! the chart (a disk, not a box). Two charts keep their distance when the reach of one meets no
 //! cell of the other's body: each point of the second then lies in a cell that is farther away.
+//!
+//! On a coarse raster that keeps charts half a cell too far apart on average, which is more than the best layouts of the
+//! raster differ by. [`Rounding::Nearest`] keeps them as far apart as they must be on average: they may overlap a
+//! little, and whoever uses it has to push them apart.
 use super::bitmap::{Bitmap, Run};
 use super::outline::Outline;
 
@@ -23,13 +27,30 @@ pub(super) struct Distances {
     pub around: f64,
     /// Kept free around that.
     pub padding: f64,
+    pub rounding: Rounding,
 }
+
+/// Which cells at its outline a chart takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rounding {
+    /// All that it touches.
+    Outward,
+    /// Those whose centers it covers; all where it is so thin that it would lose most of its area.
+    Nearest,
+}
+
+/// What a chart has to keep of its area when it is rounded to the nearest cells.
+const KEPT_AREA: f64 = 0.7;
 
 impl Mask {
     /// Rasters the outline at `scale` cells per mesh unit. The lower left corner of the chart's
     /// bounding rectangle comes to lie at (`around`, `around`) in the body.
     pub(super) fn new(outline: &Outline, scale: f64, distances: Distances) -> Self {
-        let Distances { around, padding } = distances;
+        let Distances {
+            around,
+            padding,
+            rounding,
+        } = distances;
         let margin = padding.ceil() as u32 + 1;
         let cells = |extent: f64| (extent * scale + 2.0 * around) as u32 + 1;
         let [width, height] = outline.extent.map(cells);
@@ -37,9 +58,15 @@ impl Mask {
         let mut reach = Bitmap::new(width + 2 * margin, height + 2 * margin);
         let place = |p: [f64; 2]| p.map(|x| x * scale + around);
         let segments = || outline.edges().map(|edge| edge.map(place));
-        fill(&mut body, segments());
+        let covered = fill(&mut body, segments());
+        let is_outward = match rounding {
+            Rounding::Outward => true,
+            Rounding::Nearest => covered < KEPT_AREA * (outline.size * scale).powi(2),
+        };
         for segment in segments() {
-            touch(&mut body, segment);
+            if is_outward {
+                touch(&mut body, segment);
+            }
             if around > 0.0 {
                 thicken(&mut body, segment, around);
             }
@@ -70,10 +97,10 @@ impl Mask {
     }
 }
 
-/// Sets the cells whose centers directed closed lines wind around.
+/// Sets the cells whose centers directed closed lines wind around, and returns their number.
 ///
 /// A cell that no line touches is inside or outside as a whole: with [`touch`] these are the cells of the area.
-fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) {
+fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> f64 {
     let first_center = |x: f64, end: u32| ((x - 0.5).ceil().max(0.0) as u32).min(end);
     // Row, column from which on the winding is another, and by how much.
     let mut crossings: Vec<(u32, u32, i32)> = Vec::new();
@@ -86,15 +113,17 @@ fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) {
         }
     }
     crossings.sort_unstable();
-    let mut winding = 0;
+    let (mut winding, mut covered) = (0, 0);
     for pair in crossings.windows(2) {
         let [(row, start, sign), (_, end, _)] = [pair[0], pair[1]];
         winding += sign;
         // Closed lines leave no winding at the end of a row.
         if winding != 0 && start < end {
             bitmap.set(Run { row, start, end });
+            covered += end - start;
         }
     }
+    f64::from(covered)
 }
 
 /// Sets the cells a segment touches.

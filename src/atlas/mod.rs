@@ -1,8 +1,8 @@
 //! Charts placed on the pages of a texture, on an integer grid.
 //!
 //! Chart maps arrive in mesh units, all at one density. The order in which they are placed and the
-//! angle of each are searched on a coarse raster, a [`Draft`]. On square pages all charts of a page are then moved and turned at
-//! once until their square gets no smaller, and their distances are measured. On other pages, where there are many charts, and
+//! angle of each are searched on a coarse raster, a [`Draft`]. All charts of a page are then moved and turned at
+//! once until the page gets no smaller, and their distances are measured. Where there are many charts, and
 //! where that fails, they are packed at one scale by a conservative raster, with a gap that is counted in texels. Every
 //! vertex is rounded to a multiple of 2⁻²³, which `f32` holds exactly. Rounding may take the area of
 //! a triangle that was positive in `f64`: such places are repaired, vertices moving no farther than
@@ -44,7 +44,7 @@ mod turned;
 mod upright;
 
 pub use clear::cleared;
-pub use draft::Draft;
+pub use draft::{Draft, Look};
 pub use enough::{Enough, enough};
 pub use pack::{fits, pack, pack_draft};
 pub use texture::Texture;
@@ -117,7 +117,9 @@ pub struct AtlasOptions {
     pub turns: Turns,
     /// Where charts may end.
     pub borders: Borders,
-    /// Words that the search for the best order, angles and scale may read, about 3·10⁸ a second; a layout is found in any case.
+    /// Multiple of the usual effort of the search for the best order and angles, which depends on the number of charts.
+    pub patience: u64,
+    /// Words that the search may read at most, about 3·10⁸ a second; a layout is found in any case.
     pub search_words: u64,
     /// Cells along the side of the raster on which a few charts are placed, at most: on fewer they are placed sooner and less full.
     pub most_cells: u32,
@@ -131,6 +133,7 @@ impl Default for AtlasOptions {
             padding_texels: 2,
             turns: Turns::Any,
             borders: Borders::Free,
+            patience: 1,
             search_words: 500_000_000,
             most_cells: u32::MAX,
         }

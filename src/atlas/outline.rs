@@ -2,7 +2,7 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::upright::upright_axis;
+use super::upright::Straightness;
 use super::{AtlasError, ChartMap};
 
 /// A chart's outline, turned to the angle at which it is packed.
@@ -15,8 +15,8 @@ pub(super) struct Outline {
     pub size: f64,
     /// Sides of the bounding rectangle once turned, in mesh units.
     pub extent: [f64; 2],
-    /// The axis in the plane of the map along which most of the outline runs, if it has one.
-    pub upright: Option<[f64; 2]>,
+    /// The axes of the outline in the plane of the map.
+    pub straightness: Straightness,
     /// The horizontal axis in the plane of the map, and what is subtracted after turning to it.
     axis: [f64; 2],
     low: [f64; 2],
@@ -28,7 +28,7 @@ impl Outline {
         let at = |v: u32| map.uv[v as usize];
         let boundary: Arc<[_]> = boundary(map).into_iter().map(|e| e.map(at)).collect();
         let outline = Self {
-            upright: upright_axis(&boundary),
+            straightness: Straightness::of(&boundary),
             boundary,
             n_triangles: map.triangles.len(),
             size: area.max(0.0).sqrt(),
@@ -62,15 +62,12 @@ impl Outline {
         turned
     }
 
-    /// Turned upright, if it has an upright position in which it is no longer than this. Otherwise
-    /// it has none from now on.
-    pub(super) fn upright_within(&self, side: f64) -> Self {
-        let upright = self.upright.map(|axis| self.turned(axis));
-        let fits = |outline: &Self| outline.extent[0].max(outline.extent[1]) <= side;
-        upright.filter(fits).unwrap_or_else(|| Self {
-            upright: None,
+    /// Taken for one with other axes.
+    pub(super) fn with(&self, straightness: Straightness) -> Self {
+        Self {
+            straightness,
             ..self.clone()
-        })
+        }
     }
 
     /// Turned counter-clockwise by an angle.

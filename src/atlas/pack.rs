@@ -3,7 +3,7 @@ use rayon::prelude::*;
 
 use super::align::aligned;
 use super::attempt::SLACK;
-use super::draft::Draft;
+use super::draft::{Draft, Look};
 use super::layout::{self, Layout};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
@@ -13,7 +13,6 @@ use super::{
     Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale, UNHEARD,
     doubled_area,
 };
-use crate::solver::Control;
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
@@ -37,17 +36,15 @@ pub fn pack_draft(
 ) -> Result<Atlas, AtlasError> {
     let mut slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
-    let (drafts, found) = match options.scale {
+    let (draft, found) = match options.scale {
         Scale::Largest => (searched(draft, options, on_read), None),
         Scale::TexelsPerUnit(_) => match layout::layout(&first, &slack, options, on_read) {
-            Some(layout) => (Vec::new(), Some((first.clone(), layout))),
+            Some(layout) => (None, Some((first.clone(), layout))),
             None => (searched(draft, options, on_read), None),
         },
     };
     if found.is_none()
-        && let Some((outlines, layout)) = drafts
-            .first()
-            .and_then(|draft| draft.tight(options, on_read))
+        && let Some((outlines, layout)) = (draft.as_ref()).and_then(|d| d.tight(options, on_read))
     {
         let snapped = snapped(charts, &outlines, &layout)?;
         if cramped(&snapped, &layout, &mut slack.clone()).is_none() {
@@ -60,7 +57,7 @@ pub fn pack_draft(
         },
         Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
     };
-    let found = found.or_else(|| best(&first, &drafts, &slack, options, on_read));
+    let found = found.or_else(|| best(&first, draft.as_ref(), &slack, options, on_read));
     let (plan, mut layout) = found.ok_or_else(|| none.clone())?;
     let mut chart = 0;
     for _ in 0..ROUNDS {
@@ -98,29 +95,29 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     )
 }
 
-/// What a search makes of a draft, the best first.
+/// A draft that has been searched, here if it has not been before.
 pub(super) fn searched(
     draft: Option<&Draft>,
     options: &AtlasOptions,
     on_read: &OnRead,
-) -> Vec<Draft> {
-    let words = options.search_words / 4;
-    draft.map_or_else(Vec::new, |draft| draft.searched(words, on_read))
+) -> Option<Draft> {
+    let mut draft = draft?.clone();
+    if !draft.is_searched() {
+        let words = options.patience * Look::Last.words(draft.n_large());
+        draft.improve(Look::Last, words.min(options.search_words), on_read);
+    }
+    Some(draft)
 }
 
 /// The plan whose layout has the largest scale: the one given, or what a search made of it.
 pub(super) fn best(
     first: &Plan,
-    drafts: &[Draft],
+    draft: Option<&Draft>,
     slack: &[f64],
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Option<(Plan, Layout)> {
-    let tried = match on_read(0) {
-        Control::Continue => drafts.len(),
-        Control::Finish => 1,
-    };
-    let mut plans: Vec<Plan> = drafts.iter().take(tried).map(Draft::plan).collect();
+    let mut plans: Vec<Plan> = draft.map(Draft::plan).into_iter().collect();
     plans.push(first.clone());
     let shared = AtlasOptions {
         search_words: options.search_words / 2 / plans.len() as u64,

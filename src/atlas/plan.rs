@@ -69,7 +69,7 @@ impl Plan {
 pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     let is_most = 2.0 * outline.size * outline.size > total;
     let outline = outline.upright_within((total / HOPE).sqrt());
-    if outline.upright.is_some() {
+    if outline.is_upright() {
         return outline;
     }
     turned(

@@ -9,44 +9,67 @@ use super::turned::Turned;
 
 /// Angles within a quarter turn.
 const ANGLES: usize = 16;
-/// What is kept free beside the padding, as distances are looked up roughly and rounded up to cells of the fine raster later.
-const ROOM: f64 = 0.2;
+/// What is kept free beside the padding, in cells: distances are looked up roughly.
+const ROOM: f64 = 0.1;
 
-/// The angle of a pose; a chart that is upright is turned by quarters only.
-fn angle_of(pose: usize, is_upright: bool) -> f64 {
-    let sixteenths = if is_upright { 0 } else { pose / 4 };
-    FRAC_PI_2 * (sixteenths as f64 / ANGLES as f64 + (pose % 4) as f64)
-}
-
-/// An outline at 64 angles, each rastered when it is first asked for.
+/// The ways in which an outline may lie, each rastered when it is first asked for: 64, or the quarter turns of one that is upright.
+///
+/// Pose `4 a + t` is turned by t quarters and a sixteenths of a quarter.
 pub(super) struct Poses {
-    /// One that is upright has the same at every angle.
+    /// For each angle within a quarter turn.
     outlines: Vec<Outline>,
     masks: Vec<OnceLock<Turned>>,
+    /// Poses of which no two look alike.
+    distinct: OnceLock<Vec<usize>>,
     body: OnceLock<Arc<Body>>,
     scale: f64,
     distances: Distances,
 }
 
 impl Poses {
-    /// Pose `4 a + t` is turned by t quarters and a sixteenths of a quarter.
-    pub(super) const COUNT: usize = 4 * ANGLES;
-
     pub(super) fn new(outline: &Outline, scale: f64, distances: Distances) -> Self {
-        let angle = |k: usize| angle_of(4 * k, outline.upright.is_some());
+        let angles = if outline.is_upright() { 1 } else { ANGLES };
+        let angle = |a: usize| FRAC_PI_2 * a as f64 / ANGLES as f64;
         Self {
-            outlines: (0..ANGLES).map(|k| outline.rotated(angle(k))).collect(),
-            masks: (0..Self::COUNT).map(|_| OnceLock::new()).collect(),
+            outlines: (0..angles).map(|a| outline.rotated(angle(a))).collect(),
+            masks: (0..4 * angles).map(|_| OnceLock::new()).collect(),
+            distinct: OnceLock::new(),
             body: OnceLock::new(),
             scale,
             distances,
         }
     }
 
+    /// Poses of which no two look alike on the raster: of a rectangle there are two, of a square there is one.
+    pub(super) fn distinct(&self) -> &[usize] {
+        self.distinct.get_or_init(|| {
+            let mut distinct: Vec<usize> = Vec::new();
+            for pose in 0..self.masks.len() {
+                let is_new = |&known: &usize| !self.mask(known).is_like(self.mask(pose));
+                if self.outlines.len() > 1 || distinct.iter().all(is_new) {
+                    distinct.push(pose);
+                }
+            }
+            distinct
+        })
+    }
+
+    /// Whether both look alike in each pose.
+    pub(super) fn are_like(&self, other: &Self) -> bool {
+        self.masks.len() == other.masks.len() && self.mask(0).is_like(other.mask(0))
+    }
+
     /// The pose at the next angle, or that before.
-    pub(super) fn next_angle(pose: usize, is_after: bool) -> usize {
-        let by = if is_after { 4 } else { Self::COUNT - 4 };
-        (pose + by) % Self::COUNT
+    pub(super) fn next_angle(&self, pose: usize, is_after: bool) -> usize {
+        let angles = self.outlines.len();
+        let next = |place: usize, all: usize| (place + if is_after { 1 } else { all - 1 }) % all;
+        if angles == 1 {
+            let distinct = self.distinct();
+            let place = distinct.iter().position(|&known| known == pose);
+            return distinct[next(place.unwrap_or(0), distinct.len())];
+        }
+        let place = next(angles * (pose % 4) + pose / 4, self.masks.len());
+        4 * (place % angles) + place / angles
     }
 
     /// The outline of a pose, without its quarter turns.
@@ -60,8 +83,8 @@ impl Poses {
     }
 
     /// The angle of a pose.
-    pub(super) fn angle(&self, pose: usize) -> f64 {
-        angle_of(pose, self.outlines[0].upright.is_some())
+    pub(super) fn angle(pose: usize) -> f64 {
+        FRAC_PI_2 * ((pose / 4) as f64 / ANGLES as f64 + (pose % 4) as f64)
     }
 
     /// The chart at the first angle, to be pushed about.

@@ -50,6 +50,14 @@ impl Texture {
         [u + finer, v + finer]
     }
 
+    /// The shape of what charts may use of a page, to whose borders half of the padding is kept.
+    pub(super) fn shape(self, padding: f64) -> Shape {
+        Shape {
+            halvings: self.resolution.halvings(),
+            padding,
+        }
+    }
+
     /// Steps along the longer side of a page.
     pub(super) fn grid_side(self) -> f64 {
         let [u, v] = self.steps();
@@ -112,5 +120,38 @@ impl Form {
     /// What borders are too long for the shape of a page at most, in cells of the longer side.
     pub(super) fn most_inset(self) -> f64 {
         f64::from(self.inset[0].max(self.inset[1]))
+    }
+}
+
+/// The shape of what charts may use of a page, in parts of cells.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    /// For the sides along u and v how often the longer is halved.
+    halvings: [u32; 2],
+    /// What is kept between charts, and to both borders together.
+    padding: f64,
+}
+
+impl Shape {
+    /// How far a page whose longer side without its borders is this reaches to the right and up.
+    pub(super) fn reach(self, side: f64) -> [f64; 2] {
+        self.halvings
+            .map(|times| (side + self.padding) / f64::from(1_u32 << times) - self.padding)
+    }
+
+    /// The longer side of the least page that reaches so far to the right and up.
+    pub(super) fn side(self, reach: [f64; 2]) -> f64 {
+        let of = |axis: usize| {
+            (reach[axis] + self.padding) * f64::from(1_u32 << self.halvings[axis]) - self.padding
+        };
+        of(0).max(of(1))
+    }
+
+    /// The same on a raster so many times as fine.
+    pub(super) fn scaled(self, by: f64) -> Self {
+        Self {
+            padding: by * self.padding,
+            ..self
+        }
     }
 }

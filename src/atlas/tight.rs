@@ -1,7 +1,7 @@
 //! Layouts in which charts lie exactly as near to each other as they may.
 //!
-//! A raster of cells keeps charts up to a cell farther apart than it has to. Here they are squeezed on a raster so fine that their
-//! distances are nearly right, measured, and given as much more room as is still missing.
+//! A raster of cells keeps charts up to a cell farther apart than it has to, or not far enough. Here they are squeezed on a finer
+//! one, measured, and given as much more room as is still missing.
 use super::attempt::stretch;
 use super::layout::Layout;
 use super::outline::Outline;
@@ -20,6 +20,8 @@ const SPARE: f64 = 0.03;
 const ROUNDED: f64 = 0.01;
 /// The share of the words that may be read which each of those rounds reads at most.
 const SHARE: u64 = 16;
+/// How often the side of a page is corrected for the padding that follows from it.
+const SIDES: usize = 8;
 /// Places to a cell.
 const PLACES: f64 = 64.0;
 
@@ -80,7 +82,8 @@ impl Tight<'_> {
             if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
                 break;
             }
-            let places = Places::new(&level, &squeezed, self.scale);
+            let mut places = Places::new(&level, &squeezed, self.scale);
+            places.side = self.side(places.reach);
             let missing = self.padding(places.side.max(least)) + 2.0 * ROUNDED - places.gap;
             if missing <= 0.0 && self.around(places.side) <= self.page(places.side) {
                 best = Some(places);
@@ -91,6 +94,17 @@ impl Tight<'_> {
             room += missing + SPARE;
         }
         best
+    }
+
+    /// The longer side, without its borders, of the least page on which charts may reach so far to the right and up.
+    fn side(&self, reach: [f64; 2]) -> f64 {
+        let shape = |side: f64| {
+            let padding = self.padding(side) + 2.0 * ROUNDED;
+            self.options.texture.shape(padding)
+        };
+        // The padding grows with the side, but much less.
+        let first = reach[0].max(reach[1]);
+        (0..SIDES).fold(first, |side, _| shape(side).side(reach))
     }
 
     /// Cells to a texel, where charts reach so far on the largest page.
@@ -161,7 +175,9 @@ struct Places {
     outlines: Vec<Outline>,
     /// Lower left corners, in parts of a cell.
     corners: Vec<[u32; 2]>,
-    /// Side of the square around them, and the smallest distance of two charts, in cells.
+    /// How far they reach to the right and up, the longer side of the page that takes, and the smallest distance of two charts, in
+    /// cells.
+    reach: [f64; 2],
     side: f64,
     gap: f64,
 }
@@ -183,14 +199,16 @@ impl Places {
         let mut places = Self {
             outlines,
             corners,
+            reach: [0.0; 2],
             side: 0.0,
             gap: 0.0,
         };
-        let placed = places.outlines.iter().zip(&places.corners);
-        let reach = placed.flat_map(|(outline, corner)| {
-            [0, 1].map(|k| f64::from(corner[k]) / PLACES + outline.extent[k] * scale)
-        });
-        places.side = reach.fold(0.0, f64::max);
+        for (outline, corner) in places.outlines.iter().zip(&places.corners) {
+            for k in 0..2 {
+                let far = f64::from(corner[k]) / PLACES + outline.extent[k] * scale;
+                places.reach[k] = places.reach[k].max(far);
+            }
+        }
         places.gap = places.smallest_gap(scale);
         places
     }

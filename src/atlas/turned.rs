@@ -20,6 +20,11 @@ impl Turned {
         Self::of(&turned, turns)
     }
 
+    /// Whether both take the same cells and keep the same ones free.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        self.size == other.size && self.body == other.body && self.reach == other.reach
+    }
+
     /// The quarter turns that differ: four, or one of a square.
     pub(super) fn all(mask: Mask) -> Vec<Self> {
         let mut masks = vec![mask];

@@ -1,14 +1,70 @@
 //! Charts that have an upright position.
 
+use super::outline::Outline;
+
 /// Widths of the classes into which directions are sorted, over a quarter turn.
 const CLASSES: usize = 180;
 
-/// The share of an outline that must run along two perpendicular directions.
-const LEAST_SHARE: f64 = 0.5;
+/// The share of an outline that runs along two perpendicular directions, where a chart has to be upright, and where it is if that
+/// leaves the atlas as full, about.
+const UPRIGHT: f64 = 0.5;
+const LEANING: f64 = 0.25;
 
-/// The unit vector along which most of an outline runs, itself or at a right angle; none if that is
-/// less than half of its length. A rectangle has one, a disc has none.
-pub(super) fn upright_axis(edges: &[[[f64; 2]; 2]]) -> Option<[f64; 2]> {
+/// The axes of a chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Straightness {
+    /// Most of its outline runs along this unit vector or at a right angle to it: a rectangle's does.
+    Upright([f64; 2]),
+    /// A good part of it does: of a hexagon's a third.
+    Leaning([f64; 2]),
+    /// A disc has no axes.
+    Round,
+}
+
+impl Straightness {
+    /// Of an outline that consists of these edges.
+    pub(super) fn of(edges: &[[[f64; 2]; 2]]) -> Self {
+        match main_axis(edges) {
+            Some((axis, share)) if share >= UPRIGHT => Self::Upright(axis),
+            Some((axis, share)) if share >= LEANING => Self::Leaning(axis),
+            _ => Self::Round,
+        }
+    }
+}
+
+impl Outline {
+    /// Turned upright, if it leans; none of another.
+    pub(super) fn straightened(&self) -> Option<Self> {
+        match self.straightness {
+            Straightness::Leaning(axis) => {
+                Some(self.turned(axis).with(Straightness::Upright(axis)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Turned upright, if it has an upright position in which it is no longer than this. Otherwise
+    /// it has none from now on.
+    pub(super) fn upright_within(&self, side: f64) -> Self {
+        let turned = match self.straightness {
+            Straightness::Upright(axis) => self.turned(axis),
+            Straightness::Leaning(_) | Straightness::Round => return self.clone(),
+        };
+        if turned.extent[0].max(turned.extent[1]) <= side {
+            turned
+        } else {
+            self.with(Straightness::Round)
+        }
+    }
+
+    /// Whether it is turned by quarters only.
+    pub(super) fn is_upright(&self) -> bool {
+        matches!(self.straightness, Straightness::Upright(_))
+    }
+}
+
+/// The unit vector along which most of an outline runs, itself or at a right angle, and the share that does.
+fn main_axis(edges: &[[[f64; 2]; 2]]) -> Option<([f64; 2], f64)> {
     let mut classes = vec![[0.0; 3]; CLASSES];
     let mut perimeter = 0.0;
     for [p, q] in edges {
@@ -35,11 +91,8 @@ pub(super) fn upright_axis(edges: &[[[f64; 2]; 2]]) -> Option<[f64; 2]> {
         .map(pair)
         .fold([0.0; 3], |best, of| if of[0] > best[0] { of } else { best });
     let [length, c, s] = most;
-    if length < LEAST_SHARE * perimeter || length == 0.0 {
-        return None;
-    }
     let (sin, cos) = (s.atan2(c) / 4.0).sin_cos();
-    Some([cos, sin])
+    (length > 0.0).then_some(([cos, sin], length / perimeter))
 }
 
 /// The unit vector at twice the angle.

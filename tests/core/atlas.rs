@@ -1,6 +1,7 @@
 //! Packing: positive on the grid, inside the square, apart, the same every time.
 use proptest::prelude::*;
-use unwrapd::atlas::{AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, Texture, pack};
+use unwrapd::atlas::{AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, Look, Texture, pack};
+use unwrapd::mesh::Resolution;
 use unwrapd::solver::Control;
 
 use crate::layouts::{Chart, assert_positive_and_inside, bar, blob, disk, maps, smallest_gap};
@@ -209,17 +210,17 @@ fn a_draft_becomes_fuller_when_a_chart_is_cut() {
     let mut draft = Draft::new(&maps(&[bar(1), whole, bar(1)]), &options)
         .unwrap()
         .unwrap();
-    draft.improve(20_000_000, 1, &|_| Control::Continue);
+    draft.improve(Look::Last, 20_000_000, &|_| Control::Continue);
     // The bar lies across the square, whose side is 5 / √2: 6 of 12.5.
     assert!((0.46..0.48).contains(&draft.fill()), "{}", draft.fill());
     let parts = [bar(2), bar(2)];
     let mut cut = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
-    cut.improve(20_000_000, 1, &|_| Control::Continue);
+    cut.improve(Look::Last, 20_000_000, &|_| Control::Continue);
     // 6 of 9.
     assert!(cut.fill() > 0.55, "{}", cut.fill());
     let again = {
         let mut again = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
-        again.improve(20_000_000, 1, &|_| Control::Continue);
+        again.improve(Look::Last, 20_000_000, &|_| Control::Continue);
         again.fill()
     };
     assert!(again == cut.fill());
@@ -403,5 +404,48 @@ fn charts_with_straight_outlines_are_packed_upright() {
             let off = [0, 1].map(|k| (q[k] - p[k]).abs());
             assert!(off[0].min(off[1]) <= 4, "{angle}: {off:?}");
         }
+    }
+}
+
+#[test]
+fn what_leans_can_be_laid_straight() {
+    let polygon = |corners: u32| -> Chart {
+        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(corners) + 0.3;
+        let uv = (0..corners).map(|k| [angle(k).cos(), angle(k).sin()]);
+        let triangles = (2..corners).map(|k| [0, k - 1, k]);
+        (uv.collect(), triangles.collect())
+    };
+    let straightened = |corners: u32| {
+        let charts = [polygon(corners), polygon(corners)];
+        let draft = Draft::new(&maps(&charts), &AtlasOptions::default());
+        draft.expect("charts").expect("few").straightened()
+    };
+    // All of a square runs along two directions anyway, of a hexagon a third, of a round chart next to nothing.
+    assert!(straightened(4).is_none());
+    assert!(straightened(6).is_some());
+    assert!(straightened(40).is_none());
+}
+
+#[test]
+fn pages_that_are_not_square_are_squeezed_too() {
+    let charts: Vec<Chart> = (0..8)
+        .map(|i| blob(1.0 + f64::from(i % 3), 2 + i % 4, 0.2))
+        .collect();
+    let scale = |width: u32, height: u32| {
+        let options = AtlasOptions {
+            texture: Texture {
+                resolution: Resolution { width, height },
+                pages: 1,
+            },
+            ..AtlasOptions::default()
+        };
+        let atlas = pack(&maps(&charts), &options).expect("a layout");
+        assert_positive_and_inside(&charts, &atlas);
+        atlas.scale
+    };
+    // As much of a page is filled, about, whatever its shape.
+    let square = scale(1024, 1024);
+    for ratio in [scale(2048, 1024) / square, scale(1024, 2048) / square] {
+        assert!((ratio - 0.5_f64.sqrt()).abs() < 0.04, "{ratio}");
     }
 }

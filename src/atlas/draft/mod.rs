@@ -4,9 +4,11 @@ mod search;
 
 use std::sync::Arc;
 
+pub use search::Look;
+
 use super::arrangement::Arrangement;
 use super::layout::padding;
-use super::mask::Distances;
+use super::mask::{Distances, Rounding};
 use super::outline::{Outline, outlines};
 use super::plan::{HOPE, Plan, by_size, level};
 use super::poses::Poses;
@@ -16,31 +18,36 @@ use super::texture::{Form, Texture};
 use super::tight::Page;
 use super::{AtlasError, AtlasOptions, ChartMap, Turns};
 
-/// Cells along the side of the square page that the charts are expected to need. With 128 a cell is too much for the gaps that
-/// matter; with 512 a trial costs four times as much, and less is found in the same time.
-const RASTER: u32 = 256;
+/// Cells along the side of the square page that the charts are expected to need. With 64 worse cuts are chosen; with 256 a trial
+/// costs four times as much, and less is found in the same time.
+const RASTER: u32 = 96;
+/// A chart is small whose rectangle has less than such a half perimeter, as a share of that side: it finds a place between the others.
+const SMALL: f64 = 0.12;
 /// Sides of squares in which all charts are first placed.
 const SIDES: [u32; 3] = [RASTER, 2 * RASTER, 4 * RASTER];
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 128;
-/// Words that may be read at least: fewer are not worth the preparations.
-const LEAST_WORDS: u64 = 20_000_000;
 
 /// A layout on a coarse raster.
 ///
-/// It follows from an order of the charts and a pose of each: every chart is placed where the used square grows least. Simulated
-/// annealing changes the one or the other and keeps what makes the square smaller, at first also what makes it a little larger.
-/// What comes of that is squeezed, charts moving and turning all at once.
+/// It follows from an order of the charts and a pose of each: every chart is placed where the used page grows least. Simulated
+/// annealing changes the one or the other and keeps what makes the page smaller, at first also what makes it a little larger.
+/// Charts are rounded to the nearest cells there, so that they may overlap by a fraction of one. What comes of that is squeezed, charts
+/// moving and turning all at once.
 /// What that costs is counted in words read, so the result is the same on every machine and for any number of threads.
 #[derive(Clone)]
 pub struct Draft {
     poses: Vec<Arc<Poses>>,
     raster: Raster,
     state: Arrangement,
-    /// What that or a better one became when charts made room for each other, on square pages; none before the first search.
+    /// What that or a better one became when charts made room for each other; none before the first search.
     pages: Vec<Page>,
     /// The charts in the order of their sizes.
     by_size: Vec<usize>,
+    /// How many of them are large.
+    n_large: usize,
+    /// For each chart the first that looks like it in each pose.
+    kind: Arc<[usize]>,
 }
 
 /// How charts become cells.
@@ -58,7 +65,7 @@ impl Draft {
     /// where a needle is longer than the raster, or where charts may not be turned by any angle.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
-        let is_worth_it = outlines.len() <= MOST_CHARTS && options.search_words >= LEAST_WORDS;
+        let is_worth_it = outlines.len() <= MOST_CHARTS && options.search_words > 0;
         if !is_worth_it || options.turns == Turns::Quarters {
             return Ok(None);
         }
@@ -97,6 +104,19 @@ impl Draft {
         Ok(Self::laid_out(poses, self.raster))
     }
 
+    /// The same with charts upright that lean, laid out anew; none where no chart does.
+    pub fn straightened(&self) -> Option<Self> {
+        let straight = |poses: &Arc<Poses>| poses.outline(0).straightened();
+        let straight: Vec<Option<Outline>> = self.poses.iter().map(straight).collect();
+        straight.iter().any(Option::is_some).then_some(())?;
+        let both = self.poses.iter().zip(straight);
+        let poses = both.map(|(poses, straight)| match straight {
+            Some(outline) => self.raster.poses(&outline),
+            None => poses.clone(),
+        });
+        Self::laid_out(poses.collect(), self.raster)
+    }
+
     /// All charts placed, the largest first, in a square as large as that takes within reason.
     fn laid_out(poses: Vec<Arc<Poses>>, raster: Raster) -> Option<Self> {
         let level: Vec<&Outline> = poses.iter().map(|poses| poses.outline(0)).collect();
@@ -111,9 +131,15 @@ impl Draft {
         SIDES.into_iter().find_map(|side| {
             let largest = raster.texture.raster(side);
             let mut sheet = raster.sheet(largest);
-            state.lay_out(&poses, &mut sheet, 0, largest)
+            state.lay_out(&poses, &mut sheet, 0..by_size.len(), largest)
         })?;
+        let is_large = |&&chart: &&usize| {
+            let [width, height] = poses[chart].outline(0).extent;
+            (width + height) * raster.scale > SMALL * raster.cells()
+        };
         Some(Self {
+            n_large: by_size.iter().take_while(is_large).count().max(1),
+            kind: kinds(&poses),
             poses,
             raster,
             state,
@@ -122,16 +148,33 @@ impl Draft {
         })
     }
 
-    /// The share of the square that is filled, less what whole cells of the coarse raster lose.
+    /// The share of the page that is filled, about.
     pub fn fill(&self) -> f64 {
         let ratio = self.raster.cells() / (self.side() + self.raster.padding);
         HOPE * ratio * ratio
     }
 
-    /// Side of the square, in cells.
-    fn side(&self) -> f64 {
-        squeezed_side(&self.pages).min(self.state.cost)
+    /// Whether it has been improved.
+    pub(super) fn is_searched(&self) -> bool {
+        !self.pages.is_empty()
     }
+
+    /// The longer side of a page, in cells.
+    fn side(&self) -> f64 {
+        match &self.pages[..] {
+            [] => self.state.cost,
+            pages => squeezed_side(pages),
+        }
+    }
+}
+
+/// For each chart the first that looks like it in each pose.
+fn kinds(poses: &[Arc<Poses>]) -> Arc<[usize]> {
+    let like = |(chart, of): (usize, &Arc<Poses>)| {
+        let first = poses[..chart].iter().position(|known| known.are_like(of));
+        first.unwrap_or(chart)
+    };
+    poses.iter().enumerate().map(like).collect()
 }
 
 /// The side of the largest page, infinite without pages.
@@ -145,13 +188,9 @@ impl Raster {
         let distances = Distances {
             around: 0.0,
             padding: self.padding,
+            rounding: Rounding::Nearest,
         };
         Arc::new(Poses::new(outline, self.scale, distances))
-    }
-
-    /// Whether pages are squares: only there charts are squeezed.
-    fn is_square(self) -> bool {
-        self.texture.resolution.halvings() == [0; 2]
     }
 
     /// Cells along the longer side of the page that the charts are expected to need.

@@ -9,9 +9,8 @@ use crate::atlas::squeeze::{Pose, Squeezed};
 use crate::atlas::tight::{self, Page};
 use crate::atlas::{AtlasOptions, OnRead};
 
-/// Cells of a finer raster for each of those, where few words may be read and where many.
-const FINE: [f64; 2] = [1.0, 4.0];
-const MANY_WORDS: u64 = 100_000_000;
+/// Cells of the raster of the last layout for each of those, along a side.
+const FINE: f64 = 2.0;
 
 impl Draft {
     /// The arrangement as places and angles, of the pages that have charts.
@@ -32,7 +31,7 @@ impl Draft {
                 f64::from(corner.x) + within[0],
                 f64::from(corner.y) + within[1],
             ];
-            Pose::new(middle, poses.angle(pose))
+            Pose::new(middle, Poses::angle(pose))
         };
         let page = |number: u32| {
             let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;
@@ -40,6 +39,7 @@ impl Draft {
             let squeezed = Squeezed {
                 poses: charts.iter().map(pose).collect(),
                 side: f64::from(self.state.side),
+                shape: self.raster.texture.shape(self.raster.padding),
             };
             Page {
                 number,
@@ -57,13 +57,13 @@ impl Draft {
         options: &AtlasOptions,
         on_read: &OnRead,
     ) -> Option<(Vec<Outline>, Layout)> {
-        let fine = FINE[usize::from(options.search_words >= MANY_WORDS)];
-        let mut pages = self.pages.clone();
-        for page in &mut pages {
-            page.squeezed.scale(fine);
-        }
+        let refined = |page: &Page| Page {
+            squeezed: page.squeezed.refined(FINE),
+            ..page.clone()
+        };
+        let pages: Vec<Page> = self.pages.iter().map(refined).collect();
         let level: Vec<&Outline> = self.poses.iter().map(|poses| poses.outline(0)).collect();
-        tight::layout(&level, &pages, fine * self.raster.scale, (options, on_read))
+        tight::layout(&level, &pages, FINE * self.raster.scale, (options, on_read))
     }
 
     /// The arrangement as a plan for a fine raster.

@@ -1,5 +1,6 @@
 //! The search for a fuller layout.
 use rayon::prelude::*;
+use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -10,79 +11,152 @@ use crate::atlas::read_limit::ReadLimit;
 use crate::atlas::squeeze::Body;
 use crate::numerics::random::Random;
 
-/// Charts from which on a search reads all the words it may.
-const MANY: u64 = 8;
-/// Searches from different seeds.
-const SEEDS: usize = 4;
-/// Larger squares that a search accepts at its begin and at its end: about half a cell and a tenth of one.
-const TEMPERATURES: [f64; 2] = [0.65, 0.13];
-/// What a trial costs for each chart beside the words it reads.
-const WORDS_PER_CHART: u64 = 1000;
+/// Larger pages that a search accepts at its begin and at its end, in cells: about half a cell of a raster of 256 and a tenth.
+const TEMPERATURES: [f64; 2] = [0.25, 0.05];
+/// What a trial costs for each chart beside the words it reads, and what one costs that was tried before.
+const WORDS_PER_CHART: u64 = 375;
+const WORDS_IF_KNOWN: u64 = 100;
+/// Charts up to which a search takes words in proportion to the square of their number: a trial takes longer, and there are more
+/// layouts. Of more the power is less.
+const FEW: f64 = 10.0;
+const POWERS: [i32; 2] = [4, 3];
 
-impl Draft {
-    /// The drafts that several searches make of this one, together reading about so many words; the best first.
-    pub(in crate::atlas) fn searched(&self, words: u64, on_read: &OnRead) -> Vec<Self> {
-        let words = words / SEEDS as u64;
-        let seeds = (0..SEEDS).into_par_iter().with_max_len(1);
-        let mut drafts: Vec<Self> = seeds
-            .map(|seed| {
-                let mut draft = self.clone();
-                draft.improve(words / 4, seed as u64, on_read);
-                draft.relocate(words / 4 * 3, seed as u64, on_read);
-                draft
-            })
-            .collect();
-        drafts.sort_by(|a, b| a.side().total_cmp(&b.side()));
-        drafts
+/// How closely a draft is looked at: there are many to choose from and little to be gained by most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Whether it is worth another.
+    First,
+    /// Whether it is one of the best.
+    Second,
+    /// For the layout itself.
+    Last,
+}
+
+/// What a look consists of.
+struct Course {
+    /// Words of all, for [`FEW`] charts.
+    words: f64,
+    /// Annealings from different seeds, and how many of the best are squeezed.
+    starts: u32,
+    squeezed: usize,
+    /// Shares of the words for annealing, squeezing, and charts that try other places.
+    shares: [f64; 3],
+}
+
+impl Look {
+    fn course(self) -> Course {
+        let of = |words, starts: u32, squeezed, shares| Course {
+            words,
+            starts,
+            squeezed,
+            shares,
+        };
+        match self {
+            Self::First => of(1e6, 1, 1, [0.7, 0.3, 0.0]),
+            Self::Second => of(5e6, 2, 2, [0.6, 0.4, 0.0]),
+            Self::Last => of(30e6, 4, 3, [0.5, 0.25, 0.25]),
+        }
     }
 
-    /// Searches a smaller square; reads about so many words, less of few charts.
-    ///
-    /// The squeezed layout never gets worse, on pages that are not square the arrangement does not; the arrangement from which a
-    /// squeezed layout comes may, so that searches that follow each other begin at different ones.
-    pub fn improve(&mut self, words: u64, seed: u64, on_read: &OnRead) {
+    /// The words that this look at so many charts reads, about.
+    pub fn words(self, n_charts: usize) -> u64 {
+        let n = n_charts as f64 / FEW;
+        let power = POWERS[usize::from(n > 1.0)];
+        (self.course().words * n.sqrt().powi(power)) as u64
+    }
+
+    fn seed(self) -> u64 {
+        100 * self as u64
+    }
+}
+
+impl Draft {
+    /// The number of charts that are not small: a search takes as long as they are many.
+    pub fn n_large(&self) -> usize {
+        self.n_large
+    }
+
+    /// Searches a fuller layout; reads about so many words, less where nothing is left to be tried. The layout never gets worse.
+    pub fn improve(&mut self, look: Look, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
             told.fetch_add(read, Ordering::Relaxed);
             on_read(read)
         };
-        self.improve_within(words, seed, &count);
+        self.improve_within(look, words, &count);
         // What it need not read is as good as read.
         on_read(words.saturating_sub(told.into_inner()));
     }
 
-    fn improve_within(&mut self, words: u64, seed: u64, on_read: &OnRead) {
+    fn improve_within(&mut self, look: Look, words: u64, on_read: &OnRead) {
         if self.state.order.is_empty() {
             return;
         }
-        let found = self.annealed(words, &mut Random::new(seed), on_read);
-        if !self.raster.is_square() {
-            if found.cost < self.state.cost {
-                self.state = found;
+        let course = look.course();
+        let [annealing, squeezing, moving] = course.shares.map(|share| share * words as f64);
+        let each = (annealing / f64::from(course.starts)) as u64;
+        let starts = (0..course.starts).into_par_iter().with_max_len(1);
+        let mut found: Vec<Arrangement> = starts
+            .map(|start| {
+                self.annealed(
+                    each,
+                    &mut Random::new(look.seed() + u64::from(start)),
+                    on_read,
+                )
+            })
+            .collect();
+        found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        found.dedup_by_key(|state| self.key(state));
+        found.truncate(course.squeezed);
+        let each = (squeezing / course.squeezed as f64) as u64;
+        let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
+            .map(|state| self.settled(state, each, on_read))
+            .collect();
+        for draft in settled.into_iter().flatten() {
+            if squeezed_side(&draft.pages) < squeezed_side(&self.pages) {
+                *self = draft;
             }
-            return;
         }
-        self.state = found;
-        let mut pages = self.loose();
-        let each = words / 2 / pages.len() as u64;
-        for page in &mut pages {
-            page.squeezed
-                .settle(&self.bodies(&page.charts), each, on_read);
-        }
-        if squeezed_side(&pages) < squeezed_side(&self.pages) {
-            self.pages = pages;
+        if moving > 0.0 {
+            self.relocate(moving as u64, look.seed(), on_read);
         }
     }
 
+    /// The draft with another arrangement, squeezed; none where charts could not be brought apart.
+    fn settled(&self, state: Arrangement, words: u64, on_read: &OnRead) -> Option<Self> {
+        let mut draft = Self {
+            state,
+            ..self.clone()
+        };
+        let mut pages = draft.loose();
+        let each = words / pages.len() as u64;
+        for page in &mut pages {
+            let bodies = draft.bodies(&page.charts);
+            if !page.squeezed.settle(&bodies, each, on_read) {
+                return None;
+            }
+        }
+        draft.pages = pages;
+        Some(draft)
+    }
+
     /// The best arrangement that is found while about so many words are read.
+    ///
+    /// Only the large charts change their order and poses. The small ones are placed once, at the end.
     fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> Arrangement {
-        // A few charts have few layouts.
-        let n = (self.poses.len() as u64).min(MANY);
-        let words = words * n * n / (MANY * MANY);
+        let (large, all) = (self.n_large, self.state.order.len());
         let largest = self.state.side + self.state.side / 16;
-        let mut sheet = self.raster.sheet(largest);
+        let mut sheet = self.raster.sheet(largest + largest / 4);
         let mut state = self.state.clone();
-        let mut best: Option<Arrangement> = None;
+        if large < all
+            && state
+                .lay_out(&self.poses, &mut sheet, 0..large, largest)
+                .is_none()
+        {
+            return state;
+        }
+        let mut best = state.clone();
+        let mut known = HashSet::from([self.key(&state)]);
         let [first, last] = TEMPERATURES;
         let mut limit = ReadLimit::new(words, on_read);
         while limit.admits(sheet.work) {
@@ -90,17 +164,38 @@ impl Draft {
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
             let mut trial = state.clone();
-            let first = trial.change(random);
-            sheet.work += WORDS_PER_CHART * trial.order.len() as u64;
-            let fits = trial.lay_out(&self.poses, &mut sheet, first, largest.min(bound as u32));
+            let first = trial.change(large, &self.poses, random);
+            if !known.insert(self.key(&trial)) {
+                sheet.work += WORDS_IF_KNOWN;
+                continue;
+            }
+            sheet.work += WORDS_PER_CHART * large as u64;
+            let most = largest.min(bound as u32);
+            let fits = trial.lay_out(&self.poses, &mut sheet, first..large, most);
             if fits.is_some() && trial.cost <= bound {
                 state = trial;
-                if best.as_ref().is_none_or(|best| state.cost < best.cost) {
-                    best = Some(state.clone());
+                if state.cost < best.cost {
+                    best = state.clone();
                 }
             }
         }
-        best.unwrap_or(state)
+        let most = largest + largest / 4;
+        let placed =
+            large == all || (best.lay_out(&self.poses, &mut sheet, large..all, most)).is_some();
+        if placed { best } else { self.state.clone() }
+    }
+
+    /// A number that differs, as good as surely, where arrangements look different.
+    ///
+    /// From: Fowler, Noll, Vo 1991 (FNV-1a), over words.
+    fn key(&self, state: &Arrangement) -> u64 {
+        let looks = |&chart: &usize| (self.kind[chart] as u64) << 8 | state.pose[chart] as u64;
+        let mixed = |key: u64, look: u64| (key ^ look).wrapping_mul(0x0000_0100_0000_01b3);
+        let looks = state.order.iter().map(looks);
+        looks.fold(0xcbf2_9ce4_8422_2325, |key, look| {
+            let key = mixed(key, look);
+            key ^ key >> 29
+        })
     }
 
     /// Lets charts look for other places while about so many words are read.

@@ -75,7 +75,7 @@ impl Body {
             field,
             half,
             radius: half[0].hypot(half[1]).max(1.0),
-            is_upright: outline.upright.is_some(),
+            is_upright: outline.is_upright(),
         }
     }
 

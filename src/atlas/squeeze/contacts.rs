@@ -19,11 +19,11 @@ pub(super) struct Contact {
     pub out: [f64; 2],
 }
 
-/// A square and the bodies that should lie in it.
+/// A page and the bodies that should lie on it.
 pub(super) struct Scene<'a> {
     pub bodies: &'a [Arc<Body>],
-    /// The square's side.
-    pub side: f64,
+    /// How far they may reach to the right and up.
+    pub reach: [f64; 2],
     /// What is kept between bodies beyond the distance that each keeps.
     pub room: f64,
     /// Weights of the overlaps.
@@ -114,8 +114,9 @@ impl Scene<'_> {
         pose: &Pose,
         mut visit: impl FnMut(Contact),
     ) {
-        let side = self.side;
-        let is_within = |p: [f64; 2], by: f64| p.iter().all(|&x| x - by >= 0.0 && x + by <= side);
+        let reach = self.reach;
+        let is_within =
+            |p: [f64; 2], by: f64| (0..2).all(|k| p[k] - by >= 0.0 && p[k] + by <= reach[k]);
         let body = &self.bodies[a];
         let bounds = body.bounds(pose);
         if bounds.iter().all(|&corner| is_within(corner, 0.0)) {
@@ -128,7 +129,7 @@ impl Scene<'_> {
             }
             for point in run.points.map(|p| pose.place(p)) {
                 for k in 0..2 {
-                    for (depth, sign) in [(-point[k], 1.0), (point[k] - side, -1.0)] {
+                    for (depth, sign) in [(-point[k], 1.0), (point[k] - reach[k], -1.0)] {
                         if depth > 0.0 {
                             let mut out = [0.0; 2];
                             out[k] = sign;

@@ -24,15 +24,16 @@ use contacts::{Pairs, Scene};
 
 use super::OnRead;
 use super::read_limit::ReadLimit;
+use super::texture::Shape;
 use crate::numerics::random::Random;
 
 /// By how much the square's side shrinks at a time, at first and at last, as a share.
 const SHRINKS: [f64; 2] = [0.01, 4e-4];
 /// The same where charts may go elsewhere.
 const LEAP: f64 = 0.004;
-/// By how much the square grows where charts need more room, and how often at most.
-const GROWTH: f64 = 1.001;
-const MOST_GROWTHS: usize = 12;
+/// By how much the page grows where charts overlap, and where they need a little more room, and how often at most.
+const GROWTHS: [f64; 2] = [0.01, 1e-3];
+const MOST_GROWTHS: usize = 16;
 /// Steps that separate charts.
 const STEPS: usize = 50;
 /// Rounds of moves elsewhere that do not lessen the overlap, after which the square is as small as it gets from there.
@@ -43,19 +44,42 @@ const IDLE: f64 = 0.98;
 const HEAVIER: [f64; 2] = [1.2, 2.0];
 const LIGHTER: f64 = 0.95;
 
-/// Charts in a square of some side.
+/// Charts on a page whose longer side, without its borders, has some length.
 #[derive(Clone)]
 pub(super) struct Squeezed {
     pub poses: Vec<Pose>,
     pub side: f64,
+    pub shape: Shape,
 }
 
 impl Squeezed {
-    /// Shrinks the square as far as charts make room for each other where they are; reads about so many words at most.
-    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) {
+    /// Lets charts that overlap go apart, the page growing as it takes, then shrinks it as far as they make room for each other where
+    /// they are; reads about so many words at most. Whether they are apart.
+    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) -> bool {
         let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self.side, 0.0, limit);
-        self.shrink(&mut scene, SHRINKS[0]);
+        let mut scene = Scene::new(bodies, self.reach(), 0.0, limit);
+        let is_apart = self.grow(&mut scene, GROWTHS[0]);
+        if is_apart {
+            self.shrink(&mut scene, SHRINKS[0]);
+        }
+        is_apart
+    }
+
+    /// How far charts may reach to the right and up.
+    fn reach(&self) -> [f64; 2] {
+        self.shape.reach(self.side)
+    }
+
+    /// Brings charts apart, the page growing by such a share at a time; whether they are.
+    fn grow(&mut self, scene: &mut Scene, by: f64) -> bool {
+        for _ in 0..MOST_GROWTHS {
+            if scene.separate(&mut self.poses, STEPS).1 {
+                return true;
+            }
+            self.scale(1.0 + by);
+            scene.reach = self.reach();
+        }
+        false
     }
 
     /// Makes charts keep `room` more than before, the square as small as is found while about so many words are read; whether
@@ -67,23 +91,19 @@ impl Squeezed {
         (words, on_read): (u64, &OnRead),
     ) -> bool {
         let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self.side, room, limit);
-        for _ in 0..MOST_GROWTHS {
-            if scene.separate(&mut self.poses, STEPS).1 {
-                self.shrink(&mut scene, LEAP);
-                return true;
-            }
-            self.scale(GROWTH);
-            scene.side = self.side;
+        let mut scene = Scene::new(bodies, self.reach(), room, limit);
+        let is_apart = self.grow(&mut scene, GROWTHS[1]);
+        if is_apart {
+            self.shrink(&mut scene, LEAP);
         }
-        false
+        is_apart
     }
 
     /// Shrinks the square as far as is found while about so many words are read.
     pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64, on_read: &OnRead) {
         let mut random = Random::new(seed);
         let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self.side, 0.0, limit);
+        let mut scene = Scene::new(bodies, self.reach(), 0.0, limit);
         let mut is_stuck = false;
         while scene.may_read() {
             let mut trial = self.clone();
@@ -106,8 +126,16 @@ impl Squeezed {
         self.poses[a].middle = std::mem::replace(&mut self.poses[b].middle, middle);
     }
 
-    /// Scales the square and the places in it, not the charts.
-    pub(super) fn scale(&mut self, by: f64) {
+    /// The same on a raster so many times as fine.
+    pub(super) fn refined(&self, by: f64) -> Self {
+        let mut refined = self.clone();
+        refined.scale(by);
+        refined.shape = self.shape.scaled(by);
+        refined
+    }
+
+    /// Scales the page and the places on it, not the charts.
+    fn scale(&mut self, by: f64) {
         self.side *= by;
         for pose in &mut self.poses {
             pose.middle = pose.middle.map(|x| x * by);
@@ -120,7 +148,7 @@ impl Squeezed {
         while by > SHRINKS[1] && scene.may_read() {
             let mut trial = self.clone();
             trial.scale(1.0 - by);
-            scene.side = trial.side;
+            scene.reach = trial.reach();
             if scene.separate(&mut trial.poses, STEPS).1 {
                 *self = trial;
             } else {
@@ -131,7 +159,7 @@ impl Squeezed {
 
     /// Separates charts by moving those that overlap to wherever they overlap least; whether that succeeded.
     fn relocate(&mut self, scene: &mut Scene, random: &mut Random) -> bool {
-        scene.side = self.side;
+        scene.reach = self.reach();
         scene.weights = Pairs::new(self.poses.len(), 1.0);
         let (mut overlap, mut is_apart) = scene.separate(&mut self.poses, STEPS);
         let (mut least, mut idle) = (f64::INFINITY, 0);
@@ -148,10 +176,10 @@ impl Squeezed {
 }
 
 impl<'a> Scene<'a> {
-    fn new(bodies: &'a [Arc<Body>], side: f64, room: f64, limit: ReadLimit<'a>) -> Self {
+    fn new(bodies: &'a [Arc<Body>], reach: [f64; 2], room: f64, limit: ReadLimit<'a>) -> Self {
         Self {
             bodies,
-            side,
+            reach,
             room,
             weights: Pairs::new(bodies.len(), 1.0),
             work: 0,

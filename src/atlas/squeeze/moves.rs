@@ -12,12 +12,12 @@ const NEARBY: usize = 16;
 /// Of those the best, from which the body is pushed out of others.
 const SETTLED: usize = 3;
 const STEPS: usize = 12;
-/// How near is nearby: in shares of the square's side, in radians.
+/// How near is nearby: in shares of the page's sides, in radians.
 const WAY: f64 = 0.06;
 const ANGLE: f64 = 0.3;
 /// The share of nearby poses that are turned by quarters.
 const QUARTERS: f64 = 0.3;
-/// By how many cells the rectangle around a body may be wider than the square.
+/// By how many cells the rectangle around a body may be wider than the page.
 const ROUGHLY: f64 = 4.0;
 /// Overlaps of less are left to all bodies' common steps.
 const NEGLIGIBLE: f64 = 1e-3;
@@ -98,7 +98,7 @@ impl Scene<'_> {
     }
 
     fn anywhere(&self, body: usize, random: &mut Random) -> Pose {
-        let middle = [0, 1].map(|_| random.unit() * self.side);
+        let middle = self.reach.map(|reach| random.unit() * reach);
         let angle = random.unit() * TAU;
         let angle = if self.bodies[body].is_upright {
             FRAC_PI_2 * (angle / FRAC_PI_2).floor()
@@ -110,7 +110,7 @@ impl Scene<'_> {
 
     fn nearby(&self, body: usize, here: &Pose, random: &mut Random) -> Pose {
         let mut about = |width: f64| width * (2.0 * random.unit() - 1.0);
-        let by = [0, 1].map(|_| about(WAY * self.side));
+        let by = self.reach.map(|reach| about(WAY * reach));
         let angle = about(ANGLE);
         let angle = if random.unit() < QUARTERS {
             FRAC_PI_2 * (1 + random.below(3)) as f64
@@ -127,7 +127,7 @@ impl Scene<'_> {
         let [low, high] = self.bodies[body].bounds(&pose);
         let mut by = [0.0; 2];
         for k in 0..2 {
-            let (least, most) = (-low[k], self.side - high[k]);
+            let (least, most) = (-low[k], self.reach[k] - high[k]);
             if least > most + ROUGHLY {
                 return None;
             }

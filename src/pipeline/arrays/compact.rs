@@ -1,5 +1,6 @@
 //! Charts cut where that makes their atlas fuller.
 
+use super::candidate::{Candidate, MOST_COST, Search, wanted_words};
 use super::chart_maps::chart_maps;
 use crate::atlas::{AtlasError, AtlasOptions, Draft, OnRead, Scale, Texture};
 use crate::charts::{MappedChart, Split, seam_length};
@@ -13,14 +14,15 @@ const PRICE: f64 = 0.03;
 /// A further chart costs as much as a seam of this length, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
 /// Cuts at most for each page, in all and for each chart that there was.
-const MOST_CUTS: u64 = 18;
-const MOST_CUTS_PER_CHART: u64 = 14;
+const MOST_CUTS: usize = 18;
+const MOST_CUTS_PER_CHART: usize = 14;
 /// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
 pub const MOST_CHARTS: usize = 64;
-/// What cuts may cost at most, as a share of the square.
-const MOST_COST: f64 = 1.0;
-/// Words for packing without which one more cut is not looked at, which takes about as long as reading them.
-const WORDS_PER_CUT: u64 = 4_000_000;
+/// The words that looking for one more cut counts for.
+const WORDS_PER_CUT: u64 = 1_000_000;
+/// Cuts that are made before what comes of them is looked at, and how often in a row nothing better may come of them.
+const BATCH: usize = 4;
+const MOST_IDLE: usize = 2;
 
 /// Charts and a draft of their layout.
 pub struct Drafted {
@@ -52,121 +54,127 @@ pub fn compacted(
         Some(draft) if charts.len() <= MOST_CHARTS => draft,
         draft => return Ok(Drafted { charts, draft }),
     };
-    let words = options.search_words / 4 * 3;
-    let (n_charts, pages) = (charts.len() as u64, u64::from(options.texture.pages));
-    let wanted = most_charts.map_or(u64::MAX, u64::from);
-    let most_cuts = (wanted.saturating_sub(n_charts))
-        .min(MOST_CUTS * pages)
-        .min(MOST_CUTS_PER_CHART * n_charts * pages)
-        .min(words / WORDS_PER_CUT);
-    let candidates = candidates(
-        charts,
-        draft,
-        seam_price,
-        most_cuts as usize,
-        options,
-        on_read,
-    )?;
-    let Candidate { charts, draft, .. } = fullest(candidates, words, on_read);
+    let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
+    let most_cuts = most_cuts(charts.len(), options).min(wanted.saturating_sub(charts.len()));
+    let search = Search::new(charts.len(), most_cuts, options, on_read);
+    let candidates = candidates(Cutter::new(charts, draft, seam_price, &search), most_cuts)?;
+    let Candidate { charts, draft, .. } = search.fullest(candidates);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
         draft: Some(draft),
     })
 }
 
-/// Charts after some cuts.
-#[derive(Clone)]
-struct Candidate {
-    charts: Vec<Arc<MappedChart>>,
-    draft: Draft,
-    /// What the cuts cost, as a share of the square.
-    cost: f64,
-    /// The share of the square that they have to fill, where a scale is given.
-    wanted: Option<f64>,
+/// Cuts of so many charts at most.
+fn most_cuts(n_charts: usize, options: &AtlasOptions) -> usize {
+    options.texture.pages as usize * MOST_CUTS.min(MOST_CUTS_PER_CHART * n_charts)
 }
 
-impl Candidate {
-    /// The share of the square that is filled, less what the cuts cost. Where a scale is given what is filled beyond that is worth
-    /// nothing, and charts that fill it are worth more than any that do not.
-    fn value(&self) -> f64 {
-        let fill = self.draft.fill();
-        match self.wanted {
-            None => fill - self.cost,
-            Some(wanted) if fill < wanted => fill - wanted - MOST_COST,
-            Some(_) => -self.cost,
+/// The words that are read where so many charts are cut and all cuts are looked at, about.
+pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
+    let cuts = most_cuts(n_charts, options);
+    let numbers: Vec<usize> = (n_charts..=n_charts + cuts).collect();
+    let words = options.patience * wanted_words(&numbers);
+    WORDS_PER_CUT * cuts as u64 + words.min(options.search_words)
+}
+
+/// The charts as they are, after the cut that is worth most, after another, and so on, all looked at once. The end is where many
+/// cuts in a row bring nothing.
+fn candidates(mut cutter: Cutter, most_cuts: usize) -> Result<Vec<Candidate>, AtlasError> {
+    let search = cutter.search;
+    let mut candidates = vec![cutter.candidate.clone()];
+    let mut best = search.most_valued(&mut candidates);
+    let mut idle = 0;
+    while idle < MOST_IDLE {
+        let mut batch = Vec::new();
+        while batch.len() < BATCH
+            && candidates.len() + batch.len() <= most_cuts
+            && let Some(cut) = cutter.next()?
+        {
+            batch.push(cut);
         }
-    }
-}
-
-/// The charts as they are, after the cut that is worth most, after another, and so on.
-fn candidates(
-    charts: Vec<MappedChart>,
-    draft: Draft,
-    seam_price: f64,
-    most_cuts: usize,
-    options: &AtlasOptions,
-    on_read: &OnRead,
-) -> Result<Vec<Candidate>, AtlasError> {
-    let area = charts.iter().map(MappedChart::area).sum::<f64>();
-    let Texture { resolution, pages } = options.texture;
-    let [shorter, longer] = [resolution.shorter(), resolution.longer()].map(f64::from);
-    // A chart has to fit across a page that is not square, but may be longer than it is wide.
-    let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
-    let per_chart = PER_CHART * area.sqrt();
-    let seams = seam_length(&charts).max(area.sqrt()).max(f64::MIN_POSITIVE);
-    let price = PRICE * seam_price / seams;
-    let mut candidate = Candidate {
-        charts: charts.into_iter().map(Arc::new).collect(),
-        draft,
-        cost: 0.0,
-        wanted: match options.scale {
-            Scale::Largest => None,
-            Scale::TexelsPerUnit(texels) => {
-                Some(area * texels * texels / (shorter * longer * f64::from(pages)))
-            }
-        },
-    };
-    let mut splits = best_splits(&candidate.charts, of_page, on_read);
-    let mut candidates = vec![candidate.clone()];
-    while candidates.len() <= most_cuts
-        && candidate.cost < MOST_COST
-        && on_read(WORDS_PER_CUT) == Control::Continue
-    {
-        let Some((chart, split)) = most_worth(&splits) else {
+        if batch.is_empty() {
             break;
-        };
-        let parts = candidate.charts[chart].parted(split);
-        let Some(draft) = candidate.draft.replaced(chart, &chart_maps(&parts))? else {
-            break;
-        };
-        candidate.draft = draft;
-        candidate.cost += price * (split.length + per_chart);
-        candidate.charts.remove(chart);
-        splits.remove(chart);
-        let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
-        splits.extend(best_splits(&parts, of_page, on_read));
-        candidate.charts.extend(parts);
-        candidates.push(candidate.clone());
+        }
+        let value = search.most_valued(&mut batch);
+        candidates.extend(batch);
+        idle = if value > best { 0 } else { idle + 1 };
+        best = best.max(value);
     }
     Ok(candidates)
 }
 
-/// The candidate of most value, and a full layout of it.
-///
-/// All are searched equally long, those that are worth more go on, half as many and each twice as long, until two are left.
-/// From: Karnin, Koren, Somekh 2013, Almost Optimal Exploration in Multi-Armed Bandits (successive halving).
-fn fullest(mut candidates: Vec<Candidate>, words: u64, on_read: &OnRead) -> Candidate {
-    let rounds = u64::from(candidates.len().next_power_of_two().ilog2().max(1));
-    for round in 0..rounds {
-        let share = words / rounds / candidates.len() as u64;
-        let each = candidates.par_iter_mut().with_max_len(1);
-        each.for_each(|candidate| {
-            candidate.draft.improve(share, round, on_read);
-        });
-        candidates.sort_by(|a, b| b.value().total_cmp(&a.value()));
-        candidates.truncate(candidates.len().div_ceil(2));
+/// Cuts charts one by one.
+struct Cutter<'a> {
+    search: &'a Search<'a>,
+    candidate: Candidate,
+    /// For each chart the cut that is worth most.
+    splits: Vec<Option<Split>>,
+    /// The square root of a page's area.
+    of_page: f64,
+    /// What a length of seam costs, as a share of the square, and what a chart costs as a length.
+    price: f64,
+    per_chart: f64,
+}
+
+impl<'a> Cutter<'a> {
+    fn new(
+        charts: Vec<MappedChart>,
+        draft: Draft,
+        seam_price: f64,
+        search: &'a Search<'a>,
+    ) -> Self {
+        let options = search.options;
+        let area = charts.iter().map(MappedChart::area).sum::<f64>();
+        let Texture { resolution, pages } = options.texture;
+        let [shorter, longer] = [resolution.shorter(), resolution.longer()].map(f64::from);
+        let seams = seam_length(&charts).max(area.sqrt()).max(f64::MIN_POSITIVE);
+        // A chart has to fit across a page that is not square, but may be longer than it is wide.
+        let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
+        let charts: Vec<_> = charts.into_iter().map(Arc::new).collect();
+        Self {
+            search,
+            splits: best_splits(&charts, of_page, search.on_read),
+            candidate: Candidate {
+                charts,
+                draft,
+                cost: 0.0,
+                wanted: match options.scale {
+                    Scale::Largest => None,
+                    Scale::TexelsPerUnit(texels) => {
+                        Some(area * texels * texels / (shorter * longer * f64::from(pages)))
+                    }
+                },
+            },
+            of_page,
+            price: PRICE * seam_price / seams,
+            per_chart: PER_CHART * area.sqrt(),
+        }
     }
-    candidates.swap_remove(0)
+
+    /// The charts after one more cut, the one that is worth most; none where no chart can be cut, or none is worth it.
+    fn next(&mut self) -> Result<Option<Candidate>, AtlasError> {
+        let on_read = self.search.on_read;
+        let candidate = &mut self.candidate;
+        if candidate.cost >= MOST_COST || on_read(WORDS_PER_CUT) == Control::Finish {
+            return Ok(None);
+        }
+        let Some((chart, split)) = most_worth(&self.splits) else {
+            return Ok(None);
+        };
+        let parts = candidate.charts[chart].parted(split);
+        let Some(draft) = candidate.draft.replaced(chart, &chart_maps(&parts))? else {
+            return Ok(None);
+        };
+        candidate.draft = draft;
+        candidate.cost += self.price * (split.length + self.per_chart);
+        candidate.charts.remove(chart);
+        self.splits.remove(chart);
+        let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
+        (self.splits).extend(best_splits(&parts, self.of_page, on_read));
+        candidate.charts.extend(parts);
+        Ok(Some(candidate.clone()))
+    }
 }
 
 fn best_splits(charts: &[Arc<MappedChart>], unit: f64, on_read: &OnRead) -> Vec<Option<Split>> {

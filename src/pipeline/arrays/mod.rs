@@ -1,6 +1,7 @@
 //! From plain arrays to an atlas: meshes are welded, cut, mapped and packed; each shape is mapped once.
 
 pub(super) mod alike;
+mod candidate;
 mod chart_maps;
 mod clearance;
 mod compact;

@@ -1,29 +1,30 @@
 //! How charts are packed, from the settings.
 
 use super::clearance::texels_apart;
-use super::compact::MOST_CHARTS;
+use super::compact::{self, MOST_CHARTS};
 use super::plan::{Plan, Search};
 use super::settings::Settings;
-use crate::atlas::{AtlasOptions, Scale, Texture};
+use crate::atlas::{AtlasOptions, Look, Scale, Texture};
 use crate::charts::MappedChart;
 
-/// Words that packing all meshes of a document may read, those of one mesh for each of its faces, and the least and most of one: a
-/// hundred meshes shall not take a hundred times as long, nor small ones as long as large ones.
+/// Words that packing all meshes of a document may read, and the least and most of one: a hundred meshes shall not take a hundred times
+/// as long.
 const SEARCH_WORDS: u64 = 1_500_000_000;
-const SEARCH_WORDS_PER_FACE: u64 = 125_000;
 const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 600_000_000];
 /// The same of a mesh that is cut fast.
 const SEARCH_WORDS_IF_FAST: u64 = 10_000_000;
+/// What packing is thought to read for each face while the charts are not known, at least and at most.
+const LIKELY_WORDS_PER_FACE: u64 = 25_000;
+const LIKELY_WORDS: [u64; 2] = [1_000_000, 100_000_000];
 /// All meshes together read so many at most: those of crowds are placed once, and on the coarser a raster the more there are.
 const SEARCH_WORDS_OF_ALL: u64 = 16_000_000_000;
 const WORDS_PER_CELL: u64 = 16;
 const LEAST_CELLS: u32 = 128;
 
-/// How to pack the charts of one of so many meshes, which has so many faces.
+/// How to pack the charts of one of so many meshes.
 pub fn atlas_options(
     (settings, plan): (&Settings, &Plan),
     n_meshes: usize,
-    n_faces: usize,
     charts: &[MappedChart],
 ) -> AtlasOptions {
     let of_each = SEARCH_WORDS_OF_ALL / n_meshes as u64;
@@ -42,29 +43,35 @@ pub fn atlas_options(
         padding_texels: padding_texels(settings, plan),
         turns: plan.turns,
         borders: settings.borders,
-        search_words: search_words((settings, plan), n_meshes, n_faces),
+        patience: settings.layout.packing.passes(),
+        search_words: search_words((settings, plan), n_meshes),
         most_cells: cells.next_power_of_two().max(LEAST_CELLS),
     }
 }
 
-/// Words that packing one of so many meshes may read, which has so many faces.
-pub fn search_words((settings, plan): (&Settings, &Plan), n_meshes: usize, n_faces: usize) -> u64 {
+/// Words that packing one of so many meshes may read.
+fn search_words((settings, plan): (&Settings, &Plan), n_meshes: usize) -> u64 {
     let [least, most] = SEARCH_WORDS_OF_MESH;
-    let words = (SEARCH_WORDS / n_meshes as u64).min(SEARCH_WORDS_PER_FACE * n_faces as u64);
     let words = match plan.search {
         Search::Brief => SEARCH_WORDS_IF_FAST,
-        Search::Full => words.clamp(least, most),
+        Search::Full => (SEARCH_WORDS / n_meshes as u64).clamp(least, most),
     };
     settings.layout.packing.passes() * words.min(SEARCH_WORDS_OF_ALL / n_meshes as u64)
 }
 
-/// About how many words packing reads: looking for cuts takes most, and where charts are not cut the rest is all.
+/// Words that packing one of so many meshes is likely to read, which has so many faces.
+pub fn likely_words(of: (&Settings, &Plan), n_meshes: usize, n_faces: usize) -> u64 {
+    let [least, most] = LIKELY_WORDS;
+    let words = (LIKELY_WORDS_PER_FACE * n_faces as u64).clamp(least, most);
+    (of.0.layout.packing.passes() * words).min(search_words(of, n_meshes))
+}
+
+/// About how many words packing so many charts reads.
 pub fn expected_words(plan: &Plan, options: &AtlasOptions, n_charts: usize) -> u64 {
-    let words = options.search_words;
     if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
-        words + words / 8
+        compact::expected_words(n_charts, options)
     } else {
-        words / 4 + words / 16
+        options.patience * Look::Last.words(n_charts)
     }
 }
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::divided::Divided;
 use super::packed::packed;
-use super::packing::{atlas_options, expected_words, search_words};
+use super::packing::{atlas_options, expected_words, likely_words};
 use super::plan::Plan;
 use super::repeated::{self, GridCorners};
 use super::seams::Seams;
@@ -120,7 +120,7 @@ pub fn unwrap_all(
     let is_own: Vec<bool> = same_as.iter().map(Option::is_none).collect();
     let own = || (0..meshes.len()).filter(|&mesh| is_own[mesh]);
     let n_atlases = own().count();
-    let words = |mesh| search_words((settings, &plan), n_atlases, divided.n_faces(mesh));
+    let words = |mesh| likely_words((settings, &plan), n_atlases, divided.n_faces(mesh));
     let all_words = own().map(words).sum();
     tracker.expect(divided.n_mapped_faces(), all_words);
     let charts = divided.charts(&is_own, &plan, tracker);
@@ -131,15 +131,10 @@ pub fn unwrap_all(
             if !is_own[index] {
                 return Ok(None);
             }
-            let options = atlas_options(
-                (settings, &plan),
-                n_atlases,
-                divided.n_faces(index),
-                &charts,
-            );
+            let options = atlas_options((settings, &plan), n_atlases, &charts);
             let charts = weighted(charts, meshes[index].seams);
             let expected = expected_words(&plan, &options, charts.len());
-            let portion = Portion::of_atlas(tracker, options.search_words, expected);
+            let portion = Portion::of_atlas(tracker, words(index), expected);
             let on_read = |words| portion.read(words);
             packed(charts, &options, &plan, &on_read).map(Some)
         })

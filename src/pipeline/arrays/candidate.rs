@@ -1,0 +1,121 @@
+//! Charts to choose from, and the search for the fullest layout of any.
+
+use crate::atlas::{AtlasOptions, Draft, Look, OnRead};
+use crate::charts::MappedChart;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// What cuts may cost at most, as a share of the square.
+pub const MOST_COST: f64 = 1.0;
+/// What a layout may be less full whose charts are all upright that can be.
+const STRAIGHT: f64 = 0.01;
+/// How candidates are looked at, one look after the other, and how many of the best.
+const LOOKS: [(Look, usize); 3] = [
+    (Look::First, usize::MAX),
+    (Look::Second, 6),
+    (Look::Last, 2),
+];
+
+/// Charts after some cuts.
+#[derive(Clone)]
+pub struct Candidate {
+    pub charts: Vec<Arc<MappedChart>>,
+    pub draft: Draft,
+    /// What the cuts cost, as a share of the square.
+    pub cost: f64,
+    /// The share of the square that they have to fill, where a scale is given.
+    pub wanted: Option<f64>,
+}
+
+impl Candidate {
+    /// The share of the square that is filled, less what the cuts cost. Where a scale is given what is filled beyond that is worth
+    /// nothing, and charts that fill it are worth more than any that do not.
+    fn value(&self) -> f64 {
+        let fill = self.draft.fill();
+        match self.wanted {
+            None => fill - self.cost,
+            Some(wanted) if fill < wanted => fill - wanted - MOST_COST,
+            Some(_) => -self.cost,
+        }
+    }
+}
+
+/// A search for the candidate of most value.
+///
+/// All are looked at briefly, the best of them again, and the best of those for long.
+/// From: Karnin, Koren, Somekh 2013, Almost Optimal Exploration in Multi-Armed Bandits (successive halving).
+pub struct Search<'a> {
+    pub options: &'a AtlasOptions,
+    pub on_read: &'a OnRead<'a>,
+    /// The multiple of the words that looks usually read.
+    effort: f64,
+}
+
+impl<'a> Search<'a> {
+    pub fn new(
+        n_charts: usize,
+        most_cuts: usize,
+        options: &'a AtlasOptions,
+        on_read: &'a OnRead<'a>,
+    ) -> Self {
+        let numbers: Vec<usize> = (n_charts..=n_charts + most_cuts).collect();
+        let patience = options.patience as f64;
+        let wanted = patience * wanted_words(&numbers) as f64;
+        let share = options.search_words as f64 / wanted.max(1.0);
+        Self {
+            options,
+            on_read,
+            effort: patience * share.min(1.0),
+        }
+    }
+
+    /// Looks at a candidate.
+    fn look(&self, candidate: &mut Candidate, look: Look) {
+        let words = self.effort * look.words(candidate.draft.n_large()) as f64;
+        candidate.draft.improve(look, words as u64, self.on_read);
+    }
+
+    /// Looks at some candidates for the first time; the value of the best.
+    pub fn most_valued(&self, candidates: &mut [Candidate]) -> f64 {
+        let each = candidates.par_iter_mut().with_max_len(1);
+        each.for_each(|candidate| self.look(candidate, Look::First));
+        let values = candidates.iter().map(Candidate::value);
+        values.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The candidate of most value of some that were looked at once, and a full layout of it.
+    pub fn fullest(&self, mut candidates: Vec<Candidate>) -> Candidate {
+        let by_value = |a: &Candidate, b: &Candidate| b.value().total_cmp(&a.value());
+        candidates.sort_by(by_value);
+        for (look, n) in LOOKS.into_iter().skip(1) {
+            candidates.truncate(n);
+            let each = candidates.par_iter_mut().with_max_len(1);
+            each.for_each(|candidate| self.look(candidate, look));
+            candidates.sort_by(by_value);
+        }
+        let best = candidates.swap_remove(0);
+        let straight = self.straightened(&best);
+        straight.unwrap_or(best)
+    }
+
+    /// The same charts with those upright that lean, if that leaves the layout as full, about.
+    fn straightened(&self, best: &Candidate) -> Option<Candidate> {
+        let mut straight = Candidate {
+            draft: best.draft.straightened()?,
+            ..best.clone()
+        };
+        for look in [Look::Second, Look::Last] {
+            self.look(&mut straight, look);
+        }
+        (straight.value() >= best.value() - STRAIGHT).then_some(straight)
+    }
+}
+
+/// The words that looks at candidates of so many charts read, those with most charts being the best.
+pub fn wanted_words(numbers: &[usize]) -> u64 {
+    let words = |(look, n): (Look, usize)| -> u64 {
+        let best = &numbers[numbers.len().saturating_sub(n)..];
+        best.iter().map(|&n_charts| look.words(n_charts)).sum()
+    };
+    LOOKS.into_iter().map(words).sum()
+}
