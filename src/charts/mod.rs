@@ -38,6 +38,7 @@ mod observer;
 mod parts;
 mod regions;
 mod unfold;
+mod up;
 
 pub use bound::few_charts::charts_under_bound;
 pub use bound::quality::{Bound, Quality};

@@ -417,6 +417,33 @@ fn a_plane_stays_whole_unless_the_page_is_much_too_small_for_it() {
 }
 
 #[test]
+fn the_top_of_what_stands_is_up() {
+    for angle in [0.4, 2.0, -1.5] {
+        // Bent at its middle: the right half rises towards the viewer, all of it in y.
+        let mut chart = plate(&[[0, 0]], 0.5);
+        let (sin, cos) = f64::sin_cos(angle);
+        for p in &mut chart.embedding.uv {
+            *p = [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]];
+        }
+        let area = chart.area();
+        chart.turn_up();
+        assert!((chart.area() - area).abs() < 1e-9);
+        let positions = &chart.chart.positions;
+        let rise = |(p, uv): (&[f64; 3], &[f64; 2])| (p[1], uv[1]);
+        let pairs: Vec<(f64, f64)> = positions
+            .iter()
+            .zip(&chart.embedding.uv)
+            .map(rise)
+            .collect();
+        let slope = |(y, v): &(f64, f64)| (y - 0.5) * v;
+        let upward: f64 = pairs.iter().map(slope).sum();
+        let square: f64 = pairs.iter().map(|(y, _)| (y - 0.5).powi(2)).sum();
+        // Nearly parallel: what lies away from the viewer counts a twentieth.
+        assert!(upward / square > 0.99, "{angle}: {}", upward / square);
+    }
+}
+
+#[test]
 fn a_crumb_is_not_cut_off() {
     let chart = plate(&[[0, 0]], 0.5);
     let unit = chart.area().sqrt();

@@ -6,7 +6,7 @@ use super::chart_maps::chart_maps;
 use super::clearance::open_charts;
 use super::compact::{Drafted, compacted};
 use super::plan::Plan;
-use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale};
+use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale, Turns};
 use crate::charts::{Folds, MappedChart};
 use crate::pipeline::PipelineError;
 
@@ -24,11 +24,14 @@ const FEWER_PAGES: u64 = 4;
 
 /// The charts of one mesh in an atlas, at a scale that is given on as few pages as were found to do.
 pub fn packed(
-    charts: Vec<MappedChart>,
+    mut charts: Vec<MappedChart>,
     options: &AtlasOptions,
     plan: &Plan,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
+    if options.turns == Turns::Any {
+        charts.par_iter_mut().for_each(MappedChart::turn_up);
+    }
     let Scale::TexelsPerUnit(texels) = options.scale else {
         return Ok(settled(
             drafted(charts, options, plan, on_read)?,
