@@ -11,6 +11,7 @@ pub mod cholesky;
 pub mod conjugate_gradients;
 pub mod hull;
 pub mod linear_solver;
+pub mod point_tree;
 pub mod predicates;
 pub mod random;
 pub mod roots;

@@ -40,8 +40,8 @@ fn is_positive_definite<const D: usize>(matrix: &Matrix<D>) -> bool {
     true
 }
 
-/// Eigenvalues and, as rows, eigenvectors.
-fn eigen<const D: usize>(matrix: &Matrix<D>) -> ([f64; D], Matrix<D>) {
+/// Eigenvalues and, as rows, eigenvectors of length 1; in no order. By cyclic Jacobi rotations.
+pub fn eigen<const D: usize>(matrix: &Matrix<D>) -> ([f64; D], Matrix<D>) {
     const MAX_SWEEPS: usize = 20;
     let mut a = *matrix;
     let mut vectors: Matrix<D> = identity(1.0);

@@ -1,0 +1,108 @@
+//! The nearest of many points of space.
+
+/// Points below a node that are compared one by one.
+const LEAF: usize = 8;
+
+/// A k-d tree over points of space.
+#[derive(Clone, Debug)]
+pub struct PointTree {
+    points: Vec<[f64; 3]>,
+    /// The points in the order of the tree: the median of a range is in its middle, with what is below it on the left.
+    order: Vec<u32>,
+    /// The axis along which the range around each place is divided.
+    axis: Vec<u8>,
+}
+
+impl PointTree {
+    /// Of these points, in any order. O(n log n).
+    pub fn new(points: Vec<[f64; 3]>) -> Self {
+        let mut tree = Self {
+            order: (0..points.len() as u32).collect(),
+            axis: vec![0; points.len()],
+            points,
+        };
+        let mut open = vec![(0, tree.points.len())];
+        while let Some((start, end)) = open.pop() {
+            let range = start..end;
+            if range.len() <= LEAF {
+                continue;
+            }
+            let middle = usize::midpoint(start, end);
+            let axis = tree.widest_axis(&tree.order[range.clone()]);
+            let points = &tree.points;
+            let key = |v: &u32| points[*v as usize][axis];
+            tree.order[range.clone()].select_nth_unstable_by(middle - start, |a, b| {
+                key(a).total_cmp(&key(b)).then(a.cmp(b))
+            });
+            tree.axis[middle] = axis as u8;
+            open.push((start, middle));
+            open.push((middle + 1, end));
+        }
+        tree
+    }
+
+    /// The points.
+    pub fn points(&self) -> &[[f64; 3]] {
+        &self.points
+    }
+
+    /// The nearest point of which `accepts` holds, closer than `reach`, the lowest number of equals; and its distance.
+    pub fn nearest(
+        &self,
+        to: [f64; 3],
+        reach: f64,
+        accepts: impl Fn(u32) -> bool,
+    ) -> Option<(u32, f64)> {
+        let mut best = (reach * reach, u32::MAX);
+        let mut open = vec![(0, self.order.len(), 0.0)];
+        while let Some((start, end, away)) = open.pop() {
+            if away > best.0 {
+                continue;
+            }
+            if end - start <= LEAF {
+                for &v in &self.order[start..end] {
+                    self.compare(v, to, &accepts, &mut best);
+                }
+                continue;
+            }
+            let middle = usize::midpoint(start, end);
+            let axis = usize::from(self.axis[middle]);
+            let v = self.order[middle];
+            self.compare(v, to, &accepts, &mut best);
+            let beyond = to[axis] - self.points[v as usize][axis];
+            let (near, far) = if beyond < 0.0 {
+                ((start, middle), (middle + 1, end))
+            } else {
+                ((middle + 1, end), (start, middle))
+            };
+            open.push((far.0, far.1, beyond * beyond));
+            open.push((near.0, near.1, away));
+        }
+        (best.1 != u32::MAX).then(|| (best.1, best.0.sqrt()))
+    }
+
+    fn compare(&self, v: u32, to: [f64; 3], accepts: &impl Fn(u32) -> bool, best: &mut (f64, u32)) {
+        let p = self.points[v as usize];
+        let squared = (0..3).map(|k| (p[k] - to[k]).powi(2)).sum::<f64>();
+        if (squared < best.0 || (squared == best.0 && v < best.1)) && accepts(v) {
+            *best = (squared, v);
+        }
+    }
+
+    fn widest_axis(&self, order: &[u32]) -> usize {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for &v in order {
+            let p = self.points[v as usize];
+            for k in 0..3 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        let width = |k: usize| high[k] - low[k];
+        (1..3).fold(
+            0,
+            |widest, k| if width(k) > width(widest) { k } else { widest },
+        )
+    }
+}
