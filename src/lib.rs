@@ -136,6 +136,9 @@
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as a draft of the
 //!   atlas gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
+//! - A surface that is its own mirror image, exactly or nearly, is cut alike on both sides. It is not halved: seams are planned on the
+//!   whole, and each is drawn once more along the cheapest edges near its mirror image, so that it does not matter whether
+//!   the triangles are mirrored, too.
 //! - Placing charts one after the other leaves room between them. All of a page move and turn at once afterward,
 //!   pushed apart by Levenberg's method on rasters of their distances while the page shrinks, and end exactly as far from each
 //!   other as they must be; a raster decides only where that fails, and for crowds.

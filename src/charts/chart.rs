@@ -1,7 +1,9 @@
 //! Charts: parts of a surface opened to disks.
 
 use super::regions::within_cones::regions;
-use crate::cut::{Branches, Sheet, isolate_doubled_edges, join_disks, open_to_disk};
+use super::symmetry::opening::opened_alike;
+use super::symmetry::plane::MirrorPlane;
+use crate::cut::{Branches, Sheet, isolate_doubled_edges, join_disks};
 use crate::mesh::{CUT, Disk, Surface, UnionFind, spread};
 use crate::numerics::vec3::{area_vector, norm};
 use rayon::prelude::*;
@@ -36,10 +38,17 @@ pub struct Chart {
     /// For each triangle's corners the corners `3 t + c` of the surface they come from; a triangle wound the other way than
     /// its chart has them in reverse order.
     pub corners: Vec<[u32; 3]>,
+    /// The plane in which the surface is mirrored that the chart is a part of, if it is cut alike on both sides.
+    pub mirror: Option<MirrorPlane>,
 }
 
 /// The charts of a surface, ordered by their first triangles. Deterministic, for any number of threads.
 pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
+    charts_alike(surface, cut, None)
+}
+
+/// The same, opened alike on both sides of a plane.
+pub(super) fn charts_alike(surface: &Surface, cut: Cut, mirror: Option<MirrorPlane>) -> Vec<Chart> {
     let adjacency = surface.adjacency();
     let (region, n_regions) = match cut {
         Cut::Fast => regions(surface),
@@ -51,11 +60,11 @@ pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
         Cut::Auto | Cut::Keep | Cut::Seams => Branches::None,
         Cut::Fast | Cut::Disk => Branches::ToLimbs,
     };
-    let mut twin = opened(surface, &region, n_regions, branches);
+    let mut twin = opened(surface, &region, n_regions, (branches, mirror));
     if cut == Cut::Disk && !surface.is_cut() {
         join_disks(surface, &mut twin);
     }
-    charts_glued(surface, &twin)
+    charts_glued(surface, &twin, mirror)
 }
 
 /// The charts of given regions of a surface, each opened to a disk; `region` labels triangles.
@@ -65,18 +74,24 @@ pub(super) fn charts_of_regions(
     n_regions: usize,
     branches: Branches,
 ) -> Vec<Chart> {
-    charts_glued(surface, &opened(surface, region, n_regions, branches))
+    let twin = opened(surface, region, n_regions, (branches, None));
+    charts_glued(surface, &twin, None)
 }
 
 /// The gluing that is left when regions are parted and opened to disks.
-fn opened(surface: &Surface, region: &[u32], n_regions: usize, branches: Branches) -> Vec<u32> {
+fn opened(
+    surface: &Surface,
+    region: &[u32],
+    n_regions: usize,
+    (branches, mirror): (Branches, Option<MirrorPlane>),
+) -> Vec<u32> {
     let adjacency = surface.adjacency();
     let mesh = (&*surface.triangles, &*surface.positions);
     let sheets = Sheet::divide(mesh, &adjacency.twin, region, n_regions);
     let mut twin = glued_within(&adjacency.twin, region);
     let seams: Vec<Vec<u32>> = sheets
         .par_iter()
-        .map(|sheet| open_to_disk(sheet, branches))
+        .map(|sheet| opened_alike(sheet, branches, mirror.as_ref()))
         .collect();
     for (sheet, seams) in sheets.iter().zip(seams) {
         for h in seams {
@@ -91,12 +106,13 @@ fn opened(surface: &Surface, region: &[u32], n_regions: usize, branches: Branche
 }
 
 /// The charts that a gluing leaves.
-fn charts_glued(surface: &Surface, twin: &[u32]) -> Vec<Chart> {
+fn charts_glued(surface: &Surface, twin: &[u32], mirror: Option<MirrorPlane>) -> Vec<Chart> {
     let mesh = (&*surface.triangles, &*surface.positions);
     let (label, n_charts) = connected_faces(twin);
     Sheet::divide(mesh, twin, &label, n_charts)
         .into_par_iter()
         .flat_map_iter(|sheet| open(surface, sheet))
+        .map(|chart| Chart { mirror, ..chart })
         .collect()
 }
 
@@ -137,6 +153,7 @@ fn open(surface: &Surface, sheet: Sheet) -> Vec<Chart> {
             positions: sheet.positions,
             disk,
             corners,
+            mirror: None,
         }],
         Err(reason) => {
             debug_assert!(false, "opened to no disk: {reason}");
@@ -156,6 +173,7 @@ impl Chart {
             positions: positions.to_vec(),
             disk: Disk::new(3, vec![[0, 1, 2]]).ok()?,
             corners: vec![corners],
+            mirror: None,
         })
     }
 

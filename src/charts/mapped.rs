@@ -1,7 +1,9 @@
 //! Charts with their maps.
 
+use super::chart::connected_faces;
 use super::observer::Observer;
 use super::parts::{parted, parts};
+use super::symmetry::image::cut_alike;
 use super::unfold::overlaps::{lengths, one_side, overlaps};
 use super::unfold::push_apart::pushed_apart;
 use super::{Chart, halves};
@@ -191,7 +193,13 @@ impl MappedChart {
         let twin = self.chart.disk.twins();
         let length = lengths(&self.chart.disk, &self.chart.positions);
         let side = one_side(&twin, &length, pairs, control);
-        parts(&self.chart, &parted(&twin, &side))
+        let is_apart = |twin: &Vec<u32>| {
+            let (part, _) = connected_faces(twin);
+            (pairs.iter()).any(|pair| part[pair[0] as usize] != part[pair[1] as usize])
+        };
+        let twin = (cut_alike(&self.chart, &side).filter(is_apart))
+            .unwrap_or_else(|| parted(&twin, &side));
+        parts(&self.chart, &twin)
             .into_iter()
             .map(|(chart, faces)| (self.restricted(chart, &faces), faces))
             .collect()
@@ -204,6 +212,9 @@ impl MappedChart {
         }
         for p in &mut self.chart.positions {
             *p = p.map(|x| size * x);
+        }
+        if let Some(plane) = &mut self.chart.mirror {
+            plane.offset *= size;
         }
     }
 

@@ -13,6 +13,10 @@
 //! Before that [`Cut::Auto`] looks for components that can be laid flat in a few pieces, such as machine parts and sheet metal:
 //! they are cut along their creases and keep all lengths (`creases`).
 //!
+//! With [`Symmetry::Auto`] it looks for the plane in which a surface is its own mirror image, exactly or nearly, and cuts both
+//! sides alike (`symmetry`): openings run in the plane, slits come in pairs, and what is parted or given back on one side is on
+//! the other.
+//!
 //! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
 //!
 //! Few charts are spiky, and spiky charts leave much of a square empty. [`MappedChart::best_split`] says where to cut one so that
@@ -37,14 +41,14 @@ mod min_cut;
 mod observer;
 mod parts;
 mod regions;
+mod symmetry;
 mod unfold;
 mod up;
 
-pub use bound::few_charts::charts_under_bound;
+pub use bound::few_charts::{Symmetry, charts_under_bound};
 pub use bound::quality::{Bound, Quality};
 pub use chart::{Chart, Cut, charts};
-pub use compact::best_split::seam_length;
-pub use compact::splitter::Split;
+pub use compact::split::{Split, parted_alike, seam_length};
 pub use give_back::given_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};

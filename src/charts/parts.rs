@@ -32,12 +32,12 @@ pub fn twins_among(twin: &[u32], faces: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-/// The gluing without the edges at which `is_inside` changes.
-pub fn parted(twin: &[u32], is_inside: &[bool]) -> Vec<u32> {
+/// The gluing without the edges at which the part changes.
+pub fn parted<T: PartialEq>(twin: &[u32], part: &[T]) -> Vec<u32> {
     (0..)
         .zip(twin)
         .map(|(h, &t): (usize, _)| {
-            let apart = t == CUT || is_inside[h / 3] != is_inside[t as usize / 3];
+            let apart = t == CUT || part[h / 3] != part[t as usize / 3];
             if apart { CUT } else { t }
         })
         .collect()
@@ -52,6 +52,7 @@ fn part(chart: &Chart, sheet: Sheet) -> Vec<(Chart, Vec<u32>)> {
             let part = Chart {
                 corners: sheet.triangles.iter().map(corners).collect(),
                 positions: sheet.positions,
+                mirror: chart.mirror,
                 disk,
             };
             vec![(part, sheet.triangles)]

@@ -23,7 +23,7 @@ mod open;
 mod sheet;
 mod slit;
 
-pub use distances::{Neighbors, distances_until};
+pub use distances::{Neighbors, distances, distances_until, opposite_end};
 pub use doubled::isolate_doubled_edges;
 pub use join::join_disks;
 pub use open::open_to_disk;

@@ -82,6 +82,12 @@ impl Sheet {
         distance(a, b)
     }
 
+    /// The middle of a halfedge.
+    pub fn middle(&self, h: u32) -> [f64; 3] {
+        let [a, b] = self.ends(h).map(|v| self.positions[v as usize]);
+        [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]))
+    }
+
     /// One halfedge of each edge.
     pub fn edges(&self) -> impl Iterator<Item = u32> {
         (0u32..)

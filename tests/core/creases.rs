@@ -2,7 +2,7 @@
 
 use crate::zoo::{self, Mesh};
 use unwrapd::certificate::{Claims, certify};
-use unwrapd::charts::{Bound, MappedChart, Unobserved, charts_under_bound};
+use unwrapd::charts::{Bound, MappedChart, Symmetry, Unobserved, charts_under_bound};
 use unwrapd::embed::Options;
 use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::Surface;
@@ -26,7 +26,7 @@ fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
         mean: 4.1,
         stretch: None,
     };
-    charts_under_bound(&surface, &bound, &options, &Unobserved)
+    charts_under_bound(&surface, &bound, &options, Symmetry::Auto, &Unobserved)
 }
 
 /// For each side of a triangle its length in the map over that on the surface.

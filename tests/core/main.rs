@@ -74,6 +74,7 @@ mod session;
 #[cfg(feature = "files")]
 mod simple_polygons;
 mod solver;
+mod symmetry;
 mod taylor;
 mod terms;
 mod texture_mapping;

@@ -20,6 +20,7 @@ fn chart<K: Ord + Copy>(triangles: &[[K; 3]], place: impl Fn(K) -> [f64; 2]) -> 
     let triangles: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(&mut vertex)).collect();
     let corners = (0..triangles.len() as u32).map(|t| [0, 1, 2].map(|c| 3 * t + c));
     let chart = Chart {
+        mirror: None,
         positions: uv.iter().map(|&[x, y]| [x, y, 0.0]).collect(),
         corners: corners.collect(),
         disk: Disk::new(uv.len(), triangles).expect("a disk with holes"),

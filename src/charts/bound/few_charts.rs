@@ -5,16 +5,18 @@ use super::quality::Bound;
 use super::rounds::{mean_excess, rounds};
 use super::simplified::Simplified;
 use super::slits::Slits;
-use crate::charts::chart::{Chart, Cut, charts};
+use crate::charts::chart::{Chart, Cut, charts, charts_alike};
 use crate::charts::creases::hard_components::hard_components;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
 use crate::charts::observer::Observer;
+use crate::charts::symmetry::search::mirror_plane;
 use crate::embed::{self, is_needle};
 use crate::mesh::Surface;
 use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::Control;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Triangles of a chart from which on its first slits are planned on a simplification, and the vertices of that.
 const LARGE: usize = 60_000;
@@ -22,6 +24,18 @@ const SIMPLE: usize = 10_000;
 
 /// Newton steps at most on a chart of needles, which go on for hundreds without gaining a shape.
 const STEPS_FOR_NEEDLES: usize = 10;
+
+/// Whether surfaces that are their own mirror images are cut alike on both sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+pub enum Symmetry {
+    /// Find a mirror plane, exact or near, and cut alike on both sides of it.
+    #[default]
+    Auto,
+    /// Cut without regard to mirror planes.
+    Off,
+}
 
 /// The charts of a surface, mapped, whose mean symmetric Dirichlet energy keeps the bound where that can be had.
 ///
@@ -35,6 +49,7 @@ pub fn charts_under_bound(
     surface: &Surface,
     bound: &Bound,
     options: &embed::Options,
+    symmetry: Symmetry,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     if is_mostly_needles(surface) {
@@ -51,7 +66,15 @@ pub fn charts_under_bound(
         hard.clear();
     }
     let is_soft = |chart: &Chart| !is_hard[chart.corners[0][0] as usize / 3];
-    let soft = |cut| charts(surface, cut).into_iter().filter(is_soft).collect();
+    let is_any_soft = is_hard.contains(&false);
+    let mirror = match symmetry {
+        Symmetry::Auto if is_any_soft => mirror_plane(surface),
+        _ => None,
+    };
+    let soft = |cut| {
+        let charts = charts_alike(surface, cut, mirror);
+        charts.into_iter().filter(is_soft).collect()
+    };
     let soft = soft_charts(surface, &soft, bound, options, observer);
     maps(hard).chain(soft).collect()
 }

@@ -10,3 +10,4 @@ pub(super) mod quality;
 pub(super) mod rounds;
 mod simplified;
 mod slits;
+mod slits_alike;

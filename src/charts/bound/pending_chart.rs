@@ -54,6 +54,15 @@ impl Piece {
 
     /// Plans a slit, or several; false if there is nothing to slit.
     pub fn cut(&mut self, is_far: bool) -> bool {
+        self.planned(|slits| slits.cut(is_far))
+    }
+
+    /// Plans slits along lines, see [`Predicted::cut_along`].
+    pub fn cut_along(&mut self, lines: &[Vec<[f64; 3]>]) -> bool {
+        self.planned(|slits| slits.cut_along(lines))
+    }
+
+    fn planned(&mut self, plan: impl FnOnce(&mut Predicted) -> bool) -> bool {
         let slits = match (&mut self.slits, &self.map) {
             (Some(slits), _) => slits,
             (none, Some(map)) => {
@@ -65,11 +74,28 @@ impl Piece {
             }
             (None, None) => return false,
         };
-        let is_cut = slits.cut(is_far);
+        let is_cut = plan(slits);
         if is_cut {
             self.excess = self.ratio * slits.excess;
         }
         is_cut
+    }
+
+    /// The mirror images of the slits that are planned, but for so many.
+    pub fn images(&self, n_first: usize) -> Vec<Vec<[f64; 3]>> {
+        self.slits()
+            .map_or(Vec::new(), |slits| slits.images(n_first))
+    }
+
+    /// How many slits are planned.
+    pub fn n_slits(&self) -> usize {
+        self.slits().map_or(0, |slits| slits.lines.len())
+    }
+
+    /// The chart that is slit or mapped.
+    pub fn chart(&self) -> Option<&Chart> {
+        let mapped = self.map.as_ref().map(|map| &map.chart);
+        self.slits().map(Slits::chart).or(mapped)
     }
 
     /// Mapped, unless it is and no slit is new.
@@ -108,9 +134,7 @@ impl Piece {
 
     /// A triangle of the surface that is in it.
     pub fn first_face(&self) -> u32 {
-        let planned = self.slits().map(|slits| slits.chart().corners[0][0] / 3);
-        let mapped = self.map.as_ref().map(|map| map.chart.corners[0][0] / 3);
-        planned.or(mapped).unwrap_or(0)
+        self.chart().map_or(0, |chart| chart.corners[0][0] / 3)
     }
 
     /// The slits that are planned.
@@ -120,8 +144,6 @@ impl Piece {
 
     /// Its triangles.
     pub fn n_faces(&self) -> usize {
-        let mapped = self.map.as_ref().map(|map| map.chart.disk.triangles.len());
-        let planned = || self.slits().map(|slits| slits.mesh().0.len());
-        mapped.or_else(planned).unwrap_or(0)
+        self.chart().map_or(0, |chart| chart.disk.triangles.len())
     }
 }

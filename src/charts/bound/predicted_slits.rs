@@ -51,21 +51,40 @@ impl Predicted {
         };
         // The tips of the slits and their lengths.
         let mut new: Vec<([f64; 3], f64)> = Vec::new();
-        while new.len() < most {
+        for _ in 0..most {
             let Some(tip) = self.worst_vertex(&new) else {
                 break;
             };
             let Some(length) = self.slits.slit_to(tip) else {
                 break;
             };
-            new.push((self.slits.mesh().1[tip as usize], length));
+            let place = self.slits.mesh().1[tip as usize];
+            new.push((place, length));
+            new.extend(self.slits.image(place).map(|image| (image, length)));
         }
         if new.is_empty() && (self.slits.is_cut() || !self.slits.slit_from_largest_hole()) {
             return false;
         }
+        self.predict();
+        true
+    }
+
+    /// Slits the chart along lines, each from the seam that it leads to; false if none can be drawn. One factorization.
+    pub fn cut_along(&mut self, lines: &[Vec<[f64; 3]>]) -> bool {
+        let n_before = self.slits.lines.len();
+        for line in lines {
+            self.slits.slit_along(line);
+        }
+        let is_cut = self.slits.lines.len() > n_before;
+        if is_cut {
+            self.predict();
+        }
+        is_cut
+    }
+
+    fn predict(&mut self) {
         self.log_scale = self.predictor.log_scale(&self.slits.is_seam());
         self.excess = self.predictor.excess(&self.log_scale);
-        true
     }
 
     /// The vertex off the seams whose scale is farthest from 1, not near the new slits.

@@ -4,7 +4,9 @@ use super::distortion::stretched_area;
 use super::pending_chart::Piece;
 use super::quality::Bound;
 use super::slits::Slits;
+use crate::charts::chart::Chart;
 use crate::charts::observer::Observer;
+use crate::charts::symmetry::counterpart::counterparts;
 use crate::embed;
 use crate::solver::Control;
 use rayon::prelude::*;
@@ -78,6 +80,7 @@ pub fn rounds(
 fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
     let area: f64 = pieces.iter().map(|piece| piece.area).sum();
     let mut is_done = vec![false; pieces.len()];
+    let counterpart = counterparts_of(pieces);
     let mut expected: f64 = pieces.iter().map(|piece| piece.excess).sum();
     while expected > wanted * area && observer.control() == Control::Continue {
         let open = (0..pieces.len()).filter(|&i| !is_done[i]);
@@ -91,10 +94,25 @@ fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
         expected -= pieces[worst].excess;
         // Far from the goal several slits at once do as well as one after the other.
         let is_far = expected > 2.0 * wanted * area;
+        let n_slits = pieces[worst].n_slits();
         is_done[worst] = !pieces[worst].cut(is_far);
         observer.worked(pieces[worst].n_faces());
         expected += pieces[worst].excess;
+        if let Some(other) = counterpart[worst] {
+            let images = pieces[worst].images(n_slits);
+            expected -= pieces[other].excess;
+            pieces[other].cut_along(&images);
+            observer.worked(pieces[other].n_faces());
+            expected += pieces[other].excess;
+        }
     }
+}
+
+/// For each piece the other that is its mirror image.
+fn counterparts_of(pieces: &[Piece]) -> Vec<Option<usize>> {
+    let charts: Option<Vec<&Chart>> = pieces.iter().map(Piece::chart).collect();
+    let charts = charts.filter(|charts| charts.iter().any(|chart| chart.mirror.is_some()));
+    charts.map_or(vec![None; pieces.len()], |charts| counterparts(&charts))
 }
 
 /// The excess of all pieces over their area.

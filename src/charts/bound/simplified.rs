@@ -24,6 +24,7 @@ impl Simplified {
                 corners: (0..disk.triangles.len() as u32)
                     .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
                     .collect(),
+                mirror: chart.mirror,
                 disk,
             },
         })

@@ -3,22 +3,28 @@
 use crate::charts::Chart;
 use crate::charts::crease::edge_costs;
 use crate::charts::parts::parts;
-use crate::cut::{Neighbors, Sheet, distances_until};
+use crate::charts::symmetry::sheet_mirror::SheetMirror;
+use crate::charts::symmetry::way::Way;
+use crate::cut::{Neighbors, Sheet};
 use crate::mesh::CUT;
 
 /// A chart and the slits that are planned in it.
 pub struct Slits {
     chart: Chart,
-    sheet: Sheet,
-    neighbors: Neighbors,
+    pub(super) sheet: Sheet,
+    pub(super) neighbors: Neighbors,
     /// For each halfedge what a seam along it costs.
-    cost: Vec<f64>,
+    pub(super) cost: Vec<f64>,
     /// For each vertex of the sheet the loop of the boundary that it lies on, or whose slits it lies on; that with most edges is 0.
-    seam: Vec<Option<u32>>,
+    pub(super) seam: Vec<Option<u32>>,
     /// Where slits were begun, in their order: a vertex inside, or one of a hole.
-    tips: Vec<u32>,
+    pub(super) tips: Vec<u32>,
     /// Halfedges along the slits.
     edges: Vec<u32>,
+    /// Their vertices, each from the seam that it was drawn to.
+    pub(super) lines: Vec<Vec<[f64; 3]>>,
+    /// The plane in which the chart is its own mirror image.
+    pub(super) mirror: Option<SheetMirror>,
 }
 
 impl Slits {
@@ -29,11 +35,13 @@ impl Slits {
         let mesh = (&*chart.disk.triangles, &*chart.positions);
         let sheet = Sheet::divide(mesh, &twin, &label, 1).swap_remove(0);
         Self {
+            mirror: (chart.mirror.as_ref()).and_then(|plane| SheetMirror::of(&sheet, plane)),
             neighbors: Neighbors::new(&sheet),
             cost: edge_costs(&sheet),
             seam: boundary_loops(&chart, &sheet),
             tips: Vec::new(),
             edges: Vec::new(),
+            lines: Vec::new(),
             chart,
             sheet,
         }
@@ -83,12 +91,15 @@ impl Slits {
 
     /// Plans the cheapest slit from the nearest seam to a vertex inside: its length; none if there is no seam.
     ///
-    /// A hole that it starts at is slit on from.
+    /// A hole that it starts at is slit on from. A chart that is its own mirror image is slit alike on the other side.
     pub fn slit_to(&mut self, tip: u32) -> Option<f64> {
-        let (length, hole) = self.slit([tip], None)?;
+        if let Some(mirror) = self.mirror {
+            return self.slit_alike(tip, &mirror);
+        }
+        let way = self.way([tip], None, |h| self.cost[h as usize])?;
         self.tips.push(tip);
-        self.open(hole);
-        Some(length)
+        self.draw(&way);
+        Some(way.length(&self.sheet))
     }
 
     /// Plans the cheapest slit from the hole with most edges to another seam; false if there is no hole.
@@ -117,45 +128,55 @@ impl Slits {
     ///
     /// A hole alone leaves the surface around it as it is. One with slits to it opens, and the surface wrapped around it could be
     /// laid into the plane only as a ring.
-    fn open(&mut self, hole: u32) -> bool {
-        let mut seam = hole;
-        while seam != 0 {
-            let of_seam = |(v, s): (u32, &Option<u32>)| (*s == Some(seam)).then_some(v);
-            let from: Vec<u32> = (0..).zip(&self.seam).filter_map(of_seam).collect();
-            let Some((_, reached)) = self.slit(from, Some(seam)) else {
-                break;
-            };
-            for of_vertex in self.seam.iter_mut().filter(|s| **s == Some(seam)) {
-                *of_vertex = Some(reached);
-            }
-            seam = reached;
+    pub(super) fn open(&mut self, hole: u32) -> bool {
+        if hole == 0 {
+            return false;
         }
-        seam != hole
+        let way = match self.mirror {
+            Some(mirror) => self.way_from_hole(hole, &mirror),
+            None => self.way(self.of_seam(hole), Some(hole), |h| self.cost[h as usize]),
+        };
+        let Some(way) = way else {
+            return false;
+        };
+        self.draw(&way);
+        if let Some(mirror) = self.mirror {
+            self.draw_image_of_hole(&way, &mirror);
+        }
+        true
     }
 
-    /// Plans the cheapest slit from some vertices to a seam other than their own: its length and the seam it belongs to from now on.
-    fn slit(
-        &mut self,
+    /// The vertices of a seam.
+    pub(super) fn of_seam(&self, seam: u32) -> Vec<u32> {
+        let of_seam = |(v, s): (u32, &Option<u32>)| (*s == Some(seam)).then_some(v);
+        (0..).zip(&self.seam).filter_map(of_seam).collect()
+    }
+
+    /// The cheapest way from some vertices to a seam other than their own.
+    pub(super) fn way(
+        &self,
         from: impl IntoIterator<Item = u32>,
         own: Option<u32>,
-    ) -> Option<(f64, u32)> {
-        let (distances, end) = distances_until(
-            &self.sheet,
-            &self.neighbors,
-            from,
-            |h| self.cost[h as usize],
-            |v| self.seam[v as usize].is_some_and(|seam| Some(seam) != own),
-        );
-        let reached = self.seam[end? as usize];
-        let path: Vec<u32> = distances.path(&self.sheet, end?).collect();
-        for &h in &path {
-            for v in self.sheet.ends(h) {
-                self.seam[v as usize] = reached;
-            }
+        cost: impl Fn(u32) -> f64,
+    ) -> Option<Way> {
+        let is_goal = |v: u32| self.seam[v as usize].is_some_and(|seam| Some(seam) != own);
+        Way::cheapest(&self.sheet, &self.neighbors, from, cost, is_goal)
+    }
+
+    /// Plans a slit along a way to a seam. What seam the way began at belongs to that from now on, and if it is a hole it is slit on
+    /// from.
+    pub(super) fn draw(&mut self, way: &Way) {
+        let own = self.seam[way.start() as usize];
+        let reached = self.seam[way.end() as usize];
+        for v in own.map_or(Vec::new(), |own| self.of_seam(own)) {
+            self.seam[v as usize] = reached;
         }
-        let length = path.iter().map(|&h| self.sheet.length(h)).sum();
-        self.edges.extend(path);
-        Some((length, reached?))
+        for &v in &way.vertices {
+            self.seam[v as usize] = reached;
+        }
+        self.edges.extend(&way.edges);
+        self.lines.push(way.positions(&self.sheet));
+        self.open(reached.unwrap_or(0));
     }
 
     /// Whether a slit is planned.

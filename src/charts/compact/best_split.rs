@@ -1,11 +1,10 @@
 //! Charts cut into pieces that fill their convex hulls better, so that they leave less of a square empty.
 
 use super::chord::{Chord, chords};
-use super::splitter::{Split, Splitter};
+use super::split::Split;
+use super::splitter::Splitter;
 use crate::charts::MappedChart;
-use crate::charts::parts::{parted, parts};
 use crate::cut::Sheet;
-use crate::numerics::vec3::distance;
 use crate::solver::Control;
 
 /// Seams along chords of which the best counts, and chords at most that are tried for them: near some there is none.
@@ -28,7 +27,7 @@ impl MappedChart {
         let sheet = Sheet::divide(mesh, &disk.twins(), &labels, 1).pop()?;
         let splitter = Splitter::new(self, &sheet, unit);
         let mut chords = chords(&splitter.clusters, splitter.crumb, splitter.square);
-        let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, chord.length);
+        let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, (chord.length, 1));
         chords.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
         chords.dedup_by(|a, b| a.is_like(b));
         let tried = chords.iter().take(TRIED).take_while(|_| goes_on());
@@ -38,31 +37,4 @@ impl MappedChart {
             .max_by(|a, b| a.worth.total_cmp(&b.worth));
         best.filter(|_| goes_on())
     }
-
-    /// The two parts, mapped as the whole is, each seen from its front.
-    pub fn parted(&self, split: &Split) -> Vec<Self> {
-        let twin = parted(&self.chart.disk.twins(), &split.is_piece);
-        parts(&self.chart, &twin)
-            .into_iter()
-            .map(|(chart, faces)| self.restricted(chart, &faces).facing_front())
-            .collect()
-    }
-}
-
-/// Length on the surface of the seams of some charts: the edges at which their boundaries have two sides.
-pub fn seam_length(charts: &[MappedChart]) -> f64 {
-    let mut lengths: Vec<([[u64; 3]; 2], f64)> = Vec::new();
-    for MappedChart { chart, .. } in charts {
-        let loops = chart.disk.loops.iter();
-        let edges = loops.flat_map(|of| of.iter().zip(of.iter().cycle().skip(1)));
-        lengths.extend(edges.map(|(&a, &b)| {
-            let [p, q] = [a, b].map(|v| chart.positions[v as usize]);
-            let mut ends = [p, q].map(|p| p.map(f64::to_bits));
-            ends.sort_unstable();
-            (ends, distance(p, q))
-        }));
-    }
-    lengths.sort_unstable_by_key(|&(ends, _)| ends);
-    let sides = lengths.chunk_by(|a, b| a.0 == b.0);
-    sides.filter(|of| of.len() > 1).map(|of| of[0].1).sum()
 }

@@ -4,4 +4,5 @@ pub(super) mod best_split;
 mod chord;
 mod clusters;
 mod planes;
-pub(super) mod splitter;
+pub(super) mod split;
+mod splitter;

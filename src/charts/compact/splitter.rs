@@ -3,11 +3,13 @@
 use super::chord::Chord;
 use super::clusters::Clusters;
 use super::planes::Planes;
+use super::split::Split;
 use crate::charts::MappedChart;
 use crate::charts::chart::connected_faces;
 use crate::charts::crease::edge_costs;
 use crate::charts::min_cut::min_cut;
 use crate::charts::parts::{parted, twins_among};
+use crate::charts::symmetry::image::{Canvas, InPlane};
 use crate::charts::unfold::overlaps::capacities;
 use crate::cut::Sheet;
 use crate::mesh::CUT;
@@ -31,17 +33,6 @@ const NEVER: f64 = 1e3;
 /// A chart is too large for the page if the area of the square around it exceeds that of this one so many times.
 const TOO_LARGE: f64 = 2.0;
 
-/// A seam that parts a chart in two.
-#[derive(Clone, Debug)]
-pub struct Split {
-    /// For each face whether it belongs to the one part.
-    pub(super) is_piece: Vec<bool>,
-    /// Length of the seam on the surface; where it crosses a plane it counts several times.
-    pub length: f64,
-    /// How much the atlas may be expected to gain from it, for its length.
-    pub worth: f64,
-}
-
 /// A chart whose chords become seams.
 pub(super) struct Splitter<'a> {
     sheet: &'a Sheet,
@@ -59,6 +50,8 @@ pub(super) struct Splitter<'a> {
     pub crumb: f64,
     per_seam: f64,
     directions: Directions,
+    /// Where the chart is its own mirror image.
+    canvas: Option<Canvas<'a>>,
 }
 
 impl<'a> Splitter<'a> {
@@ -84,6 +77,7 @@ impl<'a> Splitter<'a> {
             crumb: CRUMB * unit * unit,
             per_seam: PER_SEAM * unit,
             directions,
+            canvas: (mapped.chart.mirror).and_then(|plane| Canvas::new(sheet, &plane)),
             sheet,
             uv,
             clusters,
@@ -95,9 +89,13 @@ impl<'a> Splitter<'a> {
     pub(super) fn split(&self, chord: &Chord, control: &dyn Fn() -> Control) -> Option<Split> {
         let is_piece = self.refined(&self.beyond(chord), chord, control);
         let twin = &self.sheet.twin;
+        let (part, n_parts) = connected_faces(&match &self.canvas {
+            Some(canvas) => canvas.cut_alike(&is_piece, InPlane::Refused)?,
+            None => parted(twin, &is_piece),
+        });
         let seam = || {
             (0u32..).zip(twin).filter(|&(h, &t)| {
-                t != CUT && h < t && is_piece[h as usize / 3] != is_piece[t as usize / 3]
+                t != CUT && h < t && part[h as usize / 3] != part[t as usize / 3]
             })
         };
         let cost = |h: u32| self.cost[h as usize].max(self.sheet.length(h));
@@ -105,7 +103,6 @@ impl<'a> Splitter<'a> {
         if crosses_plane && self.planes == Planes::Whole {
             return None;
         }
-        let (part, n_parts) = connected_faces(&parted(twin, &is_piece));
         let mut areas = vec![0.0; n_parts];
         for (face, &part) in part.iter().enumerate() {
             areas[part as usize] += self.face_area(face);
@@ -113,21 +110,22 @@ impl<'a> Splitter<'a> {
         if n_parts < 2 || areas.iter().any(|&area| area < self.crumb) {
             return None;
         }
-        let rooms = (0..).zip(&areas);
-        let rooms = rooms.map(|(of, _)| self.room_of(|f| part[f] == of));
+        let rooms = (0..n_parts as u32).map(|of| self.room_of(|f| part[f] == of));
         let gain = self.room - rooms.sum::<f64>();
         let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
         let length = seam().map(|(h, _)| cost(h)).sum();
         Some(Split {
-            worth: self.worth(gain, smallest, length),
-            is_piece,
+            worth: self.worth(gain, smallest, (length, n_parts - 1)),
+            part,
             length,
         })
     }
 
-    /// What a cut is worth that gains so much room and of which the one part has some.
-    pub(super) fn worth(&self, gain: f64, area: f64, length: f64) -> f64 {
-        (gain + SMALLER * area.min(self.area - area)) / (length + self.per_seam)
+    /// What a cut of some length into so many parts more is worth that gains so much room and of which the smallest part has some
+    /// area.
+    pub(super) fn worth(&self, gain: f64, area: f64, (length, n_new): (f64, usize)) -> f64 {
+        let cost = length + n_new as f64 * self.per_seam;
+        (gain + SMALLER * area.min(self.area - area)) / cost
     }
 
     /// The faces of the clusters that the chord cuts off.

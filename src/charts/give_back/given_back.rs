@@ -17,7 +17,7 @@ use crate::solver::{Control, Iterate};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Pairs of faces that overlap, at most, where a chart is laid that might be pushed apart from its neighbor.
-const MOST_PAIRS: usize = 100;
+pub(super) const MOST_PAIRS: usize = 100;
 
 /// Places at most from which a chart is pushed apart.
 const MOST_PUSHED: usize = 4;
@@ -48,15 +48,15 @@ pub fn given_back(
     giving.charts.into_values().collect()
 }
 
-struct Giving<'a> {
-    borders: Borders<'a>,
-    charts: BTreeMap<u32, MappedChart>,
-    costs: BTreeMap<u32, Cost>,
+pub(super) struct Giving<'a> {
+    pub(super) borders: Borders<'a>,
+    pub(super) charts: BTreeMap<u32, MappedChart>,
+    pub(super) costs: BTreeMap<u32, Cost>,
     /// What all may cost.
     most: Cost,
     bound: &'a Bound,
     /// The faces of charts on which others were laid.
-    grounds: BTreeMap<u32, Ground>,
+    pub(super) grounds: BTreeMap<u32, Ground>,
     /// Those that were pushed in vain, once for each.
     in_vain: BTreeSet<u32>,
     /// Faces that may still be glued.
@@ -67,7 +67,7 @@ struct Giving<'a> {
 
 /// What a chart takes of the bound.
 #[derive(Clone, Copy, Default)]
-struct Cost {
+pub(super) struct Cost {
     area: f64,
     excess: f64,
     stretched: f64,
@@ -125,6 +125,10 @@ impl<'a> Giving<'a> {
             && self.observer.control() == Control::Continue
             && let Some((_, number)) = queue.pop_first()
         {
+            // With its mirror image another may have been given back.
+            if !self.charts.contains_key(&number) {
+                continue;
+            }
             if let Some(neighbor) = self.give_back(number, most_pushed) {
                 queue.retain(|&(_, other)| other != neighbor);
                 queue.insert(size((&neighbor, &self.costs[&neighbor])));
@@ -150,7 +154,7 @@ impl<'a> Giving<'a> {
             let ground = self.grounds.entry(run.neighbor);
             let ground = ground.or_insert_with(|| Ground::new(neighbor));
             match laid.n_overlaps(ground, MOST_PAIRS) {
-                0 if self.join(number, laid, &run) => return Some(run.neighbor),
+                0 if self.join_alike(number, laid, &run) => return Some(run.neighbor),
                 0 => {}
                 n if n <= MOST_PAIRS => pushed.push((n, run)),
                 _ => {}
@@ -165,7 +169,7 @@ impl<'a> Giving<'a> {
             let neighbor = &self.charts[&run.neighbor];
             if self.observer.control() == Control::Continue
                 && let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run)
-                && self.join(number, laid, &run)
+                && self.join_alike(number, laid, &run)
             {
                 return Some(run.neighbor);
             }
@@ -174,7 +178,7 @@ impl<'a> Giving<'a> {
     }
 
     /// Glues a chart to a neighbor, if they can be kept from overlapping within the bound.
-    fn join(&mut self, number: u32, laid: Laid, run: &Run) -> bool {
+    pub(super) fn join(&mut self, number: u32, laid: Laid, run: &Run) -> bool {
         let neighbor = &self.charts[&run.neighbor];
         let n_faces = |map: &MappedChart| map.chart.disk.triangles.len();
         let n_glued = n_faces(neighbor) + n_faces(&self.charts[&number]);

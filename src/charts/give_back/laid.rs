@@ -106,6 +106,7 @@ fn glued(first: &Chart, second: &Chart, pairs: &[[u32; 2]]) -> Option<(Chart, Ve
     let chart = Chart {
         disk: Disk::new(positions.len(), triangles).ok()?,
         corners: [&*second.corners, &*first.corners].concat(),
+        mirror: second.mirror,
         positions,
     };
     Some((chart, number))

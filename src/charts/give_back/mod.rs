@@ -1,5 +1,6 @@
 //! Small charts laid back on their neighbors along common borders, where they find room.
 
+mod alike;
 pub(super) mod border;
 pub(super) mod given_back;
 pub(super) mod laid;

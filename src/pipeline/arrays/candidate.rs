@@ -1,6 +1,7 @@
 //! Charts to choose from, and the search for the fullest layout of any.
 
-use crate::atlas::{AtlasOptions, Draft, Look, OnRead};
+use super::chart_maps::chart_maps;
+use crate::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead};
 use crate::charts::MappedChart;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -38,6 +39,36 @@ impl Candidate {
             Some(_) => -self.cost,
         }
     }
+
+    /// With the parts of some charts in place of them, the last first, at this cost each; none if no layout holds them.
+    pub fn cut(
+        &self,
+        parted: Vec<(usize, Vec<MappedChart>)>,
+        cost: f64,
+    ) -> Result<Option<Cut>, AtlasError> {
+        let mut candidate = self.clone();
+        let mut replaced = Vec::new();
+        for (place, parts) in parted {
+            let Some(draft) = candidate.draft.replaced(place, &chart_maps(&parts))? else {
+                return Ok(None);
+            };
+            candidate.draft = draft;
+            candidate.cost += cost;
+            candidate.charts.remove(place);
+            candidate.charts.extend(parts.into_iter().map(Arc::new));
+            replaced.push(place);
+        }
+        Ok(Some(Cut {
+            candidate,
+            replaced,
+        }))
+    }
+}
+
+/// A candidate after one more cut, and the places of the charts that were cut, the last first.
+pub struct Cut {
+    pub candidate: Candidate,
+    pub replaced: Vec<usize>,
 }
 
 /// A search for the candidate of most value.

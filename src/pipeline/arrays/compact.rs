@@ -3,7 +3,7 @@
 use super::candidate::{Candidate, MOST_COST, Search, wanted_words};
 use super::chart_maps::chart_maps;
 use crate::atlas::{AtlasError, AtlasOptions, Draft, OnRead, Scale, Texture};
-use crate::charts::{MappedChart, Split, seam_length};
+use crate::charts::{MappedChart, Split, parted_alike, seam_length};
 use crate::solver::Control;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -57,7 +57,8 @@ pub fn compacted(
     let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
     let most_cuts = most_cuts(charts.len(), options).min(wanted.saturating_sub(charts.len()));
     let search = Search::new(charts.len(), most_cuts, options, on_read);
-    let candidates = candidates(Cutter::new(charts, draft, seam_price, &search), most_cuts)?;
+    let cutter = Cutter::new(charts, draft, (seam_price, wanted), &search);
+    let candidates = candidates(cutter, most_cuts)?;
     let Candidate { charts, draft, .. } = search.fullest(candidates);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
@@ -115,13 +116,14 @@ struct Cutter<'a> {
     /// What a length of seam costs, as a share of the square, and what a chart costs as a length.
     price: f64,
     per_chart: f64,
+    most_charts: usize,
 }
 
 impl<'a> Cutter<'a> {
     fn new(
         charts: Vec<MappedChart>,
         draft: Draft,
-        seam_price: f64,
+        (seam_price, most_charts): (f64, usize),
         search: &'a Search<'a>,
     ) -> Self {
         let options = search.options;
@@ -149,6 +151,7 @@ impl<'a> Cutter<'a> {
             of_page,
             price: PRICE * seam_price / seams,
             per_chart: PER_CHART * area.sqrt(),
+            most_charts,
         }
     }
 
@@ -162,17 +165,18 @@ impl<'a> Cutter<'a> {
         let Some((chart, split)) = most_worth(&self.splits) else {
             return Ok(None);
         };
-        let parts = candidate.charts[chart].parted(split);
-        let Some(draft) = candidate.draft.replaced(chart, &chart_maps(&parts))? else {
+        let parted = parted_alike(&candidate.charts, chart, split);
+        let cost = self.price * (split.length + split.n_new() as f64 * self.per_chart);
+        let cut = candidate.cut(parted, cost)?;
+        let Some(cut) = cut.filter(|cut| cut.candidate.charts.len() <= self.most_charts) else {
             return Ok(None);
         };
-        candidate.draft = draft;
-        candidate.cost += self.price * (split.length + self.per_chart);
-        candidate.charts.remove(chart);
-        self.splits.remove(chart);
-        let parts: Vec<_> = parts.into_iter().map(Arc::new).collect();
-        (self.splits).extend(best_splits(&parts, self.of_page, on_read));
-        candidate.charts.extend(parts);
+        for &place in &cut.replaced {
+            self.splits.remove(place);
+        }
+        *candidate = cut.candidate;
+        let new = &candidate.charts[self.splits.len()..];
+        (self.splits).extend(best_splits(new, self.of_page, on_read));
         Ok(Some(candidate.clone()))
     }
 }

@@ -3,7 +3,7 @@
 use super::settings::Settings;
 use crate::atlas::Turns;
 use crate::barrier::BarrierKind;
-use crate::charts::{Bound, Cut, Folds};
+use crate::charts::{Bound, Cut, Folds, Symmetry};
 use crate::embed::{self, Pins};
 use crate::pipeline::options::{KeptMaps, Mapping};
 use crate::solver;
@@ -26,6 +26,8 @@ pub struct Plan {
     /// The same, if the report says whether it is kept.
     #[cfg(feature = "files")]
     pub reported_bound: Option<Bound>,
+    /// Whether both sides of a mirror plane are cut alike.
+    pub symmetry: Symmetry,
     /// What happens to charts beyond their first cut.
     pub refinement: Refinement,
     /// Charts of one atlas at most.
@@ -99,6 +101,7 @@ impl Plan {
             bound: cutting.bound(),
             #[cfg(feature = "files")]
             reported_bound: (cut == Cut::Auto).then(|| cutting.bound()),
+            symmetry: cutting.symmetry,
             refinement: match cut {
                 Cut::Auto if has_barrier => Refinement::UnderBound,
                 Cut::Keep | Cut::Seams if may_cut_again => Refinement::GivenBack,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::charts::{Bound, Cut, Quality};
+use crate::charts::{Bound, Cut, Quality, Symmetry};
 use crate::options::options;
 
 /// What happens to the maps of islands that are kept.
@@ -45,6 +45,9 @@ options! {
         /// Price of seams that are cut only to fill the atlas better. With 0 every gain is taken; a
         /// large number prevents such cuts.
         pub seam_weight: f64 = 1.0, in 0..=1e6, value "W";
+        /// Whether `cut` auto cuts both sides of a mirror plane alike. auto: where a surface is its
+        /// own mirror image, exactly or nearly. off: nowhere.
+        pub symmetry: Symmetry = Symmetry::Auto;
     }
 }
 

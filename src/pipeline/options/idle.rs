@@ -63,6 +63,11 @@ pub(in crate::pipeline) fn check(options: &Options) -> Result<(), String> {
             options.cutting.seam_weight != default.cutting.seam_weight && !is_auto,
         ),
         (
+            "symmetry",
+            "`cut` auto and a `barrier`",
+            options.cutting.symmetry != default.cutting.symmetry && !is_auto,
+        ),
+        (
             "quality",
             "`cut` auto, keep or seams",
             options.cutting.quality != default.cutting.quality
