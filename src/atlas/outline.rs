@@ -62,6 +62,35 @@ impl Outline {
         turned
     }
 
+    /// Turned upright, if it leans; none of another.
+    pub(super) fn straightened(&self) -> Option<Self> {
+        match self.straightness {
+            Straightness::Leaning(axis) => {
+                Some(self.turned(axis).with(Straightness::Upright(axis)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Turned upright, if it has an upright position in which it is no longer than this. Otherwise
+    /// it has none from now on.
+    pub(super) fn upright_within(&self, side: f64) -> Self {
+        let turned = match self.straightness {
+            Straightness::Upright(axis) => self.turned(axis),
+            Straightness::Leaning(_) | Straightness::Round => return self.clone(),
+        };
+        if turned.extent[0].max(turned.extent[1]) <= side {
+            turned
+        } else {
+            self.with(Straightness::Round)
+        }
+    }
+
+    /// Whether it is turned by quarters only.
+    pub(super) fn is_upright(&self) -> bool {
+        matches!(self.straightness, Straightness::Upright(_))
+    }
+
     /// Taken for one with other axes.
     pub(super) fn with(&self, straightness: Straightness) -> Self {
         Self {

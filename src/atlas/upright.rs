@@ -1,6 +1,4 @@
-//! Charts that have an upright position.
-
-use super::outline::Outline;
+//! The axes of charts that have some.
 
 /// Widths of the classes into which directions are sorted, over a quarter turn.
 const CLASSES: usize = 180;
@@ -29,37 +27,6 @@ impl Straightness {
             Some((axis, share)) if share >= LEANING => Self::Leaning(axis),
             _ => Self::Round,
         }
-    }
-}
-
-impl Outline {
-    /// Turned upright, if it leans; none of another.
-    pub(super) fn straightened(&self) -> Option<Self> {
-        match self.straightness {
-            Straightness::Leaning(axis) => {
-                Some(self.turned(axis).with(Straightness::Upright(axis)))
-            }
-            _ => None,
-        }
-    }
-
-    /// Turned upright, if it has an upright position in which it is no longer than this. Otherwise
-    /// it has none from now on.
-    pub(super) fn upright_within(&self, side: f64) -> Self {
-        let turned = match self.straightness {
-            Straightness::Upright(axis) => self.turned(axis),
-            Straightness::Leaning(_) | Straightness::Round => return self.clone(),
-        };
-        if turned.extent[0].max(turned.extent[1]) <= side {
-            turned
-        } else {
-            self.with(Straightness::Round)
-        }
-    }
-
-    /// Whether it is turned by quarters only.
-    pub(super) fn is_upright(&self) -> bool {
-        matches!(self.straightness, Straightness::Upright(_))
     }
 }
 

@@ -24,9 +24,9 @@ pub struct Unreached {
 }
 
 impl Problem {
-    /// The handles that did not come to their targets, in the order of their list.
+    /// The handles that did not come to their targets, in the order of their list; none of a solution that has arrived.
     pub fn unreached(&self, solution: &Solution) -> Vec<Unreached> {
-        let Some(targets) = self.stations.last() else {
+        let Some(targets) = self.stations.last().filter(|_| !solution.has_arrived()) else {
             return Vec::new();
         };
         let gaps = Gaps::new(self.body.dim(), targets, &solution.x);
