@@ -6,6 +6,7 @@ use super::laid::Laid;
 use super::occupied::Ground;
 use crate::charts::mapped::MappedChart;
 use crate::charts::symmetry::counterpart::moment;
+use crate::charts::symmetry::own_image::Moment;
 use crate::charts::symmetry::plane::MirrorPlane;
 use crate::numerics::vec3::distance;
 
@@ -21,29 +22,27 @@ impl Giving<'_> {
         let Some(plane) = self.charts[&number].chart.mirror else {
             return self.join(number, laid, run);
         };
-        let line = self.image_of_run(number, run, &plane);
-        let image = match self.image_of(number, &plane) {
-            Some(image) if image == number => {
-                // One seam would be closed, and its mirror image would stay.
-                let is_own_image = self.image_of(run.neighbor, &plane) == Some(run.neighbor);
-                if !is_own_image || !self.is_crossing(number, run, &plane) {
-                    return false;
-                }
-                None
-            }
-            Some(image) if image != run.neighbor => {
-                if self.run_along(image, &line).is_none() {
-                    return false;
-                }
-                Some(image)
-            }
-            _ => None,
+        let of = moment(&self.charts[&number].chart);
+        let is_own_image = of.is_image_of(&of, &plane);
+        let image = if is_own_image {
+            None
+        } else {
+            self.image_of(number, &of, &plane)
         };
+        let line = self.image_of_run(number, run, &plane);
         let mut before = self.saved([number, run.neighbor]);
         if !self.join(number, laid, run) {
             return false;
         }
-        let is_alike = image.is_none_or(|image| self.join_along(image, &line, &mut before));
+        let is_alike = match image {
+            None if is_own_image => {
+                let joint = moment(&self.charts[&run.neighbor].chart);
+                joint.is_image_of(&joint, &plane)
+            }
+            None => true,
+            Some(other) if other == run.neighbor => true,
+            Some(other) => self.join_along(other, &line, &mut before),
+        };
         if !is_alike {
             self.restore(before);
         }
@@ -52,7 +51,9 @@ impl Giving<'_> {
 
     /// Glues a chart to a neighbor along a line, if it can be.
     fn join_along(&mut self, number: u32, line: &[[f64; 3]], before: &mut Before) -> bool {
-        let Some(run) = self.run_along(number, line) else {
+        let mut runs = self.borders.runs(number, &self.charts).into_iter();
+        let positions = &self.charts[&number].chart.positions;
+        let Some(run) = runs.find_map(|run| part_along(&run, line, positions)) else {
             return false;
         };
         let neighbor = &self.charts[&run.neighbor];
@@ -68,30 +69,9 @@ impl Giving<'_> {
         self.join(number, laid, &run)
     }
 
-    /// The part of the border of a chart that lies along a line.
-    fn run_along(&self, number: u32, line: &[[f64; 3]]) -> Option<Run> {
-        let mut runs = self.borders.runs(number, &self.charts).into_iter();
-        let positions = &self.charts[&number].chart.positions;
-        runs.find_map(|run| part_along(&run, line, positions))
-    }
-
-    /// Whether a run of a chart crosses the plane, or meets it.
-    fn is_crossing(&self, number: u32, run: &Run, plane: &MirrorPlane) -> bool {
-        let positions = &self.charts[&number].chart.positions;
-        let height = |vertices: Option<&[u32; 2]>| {
-            vertices.map_or(0.0, |[v, _]| plane.height(positions[*v as usize]))
-        };
-        height(run.vertices.first()) * height(run.vertices.last()) <= 0.0
-    }
-
-    /// The chart that is the mirror image of one, which may be itself.
-    fn image_of(&self, number: u32, plane: &MirrorPlane) -> Option<u32> {
-        let of = moment(&self.charts[&number].chart);
-        if of.is_image_of(&of, plane) {
-            return Some(number);
-        }
-        let is_image = |map: &MappedChart| moment(&map.chart).is_image_of(&of, plane);
-        let mut others = self.charts.iter();
+    fn image_of(&self, number: u32, of: &Moment, plane: &MirrorPlane) -> Option<u32> {
+        let mut others = self.charts.iter().filter(|(n, _)| **n != number);
+        let is_image = |map: &MappedChart| moment(&map.chart).is_image_of(of, plane);
         others.find(|(_, map)| is_image(map)).map(|(&n, _)| n)
     }
 

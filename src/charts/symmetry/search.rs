@@ -11,11 +11,14 @@ use crate::numerics::vec3::{cross, distance, dot, norm, sub};
 /// Points of the cloud, and those of them that are mirrored to judge a candidate, to fit it and to accept it.
 const CLOUD: usize = 20_000;
 const JUDGING: usize = 150;
-const FITTING: usize = 600;
-const ACCEPTING: usize = 2_000;
+const FITTING: usize = 400;
+const ACCEPTING: usize = 1_000;
+
+/// Times that a plane is fitted to new pairs at most.
+const ROUNDS: usize = 10;
 
 /// Vertices that are mirrored to fit a plane to the vertices.
-const VERTICES: usize = 2_000;
+const VERTICES: usize = 1_000;
 
 /// Directions that are tried around an axis about which the surface has equal moments.
 const AROUND: usize = 12;
@@ -29,7 +32,7 @@ const SHARE_JUDGED: f64 = 0.8;
 const PROMISING: f64 = 0.04;
 
 /// Candidates that are followed up at most.
-const FOLLOWED: usize = 6;
+const FOLLOWED: usize = 3;
 
 /// A surface is symmetric if this share of its area is mirrored to within that part of the diagonal of itself.
 const ACCEPTED: f64 = 0.95;
@@ -60,7 +63,7 @@ pub fn mirror_plane(surface: &Surface) -> Option<MirrorPlane> {
         .collect();
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
     let fitted = candidates.into_iter().take(FOLLOWED).map(|(_, plane)| {
-        let plane = fitted(plane, &every(cloud.points(), FITTING), &cloud, 12);
+        let plane = fitted(plane, &every(cloud.points(), FITTING), &cloud, ROUNDS);
         (mismatch(&plane, &cloud, ACCEPTING), plane)
     });
     let mut fitted: Vec<(f64, MirrorPlane)> = fitted
@@ -86,7 +89,7 @@ fn sharpened(plane: MirrorPlane, surface: &Surface, diagonal: f64) -> MirrorPlan
         };
         sample.iter().filter(is_mirrored).count()
     };
-    let sharper = fitted(plane, &sample, &vertices, 20);
+    let sharper = fitted(plane, &sample, &vertices, ROUNDS);
     if n_mirrored(&sharper) > n_mirrored(&plane) {
         sharper
     } else {
