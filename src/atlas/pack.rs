@@ -103,7 +103,7 @@ pub(super) fn searched(
 ) -> Option<Draft> {
     let mut draft = draft?.clone();
     if !draft.is_searched() {
-        let words = options.patience * Look::Last.words(draft.n_large());
+        let words = options.patience * Look::Last.words(draft.n_charts());
         draft.improve(Look::Last, words.min(options.search_words), on_read);
     }
     Some(draft)

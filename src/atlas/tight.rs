@@ -16,14 +16,14 @@ use std::sync::Arc;
 /// Times that charts are given more room, or less.
 const ROUNDS: usize = 4;
 /// What they are given beyond what is missing, and how far vertices may be moved when they are rounded, in cells.
-const SPARE: f64 = 0.03;
-const ROUNDED: f64 = 0.01;
+const SPARE: f64 = 0.01;
+const ROUNDED: f64 = 0.002;
 /// The share of the words that may be read which each of those rounds reads at most.
 const SHARE: u64 = 16;
 /// How often the side of a page is corrected for the padding that follows from it.
 const SIDES: usize = 8;
 /// Places to a cell.
-const PLACES: f64 = 64.0;
+const PLACES: f64 = 256.0;
 
 /// Charts of one page that were squeezed.
 #[derive(Clone)]

@@ -7,7 +7,7 @@ use std::time::Duration;
 use unwrapd::certificate::{Overlap, certify};
 use unwrapd::document::Upload;
 use unwrapd::pipeline::{
-    Budget, Observer, Options, Progress, Settings, Stage, Unobserved, Workers, unwrap,
+    Budget, Cutting, Observer, Options, Progress, Settings, Stage, Unobserved, Workers, unwrap,
     unwrap_document,
 };
 use unwrapd::solver::Control;
@@ -54,9 +54,13 @@ impl Observer for Ending {
     }
 }
 
-/// Unwraps a mesh, checks the result, and returns what was reported.
+/// Unwraps a mesh under a bound that takes several rounds of maps, checks the result, and returns what was reported.
 fn ended(mesh: &Mesh, from: Option<Stage>) -> Ending {
     let settings = Settings {
+        cutting: Cutting {
+            max_distortion: Some(4.02),
+            ..Cutting::default()
+        },
         workers: Workers { threads: Some(1) },
         ..Settings::default()
     };

@@ -16,10 +16,11 @@ const TEMPERATURES: [f64; 2] = [0.25, 0.05];
 /// What a trial costs for each chart beside the words it reads, and what one costs that was tried before.
 const WORDS_PER_CHART: u64 = 375;
 const WORDS_IF_KNOWN: u64 = 100;
-/// Charts up to which a search takes words in proportion to the square of their number: a trial takes longer, and there are more
-/// layouts. Of more the power is less.
-const FEW: f64 = 10.0;
-const POWERS: [i32; 2] = [4, 3];
+/// The number of charts for which the words of a look are given. They grow with its power of 1.5: of more charts a trial takes longer,
+/// and there are more layouts.
+const CHARTS: f64 = 10.0;
+/// Small charts that cost as much as a large one.
+const SMALL_PER_LARGE: usize = 4;
 
 /// How closely a draft is looked at: there are many to choose from and little to be gained by most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ pub enum Look {
 
 /// What a look consists of.
 struct Course {
-    /// Words of all, for [`FEW`] charts.
+    /// Words of all, for [`CHARTS`].
     words: f64,
     /// Annealings from different seeds, and how many of the best are squeezed.
     starts: u32,
@@ -52,7 +53,7 @@ impl Look {
             shares,
         };
         match self {
-            Self::First => of(1e6, 1, 1, [0.7, 0.3, 0.0]),
+            Self::First => of(1.5e6, 1, 1, [0.7, 0.3, 0.0]),
             Self::Second => of(5e6, 2, 2, [0.6, 0.4, 0.0]),
             Self::Last => of(30e6, 4, 3, [0.5, 0.25, 0.25]),
         }
@@ -60,9 +61,9 @@ impl Look {
 
     /// The words that this look at so many charts reads, about.
     pub fn words(self, n_charts: usize) -> u64 {
-        let n = n_charts as f64 / FEW;
-        let power = POWERS[usize::from(n > 1.0)];
-        (self.course().words * n.sqrt().powi(power)) as u64
+        let n = n_charts as f64 / CHARTS;
+        // Rounded alike everywhere, unlike a power.
+        (self.course().words * n * n.sqrt()) as u64
     }
 
     fn seed(self) -> u64 {
@@ -71,9 +72,10 @@ impl Look {
 }
 
 impl Draft {
-    /// The number of charts that are not small: a search takes as long as they are many.
-    pub fn n_large(&self) -> usize {
-        self.n_large
+    /// The number of charts, of which several small ones count as one: a search takes as long as they are many.
+    pub fn n_charts(&self) -> usize {
+        let small = self.state.order.len() - self.n_large.min(self.state.order.len());
+        self.n_large + small.div_ceil(SMALL_PER_LARGE)
     }
 
     /// Searches a fuller layout; reads about so many words, less where nothing is left to be tried. The layout never gets worse.

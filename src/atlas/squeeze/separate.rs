@@ -13,6 +13,8 @@ const LONGEST: f64 = 4.0;
 /// Steps that leave more than this share of the energy, of which so many in a row are enough.
 const SLOW: f64 = 0.97;
 const MOST_SLOW: usize = 5;
+/// What the equations of a step cost for each body, in the words that other searches read.
+const WORDS_PER_BODY: u64 = 500;
 /// Bodies that overlap less are apart, in cells.
 pub(super) const TOLERANCE: f64 = 0.04;
 
@@ -29,6 +31,7 @@ impl Scene<'_> {
             if is_over || self.is_ended() {
                 break;
             }
+            self.work += WORDS_PER_BODY * poses.len() as u64;
             let trial = now.step(damping).map(|step| self.stepped(poses, &step));
             let next = trial.map(|trial| (Equations::of_all(self, &trial), trial));
             if let Some((next, trial)) = next.filter(|(next, _)| next.energy < now.energy) {

@@ -153,21 +153,25 @@ impl<'a> Beyond<'a> {
 
     /// Each part that may be a piece, a cluster of it, and the hull of the rest of the map.
     fn parts(&self, before: &Support, crumb: f64) -> Vec<(u32, &Part, Support)> {
-        let all = || {
-            (0u32..)
-                .zip(&self.part)
-                .filter_map(|(c, part)| Some((c, part.as_ref()?)))
-        };
+        let all = (0u32..).zip(&self.part);
+        let all = all.filter_map(|(c, part)| Some((c, part.as_ref()?)));
+        let is_piece =
+            |&(_, part): &(u32, &Part)| part.area >= crumb && part.area <= self.whole - crumb;
+        let (pieces, others): (Vec<_>, Vec<_>) = all.partition(is_piece);
+        let mut beside = before.clone();
+        for (_, other) in others {
+            beside.unite(&other.support);
+        }
         let rest_of = |cluster: u32| {
-            let mut rest = before.clone();
-            for (_, other) in all().filter(|&(c, _)| c != cluster) {
+            let mut rest = beside.clone();
+            for (_, other) in pieces.iter().filter(|(c, _)| *c != cluster) {
                 rest.unite(&other.support);
             }
             rest
         };
-        all()
-            .filter(|(_, part)| part.area >= crumb && part.area <= self.whole - crumb)
-            .map(|(cluster, part)| (cluster, part, rest_of(cluster)))
+        pieces
+            .iter()
+            .map(|&(cluster, part)| (cluster, part, rest_of(cluster)))
             .collect()
     }
 }

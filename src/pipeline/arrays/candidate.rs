@@ -102,7 +102,7 @@ impl<'a> Search<'a> {
 
     /// Looks at a candidate.
     fn look(&self, candidate: &mut Candidate, look: Look) {
-        let words = self.effort * look.words(candidate.draft.n_large()) as f64;
+        let words = self.effort * look.words(candidate.draft.n_charts()) as f64;
         candidate.draft.improve(look, words as u64, self.on_read);
     }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// The share of the square that seams must gain which are as long as those there are, or as a side of the surface's square if that is
 /// longer.
-const PRICE: f64 = 0.03;
+const PRICE: f64 = 0.04;
 /// A further chart costs as much as a seam of this length, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
 /// Cuts at most for each page, in all and for each chart that there was.
@@ -71,9 +71,9 @@ fn most_cuts(n_charts: usize, options: &AtlasOptions) -> usize {
     options.texture.pages as usize * MOST_CUTS.min(MOST_CUTS_PER_CHART * n_charts)
 }
 
-/// The words that are read where so many charts are cut and all cuts are looked at, about.
+/// The words that are read where so many charts are cut and half of the cuts are looked at, about.
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
-    let cuts = most_cuts(n_charts, options);
+    let cuts = most_cuts(n_charts, options) / 2;
     let numbers: Vec<usize> = (n_charts..=n_charts + cuts).collect();
     let words = options.patience * wanted_words(&numbers);
     WORDS_PER_CUT * cuts as u64 + words.min(options.search_words)
