@@ -8,7 +8,7 @@ use axum::response::{IntoResponse, Response};
 
 use super::App;
 use super::problem::{Code, Problem};
-use crate::jobs::{Job, OutputFile};
+use crate::jobs::{Content, InputFile, Job, OutputFile, StoreResult};
 use crate::mesh::io::Format;
 
 /// Formats whose media types are answered with, as the `OpenAPI` document says; files of others are bytes.
@@ -22,36 +22,74 @@ const TYPED: [Format; 7] = [
     Format::Csv,
 ];
 
-/// A file that a job made, or what of it was asked for. The name of its version is job, token and role: files never
-/// change.
+/// A file of a job.
+#[derive(Clone, Copy)]
+pub(super) enum File<'a> {
+    /// One that it made.
+    Output(&'a OutputFile),
+    /// One that it was made of, with its number.
+    Input(usize, &'a InputFile),
+}
+
+impl File<'_> {
+    fn name(&self) -> &str {
+        match self {
+            Self::Output(file) => &file.name,
+            Self::Input(_, file) => &file.name,
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        match self {
+            Self::Output(file) => file.bytes,
+            Self::Input(_, file) => file.bytes,
+        }
+    }
+
+    /// The name of its version: job and number, and for what was made the token and the role. Files never change.
+    fn tag(&self, job: &Job) -> String {
+        match self {
+            Self::Output(file) => {
+                let role = file.role.replace('/', "-");
+                format!("\"{}-{}-{role}\"", job.id, job.token)
+            }
+            Self::Input(index, _) => format!("\"{}-input-{index}\"", job.id),
+        }
+    }
+
+    async fn read(&self, app: &App, job: &Job, part: Range<u64>) -> StoreResult<Content> {
+        match self {
+            Self::Output(file) => app.jobs.read(job, file, part).await,
+            Self::Input(_, file) => app.jobs.read_input(job, file, part).await,
+        }
+    }
+}
+
+/// A file of a job, or what of it was asked for.
 pub(super) async fn answer(
     app: &App,
     job: &Job,
-    file: &OutputFile,
+    file: File<'_>,
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
-    let tag = format!(
-        "\"{}-{}-{}\"",
-        job.id,
-        job.token,
-        file.role.replace('/', "-")
-    );
+    let tag = file.tag(job);
+    let bytes = file.bytes();
     if names(headers, header::IF_NONE_MATCH, &tag) {
         return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
     }
     let is_same = !headers.contains_key(header::IF_RANGE) || names(headers, header::IF_RANGE, &tag);
     let range = match headers.get(header::RANGE).filter(|_| is_same) {
-        Some(value) => range(value, file.bytes),
+        Some(value) => range(value, bytes),
         None => Ok(None),
     };
     let Ok(range) = range else {
-        let detail = format!("the file has {} bytes", file.bytes);
-        let problem = Problem::new(Code::RangeNotSatisfiable, detail).with_limit(file.bytes);
-        let size = [(header::CONTENT_RANGE, format!("bytes */{}", file.bytes))];
+        let detail = format!("the file has {bytes} bytes");
+        let problem = Problem::new(Code::RangeNotSatisfiable, detail).with_limit(bytes);
+        let size = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
         return Ok((size, problem).into_response());
     };
-    let part = range.clone().unwrap_or(0..file.bytes);
-    let content = app.jobs.read(job, file, part.clone()).await?;
+    let part = range.clone().unwrap_or(0..bytes);
+    let content = file.read(app, job, part.clone()).await?;
     let length = part.end - part.start;
     let mut response = Body::from_stream(content).into_response();
     let headers = response.headers_mut();
@@ -60,21 +98,22 @@ pub(super) async fn answer(
             headers.insert(name, value);
         }
     };
-    set(header::CONTENT_TYPE, &content_type(&file.name));
+    set(header::CONTENT_TYPE, &content_type(file.name()));
     set(header::CONTENT_LENGTH, &length.to_string());
-    set(header::CONTENT_DISPOSITION, &disposition(&file.name));
+    set(header::CONTENT_DISPOSITION, &disposition(file.name()));
     set(header::ACCEPT_RANGES, "bytes");
     set(header::CACHE_CONTROL, "private, no-cache");
     set(header::ETAG, &tag);
     if range.is_some() {
-        let range = format!("bytes {}-{}/{}", part.start, part.end - 1, file.bytes);
+        let range = format!("bytes {}-{}/{bytes}", part.start, part.end - 1);
         set(header::CONTENT_RANGE, &range);
         *response.status_mut() = StatusCode::PARTIAL_CONTENT;
     }
     Ok(response)
 }
 
-fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) -> bool {
+/// Whether a header names this version.
+pub(super) fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) -> bool {
     headers
         .get_all(name)
         .iter()

@@ -12,6 +12,7 @@ mod drain;
 mod events;
 mod extract;
 mod framing;
+mod inputs;
 mod jobs;
 mod missing;
 mod openapi;
@@ -71,6 +72,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(jobs::finish_job))
         .routes(routes!(jobs::retry_job))
         .routes(routes!(events::watch_job))
+        .routes(routes!(inputs::get_input))
         .routes(routes!(results::get_result))
         .routes(routes!(results::get_report))
         .routes(routes!(results::get_layout))

@@ -5,10 +5,11 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 
 use super::answers::FileAnswers;
+use super::download::{self, File};
 use super::extract::{PathId, PathName};
 use super::missing::existing;
 use super::problem::{Code, Problem};
-use super::{App, Shared, download};
+use super::{App, Shared};
 use crate::jobs::{JobId, State as JobState};
 
 /// Get the result: the mesh with its new UVs, the deformed body, the warped picture.
@@ -128,5 +129,5 @@ async fn file(app: &App, id: JobId, role: &str, headers: &HeaderMap) -> Result<R
         let detail = format!("this {} job made no {role}", job.kind.word());
         Problem::new(Code::NoSuchFile, detail)
     })?;
-    download::answer(app, &job, file, headers).await
+    download::answer(app, &job, File::Output(file), headers).await
 }

@@ -94,7 +94,8 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
     match (&job.failure, job.state, job.output.first()) {
         (Some(failure), _, _) => Err(Problem::of_failure(failure)),
         (None, JobState::Succeeded, Some(file)) => {
-            let mut response = download::answer(app, job, file, &HeaderMap::new()).await?;
+            let mut response =
+                download::answer(app, job, download::File::Output(file), &HeaderMap::new()).await?;
             tell_verdict(&job.verdict, response.headers_mut());
             Ok(response)
         }

@@ -58,7 +58,7 @@ pub(super) struct JobView {
     links: Links,
 }
 
-/// Paths of the resources of a job. Files are listed once they can be fetched.
+/// Paths of the resources of a job. Results are listed once they can be fetched.
 #[derive(Serialize, utoipa::ToSchema)]
 struct Links {
     /// The job.
@@ -66,16 +66,18 @@ struct Links {
     itself: String,
     /// Its events.
     events: String,
+    /// The files of the input, the mesh first.
+    inputs: Vec<FileLink>,
     /// The files that the job produced.
     files: Vec<FileLink>,
 }
 
-/// A file that a job produced.
+/// A file that a job was given or produced.
 #[derive(Serialize, utoipa::ToSchema)]
 struct FileLink {
     /// Its path.
     href: String,
-    /// Suggested file name.
+    /// Suggested file name, for an input that of the upload.
     name: String,
     /// Its size.
     bytes: u64,
@@ -92,6 +94,11 @@ impl JobView {
         let path = job_path(job);
         let files = job.output.iter().map(|file| FileLink {
             href: format!("{path}/{}", file.role),
+            name: file.name.clone(),
+            bytes: file.bytes,
+        });
+        let inputs = job.input.iter().enumerate().map(|(index, file)| FileLink {
+            href: format!("{path}/input/{index}"),
             name: file.name.clone(),
             bytes: file.bytes,
         });
@@ -120,6 +127,7 @@ impl JobView {
             warnings: job.verdict.warnings.clone(),
             error: job.failure.as_ref().map(Problem::of_failure),
             links: Links {
+                inputs: inputs.collect(),
                 files: files.collect(),
                 events: format!("{path}/events"),
                 itself: path,

@@ -8,6 +8,7 @@ mod equal;
 mod failures;
 mod full_disk;
 mod idle_options;
+mod inputs;
 mod jobs;
 pub mod progress;
 mod requests;
