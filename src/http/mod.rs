@@ -5,6 +5,7 @@
 //! answered with an RFC 9457 problem that carries a stable code (`problem.rs` has the table).
 
 mod answers;
+mod assets;
 mod causes;
 mod create;
 mod download;
@@ -49,9 +50,10 @@ use self::problem::{Code, Problem};
 pub use self::settings::Settings;
 use crate::jobs::Jobs;
 
-/// Scripts, styles and connections of this host only; no frames, no forms elsewhere.
-const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
-    img-src 'self' blob: data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
+/// itself made: pictures inside meshes.
+const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; \
+    img-src 'self' blob: data:; connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// What every handler may use.
 struct App {

@@ -1,43 +1,74 @@
-//! The pages for people. Sources and delivery are the same files.
+//! The pages for people. `page/build.mjs` makes them of the sources beside it; the binary has all of them.
 
-use axum::http::header;
+use axum::extract::RawQuery;
+use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
 
+use super::assets::{self, Asset};
 use super::extract::PathName;
 use super::problem::{Code, Problem};
 
-const INDEX: &str = include_str!("page/index.html");
-const DOCS: &str = include_str!("page/docs.html");
-const STYLE: &str = include_str!("page/page.css");
-const INDEX_SCRIPT: &str = include_str!("page/index.js");
-const REPORT_SCRIPT: &str = include_str!("page/report.js");
-const DOCS_SCRIPT: &str = include_str!("page/docs.js");
+static INDEX: Asset = Asset::new(
+    "text/html; charset=utf-8",
+    include_bytes!("page/dist/index.html"),
+);
+static DOCS: Asset = Asset::new(
+    "text/html; charset=utf-8",
+    include_bytes!("page/dist/docs.html"),
+);
 
-/// `/`: upload a mesh, watch it, fetch what came of it.
-pub(super) async fn index() -> Response {
-    text("text/html; charset=utf-8", INDEX)
+const SCRIPT: &str = "text/javascript; charset=utf-8";
+const STYLE: &str = "text/css; charset=utf-8";
+
+/// What the pages load, by name.
+static ASSETS: [(&str, Asset); 6] = [
+    (
+        "page.js",
+        Asset::new(SCRIPT, include_bytes!("page/dist/page.js")),
+    ),
+    (
+        "worker.js",
+        Asset::new(SCRIPT, include_bytes!("page/dist/worker.js")),
+    ),
+    (
+        "docs.js",
+        Asset::new(SCRIPT, include_bytes!("page/dist/docs.js")),
+    ),
+    (
+        "page.css",
+        Asset::new(STYLE, include_bytes!("page/dist/page.css")),
+    ),
+    (
+        "docs.css",
+        Asset::new(STYLE, include_bytes!("page/dist/docs.css")),
+    ),
+    (
+        "sample.ply",
+        Asset::new(
+            "application/octet-stream",
+            include_bytes!("page/sample.ply"),
+        ),
+    ),
+];
+
+/// `/`: unwrap meshes, look into what came of them.
+pub(super) async fn index(headers: HeaderMap) -> Response {
+    assets::answer(&INDEX, None, &headers)
 }
 
 /// `/docs`: the OpenAPI document for people.
-pub(super) async fn docs() -> Response {
-    text("text/html; charset=utf-8", DOCS)
+pub(super) async fn docs(headers: HeaderMap) -> Response {
+    assets::answer(&DOCS, None, &headers)
 }
 
 /// What the pages load.
-pub(super) async fn asset(PathName(name): PathName) -> Response {
-    match name.as_str() {
-        "page.css" => text("text/css; charset=utf-8", STYLE),
-        "index.js" => text("text/javascript; charset=utf-8", INDEX_SCRIPT),
-        "report.js" => text("text/javascript; charset=utf-8", REPORT_SCRIPT),
-        "docs.js" => text("text/javascript; charset=utf-8", DOCS_SCRIPT),
-        _ => Problem::new(Code::NotFound, "no such asset").into_response(),
+pub(super) async fn asset(
+    PathName(name): PathName,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Response {
+    match ASSETS.iter().find(|(known, _)| *known == name) {
+        Some((_, asset)) => assets::answer(asset, query.as_deref(), &headers),
+        None => Problem::new(Code::NotFound, "no such asset").into_response(),
     }
-}
-
-fn text(content_type: &'static str, content: &'static str) -> Response {
-    let headers = [
-        (header::CONTENT_TYPE, content_type),
-        (header::CACHE_CONTROL, "no-cache"),
-    ];
-    (headers, content).into_response()
 }

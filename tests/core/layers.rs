@@ -103,6 +103,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "tracing",
             "futures_util",
             "sha2",
+            "flate2",
             "percent_encoding",
         ],
     ),

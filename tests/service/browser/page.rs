@@ -1,84 +1,211 @@
-//! The page.
+//! The page, driven as a person would: each test is a scenario of `tests/page`.
 
+use std::path::Path;
 use std::process::Command;
 
+use serde_json::Value;
+
+use crate::cli::{assert_status, unwrapd};
 use crate::meshes::PLATE;
+use crate::places;
 use crate::server::{Server, ended, form};
 
-/// The page as Chromium has it after its scripts ran.
-fn rendered(url: &str) -> String {
-    let profile = tempfile::tempdir().expect("a folder for the profile");
-    let output = Command::new("chromium")
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--disable-background-networking",
-        ])
-        .arg(format!("--user-data-dir={}", profile.path().display()))
-        .args(["--virtual-time-budget=5000", "--dump-dom", url])
-        .output()
-        .expect("Chromium runs");
-    String::from_utf8_lossy(&output.stdout).into_owned()
+/// Runs a scenario at an address with arguments; what it returns.
+async fn scenario(name: &str, url: String, arguments: &[String]) -> Value {
+    let mut node = Command::new("node");
+    node.arg(places::repository("tests/page").join("drive.mjs"))
+        .args([name, &url])
+        .args(arguments);
+    let output = tokio::task::spawn_blocking(move || node.output().expect("node runs")).await;
+    let output = output.expect("no panic");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{name}: {said}");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+fn text(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
+}
+
+fn asset(name: &str) -> String {
+    text(&places::asset(name))
+}
+
+/// The address of the page with a job, unwrapped from an asset.
+async fn unwrapped(server: &Server, name: &str) -> String {
+    let mesh = std::fs::read(places::asset(name)).expect("an asset");
+    let job = ended(server, form("unwrap", "{}", (name, mesh))).await;
+    assert_eq!(job["state"], "succeeded", "{job}");
+    with_job(server, &job)
+}
+
+fn with_job(server: &Server, job: &Value) -> String {
+    server.url(&format!("/#job={}", id(job)))
+}
+
+fn id(job: &Value) -> &str {
+    job["id"].as_str().expect("an id")
 }
 
 #[tokio::test]
-async fn the_page_and_the_docs_run_their_scripts() {
+async fn a_mesh_is_uploaded_watched_seen_and_downloaded() {
     let server = Server::start();
-    let url = |path: &str| server.url(path);
-    let (page, docs) = (url("/"), url("/docs"));
-    let dumped = tokio::task::spawn_blocking(move || (rendered(&page), rendered(&docs)));
-    let (page, docs) = dumped.await.expect("a browser");
-    assert!(page.contains("type=\"file\""), "{page}");
-    // Listed from /openapi.json by the script.
-    assert!(docs.contains("/v1/jobs/{id}/result"), "{docs}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = text(&folder.path().join("out.glb"));
+    let arguments = [asset("gltf/Fox.glb"), output.clone()];
+    scenario("unwrap", server.url("/"), &arguments).await;
+    let verified =
+        tokio::task::spawn_blocking(move || unwrapd(&["verify", &output, "--bijective"]));
+    assert_status(&verified.await.expect("no panic"), 0);
 }
 
 #[tokio::test]
-async fn the_page_shows_jobs_of_other_kinds() {
+async fn both_views_show_what_is_pointed_at() {
     let server = Server::start();
-    let pulled = r#"{"handles": [{"center": [0, 0], "radius": 0, "to": [0, 0]}, {"vertex": 2, "to": [2, 1]}]}"#;
-    let body = form("deform", pulled, ("plate.off", PLATE.into()));
-    let job = ended(&server, body).await;
-    let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
-    let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
-    let page = page.expect("a browser");
-    for words in [
-        "deform: plate.off",
-        "converged",
-        "plate.off",
-        "trace.csv",
-        "Latest jobs",
+    let url = unwrapped(&server, "spot.ply").await;
+    scenario("pointing", url, &[]).await;
+}
+
+#[tokio::test]
+async fn fills_and_seams_change_what_is_seen() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    scenario("looks", url, &[]).await;
+}
+
+#[tokio::test]
+async fn an_address_opens_the_same_state() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    scenario("reload", url, &[]).await;
+}
+
+#[tokio::test]
+async fn errors_say_what_to_do() {
+    let server = Server::start();
+    scenario("errors", server.url("/"), &[]).await;
+}
+
+#[tokio::test]
+async fn nothing_on_the_pages_is_inaccessible() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    let (page, job) = url.split_once("#job=").expect("a job");
+    let said = scenario("accessible", page.to_owned(), &[job.to_owned()]).await;
+    assert_eq!(said["checked"], 18);
+}
+
+#[tokio::test]
+async fn without_webgl_there_are_pictures_and_the_report() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    scenario("without_webgl", url.clone(), &[]).await;
+    scenario("lost", url, &[]).await;
+}
+
+#[tokio::test]
+async fn a_path_prefix_works() {
+    let server = Server::start();
+    scenario("prefix", server.url("/"), &[asset("MultiUVTest.glb")]).await;
+}
+
+#[tokio::test]
+async fn several_files_are_unwrapped_at_once() {
+    let server = Server::start();
+    let meshes = ["cat_head.obj", "Box.glb"].map(asset);
+    scenario("jobs", server.url("/"), &meshes).await;
+}
+
+/// Two squares of one triangle pair each that overlap in a corner, and a pair of charts half a texel apart.
+const WRONG: &str = "\
+v 0 0 0\nv 4 0 0\nv 0 4 0\nv 10 0 0\nv 14 0 0\nv 10 4 0\nv 20 0 0\nv 24 0 0\nv 20 4 0\nv 30 0 0\nv 34 0 0\nv 30 4 0
+vt 0.0625 0.0625\nvt 0.3125 0.0625\nvt 0.0625 0.3125
+vt 0.09375 0.09375\nvt 0.34375 0.09375\nvt 0.09375 0.34375
+vt 0.5 0.5\nvt 0.75 0.5\nvt 0.5 0.75
+vt 0.5 0.49951171875\nvt 0.5 0.25\nvt 0.75 0.49951171875
+f 1/1 2/2 3/3\nf 4/4 5/5 6/6\nf 7/7 8/8 9/9\nf 10/10 11/11 12/12
+";
+
+#[tokio::test]
+async fn overlaps_and_near_islands_are_red() {
+    let server = Server::start();
+    let input = ("wrong.obj", WRONG.into());
+    let job = ended(&server, form("measure", r#"{"padding": 2}"#, input)).await;
+    let faces = ["0", "2", "2"].map(str::to_owned);
+    scenario("problems", with_job(&server, &job), &faces).await;
+}
+
+#[tokio::test]
+async fn jobs_of_every_kind_are_shown() {
+    let server = Server::start();
+    let handles = r#"{"handles": [{"center": [0, 0], "radius": 0, "to": [0, 0]}, {"vertex": 2, "to": [2, 1]}]}"#;
+    let texcoord = r#"{"texcoord": 1}"#;
+    let mut shown = Vec::new();
+    for (kind, options, words) in [
+        ("deform", handles, &["Deform", "trace.csv", "converged"][..]),
+        ("unwrap", texcoord, &["Certified", "layout.png", "Warnings"]),
+        ("repack", "{}", &["Failed", "Retry"]),
     ] {
-        assert!(page.contains(words), "{words}: {page}");
+        let job = ended(&server, form(kind, options, ("plate.off", PLATE.into()))).await;
+        shown.push(
+            [id(&job), "plate.off"]
+                .iter()
+                .chain(words)
+                .copied()
+                .collect::<Vec<_>>()
+                .join("|"),
+        );
     }
-    assert!(!page.contains("layout.png"), "{page}");
+    scenario("kinds", server.url("/"), &shown).await;
 }
 
-#[tokio::test]
-async fn the_page_shows_what_is_proven() {
-    let server = Server::start();
-    let job = ended(&server, form("unwrap", "{}", ("plate.off", PLATE.into()))).await;
-    let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
-    let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
-    let page = page.expect("a browser");
-    for words in ["nothing overlaps", "safe at", "seam / √area", "layout.png"] {
-        assert!(page.contains(words), "{words}: {page}");
+/// Sources and bundle agree: building it again gives the same bytes.
+#[test]
+fn the_bundle_is_that_of_its_sources() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sources = places::repository("src/http/page");
+    let built = Command::new("node")
+        .arg(sources.join("build.mjs"))
+        .arg(folder.path())
+        .output()
+        .expect("node runs");
+    assert!(built.status.success(), "{built:?}");
+    let checked = Command::new("npm")
+        .args(["run", "--silent", "check"])
+        .current_dir(&sources)
+        .output();
+    let checked = checked.expect("npm runs");
+    assert!(
+        checked.status.success(),
+        "{}",
+        String::from_utf8_lossy(&checked.stdout)
+    );
+    let committed = std::fs::read_dir(sources.join("dist")).expect("a bundle");
+    let mut names: Vec<_> = committed
+        .map(|entry| entry.expect("a file").file_name())
+        .collect();
+    names.sort();
+    let fresh = std::fs::read_dir(folder.path()).expect("a bundle");
+    assert_eq!(fresh.count(), names.len());
+    for name in names {
+        let read = |folder: &Path| std::fs::read(folder.join(&name)).expect("a file");
+        let is_same = read(folder.path()) == read(&sources.join("dist"));
+        assert!(
+            is_same,
+            "{}: run `npm run build` in src/http/page",
+            name.display()
+        );
     }
 }
 
-#[tokio::test]
-async fn the_page_shows_warnings() {
-    let server = Server::start();
-    let options = r#"{"texcoord": 1}"#;
-    let job = ended(
-        &server,
-        form("unwrap", options, ("plate.off", PLATE.into())),
-    )
-    .await;
-    let url = server.url(&format!("/#{}", job["id"].as_str().expect("an id")));
-    let page = tokio::task::spawn_blocking(move || rendered(&url)).await;
-    let page = page.expect("a browser");
-    let warning = job["warnings"][0]["message"].as_str().expect("a warning");
-    assert!(page.contains(warning), "{warning}: {page}");
+/// What the page computes itself has the right numbers.
+#[test]
+fn the_analysis_of_the_page_is_right() {
+    let script = places::repository("tests/page/analysis.mjs");
+    let output = Command::new("node")
+        .arg(script)
+        .output()
+        .expect("node runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
 }

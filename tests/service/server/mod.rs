@@ -1,6 +1,7 @@
 //! Tests that talk to a real server, each to one of its own.
 
 mod applications;
+mod assets;
 mod backup;
 mod bad_inputs;
 mod drain;

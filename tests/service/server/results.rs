@@ -83,7 +83,7 @@ async fn pages_load_nothing_from_elsewhere() {
         "/",
         "/docs",
         "/assets/page.css",
-        "/assets/index.js",
+        "/assets/docs.css",
         "/assets/docs.js",
     ] {
         let answer = server.get(path).send().await.expect("an answer");

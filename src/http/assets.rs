@@ -1,0 +1,95 @@
+//! Files of the binary as answers: compressed, and kept by clients as long as they are the same.
+
+use std::io::Write as _;
+use std::sync::OnceLock;
+
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use sha2::{Digest, Sha256};
+
+use super::download::names;
+
+/// What a client may keep without asking again: its name has the version in it.
+const FOR_GOOD: &str = "public, max-age=31536000, immutable";
+/// What a client asks about each time.
+const ASK: &str = "no-cache";
+
+/// A file of the binary.
+pub(super) struct Asset {
+    content_type: &'static str,
+    content: &'static [u8],
+    made: OnceLock<Made>,
+}
+
+/// What is made of a file when it is first asked for.
+struct Made {
+    /// The first 16 hexadecimal digits of its SHA-256, as the pages name it.
+    version: String,
+    gzip: Vec<u8>,
+}
+
+impl Asset {
+    pub const fn new(content_type: &'static str, content: &'static [u8]) -> Self {
+        Self {
+            content_type,
+            content,
+            made: OnceLock::new(),
+        }
+    }
+
+    fn made(&self) -> &Made {
+        self.made.get_or_init(|| {
+            let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+            let written = encoder.write_all(self.content);
+            let mut version = format!("{:x}", Sha256::digest(self.content));
+            version.truncate(16);
+            Made {
+                version,
+                gzip: written.and_then(|()| encoder.finish()).unwrap_or_default(),
+            }
+        })
+    }
+}
+
+/// The file, or that it is unchanged. A query `v=` with its version says that the address changes with the content.
+pub(super) fn answer(asset: &'static Asset, query: Option<&str>, headers: &HeaderMap) -> Response {
+    let made = asset.made();
+    let is_compressed = !made.gzip.is_empty() && accepts_gzip(headers);
+    let suffix = if is_compressed { "-gzip" } else { "" };
+    let tag = format!("\"{}{suffix}\"", made.version);
+    let is_versioned = query.and_then(|query| query.strip_prefix("v=")) == Some(&made.version);
+    let kept = if is_versioned { FOR_GOOD } else { ASK };
+    let mut response = if names(headers, header::IF_NONE_MATCH, &tag) {
+        StatusCode::NOT_MODIFIED.into_response()
+    } else if is_compressed {
+        let encoding = [(header::CONTENT_ENCODING, "gzip")];
+        (encoding, made.gzip.as_slice()).into_response()
+    } else {
+        asset.content.into_response()
+    };
+    let set = response.headers_mut();
+    for (name, value) in [
+        (header::CONTENT_TYPE, asset.content_type),
+        (header::CACHE_CONTROL, kept),
+        (header::VARY, "accept-encoding"),
+    ] {
+        set.insert(name, HeaderValue::from_static(value));
+    }
+    if let Ok(tag) = HeaderValue::from_str(&tag) {
+        set.insert(header::ETAG, tag);
+    }
+    response
+}
+
+/// Whether a client takes gzip: it is named, and not with a weight of zero.
+fn accepts_gzip(headers: &HeaderMap) -> bool {
+    headers
+        .get_all(header::ACCEPT_ENCODING)
+        .iter()
+        .filter_map(|value| value.to_str().ok())
+        .flat_map(|value| value.split(','))
+        .filter_map(|coding| coding.trim().strip_prefix("gzip"))
+        .any(|rest| !matches!(rest.trim().trim_end_matches(['0', '.']), ";q="))
+}

@@ -1,0 +1,107 @@
+// What is drawn of a soup: all its faces where the scene puts them, or fewer of a large one.
+
+import { packedNormals } from "./normals";
+import { moved, type Soup } from "./soup";
+import { firstEqual } from "./weld";
+
+/** More faces than this are simplified for the view; every number is still that of all faces. */
+export const MAX_DRAWN = 500_000;
+
+/** Faces for the screen. */
+export interface Drawn {
+  count: number;
+  /** 9 numbers per face, in the scene. */
+  positions: Float32Array;
+  /** 12 numbers per face. */
+  normals: Int8Array;
+  /** 6 numbers per face; NaN without UVs. */
+  uvs: Float32Array;
+  /** Which measured face each one is, or stands for. */
+  face: Uint32Array;
+  /** How many there would be without simplification. */
+  of: number;
+}
+
+/** Collects the faces of all parts, copies included. */
+export function drawnOf(soup: Soup, begins: number[], chart: Uint32Array): Drawn {
+  const of = soup.parts.reduce((sum, part) => sum + part.positions.length / 9, 0);
+  const positions = new Float32Array(9 * of);
+  const uvs = new Float32Array(6 * of).fill(Number.NaN);
+  const face = new Uint32Array(of);
+  const normals = new Int8Array(12 * of);
+  let at = 0;
+  soup.parts.forEach((part, k) => {
+    const count = part.positions.length / 9;
+    const placed = moved(part.positions, part.matrix);
+    positions.set(placed, 9 * at);
+    normals.set(packedNormals(placed, part.normals && turned(part.normals, part.matrix)), 12 * at);
+    const source = 0 <= part.copyOf ? soup.parts[part.copyOf]! : part;
+    if (source.uvs) uvs.set(source.uvs, 6 * at);
+    for (let i = 0; i < count; i++) face[at + i] = begins[k]! + i;
+    at += count;
+  });
+  const all = { count: of, positions, normals, uvs, face, of };
+  return of <= MAX_DRAWN ? all : simplified(all, chart);
+}
+
+/** Directions as a matrix turns them, if it scales alike in all directions. */
+function turned(normals: Float32Array, matrix: number[]): Float32Array {
+  const rotation = [...matrix];
+  rotation[12] = rotation[13] = rotation[14] = 0;
+  return moved(normals, rotation);
+}
+
+/** Corners of one chart in one cell of a grid become one; faces that lose their area thereby are left out. */
+function simplified(all: Drawn, chart: Uint32Array): Drawn {
+  // A surface in a cube of N cells a side meets some 3N² of them, with two faces each.
+  let cells = Math.sqrt(MAX_DRAWN / 6);
+  for (;;) {
+    const kept = clustered(all, chart, cells);
+    if (kept.count <= MAX_DRAWN || cells < 8) return kept;
+    cells *= 0.8;
+  }
+}
+
+function clustered(all: Drawn, chart: Uint32Array, cells: number): Drawn {
+  const cluster = firstEqual(keys(all, chart, cells), 3 * all.count);
+  const kept: number[] = [];
+  for (let i = 0; i < all.count; i++) {
+    const [a, b, c] = [cluster[3 * i], cluster[3 * i + 1], cluster[3 * i + 2]];
+    if (a !== b && b !== c && c !== a) kept.push(i);
+  }
+  const few: Drawn = {
+    count: kept.length,
+    positions: new Float32Array(9 * kept.length),
+    normals: new Int8Array(12 * kept.length),
+    uvs: new Float32Array(6 * kept.length),
+    face: Uint32Array.from(kept, (i) => all.face[i]!),
+    of: all.of,
+  };
+  kept.forEach((i, k) => {
+    for (let corner = 0; corner < 3; corner++) {
+      const [from, to] = [cluster[3 * i + corner]!, 3 * k + corner];
+      few.positions.set(all.positions.subarray(3 * from, 3 * from + 3), 3 * to);
+      few.normals.set(all.normals.subarray(4 * from, 4 * from + 4), 4 * to);
+      few.uvs.set(all.uvs.subarray(2 * from, 2 * from + 2), 2 * to);
+    }
+  });
+  return few;
+}
+
+function keys(all: Drawn, chart: Uint32Array, cells: number): Uint32Array {
+  const least = [Infinity, Infinity, Infinity];
+  const greatest = [-Infinity, -Infinity, -Infinity];
+  all.positions.forEach((x, i) => {
+    least[i % 3] = Math.min(least[i % 3]!, x);
+    greatest[i % 3] = Math.max(greatest[i % 3]!, x);
+  });
+  const side = Math.max(...greatest.map((x, axis) => x - least[axis]!)) / cells;
+  const words = new Uint32Array(12 * all.count);
+  for (let corner = 0; corner < 3 * all.count; corner++) {
+    for (let axis = 0; axis < 3; axis++) {
+      words[4 * corner + axis] = Math.floor((all.positions[3 * corner + axis]! - least[axis]!) / side);
+    }
+    words[4 * corner + 3] = chart[all.face[Math.floor(corner / 3)]!]!;
+  }
+  return words;
+}

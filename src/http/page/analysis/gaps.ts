@@ -1,0 +1,57 @@
+// Islands that come nearer to each other than they may.
+
+import type { Charts } from "./charts";
+import { meetingBoxes } from "./grid";
+import type { Faces, Texture } from "./soup";
+import { next } from "./weld";
+
+/** Less than this share of a texel is rounding. */
+const TOLERANCE = 1e-3;
+
+/** Marks each of `charts.borders` that is nearer than the padding to a border of another chart of its group. */
+export function nearBorders(faces: Faces, charts: Charts, texture: Texture): Uint8Array {
+  const near = new Uint8Array(charts.borders.length);
+  const limit = texture.padding - TOLERANCE;
+  if (!(0 < limit)) return near;
+  const ends = borderEnds(faces, charts, texture);
+  const boxes = new Float64Array(ends.length);
+  for (let k = 0; k < ends.length; k += 4) {
+    const half = limit / 2;
+    boxes[k] = Math.min(ends[k]!, ends[k + 2]!) - half;
+    boxes[k + 1] = Math.min(ends[k + 1]!, ends[k + 3]!) - half;
+    boxes[k + 2] = Math.max(ends[k]!, ends[k + 2]!) + half;
+    boxes[k + 3] = Math.max(ends[k + 1]!, ends[k + 3]!) + half;
+  }
+  const of = (border: number) => Math.floor(charts.borders[border]! / 3);
+  meetingBoxes(boxes, Math.max(4 * texture.padding, 8), (one, other) => {
+    const [a, b] = [of(one), of(other)];
+    if (faces.group[a] !== faces.group[b] || charts.ofFace[a] === charts.ofFace[b]) return;
+    if (distance(ends, 4 * one, 4 * other) < limit) near[one] = near[other] = 1;
+  });
+  return near;
+}
+
+function borderEnds(faces: Faces, charts: Charts, { width, height }: Texture): Float64Array {
+  const ends = new Float64Array(4 * charts.borders.length);
+  charts.borders.forEach((edge, k) => {
+    [edge, next(edge)].forEach((corner, end) => {
+      ends[4 * k + 2 * end] = faces.uvs[2 * corner]! * width;
+      ends[4 * k + 2 * end + 1] = faces.uvs[2 * corner + 1]! * height;
+    });
+  });
+  return ends;
+}
+
+/** Between two segments that do not cross. */
+function distance(ends: Float64Array, one: number, other: number): number {
+  return Math.min(toSegment(ends, one, other), toSegment(ends, one + 2, other), toSegment(ends, other, one), toSegment(ends, other + 2, one));
+}
+
+function toSegment(ends: Float64Array, point: number, segment: number): number {
+  const [u, v] = [ends[segment]!, ends[segment + 1]!];
+  const [du, dv] = [ends[segment + 2]! - u, ends[segment + 3]! - v];
+  const [pu, pv] = [ends[point]! - u, ends[point + 1]! - v];
+  const length = du * du + dv * dv;
+  const t = 0 < length ? Math.min(Math.max((pu * du + pv * dv) / length, 0), 1) : 0;
+  return Math.hypot(pu - t * du, pv - t * dv);
+}

@@ -1,0 +1,59 @@
+// Numbers about many faces.
+
+import { type Distortion, MEASURES } from "./distortion";
+
+/** How a measure is spread over faces, weighted by their area on the surface. */
+export interface Spread {
+  least: number;
+  mean: number;
+  greatest: number;
+  /** Below it are 99 % of the area. */
+  p99: number;
+  /** From where to where the bins of the histogram reach; values beyond are in the last bin. */
+  from: number;
+  to: number;
+  /** Share of the area in each bin. */
+  bins: number[];
+  /** The faces with the greatest values, worst first; for density the lowest. */
+  worst: number[];
+}
+
+const BINS = 48;
+const WORST = 8;
+
+/** The spread of each of `MEASURES`; null where no face has a value. */
+export function spreads(distortion: Distortion, members: Uint32Array): (Spread | null)[] {
+  return MEASURES.map((measure, k) => spread(distortion, members, k, measure === "density" ? -1 : 1));
+}
+
+function spread({ values, area }: Distortion, members: Uint32Array, k: number, worse: number): Spread | null {
+  const value = (face: number) => values[4 * face + k]!;
+  const sorted = members.filter((face) => Number.isFinite(value(face))).sort((one, other) => value(one) - value(other));
+  if (!sorted.length) return null;
+  let [total, sum] = [0, 0];
+  for (const face of sorted) {
+    total += area[face]!;
+    sum += area[face]! * (worse < 0 ? value(face) ** 2 : value(face));
+  }
+  // The mean density is that of the area, as reports have it.
+  const mean = worse < 0 ? Math.sqrt(sum / total) : sum / total;
+  const quantile = (share: number) => {
+    let below = 0;
+    for (const face of sorted) {
+      below += area[face]!;
+      if (share * total <= below) return value(face);
+    }
+    return value(sorted.at(-1)!);
+  };
+  const [least, greatest, p99] = [value(sorted[0]!), value(sorted.at(-1)!), quantile(0.99)];
+  const from = worse < 0 ? quantile(0.002) : least;
+  const to = worse < 0 ? quantile(0.998) : quantile(0.995);
+  const step = (to - from || Math.max(Math.abs(to) * 0.01, 1e-9)) / BINS;
+  const bins = new Array<number>(BINS).fill(0);
+  for (const face of sorted) {
+    const bin = Math.min(Math.max(Math.floor((value(face) - from) / step), 0), BINS - 1);
+    bins[bin]! += area[face]! / total;
+  }
+  const ends = worse < 0 ? sorted.slice(0, WORST) : sorted.slice(-WORST).reverse();
+  return { least, mean, greatest, p99, from, to: from + BINS * step, bins, worst: [...ends] };
+}

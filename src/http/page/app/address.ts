@@ -1,0 +1,70 @@
+// What the address says: the same address opens the same state.
+
+import type { Measure } from "../analysis/distortion";
+import type { Shade } from "../viewer/look";
+
+/** The state that is worth sharing. */
+export interface Place {
+  job: string | null;
+  tab: "view" | "report";
+  shade: Shade;
+  measure: Measure;
+  seams: boolean;
+  wire: boolean;
+  problems: boolean;
+  /** The name of an atlas. */
+  atlas: string | null;
+  aim: Aim;
+  face: number | null;
+  chart: number | null;
+  seam: number | null;
+  /** Six numbers for the camera, three for the plane. */
+  camera: number[] | null;
+  plane: number[] | null;
+}
+
+/** What is pointed at and selected. */
+export type Aim = "face" | "chart" | "seam";
+
+export const START: Place = {
+  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", seams: true, wire: false, problems: true, atlas: null,
+  aim: "chart", face: null, chart: null, seam: null, camera: null, plane: null,
+};
+
+/** Reads the fragment of the address. */
+export function readPlace(): Place {
+  const given = new URLSearchParams(location.hash.slice(1));
+  const place: Record<string, unknown> = { ...START };
+  for (const [name, text] of given) {
+    if (!(name in START)) continue;
+    if (name === "camera" || name === "plane") place[name] = numbers(text, name === "camera" ? 6 : 3);
+    else if (["face", "chart", "seam"].includes(name)) place[name] = /^\d+$/.test(text) ? Number(text) : null;
+    else if (typeof START[name as keyof Place] === "boolean") place[name] = text === "1";
+    else place[name] = text;
+  }
+  return place as unknown as Place;
+}
+
+function numbers(text: string, count: number): number[] | null {
+  const some = text.split(",").map(Number);
+  return some.length === count && some.every(Number.isFinite) ? some : null;
+}
+
+/** The fragment for a state. */
+export function fragmentOf(place: Place): string {
+  const query = new URLSearchParams();
+  for (const [name, value] of Object.entries(place)) {
+    if (value === null || value === START[name as keyof Place]) continue;
+    if (typeof value === "boolean") query.set(name, value ? "1" : "0");
+    else if (Array.isArray(value)) query.set(name, value.map((x: number) => Number(x.toPrecision(5))).join(","));
+    else query.set(name, String(value));
+  }
+  return query.toString().replaceAll("%2C", ",");
+}
+
+/** Has the address say this; `isNew` lets the browser go back to what was before. */
+export function writePlace(place: Place, isNew = false): void {
+  const fragment = fragmentOf(place);
+  if (fragment === location.hash.slice(1)) return;
+  history[isNew ? "pushState" : "replaceState"](null, "", `${location.pathname}${location.search}${fragment ? `#${fragment}` : ""}`);
+}

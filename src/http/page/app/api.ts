@@ -1,0 +1,109 @@
+// The service as the page uses it. All addresses are relative to the page, so that it may lie below any prefix.
+
+/** A job, as the service describes it. */
+export interface Job {
+  id: string;
+  kind: string;
+  seq: number;
+  state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
+  stage: string | null;
+  fraction: number;
+  chart: number;
+  charts: number;
+  iteration: number;
+  energy: number | null;
+  smallest: number | null;
+  elapsed_ms: number;
+  filename: string;
+  input_bytes: number;
+  options: Record<string, unknown>;
+  priority: number;
+  cached: boolean;
+  created_at: string;
+  started_at: string | null;
+  finished_at: string | null;
+  expires_at: string | null;
+  certified: boolean | null;
+  within_bound: boolean | null;
+  warnings: { code: string; message: string }[];
+  error?: Problem;
+  links: { self: string; events: string; inputs: FileLink[]; files: FileLink[] };
+}
+
+export interface FileLink { href: string; name: string; bytes: number }
+export interface Problem { code: string; title: string; detail: string; status: number }
+
+/** What changes of a job while it runs. */
+export type Progress = Pick<Job, "seq" | "state" | "stage" | "fraction" | "chart" | "charts" | "iteration" | "energy" | "smallest" | "elapsed_ms">;
+
+/** An error that the service explains. */
+export class Refused extends Error {
+  constructor(readonly problem: Problem) {
+    super(problem.detail ? `${problem.title}: ${problem.detail}` : problem.title);
+  }
+}
+
+/** An address of the service, relative to the page. */
+export function address(path: string): string {
+  return path.replace(/^\//, "");
+}
+
+/** Calls the service; errors say what is wrong in words. */
+export async function call<T>(path: string, request: RequestInit = {}): Promise<T> {
+  const answer = await reach(path, request);
+  return answer.status === 204 ? (null as T) : ((await answer.json()) as T);
+}
+
+/** The bytes of a file. */
+export async function download(path: string): Promise<Blob> {
+  return (await reach(path)).blob();
+}
+
+async function reach(path: string, request: RequestInit = {}): Promise<Response> {
+  let answer: Response;
+  try {
+    answer = await fetch(address(path), request);
+  } catch {
+    throw new Error("The service does not answer. Check that it runs, then try again.");
+  }
+  if (answer.ok) return answer;
+  const problem = (await answer.json().catch(() => null)) as Problem | null;
+  throw problem ? new Refused(problem) : new Error(`The service answered with status ${answer.status}.`);
+}
+
+export const jobPath = (id: string) => `v1/jobs/${encodeURIComponent(id)}`;
+
+export function isFinal(state: Job["state"]): boolean {
+  return state !== "queued" && state !== "running";
+}
+
+/** A file of a job's result, by the last part of its address. */
+export function fileOf(job: Job, role: string): FileLink | undefined {
+  return job.links.files.find(({ href }) => href.endsWith(`/${role}`));
+}
+
+/** Watches a job until it ends; returns how to stop. */
+export function watch(job: Job, heard: (event: Progress) => void): () => void {
+  let isOver = false;
+  let last = 0;
+  let socket: WebSocket;
+  const connect = () => {
+    const url = new URL(`${address(job.links.events)}?after=${last}`, document.baseURI);
+    url.protocol = url.protocol.replace("http", "ws");
+    socket = new WebSocket(url);
+    socket.onmessage = ({ data }: MessageEvent<string>) => {
+      const event = JSON.parse(data) as Progress;
+      last = event.seq;
+      isOver ||= isFinal(event.state);
+      heard(event);
+    };
+    socket.onclose = () => {
+      if (!isOver) setTimeout(() => isOver || connect(), 1000);
+    };
+  };
+  connect();
+  return () => {
+    isOver = true;
+    socket.close();
+  };
+}

@@ -1,0 +1,44 @@
+// A job as others would make it: with curl, and with the command line.
+
+/** A word for a shell. */
+function quoted(word: string): string {
+  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}
+
+function text(value: unknown): string {
+  return typeof value === "string" ? value : JSON.stringify(value);
+}
+
+/** The part of a form that holds the input of a kind. */
+const PART: Record<string, string> = { warp: "image", solve: "problem" };
+
+/** A call of the service that makes this job. */
+export function curl(kind: string, filename: string, options: Record<string, unknown>): string {
+  const url = new URL("v1/jobs", document.baseURI).href;
+  const parts = [["-F", `kind=${kind}`], ["-F", `${PART[kind] ?? "mesh"}=@${filename}`]];
+  if (Object.keys(options).length) parts.push(["-F", `options=${JSON.stringify(options)}`]);
+  return ["curl", "-s", url, ...parts.flat()].map(quoted).join(" ");
+}
+
+/** The command that does the same without the service; null for kinds whose handles come in a file. */
+export function commandLine(kind: string, filename: string, options: Record<string, unknown>): string | null {
+  if (!["unwrap", "repack", "measure"].includes(kind)) return null;
+  const { format = "glb", ...others } = options;
+  const stem = filename.replace(/\.[^.]*$/, "");
+  const flags = Object.entries(others).flatMap(([name, value]) => {
+    const flag = `--${name.replaceAll("_", "-")}`;
+    return value === true ? [flag] : [flag, text(value)];
+  });
+  const output = kind === "measure" ? [] : ["-o", `${stem}-${kind}.${text(format)}`];
+  return ["unwrapd", kind === "measure" ? "verify" : kind, filename, ...output, ...flags].map(quoted).join(" ");
+}
+
+/** Puts a text on the clipboard; false where that is not allowed. */
+export async function copy(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}

@@ -1,0 +1,154 @@
+// The panel on the right: what is known of the job, and what can be done with it.
+
+import { address, type Job, type Progress } from "./api";
+import { chosenOptions } from "./definitions";
+import { commandLine, copy, curl } from "./commands";
+import { curve } from "./charts_svg";
+import { button, byId, element, pairs, prose } from "./dom";
+import { bytes, duration, percent, plain, short, whole } from "./format";
+import { outcome } from "./job_list";
+import { claimed, claims, measure, type Report } from "./reports";
+
+/** What can be done with a job. */
+export interface Actions {
+  cancel: () => void;
+  finish: () => void;
+  retry: () => void;
+  remove: () => void;
+  reuse: () => void;
+  position: () => number | null;
+}
+
+const STAGES: Record<string, string> = {
+  read: "Reading the file", cut: "Finding seams", map: "Relaxing charts", deform: "Deforming", pack: "Packing the atlas",
+  bake: "Resampling textures", write: "Writing the result", judge: "Proving the result",
+};
+
+/** Shows a job that waits or runs. */
+export class ProgressPanel {
+  readonly #energies: number[] = [];
+  readonly #bar = element("progress", { max: 1, value: 0, aria: { label: "Share of the work done" } });
+  readonly #stage = element("p", { className: "stage", aria: { role: "status" } });
+  readonly #facts = element("div");
+  readonly #curve = element("div", { className: "energies", title: "Energy of the chart at hand, iteration by iteration" });
+
+  constructor(readonly job: Job, readonly actions: Actions) {
+    byId("inspector").replaceChildren(
+      element("section", { className: "progress-panel" }, this.#stage, this.#bar, this.#facts, this.#curve,
+        element("div", { className: "actions" },
+          button("Finish early", actions.finish, { title: "Take the current map, which is valid, as the result" }),
+          button("Cancel", actions.cancel))));
+    this.show(job);
+  }
+
+  show(event: Progress): void {
+    const position = this.actions.position();
+    this.#stage.textContent = event.state === "queued" ? (position ? `Number ${position} in the queue` : "In the queue") : (STAGES[event.stage ?? ""] ?? "Starting");
+    this.#bar.value = event.fraction;
+    const isMapping = event.stage === "map" || event.stage === "deform";
+    if (isMapping && event.energy !== null) this.#energies.push(event.energy);
+    this.#facts.replaceChildren(pairs([
+      ["Done", percent(event.fraction)],
+      ["Time", duration(event.elapsed_ms)],
+      ["Maps made", event.charts ? `${event.chart} of ${event.charts} so far` : "–", "Pieces that are cut again are mapped again"],
+      ["Iteration", isMapping ? whole(event.iteration) : "–"],
+      ["Energy", isMapping ? short(event.energy) : "–"],
+      ["Smallest face", isMapping ? short(event.smallest) : "–", "As a share of its rest area: positive means that nothing is flipped"],
+    ]));
+    if (1 < this.#energies.length) this.#curve.replaceChildren(curve(this.#energies.slice(-200), "Energy"));
+  }
+}
+
+/** Shows a job that has ended. */
+export async function showEnded(job: Job, report: Report | null, actions: Actions): Promise<void> {
+  const options = await chosenOptions(job.kind, job.options).catch(() => ({}));
+  const parts: (Node | null)[] = [verdict(job), failure(job), report?.proven ? proofs(report) : null];
+  if (report) parts.push(facts(report));
+  if (job.warnings.length) parts.push(section("Warnings", element("ul", { className: "warnings" }, ...job.warnings.map(({ message }) => element("li", {}, ...prose(message))))));
+  if (job.links.files.length) parts.push(section("Files", files(job)));
+  parts.push(section("Job", about(job, options), element("div", { className: "actions" },
+    job.state === "failed" ? button("Retry", actions.retry) : null,
+    button("Use these options", actions.reuse, { title: "Put the options of this job into the form" }),
+    button("Delete", actions.remove, { className: "danger" })), copies(job, options)));
+  byId("inspector").replaceChildren(...parts.filter((part) => part !== null));
+}
+
+function section(title: string, ...content: (Node | null)[]): HTMLElement {
+  return element("section", {}, element("h2", { textContent: title }), ...content);
+}
+
+function verdict(job: Job): HTMLElement {
+  const kind = outcome(job);
+  const text = {
+    certified: "Certified", open: "Not certified", failed: "Failed", cancelled: "Cancelled", done: job.kind === "measure" ? "Measured" : "Done",
+  }[kind];
+  const detail = {
+    certified: "Everything requested is proven on the bytes of the file.",
+    open: "The result exists, but something requested is not proven. The warnings say what.",
+    failed: "", cancelled: "Only the record is kept.", done: job.kind === "measure" ? "The UVs of the file as they are." : "",
+  }[kind];
+  return element("section", { className: `verdict ${kind}` }, element("h2", { textContent: text }), detail ? element("p", { textContent: detail }) : null);
+}
+
+function failure({ error }: Job): HTMLElement | null {
+  if (!error) return null;
+  return element("section", { className: "failure" }, element("p", {}, element("strong", { textContent: error.title })), element("p", { textContent: error.detail }),
+    element("p", { className: "hint" }, "Repair the file or change the options, then unwrap again. ", element("a", { href: `docs#${error.code}`, textContent: `About ${error.code}` })));
+}
+
+function proofs(report: Report): HTMLElement {
+  const rows = claims(report.proven!).map(({ holds, text, detail }) => element("li", { className: holds ? "holds" : "fails", title: detail },
+    element("span", { className: "tick", aria: { hidden: "true" }, textContent: holds ? "✓" : "✕" }), element("span", { textContent: claimed({ holds, text, detail }) })));
+  return section("Proven", element("ul", { className: "claims" }, ...rows));
+}
+
+function facts(report: Report): HTMLElement | null {
+  const groups = report.groups ?? [];
+  if (!groups.length) return section("Report", generic(report));
+  const sum = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0), 0);
+  const area = sum("area_3d") || 1;
+  const mean = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0) * (measure(group, "area_3d") ?? 0), 0) / area;
+  const [first] = groups;
+  return section(groups.length === 1 ? "Result" : `Result: ${groups.length} atlases`, pairs([
+    ["Faces", whole(sum("faces"))],
+    ["Charts", whole(sum("charts"))],
+    ["Seams / √area", short(sum("seam_length") / Math.sqrt(area)), "Length of all seams over the square root of the surface area"],
+    ["Distortion", short(mean("sym_dirichlet_mean")), "Mean symmetric Dirichlet energy; an isometry has 4"],
+    ["Covered", percent(sum("pack_unit") / groups.length), "Share of the texture that charts cover"],
+    ["Texels per unit", groups.length === 1 ? short(first!.texels_per_unit) : "by atlas"],
+  ]));
+}
+
+/** The numbers of reports of other kinds. */
+export function generic(report: Report): HTMLElement {
+  const known = Object.entries(report).filter(([name, value]) => !["schema_version", "unwrapd_version"].includes(name) && ["number", "string", "boolean"].includes(typeof value));
+  return pairs(known.map(([name, value]) => [plain(name), typeof value === "number" ? short(value) : typeof value === "boolean" ? (value ? "yes" : "no") : String(value)]));
+}
+
+function files(job: Job): HTMLElement {
+  return element("ul", { className: "files" }, ...job.links.files.map(({ href, name, bytes: size }, k) => element("li", {},
+    element("a", { href: address(href), download: name, className: k ? "" : "primary", textContent: name }), element("small", { textContent: bytes(size) }))));
+}
+
+function about(job: Job, options: Record<string, unknown>): HTMLElement {
+  const chosen = Object.entries(options).map(([name, value]) => `${plain(name).toLowerCase()} ${typeof value === "object" ? "…" : value}`).join(", ");
+  return pairs([
+    ["Kind", plain(job.kind)], ["Options", chosen || "defaults"], ["Input", bytes(job.input_bytes)], ["Time", duration(job.elapsed_ms)],
+    ["Made", new Date(job.created_at).toLocaleString()], ["Kept until", job.expires_at ? new Date(job.expires_at).toLocaleDateString() : "–"],
+    ...(job.cached ? [["Result", "copied from an equal job"] as [string, string]] : []),
+  ]);
+}
+
+function copies(job: Job, options: Record<string, unknown>): HTMLElement {
+  const line = commandLine(job.kind, job.filename, options);
+  return element("div", { className: "actions" }, copier("Copy as curl", curl(job.kind, job.filename, options)), line ? copier("Copy as command", line) : null);
+}
+
+function copier(label: string, text: string): HTMLButtonElement {
+  const made = button(label, () => void copy(text).then((done) => {
+    made.textContent = done ? "Copied" : "Not allowed here";
+    setTimeout(() => (made.textContent = label), 1500);
+  }), { title: text });
+  return made;
+}
+

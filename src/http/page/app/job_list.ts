@@ -1,0 +1,113 @@
+// The list of jobs: pictures, states, and where in the queue each one is.
+
+import { call, isFinal, type Job } from "./api";
+import { byId, element } from "./dom";
+import { ago, duration, plain } from "./format";
+import { fragmentOf, START } from "./address";
+import { thumbnail } from "./thumbnails";
+
+const PAGE = 20;
+/** Between looks at the list while something in it may change. */
+const BUSY_MS = 1500;
+const IDLE_MS = 15000;
+
+/** The list on the left. */
+export class JobList {
+  current: string | null = null;
+  #jobs: Job[] = [];
+  #next: string | null = null;
+  #queue: string[] = [];
+  #timer = 0;
+
+  constructor(readonly chosen: (id: string) => void) {
+    byId("older").addEventListener("click", () => void this.#older());
+    document.addEventListener("visibilitychange", () => document.hidden || void this.refresh());
+  }
+
+  /** Asks the service for the newest jobs. */
+  async refresh(): Promise<void> {
+    clearTimeout(this.#timer);
+    try {
+      const page = await call<{ jobs: Job[]; next: string | null }>(`v1/jobs?limit=${PAGE}`);
+      const older = this.#jobs.filter((job) => page.jobs.length === PAGE && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
+      if (!older.length) this.#next = page.next;
+      this.#jobs = [...page.jobs, ...older];
+      this.#queue = page.jobs.some(({ state }) => state === "queued") ? await queue() : [];
+      this.#show();
+    } catch {
+      // The next look may be answered; what is shown stays.
+    }
+    const isBusy = this.#jobs.some(({ state }) => !isFinal(state));
+    if (!document.hidden) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
+  }
+
+  /** Position in the queue from 1, or null. */
+  position(id: string): number | null {
+    const at = this.#queue.indexOf(id);
+    return 0 <= at ? at + 1 : null;
+  }
+
+  select(id: string | null): void {
+    this.current = id;
+    this.#show();
+  }
+
+  async #older(): Promise<void> {
+    const page = await call<{ jobs: Job[]; next: string | null }>(`v1/jobs?limit=${PAGE}&cursor=${this.#next}`);
+    this.#jobs.push(...page.jobs);
+    this.#next = page.next;
+    this.#show();
+  }
+
+  #show(): void {
+    const list = byId("job-list");
+    const shown = new Map([...list.children].map((row) => [(row as HTMLElement).dataset.id, row as HTMLElement]));
+    list.replaceChildren(...this.#jobs.map((job) => {
+      const old = shown.get(job.id);
+      const key = JSON.stringify([job.state, Math.round(job.fraction * 100), this.position(job.id), this.current === job.id, ago(job.created_at)]);
+      return old?.dataset.key === key ? old : this.#row(job, key);
+    }));
+    if (!this.#jobs.length) list.replaceChildren(element("li", { className: "none", textContent: "None yet. Press Unwrap to make one of the sample." }));
+    byId("older").hidden = this.#next === null;
+  }
+
+  #row(job: Job, key: string): HTMLElement {
+    const image = element("img", { width: 36, height: 36, alt: "" });
+    thumbnail(image, job);
+    const link = element("a", { href: `#${fragmentOf({ ...START, job: job.id })}`, className: "row-link" },
+      image,
+      element("span", { className: "name", textContent: job.filename, title: job.filename }),
+      element("span", { className: `facts ${outcome(job)}`, textContent: this.#facts(job) }));
+    if (job.id === this.current) link.setAttribute("aria-current", "true");
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      this.chosen(job.id);
+    });
+    const bar = element("progress", { max: 1, value: job.fraction, hidden: job.state !== "running", aria: { label: `Progress of ${job.filename}` } });
+    return element("li", { data: { id: job.id, key } }, link, bar);
+  }
+
+  #facts(job: Job): string {
+    const kind = job.kind === "unwrap" ? "" : `${plain(job.kind)} · `;
+    if (job.state === "queued") {
+      const position = this.position(job.id);
+      return `${kind}${position ? `number ${position} in the queue` : "queued"}`;
+    }
+    if (job.state === "running") return `${kind}${job.stage ?? "running"} · ${Math.round(100 * job.fraction)} %`;
+    const word = { certified: "certified", open: "not certified", failed: "failed", cancelled: "cancelled", done: "done" }[outcome(job)];
+    return `${kind}${word} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
+  }
+}
+
+/** How a job ended, in a word for style sheets. */
+export function outcome(job: Job): "certified" | "open" | "failed" | "cancelled" | "done" {
+  if (job.state === "failed" || job.state === "cancelled") return job.state;
+  return job.certified === null ? "done" : job.certified ? "certified" : "open";
+}
+
+/** Waiting jobs in the order in which they start. */
+async function queue(): Promise<string[]> {
+  const { jobs } = await call<{ jobs: Job[] }>("v1/jobs?state=queued&limit=200");
+  const order = (one: Job, other: Job) => other.priority - one.priority || one.created_at.localeCompare(other.created_at);
+  return jobs.sort(order).map(({ id }) => id);
+}

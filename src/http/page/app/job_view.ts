@@ -1,0 +1,158 @@
+// One job in the page: watched while it runs, shown when it has ended.
+
+import { address, call, fileOf, isFinal, type Job, jobPath, watch } from "./api";
+import { byId, element } from "./dom";
+import { ProgressPanel, showEnded } from "./inspector";
+import { inputOf, type Shape, shapeOf } from "./kinds";
+import type { JobList } from "./job_list";
+import type { Report } from "./reports";
+import type { Chosen, Setup } from "./setup";
+import type { Source, Viewer } from "./viewer";
+
+/** What a job view works with. */
+export interface Parts {
+  viewer: Viewer;
+  list: JobList;
+  setup: Setup;
+  failed: (error: unknown) => void;
+  /** Called when the job was removed, and when its result is shown. */
+  removed: () => void;
+  shown: () => void;
+}
+
+/** Shows one job at a time. */
+export class JobView {
+  job: Job | null = null;
+  report: Report | null = null;
+  input: Chosen | null = null;
+  readonly #parts: Parts;
+  #stop: () => void = () => {};
+  /** Inputs that were uploaded from here. */
+  readonly #inputs = new Map<string, Chosen>();
+
+  constructor(parts: Parts) {
+    this.#parts = parts;
+  }
+
+  remember(job: Job, input: Chosen): void {
+    this.#inputs.set(job.id, input);
+  }
+
+  /** Shows nothing any more. */
+  leave(): void {
+    this.#stop();
+    this.job = this.report = this.input = null;
+    showFallback(null);
+  }
+
+  async open(id: string): Promise<void> {
+    this.leave();
+    const job = await call<Job>(jobPath(id));
+    this.job = job;
+    this.#title(job);
+    if (isFinal(job.state)) return this.#ended(job);
+    const panel = new ProgressPanel(job, this.#actions(job));
+    note(job.state === "queued" ? "The job waits for its turn." : "UVs appear here when the job ends.");
+    void this.#showInput(job);
+    this.#stop = watch(job, (event) => {
+      if (this.job?.id !== id) return;
+      panel.show(event);
+      if (isFinal(event.state)) void this.open(id).then(() => this.#parts.list.refresh()).catch(this.#parts.failed);
+    });
+  }
+
+  #title(job: Job): void {
+    byId("title").textContent = job.filename;
+    document.title = `${job.filename} · unwrapd`;
+  }
+
+  async #inputFor(job: Job): Promise<Chosen | null> {
+    return this.#inputs.get(job.id) ?? (await inputOf(job).catch(() => null));
+  }
+
+  async #showInput(job: Job): Promise<void> {
+    const input = await this.#inputFor(job);
+    if (this.job?.id !== job.id || !input) return;
+    this.input = input;
+    await this.#parts.viewer.show({ ...input, isTurning: true }).catch(() => {});
+  }
+
+  async #ended(job: Job): Promise<void> {
+    const report = job.state === "succeeded" && fileOf(job, "report") ? await call<Report>(`${job.links.self}/report`) : null;
+    if (this.job !== job) return;
+    this.report = report;
+    await showEnded(job, report, this.#actions(job));
+    this.input = await this.#inputFor(job);
+    if (this.job !== job) return;
+    if (job.state !== "succeeded") {
+      note(job.state === "failed" ? "No result: the job failed. The cause is beside." : "No result: the job was cancelled.");
+      if (this.input) await this.#parts.viewer.show(this.input).catch(() => {});
+      else this.#parts.viewer.clear();
+      return this.#parts.shown();
+    }
+    await this.#showShape(job, await shapeOf(job, report, this.input));
+    this.#parts.shown();
+  }
+
+  async #showShape(job: Job, shape: Shape): Promise<void> {
+    if (this.job !== job) return;
+    const { viewer } = this.#parts;
+    note("surface" in shape ? "Looking at the result …" : "");
+    if ("surface" in shape) {
+      if (await viewer.show(shape.surface)) note(viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ? "" : "This file has no UVs.");
+      if (!viewer.stage) showFallback(job, "This browser shows no WebGL here: pictures instead of views.");
+    } else {
+      viewer.clear();
+      if ("pictures" in shape) showPictures(shape.pictures);
+      else note(shape.nothing);
+    }
+  }
+
+  /** The result again, after its input was shown. */
+  async showResult(): Promise<void> {
+    const { job, report } = this;
+    if (job) await this.#showShape(job, await shapeOf(job, report, this.input));
+  }
+
+  /** The input with the UVs that it has, judged as the result is. */
+  before(): Source | null {
+    const { job, input } = this;
+    if (!job || !input) return null;
+    const { padding = 0, resolution = 1024, group_by, source_texcoord } = job.options;
+    const by = (this.report?.options?.group_by ?? group_by ?? "material") as "material";
+    return { ...input, record: { padding: Number(padding), resolution: resolution as number, group_by: by, texcoord: Number(source_texcoord ?? 0) } };
+  }
+
+  #actions(job: Job) {
+    const { failed, list, setup, removed } = this.#parts;
+    const wish = (does: Promise<unknown>) => void does.then(() => list.refresh()).catch(failed);
+    const remove = () => call(address(job.links.self), { method: "DELETE" });
+    return {
+      cancel: () => wish(remove()),
+      finish: () => wish(call(`${job.links.self}/finish`, { method: "POST" })),
+      retry: () => wish(call(`${job.links.self}/retry`, { method: "POST" }).then(() => this.open(job.id))),
+      remove: () => wish(remove().then(removed)),
+      reuse: () => void setup.take(job.kind, job.options).catch(failed),
+      position: () => list.position(job.id),
+    };
+  }
+}
+
+/** Says something where the UVs would be. */
+export function note(text: string): void {
+  byId("plane-note").textContent = text;
+}
+
+/** The pictures of the service, where there are no views. */
+export function showFallback(job: Job | null, why = ""): void {
+  const holder = byId("fallback");
+  const pictures = job ? job.links.files.filter(({ name }) => name.endsWith(".png")) : [];
+  holder.hidden = job === null;
+  holder.replaceChildren(element("p", { textContent: why }), ...pictures.map(({ href, name }) => element("img", { src: address(href), alt: name })));
+}
+
+function showPictures(pictures: [string, string][]): void {
+  const holder = byId("fallback");
+  holder.hidden = false;
+  holder.replaceChildren(...pictures.map(([src, caption]) => element("figure", {}, element("img", { src, alt: caption }), element("figcaption", { textContent: caption }))));
+}

@@ -1,0 +1,243 @@
+// The page: what stands where and who tells whom.
+
+import { MEASURES } from "../analysis/distortion";
+import { SHADES } from "../viewer/look";
+import { type Place, readPlace, START, writePlace } from "./address";
+import type { Analysis } from "../analysis/analysis";
+import { analyzed } from "./analyst";
+import { address, download, type Job } from "./api";
+import { byId, element, pairs } from "./dom";
+import { short, whole } from "./format";
+import { JobList } from "./job_list";
+import { JobView, note, showFallback } from "./job_view";
+import { type Key, listen, showKeys } from "./keys";
+import { load } from "../viewer/loading";
+import { showReport } from "./report_page";
+import { type Chosen, Setup } from "./setup";
+import { soupOf } from "../viewer/soups";
+import { showLegend, showPointed } from "./status";
+import { startTheme } from "./theme";
+import { Toolbar } from "./toolbar";
+import { Viewer } from "./viewer";
+
+const viewer = new Viewer();
+const toolbar = new Toolbar(viewer, change, () => void compare());
+const list = new JobList((id) => void open(id));
+const setup = new Setup((first) => void preview(first), made, failed);
+const jobs = new JobView({ viewer, list, setup, failed, removed: () => void open(null), shown: refresh });
+let before: Analysis | null = null;
+let isBefore = false;
+
+// ---- state
+
+/** Changes the state, and with it all that shows it. */
+function change(changes: Partial<Place>): void {
+  viewer.apply({ ...viewer.place, ...changes });
+  refresh();
+}
+
+/** Shows the state everywhere. */
+function refresh(): void {
+  const { place } = viewer;
+  toolbar.refresh(isBefore, jobs.report !== null && jobs.input !== null);
+  showLegend(viewer, (measure) => change({ measure }));
+  showPointed(viewer);
+  for (const tab of ["view", "report"] as const) {
+    byId(`tab-${tab}`).setAttribute("aria-selected", String(place.tab === tab));
+    byId(tab).hidden = place.tab !== tab;
+  }
+  byId("title-state").textContent = isBefore ? "before" : "";
+  if (place.tab === "report") void report();
+  writePlace(place);
+}
+
+function failed(error: unknown): void {
+  const text = error instanceof Error ? error.message : String(error);
+  const close = element("button", { type: "button", textContent: "Close", on: { click: () => (byId("problem").hidden = true) } });
+  byId("problem").replaceChildren(element("span", { textContent: text }), close);
+  byId("problem").hidden = false;
+}
+
+// ---- files and jobs
+
+/** Opens a job, or what is shown without one. */
+async function open(id: string | null, place: Place = { ...START, tab: viewer.place.tab }): Promise<void> {
+  byId("problem").hidden = true;
+  before = null;
+  isBefore = false;
+  writePlace({ ...place, job: id }, id !== viewer.place.job);
+  viewer.apply({ ...place, job: id });
+  list.select(id);
+  refresh();
+  try {
+    if (id) await jobs.open(id);
+    else await sample();
+  } catch (error) {
+    viewer.clear();
+    jobs.leave();
+    byId("title").textContent = "Not found";
+    byId("inspector").replaceChildren();
+    failed(error);
+  }
+  refresh();
+}
+
+/** The mesh that is there for a start. */
+async function sample(): Promise<void> {
+  const chosen: Chosen = { name: "spot.ply", content: await download("assets/sample.ply"), resources: new Map(), from: [-0.8, 0.3, -1] };
+  setup.choose([chosen]);
+}
+
+/** Shows a chosen file, before anything is done with it. */
+async function preview(chosen: Chosen): Promise<void> {
+  jobs.leave();
+  list.select(null);
+  isBefore = false;
+  viewer.place = { ...START, shade: "charts" };
+  byId("title").textContent = chosen.name;
+  document.title = `${chosen.name} · unwrapd`;
+  note("Reading the file …");
+  try {
+    viewer.clear();
+    if (await viewer.show({ ...chosen, isTurning: true })) describe(viewer.analysis);
+  } catch (error) {
+    note("");
+    failed(error);
+  }
+  refresh();
+}
+
+/** What is known of a file without a job. */
+function describe(analysis: Analysis | null): void {
+  if (!analysis) return;
+  const isMapped = analysis.atlases.some((atlas) => atlas.isMapped);
+  note(isMapped ? "" : "No UVs yet. Unwrap makes them.");
+  byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([
+    ["Faces", whole(analysis.faces)], ["Surface area", short(analysis.area)], ["UV charts", isMapped ? whole(analysis.charts) : "none"],
+  ])), element("section", { className: "intro" }, element("h2", { textContent: "What comes back" }),
+    element("p", { textContent: "The same mesh with UVs in which no face is flipped and no two overlap. That is proven on the bytes of the file." })));
+}
+
+function made(created: Job[]): void {
+  created.forEach((job, k) => jobs.remember(job, setup.chosen[k]!));
+  void list.refresh();
+  void open(created[0]!.id, { ...START });
+}
+
+// ---- report, before and after
+
+async function report(): Promise<void> {
+  const { job } = jobs;
+  if (!job) {
+    byId("report").replaceChildren(element("p", { className: "none", textContent: "The report of a job is shown here. Unwrap a mesh, or choose a job." }));
+    return;
+  }
+  const show = () => showReport({ job, report: jobs.report, analysis: isBefore ? null : viewer.analysis, before, atlas: viewer.atlas, flyTo: visit });
+  show();
+  const source = jobs.before();
+  if (before || !source) return;
+  const loaded = await load(source).catch(() => null);
+  if (!loaded) return;
+  const { record = {} } = source;
+  before = await analyzed(soupOf(loaded, { record, texcoord: () => record.texcoord ?? 0 }));
+  if (jobs.job === job && viewer.place.tab === "report") show();
+}
+
+/** Shows a face in both views. */
+function visit(face: number): void {
+  change({ tab: "view", aim: "face", face, chart: null, seam: null });
+  viewer.stage?.resize();
+  viewer.flyTo(face);
+}
+
+/** Shows the UVs that the input had, or the result again. */
+async function compare(): Promise<void> {
+  const source = jobs.before();
+  if (!source || !jobs.report) return;
+  isBefore = !isBefore;
+  await (isBefore ? viewer.show(source) : jobs.showResult()).catch(failed);
+  if (isBefore && !viewer.analysis?.atlases.some(({ isMapped }) => isMapped)) note("The input has no UVs.");
+  refresh();
+}
+
+// ---- keys and events
+
+const cycle = <T>(all: readonly T[], at: T, step = 1) => all[(all.indexOf(at) + step + all.length) % all.length]!;
+const shades = () => SHADES.filter((shade) => shade !== "image" || viewer.hasImage);
+
+const KEYS: Key[] = [
+  { key: "o", does: "Choose files", act: () => setup.ask() },
+  { key: "u", does: "Unwrap", act: () => void setup.submit() },
+  { key: "c", does: "Next fill: charts, checker, heat map …", act: () => change({ shade: cycle(shades(), viewer.place.shade) }) },
+  { key: "h", does: "Heat map, and its next measure", act: () => change(viewer.place.shade === "heat" ? { measure: cycle(MEASURES, viewer.place.measure) } : { shade: "heat" }) },
+  { key: "e", does: "Seams", act: () => change({ seams: !viewer.place.seams }) },
+  { key: "w", does: "Wire", act: () => change({ wire: !viewer.place.wire }) },
+  { key: "x", does: "Problems in red", act: () => change({ problems: !viewer.place.problems }) },
+  { key: "1", does: "Point at faces", act: () => change({ aim: "face" }) },
+  { key: "2", does: "Point at charts", act: () => change({ aim: "chart" }) },
+  { key: "3", does: "Point at seams", act: () => change({ aim: "seam" }) },
+  { key: "Escape", does: "Select nothing", act: () => viewer.pointing.select(null) },
+  { key: "f", does: "Show everything", act: () => viewer.frame() },
+  { key: "v", does: "Fly to the selected face", act: () => viewer.place.face !== null && viewer.flyTo(viewer.place.face) },
+  { key: "b", does: "Before and after", act: () => void compare() },
+  { key: " ", does: "Turn, or stop", act: () => { viewer.stage?.solid.turn(!viewer.stage.solid.isTurning); viewer.stage?.redraw(); } },
+  { key: "r", does: "View and report", act: () => change({ tab: viewer.place.tab === "view" ? "report" : "view" }) },
+  { key: "?", does: "These keys", act: () => showKeys(KEYS) },
+];
+
+function wire(): void {
+  listen(KEYS);
+  byId("keys-button").addEventListener("click", () => showKeys(KEYS));
+  for (const tab of ["view", "report"] as const) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));
+  viewer.pointing.onHover = () => showPointed(viewer);
+  viewer.pointing.onSelect = () => change({});
+  viewer.changed = refresh;
+  startTheme(() => viewer.apply(viewer.place));
+  addEventListener("popstate", () => {
+    const place = readPlace();
+    if (place.job !== viewer.place.job) void open(place.job, place);
+    else change(place);
+  });
+  const drop = document.documentElement;
+  for (const kind of ["dragenter", "dragover"]) {
+    drop.addEventListener(kind, (event) => { event.preventDefault(); byId("drop").classList.add("over"); });
+  }
+  drop.addEventListener("dragleave", (event) => { if (!(event as DragEvent).relatedTarget) byId("drop").classList.remove("over"); });
+  drop.addEventListener("drop", (event) => {
+    event.preventDefault();
+    byId("drop").classList.remove("over");
+    setup.takeFiles([...((event as DragEvent).dataTransfer?.files ?? [])]);
+  });
+}
+
+/** Keeps the cameras in the address, and survives the loss of the GPU. */
+function followStage(): void {
+  const { stage } = viewer;
+  if (!stage) return;
+  let timer = 0;
+  stage.onFrame = () => {
+    clearTimeout(timer);
+    // While a file is read, the cameras are still those of the one before.
+    if (stage.solid.isTurning || !jobs.job || !byId("panes").dataset.shown) return;
+    timer = setTimeout(() => {
+      Object.assign(viewer.place, { camera: stage.solid.place, plane: stage.plane.place });
+      writePlace(viewer.place);
+    }, 400);
+  };
+  const canvas = byId("canvas");
+  canvas.addEventListener("webglcontextlost", (event) => {
+    event.preventDefault();
+    showFallback(jobs.job, "The graphics device was lost. Pictures are shown until it is back; the report is complete.");
+  });
+  canvas.addEventListener("webglcontextrestored", () => {
+    showFallback(null);
+    stage.redraw();
+  });
+}
+
+wire();
+followStage();
+// For scripts that drive the page.
+Object.assign(window, { unwrapd: { viewer, address } });
+const first = readPlace();
+await Promise.all([list.refresh(), open(first.job, first)]);

@@ -1,0 +1,129 @@
+// What is pointed at and selected: the same in both views.
+
+import type { Analysis } from "../analysis/analysis";
+import type { Model } from "../viewer/model";
+import type { Hit, Places, Stage } from "../viewer/stage";
+import type { View } from "../viewer/surface";
+import type { Place } from "./address";
+
+/** What is pointed into. */
+interface Shown {
+  readonly stage: Stage | null;
+  readonly model: Model | null;
+  readonly place: Place;
+  readonly atlas: number;
+}
+
+/** Something pointed at: a face, and with it its chart or a seam. */
+export interface Target {
+  view: View;
+  face: number;
+  seam: number;
+}
+
+/** A movement of less than so many pixels is a click. */
+const CLICK = 4;
+
+/** Follows the pointer in both views. */
+export class Pointing {
+  hovered: Target | null = null;
+  readonly #viewer: Shown;
+  readonly #root: HTMLElement;
+  #next: { view: View; x: number; y: number } | null = null;
+  #isAsked = false;
+  /** Called when something else is hovered, and when something is selected. */
+  onHover: () => void = () => {};
+  onSelect: () => void = () => {};
+
+  constructor(viewer: Shown, places: Places) {
+    this.#viewer = viewer;
+    this.#root = places.canvas.parentElement!;
+    for (const view of ["solid", "plane"] as const) this.#listen(view, places[view]);
+  }
+
+  #listen(view: View, element: HTMLElement): void {
+    let down: [number, number] | null = null;
+    element.addEventListener("pointermove", (event) => {
+      // While a view is moved, nothing is pointed at.
+      if (event.buttons) return;
+      const box = element.getBoundingClientRect();
+      this.#ask(view, event.clientX - box.left, event.clientY - box.top);
+    });
+    element.addEventListener("pointerleave", () => {
+      this.#next = null;
+      this.#hover(null);
+    });
+    element.addEventListener("pointerdown", (event) => (down = event.button === 0 ? [event.clientX, event.clientY] : null));
+    element.addEventListener("pointerup", (event) => {
+      if (!down || CLICK < Math.hypot(event.clientX - down[0], event.clientY - down[1])) return;
+      const box = element.getBoundingClientRect();
+      this.select(this.#at(view, event.clientX - box.left, event.clientY - box.top));
+    });
+  }
+
+  /** At most one look per frame. */
+  #ask(view: View, x: number, y: number): void {
+    this.#next = { view, x, y };
+    if (this.#isAsked) return;
+    this.#isAsked = true;
+    requestAnimationFrame(() => {
+      this.#isAsked = false;
+      const at = this.#next;
+      if (at) this.#hover(this.#at(at.view, at.x, at.y));
+    });
+  }
+
+  #at(view: View, x: number, y: number): Target | null {
+    const { stage, model, place } = this.#viewer;
+    if (!stage || !model) return null;
+    const hit: Hit | null = stage.pick(model, view, x, y, place.aim === "seam");
+    if (!hit || (place.aim === "seam" && hit.border < 0)) return null;
+    return { view, face: hit.face, seam: place.aim === "seam" ? (model.analysis.borders.seam[hit.border] ?? -1) : -1 };
+  }
+
+  #hover(target: Target | null): void {
+    const isSame = target?.face === this.hovered?.face && target?.seam === this.hovered?.seam;
+    this.hovered = target;
+    if (isSame) return;
+    this.apply();
+    this.onHover();
+  }
+
+  /** Selects what is there, or nothing. */
+  select(target: Target | null): void {
+    const { place, model } = this.#viewer;
+    place.face = place.chart = place.seam = null;
+    if (target && model) {
+      const { group, atlases } = model.analysis;
+      place.atlas = atlases[group[target.face]!]?.name ?? place.atlas;
+      if (place.aim === "face") place.face = target.face;
+      if (place.aim === "chart") place.chart = model.analysis.chart[target.face]!;
+      if (place.aim === "seam") place.seam = target.seam;
+    }
+    this.onSelect();
+  }
+
+  /** Has the views show what is hovered and selected; the attributes of their holder say it, too. */
+  apply(): void {
+    const { stage, model, place, atlas } = this.#viewer;
+    if (!stage || !model) return;
+    const { hovered } = this;
+    const of = ids(model.analysis, place.aim, hovered);
+    stage.uniforms.uHover.value.set(...of);
+    stage.uniforms.uSelected.value.set(place.face ?? -1, place.chart ?? -1, place.chart === null ? -1 : atlas, place.seam ?? -1);
+    const said = { hoverFace: hovered?.face, hoverChart: hovered ? model.analysis.chart[hovered.face] : undefined, hoverSeam: hovered && 0 <= hovered.seam ? hovered.seam : undefined };
+    for (const [name, value] of Object.entries(said)) {
+      if (value === undefined) delete this.#root.dataset[name];
+      else this.#root.dataset[name] = String(value);
+    }
+    stage.redraw();
+  }
+}
+
+/** The values of `uHover`: those of what is aimed at, -1 for the others. */
+function ids({ chart, group }: Analysis, aim: string, target: Target | null): [number, number, number, number] {
+  if (!target) return [-1, -1, -1, -1];
+  if (aim === "face") return [target.face, -1, -1, -1];
+  if (aim === "seam") return [-1, -1, -1, target.seam];
+  return [-1, chart[target.face]!, group[target.face]!, -1];
+}

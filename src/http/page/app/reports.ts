@@ -1,0 +1,70 @@
+// Reports of `unwrap`, `repack` and `measure`, as far as the page shows them.
+
+export interface Report {
+  unwrapd_version?: string;
+  certified?: boolean | null;
+  proven?: Proven;
+  warnings?: { code: string; message: string }[];
+  groups?: GroupReport[];
+  written?: { primitives?: { mesh: number; primitive: number; texcoord: number }[] };
+  seconds?: Record<string, number>;
+  options?: Record<string, unknown>;
+  [other: string]: unknown;
+}
+
+export interface Proven {
+  locally_injective: boolean;
+  bijective: boolean;
+  unmirrored: boolean;
+  padding: { asked_texels: number; resolution: number | string; kept: boolean; reached_texels: number | null } | null;
+  aligned: boolean | null;
+  pages: { asked: number; used: number; kept: boolean } | null;
+  safe_bits: number | null;
+  bits: { asked: number; hold: boolean } | null;
+}
+
+export interface GroupReport {
+  name: string;
+  label: string;
+  texels_per_unit?: number;
+  measures: Record<string, number | boolean | null | unknown>;
+  certificate?: Record<string, unknown>;
+  defects?: Record<string, number>;
+  atlas?: { bound?: { max_distortion: number; distortion: number; kept: boolean } };
+}
+
+/** Something proven, or not. */
+export interface Claim {
+  holds: boolean;
+  text: string;
+  detail: string;
+}
+
+/** What is proven of the written UVs, in plain words. */
+export function claims({ locally_injective, bijective, unmirrored, padding, aligned, pages, safe_bits, bits }: Proven): Claim[] {
+  const made: Claim[] = [
+    { holds: locally_injective, text: "No face is flipped or without area", detail: "Judged in exact arithmetic on the bytes of the file." },
+    { holds: bijective, text: "No two faces overlap", detail: "Each point of the texture belongs to one place of the surface." },
+    { holds: unmirrored, text: "No chart is mirrored", detail: "Text in a texture reads the right way around." },
+  ];
+  if (padding) {
+    const reached = padding.reached_texels === null ? "" : ` The nearest two are ${padding.reached_texels.toFixed(2)} texels apart.`;
+    made.push({ holds: padding.kept, text: `Charts keep ${padding.asked_texels} texels at ${padding.resolution}`, detail: `No color bleeds from one chart into another.${reached}` });
+  }
+  if (aligned !== null) made.push({ holds: aligned, text: "Charts end on borders of texels", detail: "Light does not leak across their edges." });
+  if (pages && 1 < pages.asked) made.push({ holds: pages.kept, text: `Each chart lies on one of ${pages.asked} pages`, detail: `${pages.used} are used.` });
+  if (bits) made.push({ holds: bits.hold, text: `Safe when rounded to ${bits.asked} bits`, detail: "Nothing flips or overlaps when an engine stores fewer digits." });
+  else if (safe_bits) made.push({ holds: true, text: `Safe when rounded to ${safe_bits} bits`, detail: "Nothing flips or overlaps when an engine stores that many digits or more." });
+  return made;
+}
+
+/** A claim as a sentence that is true. */
+export function claimed({ holds, text }: Claim): string {
+  return holds ? text : `Not so: ${text.charAt(0).toLowerCase()}${text.slice(1)}`;
+}
+
+/** A number that a group's measures have. */
+export function measure(group: GroupReport, key: string): number | null {
+  const value = group.measures[key];
+  return typeof value === "number" ? value : null;
+}

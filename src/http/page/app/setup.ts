@@ -1,0 +1,171 @@
+// What to do: files, three choices, one button; the rest behind "More".
+
+import { call, type Job } from "./api";
+import { type FormKind, KINDS } from "./definitions";
+import { button, byId, element } from "./dom";
+import { bytes, counted } from "./format";
+import { extension, SHOWN } from "../viewer/loading";
+import { OptionForm } from "./option_form";
+
+/** A chosen mesh with what it may reference. */
+export interface Chosen {
+  name: string;
+  content: Blob;
+  resources: Map<string, Blob>;
+  /** From where it is seen first. */
+  from?: readonly [number, number, number];
+}
+
+/** Options that have a place of their own in the form. */
+const ELSEWHERE = ["resolution"];
+/** Names of files that are inputs themselves; others belong to one of them. */
+const MESHES = [...SHOWN, "msh", "mesh", "vtk"];
+
+/** The form on the left. */
+export class Setup {
+  kind: FormKind = "unwrap";
+  #chosen: Chosen[] = [];
+  readonly #options: OptionForm;
+
+  /** Called when the first file is another, and when jobs were made. */
+  constructor(readonly shown: (first: Chosen) => void, readonly made: (jobs: Job[]) => void, readonly failed: (error: unknown) => void) {
+    this.#options = new OptionForm(byId("options"), () => this.#refresh());
+    this.#wire();
+    this.#showKind("unwrap");
+  }
+
+  /** The chosen files, or what is unwrapped without a choice. */
+  get chosen(): Chosen[] {
+    return this.#chosen;
+  }
+
+  choose(chosen: Chosen[]): void {
+    this.#chosen = chosen;
+    this.#refresh();
+    if (chosen[0]) this.shown(chosen[0]);
+  }
+
+  /** Takes over the options of a job. */
+  async take(kind: string, options: Record<string, unknown>): Promise<void> {
+    await this.#showKind(kind in KINDS ? (kind as FormKind) : "unwrap");
+    this.#options.values = Object.fromEntries(Object.entries(options).filter((entry): entry is [string, string] => typeof entry[1] !== "object"));
+    this.#options.refresh();
+    this.#refresh();
+  }
+
+  /** Opens the dialog that chooses files. */
+  ask(): void {
+    byId<HTMLInputElement>("files").click();
+  }
+
+  /** The files of a drop or of a dialog. */
+  takeFiles(files: File[]): void {
+    const meshes = files.filter((file) => MESHES.includes(extension(file.name)));
+    const resources = new Map(files.filter((file) => !meshes.includes(file)).map((file) => [file.webkitRelativePath || file.name, file as Blob]));
+    if (!meshes.length) {
+      this.failed(new Error(`None of these ${files.length} files is a mesh. Choose GLB, glTF, OBJ, PLY, STL or OFF.`));
+      return;
+    }
+    this.choose(meshes.map((file) => ({ name: file.name, content: file, resources })));
+  }
+
+  #wire(): void {
+    const form = byId<HTMLFormElement>("setup");
+    const files = byId<HTMLInputElement>("files");
+    files.addEventListener("change", () => {
+      if (files.files?.length) this.takeFiles([...files.files]);
+      files.value = "";
+    });
+    byId("choose").addEventListener("click", () => this.ask());
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void this.submit();
+    });
+    for (const radio of form.querySelectorAll<HTMLInputElement>("input[name=purpose]")) {
+      radio.addEventListener("change", () => {
+        this.#options.set("preset", radio.value === "lightmap" ? "lightmap" : null);
+        this.#options.set("quality", radio.value === "few" ? "few" : null);
+      });
+    }
+    byId("resolution").addEventListener("change", () => this.#options.set("resolution", resolutionOf(byId<HTMLSelectElement>("resolution").value)));
+    byId("keep").addEventListener("change", () => this.#options.set("cut", byId<HTMLInputElement>("keep").checked ? "keep" : null));
+    byId("kind").addEventListener("change", () => void this.#showKind(byId<HTMLSelectElement>("kind").value as FormKind));
+    byId("find-option").addEventListener("input", () => this.#options.filter(byId<HTMLInputElement>("find-option").value));
+    byId("reset").addEventListener("click", () => {
+      this.#options.values = {};
+      this.#options.refresh();
+      this.#refresh();
+    });
+  }
+
+  async #showKind(kind: FormKind): Promise<void> {
+    this.kind = kind;
+    await this.#options.show(kind, ELSEWHERE).catch(this.failed);
+    this.#refresh();
+  }
+
+  #refresh(): void {
+    const { values } = this.#options;
+    const isUnwrap = this.kind === "unwrap";
+    byId<HTMLSelectElement>("kind").value = this.kind;
+    byId<HTMLFieldSetElement>("purpose").disabled = !isUnwrap;
+    byId<HTMLInputElement>("keep").disabled = !isUnwrap;
+    const purpose = values.preset === "lightmap" ? "lightmap" : values.quality === "few" ? "few" : "material";
+    byId<HTMLInputElement>(`purpose-${purpose}`).checked = true;
+    byId<HTMLInputElement>("keep").checked = values.cut === "keep";
+    this.#refreshResolution(String(values.resolution ?? "1024"));
+    const count = Object.keys(values).length;
+    byId("changed").textContent = count ? `${counted(count, "option")} set` : "";
+    byId("reset").hidden = count === 0;
+    const verb = { unwrap: "Unwrap", repack: "Repack", measure: "Measure" }[this.kind];
+    byId("submit").textContent = 1 < this.#chosen.length ? `${verb} ${counted(this.#chosen.length, "file")}` : verb;
+    byId("chosen").replaceChildren(...this.#chosen.map((one) => this.#chip(one)));
+  }
+
+  #refreshResolution(value: string): void {
+    const select = byId<HTMLSelectElement>("resolution");
+    if (![...select.options].some((option) => option.value === value)) select.append(element("option", { value, textContent: value }));
+    select.value = value;
+  }
+
+  #chip(one: Chosen): HTMLElement {
+    const remove = button("×", () => {
+      this.#chosen = this.#chosen.filter((other) => other !== one);
+      this.#refresh();
+    }, { className: "bare", aria: { label: `Remove ${one.name}` } });
+    const others = one.resources.size ? ` + ${one.resources.size}` : "";
+    return element("li", { title: one.name }, element("span", { className: "name", textContent: one.name }), element("small", { textContent: `${bytes(one.content.size)}${others}` }), remove);
+  }
+
+  /** Makes a job of each chosen file. */
+  async submit(): Promise<void> {
+    if (!this.#chosen.length) return this.ask();
+    const submit = byId<HTMLButtonElement>("submit");
+    submit.disabled = true;
+    const jobs: Job[] = [];
+    try {
+      for (const one of this.#chosen) jobs.push(await this.#post(one));
+    } catch (error) {
+      this.failed(error);
+    } finally {
+      submit.disabled = false;
+      if (jobs.length) this.made(jobs);
+    }
+  }
+
+  #post({ name, content, resources }: Chosen): Promise<Job> {
+    const form = new FormData();
+    form.append("kind", this.kind);
+    form.append("options", JSON.stringify(this.#options.values));
+    form.append("mesh", content, name);
+    if (["gltf", "obj"].includes(extension(name))) {
+      for (const [path, blob] of resources) form.append("resource", blob, path);
+    }
+    return call<Job>("v1/jobs", { method: "POST", body: form });
+  }
+}
+
+/** A side, or width and height; null for the default. */
+function resolutionOf(text: string): string | number | null {
+  return text === "1024" ? null : /^\d+$/.test(text) ? Number(text) : text;
+}

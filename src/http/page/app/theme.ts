@@ -1,0 +1,25 @@
+// Dark and light: as the system has it, until a person chooses.
+
+import { byId } from "./dom";
+
+const KEY = "unwrapd-theme";
+
+/** Takes over what was chosen earlier, and what is chosen now. */
+export function startTheme(changed: () => void): void {
+  const stored = localStorage.getItem(KEY);
+  if (stored) document.documentElement.dataset.theme = stored;
+  const say = () => (byId("theme").textContent = isDark() ? "Light" : "Dark");
+  byId("theme").addEventListener("click", () => {
+    const chosen = isDark() ? "light" : "dark";
+    document.documentElement.dataset.theme = chosen;
+    localStorage.setItem(KEY, chosen);
+    say();
+    changed();
+  });
+  say();
+}
+
+function isDark(): boolean {
+  const { theme } = document.documentElement.dataset;
+  return theme ? theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+}

@@ -1,0 +1,74 @@
+// The tools above the views.
+
+import { SHADES, type Shade } from "../viewer/look";
+import { type Aim, type Place } from "./address";
+import { button, byId, element } from "./dom";
+import { counted } from "./format";
+import type { Viewer } from "./viewer";
+
+export const SHADE_NAMES: Record<Shade, string> = { plain: "Plain", charts: "Charts", checker: "Checker", heat: "Heat map", image: "Image", material: "Material" };
+export const MEASURE_NAMES = { "sym-dirichlet": "Symmetric Dirichlet", angle: "Angle", area: "Area", density: "Texel density" } as const;
+const AIMS: Record<Aim, string> = { face: "Face", chart: "Chart", seam: "Seam" };
+const SWITCHES = { seams: "Seams", wire: "Wire", problems: "Problems" } as const;
+type Switch = keyof typeof SWITCHES;
+
+/** The tools; each changes the state and says so. */
+export class Toolbar {
+  readonly #viewer: Viewer;
+  readonly #changed: (changes: Partial<Place>) => void;
+  readonly #before: HTMLButtonElement;
+  readonly #atlas = element("select", { id: "atlas", aria: { label: "Atlas" } });
+  readonly #image = element("input", { type: "file", accept: "image/*", hidden: true, aria: { label: "Image for the faces" } });
+
+  constructor(viewer: Viewer, changed: (changes: Partial<Place>) => void, compare: () => void) {
+    this.#viewer = viewer;
+    this.#changed = changed;
+    this.#atlas.addEventListener("change", () => changed({ atlas: this.#atlas.value, face: null, chart: null, seam: null, plane: null }));
+    this.#image.addEventListener("change", () => void this.#useImage());
+    this.#before = button("Before", compare, { title: "The UVs that the input had (B)", aria: { pressed: "false" } });
+    byId("toolbar").append(
+      group("Fill", ...SHADES.map((shade) => this.#choice("shade", shade, SHADE_NAMES[shade]))),
+      group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))),
+      group("Point at", ...(Object.keys(AIMS) as Aim[]).map((aim) => this.#choice("aim", aim, AIMS[aim]))),
+      button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#atlas, this.#image,
+    );
+  }
+
+  #choice(name: "shade" | "aim", value: string, text: string): HTMLElement {
+    return button(text, () => {
+      if (value === "image") this.#image.click();
+      else this.#changed({ [name]: value });
+    }, { data: { [name]: value }, aria: { pressed: "false" } });
+  }
+
+  #toggle(name: Switch): HTMLElement {
+    return button(SWITCHES[name], () => this.#changed({ [name]: !this.#viewer.place[name] }), { data: { switch: name }, aria: { pressed: "false" } });
+  }
+
+  async #useImage(): Promise<void> {
+    const file = this.#image.files?.[0];
+    this.#image.value = "";
+    if (!file) return;
+    await this.#viewer.useImage(file);
+    this.#changed({ shade: "image" });
+  }
+
+  /** Has the tools show the state. */
+  refresh(isBefore: boolean, hasBefore: boolean): void {
+    const { place, analysis } = this.#viewer;
+    for (const tool of byId("toolbar").querySelectorAll<HTMLElement>(".tools button")) {
+      const { shade, aim, switch: name } = tool.dataset;
+      tool.setAttribute("aria-pressed", String(shade === place.shade || aim === place.aim || (name !== undefined && place[name as Switch])));
+    }
+    this.#before.setAttribute("aria-pressed", String(isBefore));
+    this.#before.disabled = !hasBefore;
+    const atlases = analysis?.atlases ?? [];
+    this.#atlas.replaceChildren(...atlases.map(({ name, label, charts }) => element("option", { value: name, textContent: `${label} · ${counted(charts, "chart")}` })));
+    this.#atlas.value = atlases[this.#viewer.atlas]?.name ?? "";
+    this.#atlas.hidden = atlases.length < 2;
+  }
+}
+
+function group(label: string, ...tools: HTMLElement[]): HTMLElement {
+  return element("div", { className: "tools", aria: { role: "group", label } }, ...tools);
+}

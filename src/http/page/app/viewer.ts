@@ -1,0 +1,228 @@
+// The two views: what they show and what is pointed at in them.
+
+import { Box3, NearestFilter, type Object3D, RepeatWrapping, Sphere, type Texture, TextureLoader } from "three";
+import type { Analysis } from "../analysis/analysis";
+import { MEASURES } from "../analysis/distortion";
+import { load, type Bundle, type Loaded, type UvRecord } from "../viewer/loading";
+import { SHADES } from "../viewer/look";
+import { Model } from "../viewer/model";
+import { soupOf } from "../viewer/soups";
+import { pictureOf, sheetOf } from "../viewer/sheet";
+import { Stage } from "../viewer/stage";
+import type { View } from "../viewer/surface";
+import { type Place, START } from "./address";
+import { analyzed } from "./analyst";
+import { byId } from "./dom";
+import { Pointing } from "./pointing";
+
+/** What of a file is to be shown. */
+export interface Source extends Bundle {
+  /** How its UVs were made, where the file does not say. */
+  record?: UvRecord;
+  texcoord?: (mesh: number, primitive: number) => number;
+  /** Whether it turns until a person takes over. */
+  isTurning?: boolean;
+  /** From where it is seen first. */
+  from?: readonly [number, number, number];
+}
+
+/** Shows files in both views. */
+export class Viewer {
+  readonly stage: Stage | null;
+  readonly pointing: Pointing;
+  place: Place = { ...START };
+  model: Model | null = null;
+  /** Of the file that is shown, or that would be if there were WebGL. */
+  analysis: Analysis | null = null;
+  #shown = 0;
+  #image: Texture | null = null;
+  /** Called when another file is there or what is pointed at changes. */
+  changed: () => void = () => {};
+
+  constructor() {
+    const places = { canvas: byId<HTMLCanvasElement>("canvas"), solid: byId("solid"), plane: byId("plane") };
+    this.stage = stageOn(places);
+    this.pointing = new Pointing(this, places);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.apply(this.place));
+  }
+
+  /** Shows a file; resolves when both views show it, and is false if another one was asked for since. */
+  async show(source: Source): Promise<boolean> {
+    const mine = ++this.#shown;
+    delete byId("panes").dataset.shown;
+    const loaded = await load(source);
+    if (mine !== this.#shown) return false;
+    if (this.stage) this.#preview(this.stage, loaded, source);
+    const record = source.record ?? loaded.record ?? {};
+    const texcoord = source.texcoord ?? (() => record.texcoord ?? 0);
+    const soup = soupOf(loaded, { record, texcoord });
+    if (!soup.parts.length) throw new Error("The file has no triangles to show.");
+    const { width, height } = soup.texture;
+    const analysis = await analyzed(soup);
+    if (mine !== this.#shown) return false;
+    this.#take(source, loaded, analysis, width / height);
+    return true;
+  }
+
+  /** Shows nothing. */
+  clear(): void {
+    this.#shown += 1;
+    this.model?.dispose();
+    this.model = this.analysis = null;
+    this.stage?.solid.show([], null);
+    this.stage?.plane.show([]);
+    this.stage?.redraw();
+    this.changed();
+  }
+
+  /** The scene alone, while its analysis is made. */
+  #preview(stage: Stage, loaded: Loaded, { isTurning = false, from }: Source): void {
+    if (this.model) return;
+    stage.solid.show([loaded.scene, ...stage.lights], boundsOf(loaded.scene));
+    stage.solid.frame(from);
+    stage.solid.turn(isTurning);
+    stage.redraw();
+  }
+
+  #take({ name, from }: Source, loaded: Loaded, analysis: Analysis, aspect: number): void {
+    const isFirst = !this.model;
+    this.model?.dispose();
+    this.analysis = analysis;
+    byId("panes").dataset.shown = name;
+    performance.mark("first view");
+    if (!this.stage) return this.changed();
+    this.model = new Model(loaded, analysis, aspect, this.stage.uniforms);
+    this.apply(this.place);
+    const { camera, plane } = this.place;
+    if (isFirst || !camera) this.frame(from);
+    if (camera) this.stage.solid.place = camera;
+    if (plane) this.stage.plane.place = plane;
+    this.changed();
+  }
+
+  /** The atlas that the plane shows. */
+  get atlas(): number {
+    const found = this.analysis?.atlases.findIndex(({ name }) => name === this.place.atlas) ?? -1;
+    return Math.max(found, 0);
+  }
+
+  /** Shows everything. */
+  frame(from?: Source["from"]): void {
+    const atlas = this.analysis?.atlases[this.atlas];
+    this.stage?.solid.frame(from ?? (this.model?.isFlat ? [0, 0, 1] : undefined));
+    if (!atlas || !this.model) return;
+    const { aspect } = this.model;
+    const pages = pagesOf(atlas.bounds);
+    const [u0, v0, u1, v1] = atlas.isMapped ? atlas.bounds : [0, 0, 1, 1];
+    this.stage?.plane.frame([Math.min(0, u0) * aspect, Math.min(0, v0), Math.max(pages, u1) * aspect, Math.max(1, v1)]);
+  }
+
+  /** Has the views look as a state says. */
+  apply(place: Place): void {
+    this.place = place;
+    const { stage, model } = this;
+    if (!stage) return;
+    stage.background = color("--stage");
+    stage.redraw();
+    if (!model) return;
+    const { uniforms } = stage;
+    const shade = place.shade === "image" && !this.#image ? "checker" : place.shade;
+    uniforms.uShade.value = SHADES.indexOf(shade);
+    uniforms.uMeasure.value = MEASURES.indexOf(place.measure);
+    uniforms.uAtlas.value = this.atlas;
+    uniforms.uAspect.value = model.aspect;
+    uniforms.uWire.value = Number(place.wire);
+    uniforms.uProblems.value = Number(place.problems);
+    uniforms.uRange.value.set(...this.range());
+    if (this.#image) uniforms.uImage.value = this.#image;
+    this.pointing.apply();
+    this.#arrange(stage, model, place);
+    stage.redraw();
+  }
+
+  /** What is in which view. */
+  #arrange(stage: Stage, model: Model, place: Place): void {
+    const { solid, plane } = model.surface.layers;
+    const lines = (view: typeof solid) => (place.seams ? [view.borders] : []);
+    const isOwn = place.shade === "material";
+    const own = isOwn ? [model.loaded.scene, ...stage.lights, solid.overlay] : [solid.surface];
+    stage.solid.show([...own, ...lines(solid)], model.sphere);
+    const atlas = model.analysis.atlases[this.atlas];
+    const pages = atlas ? pagesOf(atlas.bounds) : 1;
+    const sheet: Object3D[] = sheetOf(pages, model.aspect, { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") });
+    const picture = isOwn ? model.picture() : null;
+    if (picture) sheet.push(pictureOf(picture, model.aspect));
+    stage.plane.show([...sheet, picture ? plane.overlay : plane.surface, ...lines(plane)]);
+  }
+
+  /** What the ends of the heat map's scale stand for. */
+  range(): [number, number] {
+    const spread = this.analysis?.atlases[this.atlas]?.spreads[MEASURES.indexOf(this.place.measure)];
+    if (!spread) return [1, 2];
+    if (this.place.measure === "density") {
+      const far = Math.max(spread.greatest / spread.mean, spread.mean / spread.least, 1.02);
+      return [spread.mean / far, spread.mean * far];
+    }
+    const ideal = this.place.measure === "sym-dirichlet" ? 4 : 1;
+    return [ideal, Math.max(spread.p99 * 1.02, ideal * 1.02)];
+  }
+
+  /** Fills faces with a picture of the user's. */
+  async useImage(file: Blob): Promise<void> {
+    const url = URL.createObjectURL(file);
+    const texture = await new TextureLoader().loadAsync(url).finally(() => URL.revokeObjectURL(url));
+    texture.magFilter = NearestFilter;
+    texture.minFilter = NearestFilter;
+    texture.generateMipmaps = false;
+    texture.wrapS = texture.wrapT = RepeatWrapping;
+    texture.colorSpace = "";
+    this.#image?.dispose();
+    this.#image = texture;
+  }
+
+  get hasImage(): boolean {
+    return this.#image !== null;
+  }
+
+  /** Moves both cameras to a face. */
+  flyTo(face: number): void {
+    const place = this.model?.place(face);
+    if (!place || !this.stage) return;
+    this.stage.solid.flyTo(place.middle, place.normal, place.size);
+    if (Number.isFinite(place.u)) this.stage.plane.flyTo(place.u, place.v, place.planeSize);
+  }
+
+  /** Where a face is on the page, in a view. */
+  project(view: View, face: number): [number, number] | null {
+    const place = this.model?.place(face);
+    if (!place || !this.stage) return null;
+    const point = view === "solid" ? place.middle : place.middle.clone().set(place.u, place.v, 0);
+    return this.stage.project(view, point);
+  }
+}
+
+function stageOn(places: { canvas: HTMLCanvasElement; solid: HTMLElement; plane: HTMLElement }): Stage | null {
+  try {
+    return new Stage(places);
+  } catch {
+    return null;
+  }
+}
+
+/** A color of the style sheet, as the theme has it. */
+function color(name: string): string {
+  const probe = byId("panes");
+  probe.style.color = `var(${name})`;
+  const { color: resolved } = getComputedStyle(probe);
+  probe.style.color = "";
+  return resolved;
+}
+
+function boundsOf(scene: Object3D) {
+  return new Box3().setFromObject(scene).getBoundingSphere(new Sphere());
+}
+
+/** How many pages side by side UVs reach over, at least one. */
+function pagesOf(bounds: [number, number, number, number]): number {
+  return Number.isFinite(bounds[2]) ? Math.min(Math.max(Math.ceil(bounds[2] - 1e-4), 1), 10) : 1;
+}

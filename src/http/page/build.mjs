@@ -1,0 +1,36 @@
+// Builds the pages into a folder: `node build.mjs dist`. Equal sources make equal bytes.
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const into = process.argv[2];
+mkdirSync(into, { recursive: true });
+
+const shared = {
+  absWorkingDir: here, bundle: true, minify: true, format: "esm", target: "es2023", charset: "utf8", legalComments: "eof",
+  logLevel: "warning",
+};
+
+/** A name that changes with the content; the service tells browsers to keep it for good. */
+function versioned(name, content) {
+  return `${name}?v=${createHash("sha256").update(content).digest("hex").slice(0, 16)}`;
+}
+
+async function bundle(entry, define = {}) {
+  const { outputFiles } = await build({ ...shared, entryPoints: [entry], define, write: false });
+  return outputFiles[0].contents;
+}
+
+const made = { "worker.js": await bundle("analysis/worker.ts") };
+made["page.js"] = await bundle("app/main.ts", { WORKER: JSON.stringify(versioned("worker.js", made["worker.js"])) });
+made["docs.js"] = await bundle("docs/main.ts");
+made["page.css"] = await bundle("page.css");
+made["docs.css"] = await bundle("docs.css");
+for (const page of ["index.html", "docs.html"]) {
+  const html = readFileSync(join(here, page), "utf8");
+  made[page] = html.replace(/assets\/([\w.]+)/g, (_, name) => `assets/${versioned(name, made[name])}`);
+}
+for (const [name, content] of Object.entries(made)) writeFileSync(join(into, name), content);

@@ -1,0 +1,115 @@
+// Files as three.js scenes: glTF with its resources, OBJ, PLY, STL, OFF.
+
+import { BufferAttribute, BufferGeometry, LoadingManager, Mesh, MeshStandardMaterial, type Object3D } from "three";
+import { GLTFLoader, type GLTFParser } from "three/addons/loaders/GLTFLoader.js";
+import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
+import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
+import { STLLoader } from "three/addons/loaders/STLLoader.js";
+
+/** A file with the files that it may reference. */
+export interface Bundle {
+  name: string;
+  content: Blob;
+  /** By the paths that the file uses. */
+  resources: Map<string, Blob>;
+}
+
+/** What was made of a file. */
+export interface Loaded {
+  scene: Object3D;
+  /** What the file says of the UVs that this program wrote. */
+  record: UvRecord | null;
+  parser: GLTFParser | null;
+}
+
+/** As in `asset.extras.unwrapd`. */
+export interface UvRecord {
+  texcoord?: number;
+  group_by?: "scene" | "mesh" | "material" | "primitive";
+  separate_nodes?: boolean;
+  padding?: number;
+  resolution?: number | string;
+  pages?: number;
+}
+
+/** Endings of the names of files that can be shown. */
+export const SHOWN = ["glb", "gltf", "obj", "ply", "stl", "off"];
+
+export function extension(name: string): string {
+  return name.split(".").pop()?.toLowerCase() ?? "";
+}
+
+/** Reads a file; the error says what to do. */
+export async function load(bundle: Bundle): Promise<Loaded> {
+  const kind = extension(bundle.name);
+  if (kind === "glb" || kind === "gltf") return loadGltf(bundle);
+  const plain = (scene: Object3D): Loaded => ({ scene, record: null, parser: null });
+  if (kind === "obj") return plain(new OBJLoader().parse(await bundle.content.text()));
+  if (kind === "ply") return plain(meshOf(new PLYLoader().parse(await bundle.content.arrayBuffer())));
+  if (kind === "stl") return plain(meshOf(new STLLoader().parse(await bundle.content.arrayBuffer())));
+  if (kind === "off") return plain(meshOf(parseOff(await bundle.content.text())));
+  throw new Error(`There is no view of .${kind} files here. The job works on it all the same.`);
+}
+
+function meshOf(geometry: BufferGeometry): Mesh {
+  return new Mesh(geometry, new MeshStandardMaterial());
+}
+
+async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
+  const manager = new LoadingManager();
+  const made: string[] = [];
+  manager.setURLModifier((url) => {
+    const path = decodeURIComponent(url).replace(/^\.\//, "");
+    const resource = resources.get(path) ?? resources.get(path.split("/").pop() ?? "");
+    if (!resource) return url;
+    made.push(URL.createObjectURL(resource));
+    return made.at(-1)!;
+  });
+  try {
+    const gltf = await new GLTFLoader(manager).parseAsync(await content.arrayBuffer(), "");
+    if (!gltf.scene) throw new Error("it has no scene. Its meshes can be unwrapped all the same.");
+    const extras: { unwrapd?: UvRecord } | undefined = gltf.parser.json.asset?.extras;
+    return { scene: gltf.scene, record: extras?.unwrapd ?? null, parser: gltf.parser };
+  } catch (error) {
+    const detail = String(error instanceof Error ? error.message : error);
+    if (/draco|meshopt|ktx2/i.test(detail)) throw new Error("The file is compressed in a way that this view does not decode. Unwrap it: the result is shown.");
+    throw new Error(`The view cannot read this glTF: ${detail}`);
+  } finally {
+    made.forEach((url) => URL.revokeObjectURL(url));
+  }
+}
+
+/** Object File Format: a line of counts, vertices, polygons. */
+function parseOff(text: string): BufferGeometry {
+  const words = text.replace(/#.*/g, "").trim().split(/\s+/);
+  if (!/OFF$/.test(words[0] ?? "")) throw new Error("The file does not begin like an OFF file.");
+  const numbers = words.slice(1).map(Number);
+  const [vertices = 0, polygons = 0] = numbers;
+  const positions = numbers.slice(3, 3 + 3 * vertices);
+  const index: number[] = [];
+  let at = 3 + 3 * vertices;
+  for (let k = 0; k < polygons; k++) {
+    const corners = numbers[at] ?? 0;
+    for (let i = 2; i < corners; i++) index.push(numbers[at + 1]!, numbers[at + i]!, numbers[at + i + 1]!);
+    at += 1 + corners;
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(positions), 3));
+  geometry.setIndex(index);
+  return geometry;
+}
+
+/** Frees what a scene holds on the GPU. */
+export function dispose(scene: Object3D): void {
+  scene.traverse((object) => {
+    const { geometry, material } = object as Partial<Mesh>;
+    geometry?.dispose();
+    for (const one of [material ?? []].flat()) {
+      for (const value of Object.values(one)) {
+        if (value && typeof value === "object" && "isTexture" in value) (value as unknown as { dispose(): void }).dispose();
+      }
+      one.dispose();
+    }
+  });
+}
+

@@ -1,0 +1,35 @@
+// How the views look: what a person chose, and what is pointed at.
+
+import { DataTexture, Vector2, Vector4, type Texture } from "three";
+
+/** What faces are filled with. */
+export const SHADES = ["plain", "charts", "checker", "heat", "image", "material"] as const;
+export type Shade = (typeof SHADES)[number];
+
+/** Values of uniforms that the shaders of both views share. */
+export function uniforms() {
+  const none = new DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
+  none.needsUpdate = true;
+  return {
+    uValues: { value: none as Texture },
+    uIds: { value: none as Texture },
+    uShade: { value: 0 },
+    uMeasure: { value: 0 },
+    /** What the ends of the heat map's scale stand for. */
+    uRange: { value: new Vector2(4, 8) },
+    uChecker: { value: new Vector2(32, 32) },
+    uImage: { value: none as Texture },
+    /** The hovered and the selected face, chart with its group, and seam, -1 for none. */
+    uHover: { value: new Vector4(-1, -1, -1, -1) },
+    uSelected: { value: new Vector4(-1, -1, -1, -1) },
+    uAtlas: { value: 0 },
+    uAspect: { value: 1 },
+    uWire: { value: 0 },
+    uProblems: { value: 1 },
+    uSeams: { value: 1 },
+    uViewport: { value: new Vector2(1, 1) },
+    uPixelRatio: { value: 1 },
+  };
+}
+
+export type Uniforms = ReturnType<typeof uniforms>;

@@ -1,0 +1,82 @@
+// A file that is shown: its scene, its analysis, and what of it is on the GPU.
+
+import { type Mesh, type MeshStandardMaterial, Sphere, type Texture, Vector3 } from "three";
+import type { Analysis } from "../analysis/analysis";
+import { dispose, type Loaded } from "./loading";
+import type { Uniforms } from "./look";
+import { type Surface, surfaceOf } from "./surface";
+
+/** A face as it is drawn. */
+export interface FacePlace {
+  /** Its middle on the surface and the direction that it faces. */
+  middle: Vector3;
+  normal: Vector3;
+  /** Its middle in the plane. */
+  u: number;
+  v: number;
+  /** The longest sides, on the surface and in the plane. */
+  size: number;
+  planeSize: number;
+}
+
+/** Loaded and analyzed, ready to be drawn. */
+export class Model {
+  readonly surface: Surface;
+  /** Around all that is drawn. */
+  readonly sphere: Sphere;
+  readonly #firstDrawn = new Map<number, number>();
+
+  constructor(readonly loaded: Loaded, readonly analysis: Analysis, readonly aspect: number, shared: Uniforms) {
+    this.surface = surfaceOf(analysis, shared);
+    this.sphere = this.surface.layers.solid.surface.geometry.boundingSphere ?? new Sphere(new Vector3(), 1);
+    analysis.drawn.face.forEach((face, k) => {
+      if (!this.#firstDrawn.has(face)) this.#firstDrawn.set(face, k);
+    });
+  }
+
+  /** Whether it lies in a plane of constant z: a body of the plane. */
+  get isFlat(): boolean {
+    const { positions } = this.analysis.drawn;
+    return positions.every((z, i) => i % 3 !== 2 || z === positions[2]);
+  }
+
+  /** Where a face is; that of its chart if a simplified view does not draw it. */
+  place(face: number): FacePlace | null {
+    const drawn = this.#firstDrawn.get(face) ?? this.#drawnOfChart(face);
+    if (drawn === undefined) return null;
+    const { positions, uvs } = this.analysis.drawn;
+    const [a, b, c] = [0, 3, 6].map((k) => new Vector3().fromArray(positions, 9 * drawn + k)) as [Vector3, Vector3, Vector3];
+    const plane = [0, 2, 4].map((k) => new Vector3(uvs[6 * drawn + k]! * this.aspect, uvs[6 * drawn + k + 1]!, 0)) as [Vector3, Vector3, Vector3];
+    const middle = plane[0].clone().add(plane[1]).add(plane[2]).divideScalar(3);
+    return {
+      middle: a.clone().add(b).add(c).divideScalar(3),
+      normal: b.clone().sub(a).cross(c.clone().sub(a)),
+      u: middle.x, v: middle.y, size: longest(a, b, c), planeSize: longest(...plane),
+    };
+  }
+
+  #drawnOfChart(face: number): number | undefined {
+    const { chart, group, drawn } = this.analysis;
+    const found = drawn.face.findIndex((other) => chart[other] === chart[face] && group[other] === group[face]);
+    return 0 <= found ? found : undefined;
+  }
+
+  /** The picture that the materials of an atlas show in the UV set that is shown. */
+  picture(): Texture | null {
+    let found: Texture | null = null;
+    this.loaded.scene.traverse((object) => {
+      const map = ((object as Mesh).material as MeshStandardMaterial | undefined)?.map;
+      if (map && map.channel === (this.loaded.record?.texcoord ?? 0)) found ??= map;
+    });
+    return found;
+  }
+
+  dispose(): void {
+    this.surface.dispose();
+    dispose(this.loaded.scene);
+  }
+}
+
+function longest(a: Vector3, b: Vector3, c: Vector3): number {
+  return Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a));
+}

@@ -1,0 +1,18 @@
+// Short movements of cameras.
+
+const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+/** Whether a person wants no movement that is not theirs. */
+export const isStill = still;
+
+/** Calls with shares of the way from above 0 to 1, once per frame; at once with 1 for those who want no movement. */
+export function move(step: (share: number) => void, milliseconds = 380): void {
+  if (still()) return step(1);
+  const begin = performance.now();
+  const frame = (now: number) => {
+    const t = Math.min(Math.max((now - begin) / milliseconds, 0), 1);
+    step(t < 1 ? t * t * (3 - 2 * t) : 1);
+    if (t < 1) requestAnimationFrame(frame);
+  };
+  requestAnimationFrame(frame);
+}

@@ -1,0 +1,193 @@
+// The shaders of both views. Faces have no shared corners, so the number of a vertex tells its face, and what is known of
+// faces lies in two textures, one texel per face: values, and ids with marks.
+
+import { COLORS } from "./colors";
+
+/** Texels in a row of the textures of faces. */
+export const ROW = 2048;
+
+const FACES = /* glsl */ `
+precision highp float;
+precision highp int;
+precision highp usampler2D;
+uniform highp usampler2D uIds;
+uniform highp sampler2D uValues;
+uniform int uAtlas;
+uniform float uAspect;
+ivec2 texelOf(uint face) { return ivec2(int(face) % ${ROW}, int(face) / ${ROW}); }
+`;
+
+export const SURFACE_VERTEX = /* glsl */ `${FACES}
+in vec2 faceUv;
+flat out uint vFace;
+out vec2 vUv;
+out vec3 vNormal;
+out vec3 vCorner;
+void main() {
+  vFace = uint(gl_VertexID / 3);
+  int corner = gl_VertexID % 3;
+  vCorner = vec3(corner == 0, corner == 1, corner == 2);
+  vUv = faceUv;
+  vNormal = normalMatrix * normal;
+#ifdef PLANE
+  uint group = texelFetch(uIds, texelOf(vFace), 0).z & 0xffffu;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(faceUv.x * uAspect, faceUv.y, 0.0, 1.0);
+  if (int(group) != uAtlas || isnan(faceUv.x)) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
+#else
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+#endif
+}`;
+
+export const SURFACE_FRAGMENT = /* glsl */ `${FACES}${COLORS}
+uniform int uShade;
+uniform int uMeasure;
+uniform vec2 uRange;
+uniform vec2 uChecker;
+uniform sampler2D uImage;
+uniform vec4 uHover;
+uniform vec4 uSelected;
+uniform int uWire;
+uniform int uProblems;
+flat in uint vFace;
+in vec2 vUv;
+in vec3 vNormal;
+in vec3 vCorner;
+layout(location = 0) out vec4 color;
+
+const vec3 CLAY = vec3(0.86, 0.87, 0.88);
+const vec3 PICKED = vec3(1.0, 0.58, 0.13);
+
+vec3 checker() {
+  vec2 cell = floor(vUv * uChecker);
+  vec2 block = floor(cell / 8.0);
+  float odd = mod(cell.x + cell.y, 2.0);
+  float blockOdd = mod(block.x + block.y, 2.0);
+  vec3 light = mix(vec3(0.93), vec3(0.86, 0.90, 0.95), blockOdd);
+  vec3 dark = mix(vec3(0.50, 0.52, 0.55), vec3(0.36, 0.44, 0.56), blockOdd);
+  return mix(light, dark, odd);
+}
+
+vec3 heat() {
+  float value = texelFetch(uValues, texelOf(vFace), 0)[uMeasure];
+  if (isnan(value)) return vec3(0.69);
+  float t = log(value / uRange.x) / log(uRange.y / uRange.x);
+  return uMeasure == 3 ? densityColor(t) : heatColor(t);
+}
+
+vec3 fill(uint chart) {
+  if (uShade == 3) return heat();
+  if (isnan(vUv.x)) return CLAY;
+  if (uShade == 1) return chartColor(chart);
+  if (uShade == 2) return checker();
+  if (uShade == 4) return texture(uImage, vUv).rgb;
+  return CLAY;
+}
+
+void main() {
+  uvec4 ids = texelFetch(uIds, texelOf(vFace), 0);
+  uint marks = ids.z >> 16;
+  float face = float(ids.x), chart = float(ids.y), group = float(ids.z & 0xffffu);
+  bool isHovered = uHover.x == face || (uHover.y == chart && uHover.z == group);
+  bool isPicked = uSelected.x == face || (uSelected.y == chart && uSelected.z == group);
+  bool isWrong = uProblems == 1 && (marks & 3u) != 0u;
+#ifdef OVERLAY
+  if (!isHovered && !isPicked && !isWrong) discard;
+#endif
+  vec3 base = fill(ids.y);
+  if (isWrong) base = (marks & 1u) != 0u ? vec3(0.87, 0.15, 0.17) : vec3(1.0, 0.84, 0.04);
+  if (isPicked) base = mix(base, PICKED, 0.6);
+  if (isHovered) base = mix(base, PICKED, 0.5);
+  float light = 1.0;
+#ifndef PLANE
+  vec3 n = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
+  light = 0.52 + 0.42 * max(dot(n, normalize(vec3(0.25, 0.4, 0.9))), 0.0) + 0.12 * max(n.y, 0.0);
+  // What is pointed at is seen in the shade, too.
+  if (isHovered || isPicked) light = mix(light, 1.0, 0.7);
+#endif
+  if (uWire == 1) {
+    vec3 width = fwidth(vCorner);
+    vec3 inside = smoothstep(width * 0.4, width * 1.2, vCorner);
+    // Lines fade where faces are too small for them.
+    float strength = 0.42 * clamp(1.0 - 2.2 * max(width.x, max(width.y, width.z)), 0.0, 1.0);
+    base *= 1.0 - strength * (1.0 - min(inside.x, min(inside.y, inside.z)));
+  }
+#ifdef OVERLAY
+  color = vec4(base * light, isWrong ? 0.9 : 0.75);
+#else
+  color = vec4(base * light, 1.0);
+#endif
+}`;
+
+/** Writes the number of the drawn face, from 1. */
+export const PICK_FRAGMENT = /* glsl */ `
+precision highp float;
+precision highp int;
+flat in uint vFace;
+layout(location = 0) out vec4 color;
+void main() {
+  uint id = vFace + 1u;
+  color = vec4(float(id & 255u), float((id >> 8) & 255u), float((id >> 16) & 255u), float(id >> 24)) / 255.0;
+}`;
+
+export const BORDER_VERTEX = /* glsl */ `
+precision highp float;
+precision highp int;
+uniform int uAtlas;
+uniform float uAspect;
+uniform vec2 uViewport;
+uniform float uPixelRatio;
+uniform vec4 uHover;
+uniform vec4 uSelected;
+uniform float uThick;
+in vec3 from;
+in vec3 to;
+in vec4 planeEnds;
+in uvec4 facts;
+flat out uint vId;
+flat out vec4 vColor;
+
+vec4 placed(vec3 inScene, vec2 inPlane) {
+#ifdef PLANE
+  return projectionMatrix * modelViewMatrix * vec4(inPlane.x * uAspect, inPlane.y, 0.0, 1.0);
+#else
+  return projectionMatrix * modelViewMatrix * vec4(inScene, 1.0);
+#endif
+}
+
+void main() {
+  vec4 a = placed(from, planeEnds.xy);
+  vec4 b = placed(to, planeEnds.zw);
+  float chart = float(facts.x), group = float(facts.y & 0xffffu), seam = float(facts.z);
+  uint marks = facts.y >> 16;
+  bool isHovered = uHover.w == seam || (uHover.y == chart && uHover.z == group);
+  bool isPicked = uSelected.w == seam || (uSelected.y == chart && uSelected.z == group);
+  float width = (marks & 4u) != 0u ? 3.0 : (marks & 8u) != 0u ? 2.2 : 1.4;
+  if (isHovered || isPicked) width += 1.6;
+  width = (width + uThick) * uPixelRatio;
+  vColor = isPicked || isHovered ? vec4(0.95, 0.45, 0.0, 1.0) : (marks & 4u) != 0u ? vec4(0.87, 0.15, 0.17, 1.0) : vec4(0.07, 0.33, 0.75, 1.0);
+  vId = facts.w + 1u;
+  vec2 along = (b.xy / b.w - a.xy / a.w) * uViewport;
+  along = length(along) < 1e-4 ? vec2(1.0, 0.0) : normalize(along);
+  vec2 side = vec2(-along.y, along.x) * position.y + along * (position.x * 2.0 - 1.0) * 0.5;
+  gl_Position = position.x < 0.5 ? a : b;
+  gl_Position.xy += side * width / uViewport * gl_Position.w;
+#ifdef PLANE
+  if (int(group) != uAtlas) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
+#else
+  // Both sides of a seam lie at one place: what is pointed at covers the other.
+  gl_Position.z -= (isHovered || isPicked ? 0.0012 : 0.0006) * gl_Position.w;
+#endif
+}`;
+
+export const BORDER_FRAGMENT = /* glsl */ `
+precision highp float;
+flat in uint vId;
+flat in vec4 vColor;
+layout(location = 0) out vec4 color;
+void main() {
+#ifdef PICK
+  color = vec4(float(vId & 255u), float((vId >> 8) & 255u), float((vId >> 16) & 255u), float(vId >> 24)) / 255.0;
+#else
+  color = vColor;
+#endif
+}`;

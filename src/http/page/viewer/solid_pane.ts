@@ -1,0 +1,84 @@
+// The view of the surface: a camera that turns around it.
+
+import { type Object3D, PerspectiveCamera, Scene, Sphere, Vector3 } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { isStill, move } from "./motion";
+
+/** glTF's front is +z. */
+const FRONT = [0.55, 0.35, 1] as const;
+
+/** A camera, its scene, and how a person moves it. */
+export class SolidPane {
+  readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
+  readonly scene = new Scene();
+  readonly #controls: OrbitControls;
+  #around = new Sphere(new Vector3(), 1);
+
+  constructor(readonly element: HTMLElement, changed: () => void) {
+    this.#controls = new OrbitControls(this.camera, element);
+    this.#controls.zoomToCursor = true;
+    this.#controls.autoRotateSpeed = 1.4;
+    this.#controls.addEventListener("change", changed);
+    this.#controls.addEventListener("start", () => this.turn(false));
+  }
+
+  /** Shows these things and nothing else. */
+  show(things: Object3D[], around: Sphere | null): void {
+    this.scene.children = [];
+    for (const thing of things) this.scene.add(thing);
+    if (around) this.#around = around.clone();
+  }
+
+  /** Looks at everything, from the front and a little from above unless told otherwise. */
+  frame(from: readonly [number, number, number] = FRONT): void {
+    const { center, radius } = this.#around;
+    const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.94 * Math.max(1, 1 / this.camera.aspect);
+    this.#look(center.clone().add(new Vector3(...from).normalize().multiplyScalar(distance)), center);
+  }
+
+  /** Flies to a place that is seen from the side of a direction. */
+  flyTo(place: Vector3, direction: Vector3, size: number): void {
+    this.turn(false);
+    const distance = Math.max(size * 9, this.#around.radius * 0.55);
+    const [from, target] = [this.camera.position.clone(), this.#controls.target.clone()];
+    const to = place.clone().add(direction.clone().normalize().multiplyScalar(distance));
+    move((t) => this.#look(from.clone().lerp(to, t), target.clone().lerp(place, t)));
+  }
+
+  /** Turns slowly until a person takes over. */
+  turn(isTurning: boolean): void {
+    this.#controls.autoRotate = isTurning && !isStill();
+  }
+
+  get isTurning(): boolean {
+    return this.#controls.autoRotate;
+  }
+
+  /** Whether the camera moves by itself. */
+  update(): boolean {
+    return this.#controls.update() || this.#controls.autoRotate;
+  }
+
+  resize(width: number, height: number): void {
+    this.camera.aspect = width / Math.max(height, 1);
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** Where the camera is and at what it looks: six numbers. */
+  get place(): number[] {
+    return [...this.camera.position.toArray(), ...this.#controls.target.toArray()];
+  }
+
+  set place(numbers: number[]) {
+    this.#look(new Vector3().fromArray(numbers), new Vector3().fromArray(numbers, 3));
+  }
+
+  #look(from: Vector3, at: Vector3): void {
+    this.camera.position.copy(from);
+    this.#controls.target.copy(at);
+    this.camera.near = this.#around.radius / 500;
+    this.camera.far = this.#around.radius * 100;
+    this.camera.updateProjectionMatrix();
+    this.#controls.update();
+  }
+}

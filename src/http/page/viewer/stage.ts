@@ -1,0 +1,143 @@
+// Both views on one canvas, with one set of buffers: drawn when something changed, and only then.
+
+import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, type Scene, Vector3, WebGLRenderer } from "three";
+import { type Uniforms, uniforms } from "./look";
+import type { Model } from "./model";
+import { Picker } from "./picking";
+import { PlanePane } from "./plane_pane";
+import { SolidPane } from "./solid_pane";
+import type { View } from "./surface";
+
+/** What is below the pointer. */
+export interface Hit {
+  view: View;
+  face: number;
+  /** An index of `Analysis.borders`, or -1. */
+  border: number;
+}
+
+/** The elements that a stage needs. */
+export interface Places {
+  canvas: HTMLCanvasElement;
+  solid: HTMLElement;
+  plane: HTMLElement;
+}
+
+/** Draws both views. Its constructor throws where there is no WebGL. */
+export class Stage {
+  readonly uniforms: Uniforms = uniforms();
+  readonly solid: SolidPane;
+  readonly plane: PlanePane;
+  readonly renderer: WebGLRenderer;
+  readonly #picker = new Picker();
+  readonly #places: Places;
+  #isAsked = false;
+  /** Called before each frame is drawn. */
+  onFrame: () => void = () => {};
+  background = "#ffffff";
+  /** Milliseconds of our JavaScript for the latest frame, and frames so far. */
+  readonly figures = { milliseconds: 0, frames: 0 };
+
+  constructor(places: Places) {
+    this.#places = places;
+    this.renderer = new WebGLRenderer({ canvas: places.canvas, antialias: true, alpha: false, powerPreference: "high-performance" });
+    this.renderer.autoClear = false;
+    this.renderer.info.autoReset = false;
+    this.solid = new SolidPane(places.solid, () => this.redraw());
+    this.plane = new PlanePane(places.plane, () => this.redraw());
+    const key = new DirectionalLight(0xffffff, 2);
+    key.position.set(1, 2, 3);
+    this.lights = [new HemisphereLight(0xffffff, 0x8a8f98, 2), key];
+    new ResizeObserver(() => this.resize()).observe(places.canvas.parentElement!);
+    this.resize();
+  }
+
+  /** For documents' own materials. */
+  readonly lights;
+
+  /** Draws once more, soon. */
+  redraw(): void {
+    if (this.#isAsked) return;
+    this.#isAsked = true;
+    requestAnimationFrame(() => {
+      this.#isAsked = false;
+      this.#frame();
+    });
+  }
+
+  resize(): void {
+    const box = this.#places.canvas.parentElement!.getBoundingClientRect();
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(box.width, box.height, false);
+    for (const view of ["solid", "plane"] as const) {
+      const { width, height } = this.#places[view].getBoundingClientRect();
+      this[view].resize(width, height);
+    }
+    this.redraw();
+  }
+
+  #frame(): void {
+    const begin = performance.now();
+    if (this.solid.update()) this.redraw();
+    this.onFrame();
+    this.renderer.info.reset();
+    this.renderer.setScissorTest(true);
+    for (const view of ["solid", "plane"] as const) this.#draw(view, this[view].scene, this[view].camera);
+    this.figures.milliseconds = performance.now() - begin;
+    this.figures.frames += 1;
+  }
+
+  #draw(view: View, scene: Scene, camera: Camera): void {
+    const { left, bottom, width, height } = this.#box(view);
+    if (width < 1 || height < 1) return;
+    this.uniforms.uViewport.value.set(width * this.renderer.getPixelRatio(), height * this.renderer.getPixelRatio());
+    this.uniforms.uPixelRatio.value = this.renderer.getPixelRatio();
+    this.renderer.setViewport(left, bottom, width, height);
+    this.renderer.setScissor(left, bottom, width, height);
+    this.renderer.setClearColor(new Color(this.background), 1);
+    this.renderer.clear();
+    this.renderer.render(scene, camera);
+  }
+
+  /** Where a view is on the canvas, from below. */
+  #box(view: View) {
+    const canvas = this.#places.canvas.getBoundingClientRect();
+    const box = this.#places[view].getBoundingClientRect();
+    return { left: box.left - canvas.left, bottom: canvas.bottom - box.bottom, width: box.width, height: box.height };
+  }
+
+  /** What is at a place of a view; `borders` asks for the borders of charts, too. */
+  pick(model: Model, view: View, x: number, y: number, borders: boolean): Hit | null {
+    const { width, height } = this.#places[view].getBoundingClientRect();
+    const layer = model.surface.layers[view];
+    // One pixel is all that is drawn.
+    this.uniforms.uViewport.value.set(1, 1);
+    this.uniforms.uPixelRatio.value = 1;
+    this.renderer.setScissorTest(false);
+    const at = (meshes: typeof layer.surface[]) => this.#picker.pick(this.renderer, meshes, this[view].camera, [x, y], [width, height]);
+    const drawn = at([layer.pickSurface]);
+    const border = borders ? this.#hiding(layer.pickSurface, () => at([layer.pickSurface, layer.pickBorders])) : -1;
+    const { face } = model.analysis.drawn;
+    if (drawn < 0 && border < 0) return null;
+    return { view, border, face: 0 <= drawn ? (face[drawn] ?? -1) : (model.analysis.borders.face[border] ?? -1) };
+  }
+
+  /** Has a mesh only hide what is behind it. */
+  #hiding<T>({ material }: Mesh, pick: () => T): T {
+    const one = material as Material;
+    one.colorWrite = false;
+    try {
+      return pick();
+    } finally {
+      one.colorWrite = true;
+    }
+  }
+
+  /** Where a point of the scene or of the plane is on the page. */
+  project(view: View, point: Vector3): [number, number] {
+    const { left, top, width, height } = this.#places[view].getBoundingClientRect();
+    this[view].camera.updateMatrixWorld();
+    const { x, y } = point.clone().project(this[view].camera);
+    return [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height];
+  }
+}

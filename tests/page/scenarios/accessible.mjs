@@ -1,0 +1,48 @@
+// axe finds nothing, in any view, dark or light, wide or narrow.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { shown } from "../look.mjs";
+
+const source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+async function check(page, where) {
+  await page.evaluate(source);
+  const { violations } = await page.evaluate(() => window.axe.run());
+  const said = violations.flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html.slice(0, 120)} ${node.failureSummary}`));
+  assert.deepEqual(said, [], where);
+}
+
+export async function run(page, url, job) {
+  let checked = 0;
+  for (const colorScheme of ["light", "dark"]) {
+    for (const width of [1280, 700, 380]) {
+      await page.emulateMedia({ colorScheme });
+      await page.setViewportSize({ width, height: 800 });
+      await page.goto(`${url}#job=${job}&shade=heat`);
+      await page.reload();
+      await shown(page);
+      await check(page, `${colorScheme} view at ${width}`);
+      const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(overflow <= 0, `nothing is wider than ${width}: ${overflow}`);
+      await page.click("#tab-report");
+      await page.waitForSelector(".certificate");
+      await check(page, `${colorScheme} report at ${width}`);
+      checked += 2;
+    }
+    await page.setViewportSize({ width: 1280, height: 800 });
+    await page.click("#tab-view");
+    await page.click("#more summary");
+    await page.waitForSelector("#options .option");
+    await check(page, `${colorScheme} options`);
+    await page.keyboard.press("Escape");
+    await page.click("#keys-button");
+    await page.waitForSelector("#keys[open]");
+    await check(page, `${colorScheme} keys`);
+    await page.goto(`${url}docs`);
+    await page.waitForSelector("#operations details");
+    await check(page, `${colorScheme} API`);
+    checked += 3;
+  }
+  return { checked };
+}

@@ -1,0 +1,77 @@
+// Fills, seams and heat maps change the pixels that they must.
+import assert from "node:assert/strict";
+import { assertDiffers, assertSame, colors, project, settled, shown } from "../look.mjs";
+
+export async function run(page, url) {
+  await page.goto(url);
+  await shown(page);
+  const facts = await page.evaluate(() => {
+    const { analysis } = window.unwrapd.viewer;
+    const { worst } = analysis.atlases[0].spreads[0];
+    const values = [...analysis.chart.keys()].sort((one, other) => analysis.values[4 * one] - analysis.values[4 * other]);
+    return { best: values[0], worst: worst[0] };
+  });
+  await heat(page, facts);
+  await checker(page);
+  await seams(page);
+}
+
+async function heat(page, { best, worst }) {
+  const places = [await project(page, "plane", best), await project(page, "plane", worst)];
+  await page.click("button[data-switch=seams]");
+  await page.click("button[data-shade=plain]");
+  const plain = await colors(page, places);
+  assertSame(plain[0], plain[1], "plain faces");
+  await page.click("button[data-shade=heat]");
+  const [low, high] = await colors(page, places);
+  const brightness = (color) => color.reduce((sum, x) => sum + x, 0);
+  assert.ok(brightness(high) + 120 < brightness(low), `the worst face is dark: ${low}, ${high}`);
+  assert.match(await page.textContent("#legend"), /min .* mean .* max/);
+  await page.selectOption("#measure", "density");
+  const [, density] = await colors(page, places);
+  assertDiffers(density, high, "texel density");
+  assert.match(await page.textContent("#legend"), /px\/unit/);
+  await page.click("button[data-switch=seams]");
+}
+
+/** Cells have one color each, light or dark by turns: nothing is blended between them. */
+async function checker(page) {
+  await page.click("button[data-shade=checker]");
+  await page.click("button[data-switch=seams]");
+  const cells = await page.evaluate(() => {
+    const { analysis, stage, model } = window.unwrapd.viewer;
+    const { uvs } = analysis.drawn;
+    const point = stage.solid.camera.position.clone();
+    const found = [];
+    for (let k = 0; k < analysis.drawn.count; k++) {
+      const u = (uvs[6 * k] + uvs[6 * k + 2] + uvs[6 * k + 4]) / 3;
+      const v = (uvs[6 * k + 1] + uvs[6 * k + 3] + uvs[6 * k + 5]) / 3;
+      const inside = [u * 32 % 1, v * 32 % 1].every((t) => 0.25 < t && t < 0.75);
+      if (inside) found.push({ odd: (Math.floor(u * 32) + Math.floor(v * 32)) % 2, place: stage.project("plane", point.set(u * model.aspect, v, 0)) });
+    }
+    return found.slice(0, 80);
+  });
+  assert.ok(8 < cells.length, "there are cells to look at");
+  const seen = await colors(page, cells.map(({ place }) => place));
+  for (const [k, { odd }] of cells.entries()) {
+    assert.equal(seen[k][1] < 170, odd === 1, `cell ${k} is ${seen[k]}`);
+  }
+  await page.click("button[data-switch=seams]");
+}
+
+async function seams(page) {
+  await page.click("button[data-shade=plain]");
+  const place = await page.evaluate(() => {
+    const { analysis: { borders }, stage, model } = window.unwrapd.viewer;
+    const length = (k) => Math.hypot(borders.uvs[4 * k] - borders.uvs[4 * k + 2], borders.uvs[4 * k + 1] - borders.uvs[4 * k + 3]);
+    const longest = [...borders.face.keys()].sort((one, other) => length(other) - length(one))[0];
+    const [u0, v0, u1, v1] = borders.uvs.slice(4 * longest, 4 * longest + 4);
+    return stage.project("plane", stage.solid.camera.position.clone().set(((u0 + u1) / 2) * model.aspect, (v0 + v1) / 2, 0));
+  });
+  const [on] = await colors(page, [place]);
+  assert.ok(on[0] + 60 < on[2], `a seam is blue: ${on}`);
+  await page.click("button[data-switch=seams]");
+  const [off] = await colors(page, [place]);
+  assertDiffers(on, off, "a seam");
+  await settled(page);
+}

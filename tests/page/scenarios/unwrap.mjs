@@ -1,0 +1,31 @@
+// A mesh is chosen, unwrapped, watched, looked at and downloaded.
+import assert from "node:assert/strict";
+import { colorsOf, shown, variety } from "../look.mjs";
+
+export async function run(page, url, mesh, output) {
+  await page.goto(url);
+  await shown(page, "spot.ply");
+  const first = await page.evaluate(() => performance.now());
+  await page.setInputFiles("#files", mesh);
+  const name = mesh.split("/").pop();
+  await shown(page, name);
+  assert.equal(await page.textContent("#title"), name);
+  await page.click("#submit");
+  const stages = [];
+  for (;;) {
+    await page.waitForSelector(".stage, .verdict");
+    const stage = await page.locator(".stage").textContent({ timeout: 200 }).catch(() => null);
+    if (stage && stages.at(-1) !== stage) stages.push(stage);
+    if (await page.locator(".verdict").count()) break;
+  }
+  assert.equal(await page.textContent(".verdict h2"), "Certified");
+  assert.ok(stages.length, "no progress was shown");
+  await shown(page);
+  for (const pane of ["#solid", "#plane"]) assert.ok(4 < variety(await colorsOf(page, pane)), `${pane} is empty`);
+  // Numbers agree: those of the report, and those that the page computes itself.
+  const charts = await page.evaluate(() => window.unwrapd.viewer.analysis.charts);
+  assert.match(await page.textContent("#inspector"), new RegExp(`Charts${charts}(?!\\d)`));
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(".files a.primary")]);
+  await download.saveAs(output);
+  return { stages, firstView: first };
+}
