@@ -402,23 +402,25 @@ fn a_tube_is_cut_open() {
 
 #[test]
 fn charts_are_cut_for_a_fuller_atlas_unless_seams_are_dear() {
-    // A tray of five squares, whose rims stand at 60°, unfolds to a cross, which fills five ninths of its square.
-    let arms = [[0, 0, 0], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]];
+    // A domed cross of five squares fills five ninths of its square. A plane would not be cut.
+    let arms = [[0, 0], [4, 0], [-4, 0], [0, 4], [0, -4]];
+    let cells = || (0..16).map(|cell| [cell % 4, cell / 4]);
+    let vertex = |[x, y]: [i32; 2]| {
+        let [x, y] = [x, y].map(|k| k as f32 / 4.0);
+        let square = |x: f32| (x - 0.5).powi(2);
+        [x, y, 0.15 * (square(x) + square(y))]
+    };
+    let corners = [[0, 0], [1, 0], [1, 1], [0, 1]];
     let cross = Mesh {
-        triangles: (arms.iter().zip(0..))
-            .flat_map(|(_, i): (_, u32)| {
-                [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]]
-            })
+        triangles: (0..5 * 16)
+            .flat_map(|i: u32| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]])
             .collect(),
-        positions: (arms.iter())
-            .flat_map(|&[x, y, _]| [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]])
-            .map(|p: [i32; 2]| {
-                let p = p.map(|x| x as f32);
-                let beyond = p.map(|x| x - x.clamp(0.0, 1.0));
-                let [x, y] = [0, 1].map(|k| p[k] - beyond[k] / 2.0);
-                [x, y, 0.75_f32.sqrt() * beyond[0].hypot(beyond[1])]
-            })
-            .collect(),
+        positions: (arms
+            .iter()
+            .flat_map(|arm| cells().map(move |cell| (arm, cell))))
+        .flat_map(|(arm, cell)| corners.map(|c| [0, 1].map(|k| arm[k] + cell[k] + c[k])))
+        .map(vertex)
+        .collect(),
         name: "cross".into(),
     };
     let with = |seam_weight| {

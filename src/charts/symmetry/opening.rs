@@ -22,7 +22,7 @@ fn is_sphere(sheet: &Sheet) -> bool {
 
 /// The edges of a slit along a plane that opens a closed sheet of genus 0 to a disk; none if the plane meets no two edges of it.
 ///
-/// As [`open_to_disk`](crate::cut::open_to_disk) does it, the slit leads from one of two vertices that are about farthest apart
+/// As [`open_to_disk`] does it, the slit leads from one of two vertices that are about farthest apart
 /// to the other, but both lie in the plane, and so does the slit where the edges allow it.
 fn slit_in_plane(sheet: &Sheet, mirror: &SheetMirror) -> Option<Vec<u32>> {
     let neighbors = Neighbors::new(sheet);
