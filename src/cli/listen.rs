@@ -1,6 +1,9 @@
-//! Where the service listens: the same option for `serve` and for `health`.
+//! Where the service listens: an option of `serve`, and a file for `health`.
 
 use std::net::SocketAddr;
+
+/// The file of the data folder that has the address in it.
+pub(super) const ADDRESS_FILE: &str = "address";
 
 /// The address of the service.
 #[derive(clap::Args)]

@@ -16,6 +16,7 @@ mod completions;
 mod console;
 mod deform;
 mod edit_uv;
+mod exposure_args;
 mod failure;
 mod format;
 mod health;

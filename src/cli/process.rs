@@ -41,7 +41,9 @@ pub(super) fn run(
 
 /// Two processes on one data folder would take each other's files. The lock goes with the process.
 fn lock(data: &Path) -> Result<File, String> {
-    let lock = File::create(data.join("lock")).map_err(|error| error.to_string())?;
+    let path = data.join("lock");
+    let lock = File::create(&path)
+        .map_err(|error| format!("cannot create {}: {error}", path.display()))?;
     lock.try_lock()
         .map_err(|_| format!("another server uses {}", data.display()))?;
     Ok(lock)

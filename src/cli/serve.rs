@@ -1,12 +1,14 @@
 //! `unwrapd serve`: settings, start and graceful stop of the service.
 
 use std::io::Write;
+use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::net::TcpListener;
 
-use super::listen::Listen;
+use super::exposure_args::ExposureArgs;
+use super::listen::{ADDRESS_FILE, Listen};
 use super::process;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
@@ -56,6 +58,8 @@ pub(super) struct Args {
         value_parser = days
     )]
     retain_days: f64,
+    #[command(flatten)]
+    exposure: ExposureArgs,
 }
 
 fn days(text: &str) -> Result<f64, String> {
@@ -77,10 +81,15 @@ impl Args {
         })
     }
 
-    fn http_settings(&self) -> http::Settings {
+    fn http_settings(&self, address: SocketAddr) -> http::Settings {
         http::Settings {
             upload_bytes: self.max_upload_mib.saturating_mul(1 << 20),
             synchronous_time: Duration::from_secs_f64(self.synchronous_seconds),
+            connections: self.exposure.connections(),
+            upload_time: self.exposure.upload_time(),
+            origins: self.exposure.origins.clone(),
+            hosts: self.exposure.hosts(address),
+            base_path: self.exposure.base_path.clone(),
         }
     }
 }
@@ -101,6 +110,9 @@ async fn serve(args: &Args) -> Result<(), String> {
         .await
         .map_err(|error| format!("cannot listen on {wished}: {error}"))?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
+    if let Err(error) = std::fs::write(args.work.data.join(ADDRESS_FILE), address.to_string()) {
+        tracing::warn!(%error, "`unwrapd health` cannot find the service");
+    }
     // A reader may have closed the pipe.
     let _ = writeln!(std::io::stdout(), "listening on http://{address}");
 
@@ -109,7 +121,7 @@ async fn serve(args: &Args) -> Result<(), String> {
     let server = tokio::spawn(http::serve(
         listener,
         jobs,
-        args.http_settings(),
+        args.http_settings(address),
         stop.clone(),
     ));
     stop.cancelled().await;

@@ -50,6 +50,7 @@ use crate::jobs::{Ended, Job, SubmitError, Submitted};
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
         (status = 200, description = "The job, which ended while the request waited", body = JobView, headers(("Location" = String, description = "Path of the job"))),
         (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
+        (status = 408, description = "`request_timeout`: the body paused for too long, or took too long", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "`unknown_format`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
@@ -97,7 +98,7 @@ impl From<SubmitError> for Problem {
 
 fn located(app: &App, status: StatusCode, job: &Job) -> Response {
     let mut response = json(status, &view(app, job));
-    if let Ok(path) = HeaderValue::from_str(&job_path(job)) {
+    if let Ok(path) = HeaderValue::from_str(&job_path(&app.settings.base_path, job)) {
         response.headers_mut().insert(header::LOCATION, path);
     }
     response

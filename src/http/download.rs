@@ -77,7 +77,8 @@ pub(super) async fn answer(
     if names(headers, header::IF_NONE_MATCH, &tag) {
         return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
     }
-    let is_same = !headers.contains_key(header::IF_RANGE) || names(headers, header::IF_RANGE, &tag);
+    let is_same =
+        (headers.get(header::IF_RANGE)).is_none_or(|given| given.as_bytes() == tag.as_bytes());
     let range = match headers.get(header::RANGE).filter(|_| is_same) {
         Some(value) => range(value, bytes),
         None => Ok(None),
@@ -112,14 +113,15 @@ pub(super) async fn answer(
     Ok(response)
 }
 
-/// Whether a header names this version.
+/// Whether a header names this version, strongly or weakly: a proxy that compresses weakens tags.
 pub(super) fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) -> bool {
     headers
         .get_all(name)
         .iter()
         .filter_map(|value| value.to_str().ok())
         .flat_map(|value| value.split(','))
-        .any(|given| given.trim() == tag || given.trim() == "*")
+        .map(str::trim)
+        .any(|given| given == "*" || given.strip_prefix("W/").unwrap_or(given) == tag)
 }
 
 /// The one range of a Range header. What is no single range of bytes is ignored, as RFC 9110 asks; `Err` has no byte

@@ -102,9 +102,9 @@ fn server_sent(events: Subscription, app: &Arc<App>) -> Response {
         Some((Ok::<_, Infallible>(sent), events))
     });
     let stream = stream.take_until(app.stop.clone().cancelled_owned());
-    Sse::new(stream)
-        .keep_alive(KeepAlive::new().interval(KEEP_ALIVE))
-        .into_response()
+    let events = Sse::new(stream).keep_alive(KeepAlive::new().interval(KEEP_ALIVE));
+    // Proxies such as nginx would collect events before they pass them on.
+    ([("x-accel-buffering", "no")], events).into_response()
 }
 
 /// Sends events until the last one, the client's goodbye, or the stop of the service.

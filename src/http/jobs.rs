@@ -155,7 +155,7 @@ pub(super) async fn finish_job(
 ) -> Result<Response, Problem> {
     let (job, refusal) = wished(&app, id, Wish::FinishEarly).await?;
     if refusal.is_some() {
-        let detail = format!("the job has already {}", job.state.word());
+        let detail = format!("its state is {}", job.state.word());
         return Err(Problem::new(Code::AlreadyFinished, detail));
     }
     Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
@@ -195,7 +195,7 @@ async fn wished(app: &App, id: JobId, wish: Wish) -> Result<(Job, Option<Refusal
 
 /// A job as clients of this service see it.
 pub(super) fn view(app: &App, job: &Job) -> JobView {
-    JobView::new(job, app.jobs.settings())
+    JobView::new(job, app.jobs.settings(), &app.settings.base_path)
 }
 
 /// Waits for the end of a job, or for the stop of the service.

@@ -2,11 +2,13 @@
 //!
 //! It accepts, records and relays; it computes nothing. Every handler is a few lines around one call of
 //! [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI document. Whatever goes wrong is
-//! answered with an RFC 9457 problem that carries a stable code (`problem.rs` has the table).
+//! answered with an RFC 9457 problem that carries a stable code (`code.rs` has the table).
 
 mod answers;
 mod assets;
 mod causes;
+mod code;
+mod connections;
 mod create;
 mod download;
 mod drain;
@@ -18,13 +20,16 @@ mod jobs;
 mod missing;
 mod openapi;
 mod options;
+mod origins;
 mod page;
 mod probes;
 mod problem;
+mod received;
 mod receiver;
 mod results;
 mod schemas;
 mod settings;
+mod steady;
 mod synchronous;
 mod upload;
 mod view;
@@ -41,13 +46,15 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 use tower_http::catch_panic::CatchPanicLayer;
+use tower_http::csrf::ConfigError;
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::trace::TraceLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+pub use self::origins::origin;
 use self::problem::{Code, Problem};
-pub use self::settings::Settings;
+pub use self::settings::{Connections, Settings};
 use crate::jobs::Jobs;
 
 /// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
@@ -119,18 +126,18 @@ pub async fn serve(
         stop: stop.clone(),
         sockets: TaskTracker::new(),
     });
-    axum::serve(listener, router(Arc::clone(&app)))
-        .with_graceful_shutdown(stop.cancelled_owned())
-        .await?;
+    let router = router(Arc::clone(&app)).map_err(std::io::Error::other)?;
+    connections::serve(listener, router, &app.settings.connections, stop).await;
     app.sockets.close();
     app.sockets.wait().await;
     Ok(())
 }
 
-fn router(app: Arc<App>) -> Router {
+fn router(app: Arc<App>) -> Result<Router, ConfigError> {
     let header =
         |name, value| SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value));
-    Router::from(routes())
+    let settings = app.settings.clone();
+    let answering = Router::from(routes())
         .merge(pages())
         .fallback(async || Problem::new(Code::NotFound, "there is nothing at this path"))
         .method_not_allowed_fallback(async || {
@@ -139,14 +146,15 @@ fn router(app: Arc<App>) -> Router {
         // Uploads count their bytes themselves.
         .layer(DefaultBodyLimit::disable())
         .layer(CatchPanicLayer::custom(panicked))
+        .with_state(app);
+    Ok(origins::guarded(answering, &settings)?
         .layer(header(
             header::CONTENT_SECURITY_POLICY,
             CONTENT_SECURITY_POLICY,
         ))
         .layer(header(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
         .layer(header(header::REFERRER_POLICY, "no-referrer"))
-        .layer(TraceLayer::new_for_http())
-        .with_state(app)
+        .layer(TraceLayer::new_for_http()))
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "the layer hands it over")]

@@ -5,6 +5,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 
 use super::causes;
+pub(super) use super::code::Code;
 use crate::jobs::{Failure, StoreError};
 
 /// What went wrong (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
@@ -25,169 +26,6 @@ pub(super) struct Problem {
     /// The limit that was exceeded, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<u64>,
-}
-
-/// Codes of the service itself. Those of inputs that cannot be used are [`causes`], and have status 422.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Code {
-    InvalidRequest,
-    InvalidOptions,
-    MissingMesh,
-    NeedsJob,
-    NotFound,
-    JobNotFound,
-    NoSuchFile,
-    MethodNotAllowed,
-    NotFinished,
-    AlreadyFinished,
-    NoResult,
-    NotFailed,
-    Conflict,
-    JobExpired,
-    UploadTooLarge,
-    UnsupportedMediaType,
-    RangeNotSatisfiable,
-    UnknownFormat,
-    InvalidGltf,
-    IdempotencyKeyReused,
-    UpgradeRequired,
-    OutOfMemory,
-    InternalError,
-    Crashed,
-    DamagedFile,
-    QueueFull,
-    Stopping,
-    Draining,
-    NotReady,
-    StoreUnavailable,
-    WorkerLost,
-    TimedOut,
-    StorageFull,
-}
-
-impl Code {
-    pub const ALL: [Self; 33] = [
-        Self::InvalidRequest,
-        Self::InvalidOptions,
-        Self::MissingMesh,
-        Self::NeedsJob,
-        Self::NotFound,
-        Self::JobNotFound,
-        Self::NoSuchFile,
-        Self::MethodNotAllowed,
-        Self::NotFinished,
-        Self::AlreadyFinished,
-        Self::NoResult,
-        Self::NotFailed,
-        Self::Conflict,
-        Self::JobExpired,
-        Self::UploadTooLarge,
-        Self::UnsupportedMediaType,
-        Self::RangeNotSatisfiable,
-        Self::UnknownFormat,
-        Self::InvalidGltf,
-        Self::IdempotencyKeyReused,
-        Self::UpgradeRequired,
-        Self::OutOfMemory,
-        Self::InternalError,
-        Self::Crashed,
-        Self::DamagedFile,
-        Self::QueueFull,
-        Self::Stopping,
-        Self::Draining,
-        Self::NotReady,
-        Self::StoreUnavailable,
-        Self::WorkerLost,
-        Self::TimedOut,
-        Self::StorageFull,
-    ];
-
-    /// Its word, its status, and what it says.
-    pub fn row(self) -> (&'static str, u16, &'static str) {
-        match self {
-            Self::InvalidRequest => (
-                "invalid_request",
-                400,
-                "A parameter, header or body is malformed",
-            ),
-            Self::InvalidOptions => (
-                "invalid_options",
-                400,
-                "An option is unknown or has an invalid value",
-            ),
-            Self::MissingMesh => ("missing_mesh", 400, "The upload has no input"),
-            Self::NeedsJob => ("needs_job", 400, "This result is only available from a job"),
-            Self::NotFound => ("not_found", 404, "The path does not exist"),
-            Self::JobNotFound => ("job_not_found", 404, "The job does not exist"),
-            Self::NoSuchFile => ("no_such_file", 404, "The job does not produce this file"),
-            Self::MethodNotAllowed => (
-                "method_not_allowed",
-                405,
-                "The path does not support this method",
-            ),
-            Self::NotFinished => ("not_finished", 409, "The job is not finished"),
-            Self::AlreadyFinished => ("already_finished", 409, "The job has already ended"),
-            Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
-            Self::NotFailed => ("not_failed", 409, "Only failed jobs can be tried again"),
-            Self::JobExpired => ("job_expired", 410, "The job was removed after its time"),
-            Self::Conflict => ("conflict", 409, "Another request changed it meanwhile"),
-            Self::UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),
-            Self::UnsupportedMediaType => (
-                "unsupported_media_type",
-                415,
-                "The content type is not supported",
-            ),
-            Self::RangeNotSatisfiable => (
-                "range_not_satisfiable",
-                416,
-                "The range lies outside the file",
-            ),
-            Self::UnknownFormat => (
-                "unknown_format",
-                422,
-                "The job kind does not read this file format",
-            ),
-            Self::InvalidGltf => ("invalid_gltf", 422, "The file is not valid glTF 2.0"),
-            Self::IdempotencyKeyReused => (
-                "idempotency_key_reused",
-                422,
-                "The Idempotency-Key belongs to a different submission",
-            ),
-            Self::UpgradeRequired => (
-                "upgrade_required",
-                426,
-                "Events require a WebSocket, or Accept: text/event-stream",
-            ),
-            Self::OutOfMemory => (
-                "out_of_memory",
-                422,
-                "The input needs more memory than a job may use",
-            ),
-            Self::InternalError => ("internal_error", 500, "The service failed"),
-            Self::Crashed => ("crashed", 500, "A bug in the service ended the computation"),
-            Self::DamagedFile => ("damaged_file", 500, "A stored file is damaged"),
-            Self::QueueFull => ("queue_full", 503, "The queue is full"),
-            Self::Stopping => ("stopping", 503, "The service is shutting down"),
-            Self::Draining => ("draining", 503, "The process takes in no more jobs"),
-            Self::NotReady => ("not_ready", 503, "The service would not accept a job now"),
-            Self::StoreUnavailable => (
-                "store_unavailable",
-                503,
-                "The job database or the files cannot be reached",
-            ),
-            Self::WorkerLost => (
-                "worker_lost",
-                503,
-                "The computation was terminated from outside",
-            ),
-            Self::TimedOut => ("timed_out", 504, "The computation exceeded its time limit"),
-            Self::StorageFull => (
-                "storage_full",
-                507,
-                "The disk is full, or the quota is used up",
-            ),
-        }
-    }
 }
 
 impl Problem {
@@ -269,7 +107,7 @@ impl IntoResponse for Problem {
         let mut set = |name, value| headers.insert(name, HeaderValue::from_static(value));
         set(header::CONTENT_TYPE, "application/problem+json");
         match status {
-            StatusCode::SERVICE_UNAVAILABLE => {
+            StatusCode::SERVICE_UNAVAILABLE | StatusCode::TOO_MANY_REQUESTS => {
                 set(header::RETRY_AFTER, "5");
             }
             StatusCode::UPGRADE_REQUIRED => {

@@ -12,9 +12,9 @@ use tokio::io::AsyncWriteExt;
 use super::framing;
 use super::options::{self, UploadQuery};
 use super::problem::{Code, Problem};
-use super::wishes::Wishes;
+use super::received::{Folder, Received};
 use crate::deform::from_json;
-use crate::jobs::{Digest, InputFile, Kind, Submission};
+use crate::jobs::{Digest, InputFile, Kind};
 
 /// Names of the part that holds the input.
 const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
@@ -22,51 +22,10 @@ const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
 const MAX_TEXT_BYTES: u64 = 256 << 10;
 /// Files of an upload.
 const MAX_FILES: usize = 4096;
-/// Characters of a file name.
+/// Bytes of the path of a resource.
 const MAX_NAME: usize = 1024;
-
-/// A received upload. Its folder goes when it is dropped.
-pub(super) struct Received {
-    folder: Folder,
-    kind: Kind,
-    options: Value,
-    files: Vec<(InputFile, PathBuf)>,
-    priority: i32,
-    digest: String,
-}
-
-impl Received {
-    /// The options, complete.
-    pub fn options(&self) -> &Value {
-        &self.options
-    }
-
-    /// What is to be submitted; the folder has to be kept until that is done.
-    pub fn into_submission(self, wishes: Wishes, ephemeral: bool) -> (Submission, Folder) {
-        let submission = Submission {
-            kind: self.kind,
-            options: self.options,
-            files: self.files,
-            digest: self.digest,
-            priority: self.priority,
-            reuse: wishes.reuse,
-            key: wishes.key,
-            ephemeral,
-        };
-        (submission, self.folder)
-    }
-}
-
-/// A folder for one upload, removed when dropped.
-pub(super) struct Folder(PathBuf);
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        if let Err(error) = std::fs::remove_dir_all(&self.0) {
-            tracing::warn!(%error, "folder of an upload not removed");
-        }
-    }
-}
+/// Bytes of the name of the input: answers name their files after it, in a header.
+const MAX_INPUT_NAME: usize = 255;
 
 /// Takes in the parts of one upload.
 pub(super) struct Receiver {
@@ -76,6 +35,7 @@ pub(super) struct Receiver {
     input: Option<(InputFile, PathBuf)>,
     resources: Vec<(InputFile, PathBuf)>,
     kind: Option<Kind>,
+    has_options: bool,
     options: Map<String, Value>,
 }
 
@@ -90,6 +50,7 @@ impl Receiver {
             input: None,
             resources: Vec::new(),
             kind: None,
+            has_options: false,
             options: Map::new(),
         })
     }
@@ -113,15 +74,20 @@ impl Receiver {
                     let name = field.file_name().unwrap_or_default().to_owned();
                     self.input = Some(self.store(name, field, |e| malformed(&e)).await?);
                 }
-                "kind" => self.kind = Some(options::kind(&text(field).await?)?),
+                "kind" => {
+                    let kind = options::kind(&text(field).await?)?;
+                    once("kind", self.kind.replace(kind).is_none())?;
+                }
                 "options" => {
+                    once("options", !std::mem::replace(&mut self.has_options, true))?;
                     let text = text(field).await?;
                     self.options = from_json(text.as_bytes()).map_err(|error| {
                         let detail = format!("options are not a JSON object: {error}");
                         Problem::new(Code::InvalidOptions, detail)
                     })?;
                 }
-                _ => self.resource(field).await?,
+                "resource" => self.resource(field).await?,
+                part => return Err(unexpected(part)),
             }
         }
         Ok(())
@@ -129,11 +95,11 @@ impl Receiver {
 
     async fn resource(&mut self, field: Field<'_>) -> Result<(), Problem> {
         let Some(name) = field.file_name().map(str::to_owned) else {
-            let part = field.name().unwrap_or_default();
-            let detail =
-                format!("unexpected part {part:?}: it is not an input, options, kind or a file");
+            let detail = "a resource needs a file name: the path by which the input names it";
             return Err(Problem::new(Code::InvalidRequest, detail));
         };
+        let is_new = self.resources.iter().all(|(known, _)| known.name != name);
+        once(&format!("the resource {name:?}"), is_new)?;
         if MAX_FILES <= self.resources.len() {
             let detail = format!("an upload can have at most {MAX_FILES} files");
             return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_FILES as u64));
@@ -150,10 +116,7 @@ impl Receiver {
         stream: impl Stream<Item = Result<B, E>> + Unpin,
         problem: impl Fn(E) -> Problem,
     ) -> Result<(InputFile, PathBuf), Problem> {
-        if MAX_NAME < name.len() {
-            let detail = format!("a file name can have at most {MAX_NAME} bytes");
-            return Err(Problem::new(Code::InvalidRequest, detail));
-        }
+        at_most(&name, MAX_NAME)?;
         let path = self.folder.0.join(format!(
             "file-{}",
             self.resources.len() + usize::from(self.input.is_some())
@@ -181,15 +144,18 @@ impl Receiver {
         Ok((file, path))
     }
 
-    /// Checks what came. The query wins over the form, and `kind` over both.
+    /// Checks what came.
     pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
         let Some((mut input, path)) = self.input else {
             let detail = "send it as part `mesh`, `image` or `problem`";
             return Err(Problem::new(Code::MissingMesh, detail));
         };
+        once("kind", query.kind.or(kind).is_none() || self.kind.is_none())?;
         let kind = kind.or(query.kind).or(self.kind).unwrap_or_default();
         let mut given = self.options;
-        given.extend(query.options);
+        for (name, value) in query.options {
+            once(&name, given.insert(name.clone(), value).is_none())?;
+        }
         let options = options::complete(kind, given)?;
 
         let checked = path.clone();
@@ -198,6 +164,7 @@ impl Receiver {
             .map_err(|error| Problem::internal(&error))??;
         let name = query.filename.as_deref().unwrap_or(&input.name);
         input.name = file_name(name, kind, format.extension());
+        at_most(&input.name, MAX_INPUT_NAME)?;
 
         let mut files = vec![(input, path)];
         files.extend(self.resources);
@@ -244,6 +211,31 @@ async fn text(mut field: Field<'_>) -> Result<String, Problem> {
     }
     String::from_utf8(bytes)
         .map_err(|_| Problem::new(Code::InvalidRequest, "a text part is not UTF-8"))
+}
+
+/// Refuses what is given more than once: one of two would be lost.
+fn once(name: &str, is_first: bool) -> Result<(), Problem> {
+    if is_first {
+        return Ok(());
+    }
+    let detail = format!("{name} is given twice");
+    Err(Problem::new(Code::InvalidRequest, detail))
+}
+
+fn at_most(name: &str, bytes: usize) -> Result<(), Problem> {
+    if name.len() <= bytes {
+        return Ok(());
+    }
+    let detail = format!("a file name can have at most {bytes} bytes");
+    Err(Problem::new(Code::InvalidRequest, detail))
+}
+
+fn unexpected(part: &str) -> Problem {
+    let part: String = part.chars().take(100).collect();
+    let detail = format!(
+        "unexpected part {part:?}: the parts of a form are mesh, image or problem, resource, options and kind"
+    );
+    Problem::new(Code::InvalidRequest, detail)
 }
 
 fn malformed(error: &MultipartError) -> Problem {

@@ -64,7 +64,7 @@ async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, P
     };
     let received = upload::receive(app, Some(kind), request).await?;
     if received
-        .options()
+        .options
         .get("format")
         .is_some_and(|format| format == "gltf")
     {
@@ -82,9 +82,13 @@ async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, P
         Ended::NotYet(_) if app.stop.is_cancelled() => {
             Err(Problem::new(Code::Stopping, "try again, or elsewhere"))
         }
-        Ended::NotYet(_) => {
+        Ended::NotYet(job) => {
             let seconds = app.settings.synchronous_time.as_secs();
-            let detail = format!("not done within {seconds} s: make it a job with POST /v1/jobs");
+            let what = match job.state {
+                JobState::Queued => "not begun, behind other jobs,",
+                _ => "not done",
+            };
+            let detail = format!("{what} within {seconds} s: make it a job with POST /v1/jobs");
             Err(Problem::new(Code::TimedOut, detail).with_limit(seconds))
         }
     }

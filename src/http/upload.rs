@@ -1,22 +1,29 @@
 //! From a request to a received upload.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use axum::body::Body;
+use axum::BoxError;
+use axum::body::{Body, Bytes};
 use axum::extract::{FromRequest, Multipart, Request};
 use axum::http::{HeaderMap, header};
-use futures_util::{StreamExt, stream};
+use futures_util::{Stream, StreamExt, stream};
 
 use super::App;
 use super::options::UploadQuery;
 use super::problem::{Code, Problem};
-use super::receiver::{Received, Receiver};
+use super::received::Received;
+use super::receiver::Receiver;
+use super::steady::Steady;
 use crate::jobs::{JobId, Kind};
 use crate::mesh::io::{Content, Format};
 
 /// How long the rest of a refused body is waited for.
 const DRAIN_TIME: Duration = Duration::from_secs(5);
+
+/// What the parts of a form may have around their files.
+const FRAMING_BYTES: u64 = 8 << 20;
 
 /// Media types of raw bodies that leave the format to the content.
 const UNTOLD: [&str; 2] = ["text/plain", BYTES];
@@ -45,38 +52,64 @@ fn formats() -> impl Iterator<Item = Format> {
 /// given where the path already says it.
 ///
 /// What is left of the body of a refused upload is read and forgotten, for a while: a client that is still sending
-/// when the connection closes may never see the answer.
+/// when the connection closes may never see the answer. One that asks before it sends is answered at once.
 pub(super) async fn receive(
     app: &Arc<App>,
     kind: Option<Kind>,
     request: Request,
 ) -> Result<Received, Problem> {
     let (head, body) = request.into_parts();
-    let body = Arc::new(Mutex::new(body.into_data_stream()));
-    let shared = Arc::clone(&body);
-    let mut rest = stream::poll_fn(move |context| {
-        shared
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .poll_next_unpin(context)
-    });
-    let reader = stream::poll_fn(move |context| {
-        body.lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .poll_next_unpin(context)
-    });
-    let received = match accepts(app) {
-        Ok(()) => {
-            let request = Request::from_parts(head, Body::from_stream(reader));
-            parse(app, kind, request).await
-        }
+    let asks_first = head.headers.contains_key(header::EXPECT);
+    let may_come = accepts(app).and_then(|()| may_fit(app, &head.headers));
+    let was_silent = Arc::new(AtomicBool::new(false));
+    let silence = app.settings.connections.silence;
+    let body = Steady::new(body.into_data_stream(), silence, Arc::clone(&was_silent));
+    let body = Arc::new(Mutex::new(body));
+    let mut rest = shared(Arc::clone(&body));
+    let received = match may_come {
+        Err(problem) if asks_first => return Err(problem),
         Err(problem) => Err(problem),
+        Ok(()) => {
+            let request = Request::from_parts(head, Body::from_stream(shared(body)));
+            let all = tokio::time::timeout(app.settings.upload_time, parse(app, kind, request));
+            all.await
+                .unwrap_or_else(|_| Err(late("the upload", app.settings.upload_time)))
+        }
     };
+    if was_silent.load(Ordering::Relaxed) {
+        return Err(late("the next piece of the body", silence));
+    }
     if received.is_err() {
         let drained = async { while let Some(Ok(_)) = rest.next().await {} };
         let _ = tokio::time::timeout(DRAIN_TIME, drained).await;
     }
     received
+}
+
+/// A body of which others read too.
+fn shared(body: Arc<Mutex<Steady>>) -> impl Stream<Item = Result<Bytes, BoxError>> + Unpin + Send {
+    stream::poll_fn(move |context| {
+        let mut body = body.lock().unwrap_or_else(PoisonError::into_inner);
+        body.poll_next_unpin(context)
+    })
+}
+
+fn late(what: &str, time: Duration) -> Problem {
+    let seconds = time.as_secs();
+    let detail = format!("{what} did not arrive within {seconds} s");
+    Problem::new(Code::RequestTimeout, detail).with_limit(seconds)
+}
+
+/// Whether the length that is announced can be that of an upload.
+fn may_fit(app: &App, headers: &HeaderMap) -> Result<(), Problem> {
+    let length = headers.get(header::CONTENT_LENGTH);
+    let length = length.and_then(|length| length.to_str().ok()?.parse::<u64>().ok());
+    let limit = app.settings.upload_bytes;
+    if length.is_some_and(|length| limit.saturating_add(FRAMING_BYTES) < length) {
+        let detail = format!("an upload can have at most {limit} bytes");
+        return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(limit));
+    }
+    Ok(())
 }
 
 /// Whether this process takes in jobs now.

@@ -83,15 +83,15 @@ struct FileLink {
     bytes: u64,
 }
 
-/// The path of a job.
-pub(super) fn job_path(job: &Job) -> String {
-    format!("/v1/jobs/{}", job.id)
+/// The path of a job, behind what a proxy puts in front.
+pub(super) fn job_path(base: &str, job: &Job) -> String {
+    format!("{base}/v1/jobs/{}", job.id)
 }
 
 impl JobView {
     /// A job as clients of a service with these settings see it.
-    pub fn new(job: &Job, settings: &Settings) -> Self {
-        let path = job_path(job);
+    pub fn new(job: &Job, settings: &Settings, base: &str) -> Self {
+        let path = job_path(base, job);
         let files = job.output.iter().map(|file| FileLink {
             href: format!("{path}/{}", file.role),
             name: file.name.clone(),

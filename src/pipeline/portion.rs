@@ -93,7 +93,8 @@ impl Drop for Portion<'_> {
 fn share(done: f64) -> f64 {
     let rest = 1.0 - STEADY;
     let beyond = (done - STEADY).max(0.0);
-    done.min(STEADY) + rest * (1.0 - (-beyond / rest).exp())
+    // An exponential would stand still where the work is many times what was expected.
+    done.min(STEADY) + rest * beyond / (beyond + rest)
 }
 
 /// Sees a part of the charts being mapped; the unit of work is one Newton step of one face.

@@ -28,6 +28,9 @@ const APART: f64 = 1e-6;
 /// Faces that are glued at most, as a multiple of all: gluing costs as much as looking at both charts.
 const MOST_GLUED: usize = 100;
 
+/// The part of a chart's faces, about, that an iteration around a seam takes as long as.
+const AROUND_SEAM: usize = 8;
+
 /// Charts laid back on neighbors, along edges that both have, where that leaves no overlap and keeps the bound.
 ///
 /// From the smallest on, each is moved rigidly to where a part of its border fits best to a neighbor's, long parts first, and glued
@@ -221,15 +224,22 @@ impl<'a> Giving<'a> {
     fn pushed_apart(&self, mut map: MappedChart) -> Option<MappedChart> {
         let pairs = overlaps(&map.chart.disk, &map.embedding.uv);
         let uv = &map.embedding.uv;
-        let watch = |_: &Iterate| self.observer.control();
+        let watch = |_: &Iterate| self.iterated(&map);
         let (uv, left) = pushed_apart(&map.chart, uv, pairs, self.options, &watch);
         map.embedding.uv = uv;
         left.is_empty().then_some(map)
     }
 
+    /// An iteration around a seam of a chart is done; whether to go on.
+    fn iterated(&self, map: &MappedChart) -> Control {
+        self.observer
+            .worked(map.chart.disk.triangles.len() / AROUND_SEAM);
+        self.observer.control()
+    }
+
     /// Minimized around the seam, if that leaves no overlap.
     fn settled(&self, map: MappedChart, run: &Run) -> MappedChart {
-        let watch = |_: &Iterate| self.observer.control();
+        let watch = |_: &Iterate| self.iterated(&map);
         let local = Local::new(&map.chart, self.options, &watch);
         let mut uv = local.in_unit(&map.embedding.uv);
         let seam = run.vertices.iter().map(|&[_, v]| v);

@@ -29,13 +29,19 @@ pub struct Cluster {
 
 impl Cluster {
     pub fn start() -> Self {
+        Self::with_lease(LEASE)
+    }
+
+    /// With leases of so many seconds: long ones where no worker is lost, since a worker of a busy
+    /// machine that does not renew a short one in time hands its job back.
+    pub fn with_lease(seconds: &str) -> Self {
         let (postgres, s3) = (Postgres::start(), S3::start());
         let mut settings = s3.settings();
         settings.push((
             "UNWRAPD_DATABASE_URL".to_owned(),
             postgres.database("unwrapd"),
         ));
-        settings.push(("UNWRAPD_LEASE_SECONDS".to_owned(), LEASE.to_owned()));
+        settings.push(("UNWRAPD_LEASE_SECONDS".to_owned(), seconds.to_owned()));
         Self {
             postgres,
             s3,

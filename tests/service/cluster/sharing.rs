@@ -16,7 +16,7 @@ const SLACK: Duration = Duration::from_secs(4);
 
 #[tokio::test]
 async fn two_services_share_three_workers() {
-    let cluster = Cluster::start();
+    let cluster = Cluster::with_lease("60");
     let (one, other) = (cluster.api(), cluster.api());
     let mut workers = [cluster.worker(), cluster.worker(), cluster.worker()];
     let mut jobs = submitted(&one, 6).await;

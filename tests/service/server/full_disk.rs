@@ -17,9 +17,9 @@ fn path(job: &Value) -> &str {
 }
 
 fn is_healthy(server: &Server) -> bool {
-    let address = server.url("").replace("http://", "");
     let health = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
-        .args(["health", "--listen", &address])
+        .args(["health", "--data"])
+        .arg(server.data())
         .output();
     health.expect("it runs").status.success()
 }

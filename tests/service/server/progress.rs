@@ -99,13 +99,9 @@ async fn server_sent_events_are_the_same() {
     let request = server
         .get(&events_path(&job))
         .header("accept", "text/event-stream");
-    let text = request
-        .send()
-        .await
-        .expect("an answer")
-        .text()
-        .await
-        .expect("text");
+    let answer = request.send().await.expect("an answer");
+    assert_eq!(answer.headers()["x-accel-buffering"], "no");
+    let text = answer.text().await.expect("text");
     let events: Vec<Value> = text
         .lines()
         .filter_map(|line| line.strip_prefix("data: "))

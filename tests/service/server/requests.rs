@@ -125,6 +125,49 @@ async fn options_that_make_no_sense_are_refused_before_202() {
 }
 
 #[tokio::test]
+async fn what_would_be_lost_is_refused() {
+    let server = Server::start();
+    let form = || Form::new().part("mesh", Part::text(meshes::TRIANGLE).file_name("a.obj"));
+    let file = || Part::text("1").file_name("a.mtl");
+    let long = format!("filename={}.obj", "x".repeat(60_000));
+    let cases = [
+        ("", form().part("foo", file()), "unexpected part"),
+        ("", form().part("resource", Part::text("1")), "file name"),
+        (
+            "",
+            form().part("resource", file()).part("resource", file()),
+            "twice",
+        ),
+        (
+            "",
+            form().text("options", "{}").text("options", "{}"),
+            "options",
+        ),
+        (
+            "",
+            form().text("kind", "measure").text("kind", "unwrap"),
+            "kind",
+        ),
+        ("kind=measure", form().text("kind", "unwrap"), "kind"),
+        (
+            "cut=disk",
+            form().text("options", r#"{"cut": "auto"}"#),
+            "cut is given twice",
+        ),
+        (&long, form(), "255 bytes"),
+    ];
+    for (query, form, detail) in cases {
+        let request = server.post(&format!("/v1/jobs?{query}")).multipart(form);
+        let answer = request.send().await.expect("an answer");
+        let problem = assert_problem(answer, 400, "invalid_request").await;
+        assert!(
+            problem["detail"].as_str().expect("text").contains(detail),
+            "{problem}"
+        );
+    }
+}
+
+#[tokio::test]
 async fn malformed_forms_are_refused() {
     let server = Server::start();
     let mesh = || Part::text(meshes::TRIANGLE).file_name("a.obj");

@@ -56,6 +56,9 @@ async fn results_have_ranges_and_versions() {
     let tag = tag.to_str().expect("text");
     let same = ask("if-none-match", tag).send().await.expect("an answer");
     assert_eq!(same.status(), 304);
+    let weakened = format!("W/{tag}");
+    let weakly = ask("if-none-match", &weakened).send().await;
+    assert_eq!(weakly.expect("an answer").status(), 304);
     let other = ask("if-range", "\"other\"")
         .header("range", "bytes=0-3")
         .send()

@@ -1,0 +1,133 @@
+//! Who may use the service, and how long a client may be silent.
+
+use std::net::SocketAddr;
+use std::time::Duration;
+
+use nix::sys::resource::{Resource, getrlimit, setrlimit};
+
+use super::work_args::seconds;
+use crate::http::{Connections, origin};
+
+/// Connections at most if nothing else is said.
+const MOST_CONNECTIONS: u64 = 4096;
+/// Open files that are left for everything else.
+const OTHER_FILES: u64 = 256;
+
+/// Who may use the service, and how long a client may be silent.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Connections")]
+pub(super) struct ExposureArgs {
+    /// Origin whose pages may use the service, such as https://example.org; can be repeated
+    #[arg(
+        long = "allow-origin",
+        value_name = "ORIGIN",
+        env = "UNWRAPD_ALLOW_ORIGIN",
+        value_delimiter = ',',
+        value_parser = |text: &str| origin(text).map_err(|error| error.to_string())
+    )]
+    pub origins: Vec<String>,
+    /// Name under which the service is reached; can be repeated. Addresses and localhost are always
+    /// allowed. Without this option, any name is, unless the service listens on loopback only
+    #[arg(
+        long = "allow-host",
+        value_name = "NAME",
+        env = "UNWRAPD_ALLOW_HOST",
+        value_delimiter = ','
+    )]
+    hosts: Vec<String>,
+    /// Path under which a proxy offers the service, such as /unwrapd; links begin with it
+    #[arg(
+        long,
+        value_name = "PATH",
+        env = "UNWRAPD_BASE_PATH",
+        default_value = "",
+        value_parser = base_path
+    )]
+    pub base_path: String,
+    /// Maximum number of connections [default: 4096, or what the limit of open files allows]
+    #[arg(long, value_name = "N", env = "UNWRAPD_MAX_CONNECTIONS")]
+    max_connections: Option<u32>,
+    /// Maximum number of connections of one address [default: no limit]
+    #[arg(long, value_name = "N", env = "UNWRAPD_MAX_ADDRESS_CONNECTIONS")]
+    max_address_connections: Option<u32>,
+    /// Seconds that a client has for the headers of a request, and between two requests
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_HEADER_SECONDS",
+        default_value_t = 15.0,
+        value_parser = seconds
+    )]
+    header_seconds: f64,
+    /// Seconds that a body may pause, in either direction
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_SILENCE_SECONDS",
+        default_value_t = 30.0,
+        value_parser = seconds
+    )]
+    silence_seconds: f64,
+    /// Seconds that an upload may take in all
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_UPLOAD_SECONDS",
+        default_value_t = 1800.0,
+        value_parser = seconds
+    )]
+    upload_seconds: f64,
+}
+
+fn base_path(text: &str) -> Result<String, String> {
+    let path = text.trim_end_matches('/');
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/-._~".contains(c);
+    if path.is_empty()
+        || path.starts_with('/') && !path.contains("//") && path.chars().all(is_plain)
+    {
+        Ok(path.to_owned())
+    } else {
+        Err("expected a path such as /unwrapd".to_owned())
+    }
+}
+
+impl ExposureArgs {
+    /// The names under which a service at an address is reached; none: any.
+    pub fn hosts(&self, address: SocketAddr) -> Option<Vec<String>> {
+        let is_known = !self.hosts.is_empty() || address.ip().is_loopback();
+        is_known.then(|| self.hosts.clone())
+    }
+
+    /// How many connections there may be, as far as the limit of open files allows.
+    pub fn connections(&self) -> Connections {
+        let wished = self.max_connections.map_or(MOST_CONNECTIONS, u64::from);
+        let open_files = more_open_files().unwrap_or(wished + OTHER_FILES);
+        let allowed = open_files.saturating_sub(OTHER_FILES).max(open_files / 2);
+        if self.max_connections.is_some() && allowed < wished {
+            tracing::warn!(
+                open_files,
+                "{allowed} connections at most: open files are limited"
+            );
+        }
+        Connections {
+            most: wished.min(allowed).max(1) as usize,
+            most_of_address: self.max_address_connections.map(|most| most as usize),
+            header_time: Duration::from_secs_f64(self.header_seconds),
+            silence: Duration::from_secs_f64(self.silence_seconds),
+        }
+    }
+
+    /// How long an upload may take.
+    pub fn upload_time(&self) -> Duration {
+        Duration::from_secs_f64(self.upload_seconds)
+    }
+}
+
+/// The number of files that this process may open, after raising it as far as is allowed.
+fn more_open_files() -> nix::Result<u64> {
+    let (now, most) = getrlimit(Resource::RLIMIT_NOFILE)?;
+    match setrlimit(Resource::RLIMIT_NOFILE, most, most) {
+        Ok(()) => Ok(most),
+        Err(_) => Ok(now),
+    }
+}

@@ -1,0 +1,148 @@
+//! Connections: how many there are, how long they may be silent, and how they end.
+//!
+//! Whoever is silent loses the connection: without headers, between two requests, within a body that
+//! comes or goes. So a client that holds connections open and says nothing keeps nobody out.
+
+use std::collections::HashMap;
+use std::io::ErrorKind;
+use std::net::{IpAddr, SocketAddr};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use axum::Router;
+use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
+use hyper_util::server::conn::auto::Builder;
+use hyper_util::server::graceful::GracefulShutdown;
+use hyper_util::service::TowerToHyperService;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::Semaphore;
+use tokio_io_timeout::TimeoutStream;
+use tokio_util::sync::CancellationToken;
+
+use super::problem::{Code, Problem};
+use super::settings::Connections;
+
+/// After an error that may pass, such as too many open files.
+const PAUSE: Duration = Duration::from_millis(200);
+/// For the request of a client that gets no connection.
+const REFUSAL_TIME: Duration = Duration::from_secs(1);
+
+/// Serves until told to stop, then answers what is under way.
+pub(super) async fn serve(
+    listener: TcpListener,
+    router: Router,
+    limits: &Connections,
+    stop: CancellationToken,
+) {
+    let places = Arc::new(Semaphore::new(limits.most));
+    let crowds = Arc::new(Crowds::default());
+    let graceful = GracefulShutdown::new();
+    loop {
+        let next = async {
+            // The semaphore is never closed.
+            let place = Arc::clone(&places).acquire_owned().await.ok();
+            (accepted(&listener).await, place)
+        };
+        let ((stream, peer), place) = tokio::select! {
+            () = stop.cancelled() => break,
+            next = next => next,
+        };
+        let seat = Crowds::enter(&crowds, peer.ip(), limits.most_of_address);
+        // Guessing the version would wait for the first bytes without a limit.
+        let mut builder = Builder::new(TokioExecutor::new()).http1_only();
+        let mut http1 = builder.http1();
+        http1.timer(TokioTimer::new());
+        let service = if seat.is_some() {
+            http1.header_read_timeout(limits.header_time);
+            router.clone()
+        } else {
+            http1.header_read_timeout(REFUSAL_TIME).keep_alive(false);
+            refusal(limits)
+        };
+        let mut stream = TimeoutStream::new(stream);
+        stream.set_write_timeout(Some(limits.silence));
+        let connection = builder
+            .serve_connection_with_upgrades(
+                TokioIo::new(Box::pin(stream)),
+                TowerToHyperService::new(service),
+            )
+            .into_owned();
+        let connection = graceful.watch(connection);
+        tokio::spawn(async move {
+            // What goes wrong here is the client's going away, or its silence.
+            let _ = connection.await;
+            drop((seat, place));
+        });
+    }
+    drop(listener);
+    graceful.shutdown().await;
+}
+
+/// The next connection.
+async fn accepted(listener: &TcpListener) -> (TcpStream, SocketAddr) {
+    loop {
+        match listener.accept().await {
+            Ok(accepted) => return accepted,
+            // The client has gone already.
+            Err(error) if is_of_client(&error) => {}
+            Err(error) => {
+                tracing::error!(%error, "no connection can be accepted");
+                tokio::time::sleep(PAUSE).await;
+            }
+        }
+    }
+}
+
+fn is_of_client(error: &std::io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::ConnectionRefused | ErrorKind::ConnectionAborted | ErrorKind::ConnectionReset
+    )
+}
+
+/// What answers a client that has too many connections.
+fn refusal(limits: &Connections) -> Router {
+    let most = limits.most_of_address.unwrap_or_default();
+    Router::new().fallback(async move || {
+        let detail = format!("an address may have {most} connections at a time");
+        Problem::new(Code::TooManyConnections, detail).with_limit(most as u64)
+    })
+}
+
+/// How many connections each address has.
+#[derive(Default)]
+struct Crowds(Mutex<HashMap<IpAddr, usize>>);
+
+impl Crowds {
+    /// A seat for one more, if there is one.
+    fn enter(crowds: &Arc<Self>, address: IpAddr, most: Option<usize>) -> Option<Seat> {
+        let mut counts = crowds.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = counts.entry(address).or_default();
+        if most.is_some_and(|most| most <= *count) {
+            return None;
+        }
+        *count += 1;
+        Some(Seat {
+            crowds: Arc::clone(crowds),
+            address,
+        })
+    }
+}
+
+/// One connection of an address, until it is dropped.
+struct Seat {
+    crowds: Arc<Crowds>,
+    address: IpAddr,
+}
+
+impl Drop for Seat {
+    fn drop(&mut self) {
+        let mut counts = (self.crowds.0.lock()).unwrap_or_else(PoisonError::into_inner);
+        if let Some(count) = counts.get_mut(&self.address) {
+            *count -= 1;
+            if *count == 0 {
+                counts.remove(&self.address);
+            }
+        }
+    }
+}

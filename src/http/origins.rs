@@ -1,0 +1,120 @@
+//! Which pages, and which names of the service, a request may come with.
+//!
+//! A page of another site can make a browser send requests to a service that only this machine
+//! reaches. Browsers tell where a request comes from: `Sec-Fetch-Site` and `Origin` for what changes
+//! something ([`CsrfLayer`]) and for WebSockets (here). A name that an attacker points at this
+//! machine (DNS rebinding) shows in `Host`.
+
+use std::sync::Arc;
+
+use axum::Router;
+use axum::extract::{Request, State};
+use axum::http::uri::Authority;
+use axum::http::{HeaderMap, HeaderName, HeaderValue, Uri, header};
+use axum::middleware::{Next, from_fn_with_state};
+use axum::response::{IntoResponse, Response};
+use tower_http::cors::{AllowHeaders, AllowMethods, AllowOrigin, CorsLayer};
+use tower_http::csrf::{ConfigError, CsrfLayer, ProtectionError};
+
+use super::problem::{Code, Problem};
+use super::settings::Settings;
+
+/// What scripts of other origins may read of an answer.
+const EXPOSED: [HeaderName; 4] = [
+    header::CONTENT_DISPOSITION,
+    header::ETAG,
+    header::LOCATION,
+    header::RETRY_AFTER,
+];
+
+/// A router that answers only what may be asked, as the settings say.
+pub(super) fn guarded(router: Router, settings: &Settings) -> Result<Router, ConfigError> {
+    let mut csrf = CsrfLayer::new();
+    for origin in &settings.origins {
+        csrf = csrf.add_trusted_origin(origin)?;
+    }
+    let csrf = csrf.with_rejection_response(|_: ProtectionError| foreign().into_response());
+    let allowed = Arc::new(Allowed {
+        origins: settings.origins.clone(),
+        hosts: settings.hosts.clone(),
+    });
+    let router = router.layer(csrf).layer(from_fn_with_state(allowed, guard));
+    if settings.origins.is_empty() {
+        return Ok(router);
+    }
+    let origins = (settings.origins.iter()).filter_map(|origin| HeaderValue::from_str(origin).ok());
+    let cors = CorsLayer::new()
+        .allow_origin(AllowOrigin::list(origins))
+        .allow_methods(AllowMethods::mirror_request())
+        .allow_headers(AllowHeaders::mirror_request())
+        .expose_headers(EXPOSED);
+    Ok(router.layer(cors))
+}
+
+/// An origin as browsers send it, such as `https://example.org`.
+pub fn origin(text: &str) -> Result<String, ConfigError> {
+    let _ = CsrfLayer::new().add_trusted_origin(text)?;
+    Ok(text.to_owned())
+}
+
+/// Where requests may come from, and under which names.
+struct Allowed {
+    origins: Vec<String>,
+    hosts: Option<Vec<String>>,
+}
+
+async fn guard(State(allowed): State<Arc<Allowed>>, request: Request, next: Next) -> Response {
+    let (headers, uri) = (request.headers(), request.uri());
+    let host = host(headers, uri);
+    if !allowed.knows(host.as_ref()) {
+        let detail = "the service is not known under this name; --allow-host adds one";
+        return Problem::new(Code::UnknownHost, detail).into_response();
+    }
+    if headers.contains_key(header::UPGRADE) && !allowed.may_connect(headers, host.as_ref()) {
+        return foreign().into_response();
+    }
+    next.run(request).await
+}
+
+/// The name and port under which a request reaches the service.
+fn host(headers: &HeaderMap, uri: &Uri) -> Option<Authority> {
+    let given = || headers.get(header::HOST)?.to_str().ok()?.parse().ok();
+    uri.authority().cloned().or_else(given)
+}
+
+impl Allowed {
+    /// Addresses and `localhost` belong to nobody else; other names have to be known.
+    fn knows(&self, host: Option<&Authority>) -> bool {
+        let Some(known) = &self.hosts else {
+            return true;
+        };
+        let Some(name) = host.map(Authority::host) else {
+            return false;
+        };
+        let address = name.trim_start_matches('[').trim_end_matches(']');
+        address.parse::<std::net::IpAddr>().is_ok()
+            || name.eq_ignore_ascii_case("localhost")
+            || known.iter().any(|known| known.eq_ignore_ascii_case(name))
+    }
+
+    /// Whether a WebSocket may be opened: by what is no browser, by our own page, or by one that is
+    /// allowed.
+    fn may_connect(&self, headers: &HeaderMap, host: Option<&Authority>) -> bool {
+        let Some(origin) = headers.get(header::ORIGIN) else {
+            return true;
+        };
+        let Ok(origin) = origin.to_str() else {
+            return false;
+        };
+        let site = headers.get("sec-fetch-site").map(HeaderValue::as_bytes);
+        let authority = origin.split_once("://").map(|(_, authority)| authority);
+        self.origins.iter().any(|known| known == origin)
+            || site == Some(b"same-origin")
+            || site.is_none() && authority.is_some() && authority == host.map(Authority::as_str)
+    }
+}
+
+fn foreign() -> Problem {
+    let detail = "a page of another origin asked; --allow-origin allows one";
+    Problem::new(Code::ForeignOrigin, detail)
+}

@@ -1,0 +1,121 @@
+//! Clients that are silent, slow, or many.
+
+use std::time::{Duration, Instant};
+
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::net::TcpStream;
+
+use crate::meshes;
+use crate::server::{SOON, Server};
+
+/// A connection that has sent so much.
+async fn connected(server: &Server, sent: &str) -> TcpStream {
+    let address = server.url("").replace("http://", "");
+    let mut stream = TcpStream::connect(address).await.expect("a connection");
+    let written = stream.write_all(sent.as_bytes()).await;
+    written.expect("it takes what is sent");
+    stream
+}
+
+/// What comes until the service closes the connection.
+async fn answer(mut stream: TcpStream) -> String {
+    let mut answer = Vec::new();
+    let read = tokio::time::timeout(SOON, stream.read_to_end(&mut answer)).await;
+    read.expect("it is closed soon").expect("it can be read");
+    String::from_utf8(answer).expect("text")
+}
+
+/// Headers of an upload whose body has a length.
+fn upload(length: u64, more: &str) -> String {
+    format!(
+        "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: {length}\r\n\
+         Content-Type: application/octet-stream\r\n{more}\r\n"
+    )
+}
+
+#[tokio::test]
+async fn who_is_silent_loses_the_connection() {
+    let server = Server::with(&[
+        ("UNWRAPD_HEADER_SECONDS", "0.3"),
+        ("UNWRAPD_SILENCE_SECONDS", "0.3"),
+    ]);
+    for sent in ["", "GET /healthz HTTP/1.1\r\nHost: loc"] {
+        assert_eq!(answer(connected(&server, sent).await).await, "");
+    }
+    let kept = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    let answered = answer(connected(&server, kept).await).await;
+    assert!(answered.starts_with("HTTP/1.1 200") && answered.ends_with("ok\n"));
+    let stalled = answer(connected(&server, &(upload(100, "") + "solid")).await).await;
+    assert!(stalled.starts_with("HTTP/1.1 408"), "{stalled}");
+    assert!(stalled.contains("request_timeout"), "{stalled}");
+}
+
+#[tokio::test]
+async fn an_upload_that_trickles_ends() {
+    let server = Server::with(&[("UNWRAPD_UPLOAD_SECONDS", "0.5")]);
+    let stream = connected(&server, &upload(1000, "")).await;
+    let (mut reader, mut writer) = stream.into_split();
+    let trickle = tokio::spawn(async move {
+        while writer.write_all(b"#").await.is_ok() {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    });
+    let mut head = [0; 12];
+    let read = tokio::time::timeout(SOON, reader.read_exact(&mut head)).await;
+    read.expect("it is answered soon").expect("an answer");
+    assert_eq!(&head, b"HTTP/1.1 408");
+    trickle.abort();
+}
+
+#[tokio::test]
+async fn an_upload_that_is_announced_as_too_large_is_refused_before_it_is_sent() {
+    let server = Server::with(&[("UNWRAPD_HEADER_SECONDS", "0.3")]);
+    let asked = upload(9_999_999_999, "Expect: 100-continue\r\n");
+    let refused = answer(connected(&server, &asked).await).await;
+    assert!(refused.starts_with("HTTP/1.1 413"), "{refused}");
+    assert!(refused.contains("upload_too_large"), "{refused}");
+    let small = upload(5, "Expect: 100-continue\r\nConnection: close\r\n");
+    let mut stream = connected(&server, &small).await;
+    let mut head = [0; 12];
+    stream.read_exact(&mut head).await.expect("an answer");
+    assert_eq!(&head, b"HTTP/1.1 100");
+    stream.write_all(b"solid").await.expect("it takes the body");
+    assert!(answer(stream).await.contains("HTTP/1.1 422"));
+}
+
+#[tokio::test]
+async fn an_address_has_no_more_connections_than_it_may() {
+    let server = Server::with(&[("UNWRAPD_MAX_ADDRESS_CONNECTIONS", "2")]);
+    let request = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    let mut first = connected(&server, request).await;
+    let second = connected(&server, request).await;
+    let mut head = [0; 12];
+    first.read_exact(&mut head).await.expect("an answer");
+    assert_eq!(&head, b"HTTP/1.1 200");
+    let third = answer(connected(&server, request).await).await;
+    assert!(third.starts_with("HTTP/1.1 429"), "{third}");
+    assert!(third.contains("too_many_connections") && third.contains("retry-after"));
+    drop((first, second));
+    let start = Instant::now();
+    let closing = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+    while !answer(connected(&server, closing).await)
+        .await
+        .starts_with("HTTP/1.1 200")
+    {
+        assert!(start.elapsed() < SOON, "their places are not free");
+    }
+}
+
+#[tokio::test]
+async fn silent_connections_keep_nobody_out() {
+    let server = Server::with(&[
+        ("UNWRAPD_MAX_CONNECTIONS", "8"),
+        ("UNWRAPD_HEADER_SECONDS", "0.3"),
+    ]);
+    let mut silent = Vec::new();
+    for _ in 0..20 {
+        silent.push(connected(&server, "POST /v1/jobs HTTP/1.1\r\n").await);
+    }
+    let job = server.submit(meshes::small(), "").await;
+    assert_eq!(server.ended(&job).await["state"], "succeeded");
+}
