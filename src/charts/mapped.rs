@@ -43,13 +43,13 @@ pub fn map_chart(
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     let is_promised = options.barrier != BarrierKind::None;
-    let control = || observer.control();
     let mut mapped = Vec::new();
     let mut pending = vec![chart];
     while let Some(chart) = pending.pop() {
         let begin = observer.elapsed();
         let faces = chart.disk.triangles.len();
         let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
+        let control = || asked(observer, faces);
         let embedding = embed::parameterize(&chart.disk, &chart.positions, options, &watch);
         let is_valid = embed::is_positive(&chart.disk.triangles, &embedding.uv);
         if is_promised && !is_valid && faces > 1 {
@@ -104,7 +104,7 @@ pub fn map_chart_from(
             };
             let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
             let parts = whole
-                .free_of_overlaps(options, &watch, &|| observer.control())
+                .free_of_overlaps(options, &watch, &|| asked(observer, faces))
                 .into_iter();
             parts
                 .map(|part| MappedChart {
@@ -115,6 +115,13 @@ pub fn map_chart_from(
         }
         _ => map_chart(chart, options, Folds::Cut, observer),
     }
+}
+
+/// Whether to go on with the seams of a chart of so many faces. Between two such questions about as
+/// much is done as in an iteration.
+fn asked(observer: &dyn Observer, faces: usize) -> Control {
+    observer.worked(faces);
+    observer.control()
 }
 
 impl MappedChart {

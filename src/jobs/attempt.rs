@@ -1,5 +1,6 @@
 //! One attempt at one job, seen from the worker.
 
+use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -20,10 +21,13 @@ use super::store_error::{StoreError, StoreResult};
 use super::supervision::{Watched, watch};
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::transition::Ending;
+use super::work::Work;
 use crate::pipeline::Limits;
 
 /// After which a job is tried again that could not be computed for want of space or of files.
 const PAUSE: Duration = Duration::from_secs(1);
+/// After which a job of a newer program is offered again.
+const PAUSE_FOR_NEWER: Duration = Duration::from_secs(3);
 
 /// Runs a claimed job to its end and records it. `leave` asks to hand it back. Returns how long this
 /// worker should rest: where files or space are wanting, the next job would fare no better, and
@@ -38,7 +42,13 @@ pub(super) async fn run(
     let folder = jobs.settings.scratch.join(name);
     tracing::info!(job = %job.id, attempt = job.attempt, worker = %jobs.worker, "started");
     jobs.live.publish(job.id, job.event());
+    let mut rest = Duration::ZERO;
     let ending = async {
+        // They were checked when the job was accepted: by a newer program, during an update.
+        if let Err(error) = Work::new(job.kind, job.options.clone()) {
+            tracing::warn!(job = %job.id, %error, "left to a newer program");
+            return Ok(Some(Ending::HandedBack(PAUSE_FOR_NEWER)));
+        }
         prepare(jobs, &job, &folder).await?;
         compute(jobs, &job, attempt, &folder, leave).await
     };
@@ -46,24 +56,26 @@ pub(super) async fn run(
         tracing::error!(job = %job.id, %error, "attempt failed");
         Some(match error {
             StoreError::Damaged(what) => Ending::Failed(Failure::new("damaged_file", what)),
-            _ if error.is_passing() => Ending::HandedBack(PAUSE),
+            _ if error.is_passing() => {
+                rest = PAUSE;
+                Ending::HandedBack(PAUSE)
+            }
             _ => Ending::Failed(Failure::new(
                 "internal_error",
                 "the service could not run it",
             )),
         })
     });
-    let rest = match ending {
-        Some(Ending::HandedBack(pause)) => pause,
-        _ => Duration::ZERO,
-    };
     match ending {
         Some(ending) => conclude(jobs, &job, attempt, ending, leave).await,
         None => disown(jobs, &job).await,
     }
     jobs.running.end(job.id, job.token);
-    if let Err(error) = tokio::fs::remove_dir_all(&folder).await {
-        tracing::warn!(%error, "folder of an attempt not removed");
+    match tokio::fs::remove_dir_all(&folder).await {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            tracing::warn!(%error, "folder of an attempt not removed");
+        }
+        _ => {}
     }
     rest
 }

@@ -1,4 +1,7 @@
 //! Filling triangles on a grid of samples, one or several to a pixel.
+
+use std::ops::Range;
+
 use super::canvas::Canvas;
 use super::color::{BACKGROUND, INK, OVERLAP, Rgb, mix};
 
@@ -49,32 +52,33 @@ impl Raster {
         let reach = 0.5 * EDGE_PIXELS * self.per_pixel as f64;
         for (row, columns) in spans(fixed, [self.side; 2]) {
             let distances = edges.of_row(row);
-            for column in columns {
-                let cover = if edge_opacity > 0.0 {
-                    (reach - distances.at(column) + 0.5).clamp(0.0, 1.0) as f32
-                } else {
-                    0.0
-                };
-                // Most samples are far from all edges.
-                let shown = if cover > 0.0 {
-                    mix(color, INK, cover * edge_opacity)
-                } else {
-                    color
-                };
-                self.set(row * self.side + column, shown, mode);
+            // Most samples are far from all edges.
+            let far = if edge_opacity > 0.0 {
+                distances.farther(&columns, reach + 0.5)
+            } else {
+                columns.clone()
+            };
+            for column in (columns.start..far.start).chain(far.end..columns.end) {
+                let cover = (reach - distances.at(column) + 0.5).clamp(0.0, 1.0) as f32;
+                let shown = mix(color, INK, cover * edge_opacity);
+                self.set(row, column..column + 1, shown, mode);
             }
+            self.set(row, far, color, mode);
         }
     }
 
-    fn set(&mut self, sample: usize, color: Rgb, mode: Mode) {
-        let layers = &mut self.layers[sample];
-        *layers = (*layers + 1).min(2);
-        let overlaps = *layers > 1 && mode == Mode::Counted;
-        self.colors[sample] = if overlaps {
-            mix(color, OVERLAP, 0.85)
-        } else {
-            color
+    /// Gives some samples of a row a color.
+    fn set(&mut self, row: usize, columns: Range<usize>, color: Rgb, mode: Mode) {
+        let samples = row * self.side + columns.start..row * self.side + columns.end;
+        let over = match mode {
+            Mode::Counted => mix(color, OVERLAP, 0.85),
+            Mode::OnTop => color,
         };
+        let layers = self.layers[samples.clone()].iter_mut();
+        for (layers, shown) in layers.zip(&mut self.colors[samples]) {
+            *shown = if *layers > 0 { over } else { color };
+            *layers = (*layers + 1).min(2);
+        }
     }
 
     /// Averages the samples of each pixel.
@@ -110,7 +114,7 @@ pub(crate) fn steps(corners: [[f64; 2]; 3]) -> [[i64; 2]; 3] {
 pub(crate) fn spans(
     mut corners: [[i64; 2]; 3],
     size: [usize; 2],
-) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> {
+) -> impl Iterator<Item = (usize, Range<usize>)> {
     corners.sort_unstable_by_key(|p| p[1]);
     let [low, middle, high] = corners;
     rows(low[1], high[1], size[1]).map(move |row| {
@@ -130,7 +134,7 @@ pub(crate) fn spans(
 }
 
 /// Rows of samples at or above `low` and below `high`.
-fn rows(low: i64, high: i64, side: usize) -> std::ops::Range<usize> {
+fn rows(low: i64, high: i64, side: usize) -> Range<usize> {
     let first = |y: i64| (y + STEPS / 2 - 1).div_euclid(STEPS).clamp(0, side as i64) as usize;
     first(low)..first(high)
 }
@@ -190,5 +194,29 @@ impl RowDistances {
             .lines
             .map(|(first, step)| (first + column * step).abs());
         distances[0].min(distances[1]).min(distances[2])
+    }
+
+    /// Samples, of some inside, that are at least so far from all edges; perhaps not all of them.
+    fn farther(&self, columns: &Range<usize>, least: f64) -> Range<usize> {
+        let middle = usize::midpoint(columns.start, columns.end) as f64;
+        let (mut low, mut high) = (columns.start as f64, columns.end as f64);
+        for (first, step) in self.lines {
+            let side = (first + middle * step).signum();
+            let (first, step) = (side * first, side * step);
+            let crossing = (least - first) / step;
+            // A sample to spare: rounding may not decide.
+            if step > 0.0 {
+                low = low.max(crossing.ceil() + 1.0);
+            } else if step < 0.0 {
+                high = high.min(crossing.floor() - 1.0);
+            } else if first < least {
+                high = low;
+            }
+        }
+        if low < high {
+            low as usize..high as usize
+        } else {
+            columns.end..columns.end
+        }
     }
 }

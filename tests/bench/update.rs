@@ -1,9 +1,10 @@
 //! A rolling update from one program to another under load: nothing is lost.
 //!
-//! `cargo bench --bench update -- [--older PROGRAM] [--jobs N] [--seed N]`. Two services and three
+//! `cargo bench --bench update -- [--older PROGRAM] [--workers-first] [--jobs N]
+//! [--seed N]`. Two services and three
 //! workers of the older program share a PostgreSQL and an S3 server. While clients submit jobs
 //! under keys, each process is told to stop by SIGTERM and its place is taken by one of this build,
-//! one process after the other; services and workers take turns. Everything is judged as by the
+//! one process after the other; services and workers take turns, unless workers come first. Everything is judged as by the
 //! bench `crash`. Without `--older` both programs are this one, and the database gets columns and a
 //! version that it does not know. `tests/bench/update.sh COMMIT` builds the program of a commit and
 //! updates from that.
@@ -26,12 +27,17 @@ async fn main() -> ExitCode {
     s3::serve_if_asked().await;
     let mut update = Update {
         older: None,
+        workers_first: false,
         jobs: 120,
         seed: 1,
         patience: Duration::from_mins(10),
     };
     let mut arguments = std::env::args().skip(1).filter(|a| a != "--bench");
     while let Some(argument) = arguments.next() {
+        if argument == "--workers-first" {
+            update.workers_first = true;
+            continue;
+        }
         let value = arguments.next().expect("a value");
         match &*argument {
             "--older" => update.older = Some(value.into()),

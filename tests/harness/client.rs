@@ -42,10 +42,18 @@ pub struct Seen {
 }
 
 impl Seen {
-    /// Whether nothing that was seen has changed.
+    /// Whether nothing that was seen has changed. A newer program may show more.
     pub fn is_still(&self, now: &Self) -> bool {
         let mut files = self.files.iter();
-        self.job == now.job && files.all(|(role, bytes)| now.files.get(role) == Some(bytes))
+        has(&now.job, &self.job) && files.all(|(role, bytes)| now.files.get(role) == Some(bytes))
+    }
+}
+
+/// Whether a value has all that is in another.
+fn has(value: &Value, part: &Value) -> bool {
+    match part {
+        Value::Object(members) => members.iter().all(|(name, part)| has(&value[name], part)),
+        _ => value == part,
     }
 }
 

@@ -15,7 +15,9 @@ use super::process::Process;
 use super::{SOON, history, program};
 
 /// The order of the processes: each program answers while each works.
-const ORDER: [usize; 5] = [2, 0, 3, 1, 4];
+const TURNS: [usize; 5] = [2, 0, 3, 1, 4];
+/// Workers before services: a program of the older ones fails jobs whose options it does not know.
+const WORKERS_FIRST: [usize; 5] = [2, 3, 4, 0, 1];
 /// What a newer program does to the database: columns, and a version that the older one has not
 /// heard of.
 const NEWER: &str = "
@@ -33,6 +35,8 @@ pub struct Update {
     /// The program that is replaced. Without one it is the same, and the database becomes that of
     /// a newer one while it is in use.
     pub older: Option<PathBuf>,
+    /// Whether workers are replaced before services; otherwise they take turns.
+    pub workers_first: bool,
     pub jobs: usize,
     pub seed: u64,
     /// When jobs that have not ended are given up.
@@ -70,7 +74,12 @@ impl Update {
             if self.older.is_none() {
                 machines.postgres.psql("unwrapd", NEWER);
             }
-            for (place, index) in ORDER.into_iter().enumerate() {
+            let order = if self.workers_first {
+                WORKERS_FIRST
+            } else {
+                TURNS
+            };
+            for (place, index) in order.into_iter().enumerate() {
                 clients.events((place + 2) * part).await;
                 let process = &mut machines.processes[index];
                 interrupted += usize::from(is_at_work(index, process).await);

@@ -83,7 +83,7 @@ fn produced_codes() -> BTreeSet<String> {
 
 /// The words of the service's own codes, by their variants.
 fn own_codes() -> BTreeMap<String, String> {
-    let path = places::repository("src/http/problem.rs");
+    let path = places::repository("src/http/code.rs");
     let text = std::fs::read_to_string(path).expect("text");
     let rows = text.split("pub fn row(self)").nth(1).expect("a table");
     let rows = rows.split("\n    }\n").next().unwrap_or_default();
