@@ -110,7 +110,7 @@ impl Allowed {
         let authority = origin.split_once("://").map(|(_, authority)| authority);
         self.origins.iter().any(|known| known == origin)
             || site == Some(b"same-origin")
-            || site.is_none() && authority.is_some() && authority == host.map(Authority::as_str)
+            || authority.is_some() && authority == host.map(Authority::as_str)
     }
 }
 

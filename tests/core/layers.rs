@@ -96,7 +96,9 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         &[
             "axum",
             "utoipa_axum",
+            "hyper_util",
             "tokio",
+            "tokio_io_timeout",
             "tokio_util",
             "tower_http",
             "serde_json",
@@ -115,6 +117,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "clap_complete",
             "clap_mangen",
             "indicatif",
+            "nix",
             "percent_encoding",
             "serde_json",
             "tokio",

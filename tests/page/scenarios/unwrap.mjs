@@ -14,7 +14,7 @@ export async function run(page, url, mesh, output) {
   const stages = [];
   for (;;) {
     await page.waitForSelector(".stage, .verdict");
-    const stage = await page.locator(".stage").textContent({ timeout: 200 }).catch(() => null);
+    const stage = await page.locator(".stage").textContent({ timeout: 2000 }).catch(() => null);
     if (stage && stages.at(-1) !== stage) stages.push(stage);
     if (await page.locator(".verdict").count()) break;
   }
