@@ -6,19 +6,20 @@
 use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::net::{IpAddr, SocketAddr};
+use std::pin::pin;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use axum::Router;
-use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
-use hyper_util::server::conn::auto::Builder;
-use hyper_util::server::graceful::GracefulShutdown;
+use hyper::server::conn::http1::Builder;
+use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
-use tokio_io_timeout::TimeoutStream;
 use tokio_util::sync::CancellationToken;
+use tokio_util::task::TaskTracker;
 
+use super::held::Held;
 use super::problem::{Code, Problem};
 use super::settings::Connections;
 
@@ -36,7 +37,7 @@ pub(super) async fn serve(
 ) {
     let places = Arc::new(Semaphore::new(limits.most));
     let crowds = Arc::new(Crowds::default());
-    let graceful = GracefulShutdown::new();
+    let open = TaskTracker::new();
     loop {
         let next = async {
             // The semaphore is never closed.
@@ -48,9 +49,7 @@ pub(super) async fn serve(
             next = next => next,
         };
         let seat = Crowds::enter(&crowds, peer.ip(), limits.most_of_address);
-        // Guessing the version would wait for the first bytes without a limit.
-        let mut builder = Builder::new(TokioExecutor::new()).http1_only();
-        let mut http1 = builder.http1();
+        let mut http1 = Builder::new();
         http1.timer(TokioTimer::new());
         let service = if seat.is_some() {
             http1.header_read_timeout(limits.header_time);
@@ -59,23 +58,26 @@ pub(super) async fn serve(
             http1.header_read_timeout(REFUSAL_TIME).keep_alive(false);
             refusal(limits)
         };
-        let mut stream = TimeoutStream::new(stream);
-        stream.set_write_timeout(Some(limits.silence));
-        let connection = builder
-            .serve_connection_with_upgrades(
-                TokioIo::new(Box::pin(stream)),
-                TowerToHyperService::new(service),
-            )
-            .into_owned();
-        let connection = graceful.watch(connection);
-        tokio::spawn(async move {
+        let stream = Held::new(stream, limits.silence, (seat, place));
+        let service = TowerToHyperService::new(service);
+        let connection = http1.serve_connection(TokioIo::new(stream), service);
+        let stop = stop.clone();
+        open.spawn(async move {
+            let mut connection = pin!(connection.with_upgrades());
             // What goes wrong here is the client's going away, or its silence.
-            let _ = connection.await;
-            drop((seat, place));
+            let is_ended = tokio::select! {
+                _ = connection.as_mut() => true,
+                () = stop.cancelled() => false,
+            };
+            if !is_ended {
+                connection.as_mut().graceful_shutdown();
+                let _ = connection.await;
+            }
         });
     }
     drop(listener);
-    graceful.shutdown().await;
+    open.close();
+    open.wait().await;
 }
 
 /// The next connection.

@@ -15,6 +15,7 @@ mod drain;
 mod events;
 mod extract;
 mod framing;
+mod held;
 mod inputs;
 mod jobs;
 mod missing;

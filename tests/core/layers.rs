@@ -96,6 +96,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         &[
             "axum",
             "utoipa_axum",
+            "hyper",
             "hyper_util",
             "tokio",
             "tokio_io_timeout",
