@@ -56,6 +56,16 @@ impl<const D: usize> Modes<D> {
         }
     }
 
+    /// The first derivatives of `weight`·ψ alone; the second are left 0.
+    pub fn of_slope(density: &dyn Density<D>, sigma: &[f64; D], weight: f64) -> Self {
+        Self {
+            slope: density.gradient(sigma).map(|g| weight * g),
+            scaling: [[0.0; D]; D],
+            twist: [[0.0; D]; D],
+            flip: [[0.0; D]; D],
+        }
+    }
+
     /// Adds those of a function φ(det J), given φ′ and φ″. With κᵢ = Π_{j≠i} σⱼ and κᵢⱼ = Π_{k≠i,j} σₖ:
     ///
     /// ```text

@@ -83,12 +83,17 @@ where
         element.weight * self.density.value(&sigma) + self.guard.value(det, element.size)
     }
 
-    fn pulled<'a>(&self, element: &'a Simplex<D>, x: &[f64], tau: f64) -> Pulled<'a, D> {
+    /// Negative eigenvalues of the Hessian times `tau`; without `tau`, the gradient alone.
+    fn pulled<'a>(&self, element: &'a Simplex<D>, x: &[f64], tau: Option<f64>) -> Pulled<'a, D> {
         let (j, det) = element.jacobian(x);
         let svd = j.svd(det);
-        let mut modes = Modes::new(&*self.density, &svd.sigma, element.weight);
+        let (density, sigma) = (&*self.density, &svd.sigma);
+        let mut modes = match tau {
+            Some(_) => Modes::new(density, sigma, element.weight),
+            None => Modes::of_slope(density, sigma, element.weight),
+        };
         modes.add_guard(self.guard.derivatives(det, element.size), &svd.sigma);
-        element.pull(modes, &svd, tau)
+        element.pull(modes, &svd, tau.unwrap_or(1.0))
     }
 }
 
@@ -114,8 +119,7 @@ where
 
     fn add_derivatives(&self, x: &[f64], tau: f64, assembly: &mut Assembly) {
         let wants_hessian = assembly.wants_hessian();
-        // The gradient is the same with nothing projected.
-        let tau = if wants_hessian { tau } else { 1.0 };
+        let tau = wants_hessian.then_some(tau);
         for (index, element) in self.elements.iter().enumerate() {
             let pulled = self.pulled(element, x, tau);
             pulled.gradients(|vertex, gradient| assembly.add_gradient(vertex, &gradient));
