@@ -149,18 +149,28 @@ pub(super) struct Pulled {
     pub summary: PullSummary,
 }
 
-/// Pulls vertices of a planar body whose mean triangle has area 1 or so; `unit` is its unit of length in the caller's.
+/// How a map is pulled.
+pub(super) struct How<'a> {
+    pub model: &'a Model,
+    /// See [`Problem::search`].
+    pub search: bool,
+    /// The body's unit of length in the caller's.
+    pub unit: f64,
+}
+
+/// Pulls vertices of a planar body whose mean triangle has area 1 or so.
 pub(super) fn pull(
     body: Body,
     start: &[[f64; 2]],
     holds: &Holds,
-    (model, unit): (&Model, f64),
+    how: &How,
     watch: &dyn Watch,
 ) -> Result<Pulled, ProblemError> {
-    let handles = holds.handles(&body, start)?;
+    let (handles, unit) = (holds.handles(&body, start)?, how.unit);
     let problem = Problem {
         aims: holds.aims(),
-        ..pulled(body, start, handles, model)?
+        search: how.search,
+        ..pulled(body, start, handles, how.model)?
     };
     let solution = problem.solve(&Settings::follow(), watch)?;
     let unreached = holds.named(problem.unreached(&solution), unit);

@@ -85,7 +85,8 @@ pub use limits::Limits;
 #[cfg(feature = "files")]
 pub use options::{
     Baking, Caller, CommandOptions, Course, DeformOptions, EditOptions, Editing, GivenSeams,
-    MeasureOptions, NamedSeams, Options, Preset, RepackOptions, Sets, SolveOptions, WarpOptions,
+    MeasureOptions, NamedSeams, Options, Preset, Pulling, RepackOptions, Sets, SolveOptions,
+    WarpOptions,
 };
 #[cfg(feature = "files")]
 pub use rebake::ImageFormat;

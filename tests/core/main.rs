@@ -69,6 +69,7 @@ mod problem_files;
 mod progress;
 mod pulled;
 mod random;
+mod searched;
 mod separation;
 mod session;
 #[cfg(feature = "files")]

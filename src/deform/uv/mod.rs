@@ -23,7 +23,7 @@ use self::map::UvMap;
 use crate::deform::body::{Body, BodyElements};
 use crate::deform::boundary::Boundary;
 use crate::deform::problem::Model;
-use crate::deform::pull::{PullSummary, pull};
+use crate::deform::pull::{How, PullSummary, pull};
 use crate::embed::rest_shapes;
 use crate::mesh::CornerUvs;
 use crate::solver::Watch;
@@ -56,6 +56,8 @@ pub struct UvEditOptions {
     pub rest: UvRest,
     /// What is minimized, for a mean triangle of area 1.
     pub model: Model,
+    /// See [`Problem::search`](crate::deform::Problem::search); sessions do not search.
+    pub search: bool,
 }
 
 impl UvEditOptions {
@@ -167,13 +169,12 @@ fn edit_chart(
     let flat = FlatChart::new(chart, options.rest)?;
     let grips = flat.grips(chart, held, options.boundary)?;
     let (body, unit) = (flat.body.clone(), flat.unit);
-    let result = pull(
-        body,
-        &flat.start,
-        &grips.holds,
-        (&options.model, unit),
-        watch,
-    )?;
+    let how = How {
+        model: &options.model,
+        search: options.search,
+        unit,
+    };
+    let result = pull(body, &flat.start, &grips.holds, &how, watch)?;
     Ok((flat.uvs(chart, &grips, &result.vertices), result.summary))
 }
 

@@ -169,6 +169,7 @@ impl UvSession {
             boundary,
             rest,
             model,
+            ..
         } = self.options;
         let positive = self.positive[number as usize];
         let mut chart = UvChart::new(&self.map, &self.vertices, number, positive)?;

@@ -9,7 +9,7 @@ use crate::deform::locate::locate;
 use crate::deform::numbers;
 use crate::deform::problem::Model;
 use crate::deform::problem_error::ProblemError;
-use crate::deform::pull::{Grip, Holds, PullSummary, pull};
+use crate::deform::pull::{Grip, Holds, How, PullSummary, pull};
 use crate::mesh::PlanarMesh;
 use crate::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
 use crate::solver::Watch;
@@ -29,6 +29,8 @@ pub struct WarpOptions {
     pub boundary: Boundary,
     /// What is minimized, for a mean triangle of an area from ½ to 2.
     pub model: Model,
+    /// See [`Problem::search`](crate::deform::Problem::search).
+    pub search: bool,
 }
 
 impl Default for WarpOptions {
@@ -37,6 +39,7 @@ impl Default for WarpOptions {
             grid: 40,
             boundary: Boundary::Free,
             model: Model::default(),
+            search: false,
         }
     }
 }
@@ -188,7 +191,12 @@ fn warp_grid(
         let way = (to_unit(handle.at), to_unit(handle.to));
         take_hold(&mut holds, &body, index, way)?;
     }
-    let pulled = pull(body, &scaled, &holds, (&options.model, unit), watch)?;
+    let how = How {
+        model: &options.model,
+        search: options.search,
+        unit,
+    };
+    let pulled = pull(body, &scaled, &holds, &how, watch)?;
     let deformed = pulled.vertices.iter().map(|p| p.map(|x| x * unit));
     Ok((deformed.collect(), pulled.summary))
 }

@@ -90,7 +90,7 @@ pub fn deform(
             limits: options.caller.limits,
         },
     )?;
-    caged.problem.search = options.course.search;
+    caged.problem.search = options.pulling.search;
     caged.start_coarse(tracker);
     let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
     let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };

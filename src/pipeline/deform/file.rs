@@ -38,7 +38,7 @@ fn deform_body(
     let format = options.format.unwrap_or_else(|| source.format(upload));
     source.check(format, options.frames)?;
     let mut problem = Problem::new(source.body()?, &options.handles, &options.model)?;
-    problem.search = options.course.search;
+    problem.search = options.pulling.search;
     let file = |x: &[f64]| source.frame(format, &problem, x);
     let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
     let solved = solve(&problem, options.plan(), tracker, frames)?;

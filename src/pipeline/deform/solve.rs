@@ -22,7 +22,7 @@ pub fn solve_file(
     in_pool(options.caller.workers(options.workers), || {
         tracker.stage(Stage::Read);
         let (mut problem, elements) = read(upload, &options.caller.limits)?;
-        problem.search = options.course.search;
+        problem.search = options.pulling.search;
         let file = |x: &[f64]| options.format.write(&elements, &problem, x);
         let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
         let solved = solve(&problem, options.plan(), &tracker, frames)?;

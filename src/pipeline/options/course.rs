@@ -14,9 +14,6 @@ options! {
         /// Also report the energy that the map tends to as the barrier strength tends to 0. The
         /// difference is the bias of the barrier.
         pub bias: bool;
-        /// Try all bent ways to the targets, even if the straight ones lead there, and keep the map
-        /// with the lowest energy. Costs up to nine minimizations.
-        pub search: bool;
         /// The minimization ends when a step promises to lower the energy by less than this share.
         /// The default is 1e-6.
         pub tolerance: Option<f64>, in 1e-15..=1e-1, value "SHARE";

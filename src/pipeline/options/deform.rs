@@ -1,6 +1,6 @@
 //! What is deformed and how.
 
-use super::{Budget, Caller, CommandOptions, Course, Workers, idle};
+use super::{Budget, Caller, CommandOptions, Course, Pulling, Workers, idle};
 use crate::barrier::BarrierKind;
 use crate::deform::{Handle, Method, Model};
 use crate::options::{OptionSet, options};
@@ -42,6 +42,8 @@ options! {
         pub model: Model;
         /// What the solver does besides one minimization.
         pub course: Course;
+        /// Which ways handles go.
+        pub pulling: Pulling;
         /// What works.
         pub workers: Workers;
         /// How long it may take.

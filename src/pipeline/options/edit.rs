@@ -1,6 +1,6 @@
 //! How UVs are edited.
 
-use super::{Budget, Caller, CommandOptions, Workers, idle};
+use super::{Budget, Caller, CommandOptions, Pulling, Workers, idle};
 use crate::deform::uv::{Anchor, UvEditOptions, UvRest};
 use crate::deform::{Boundary, Model};
 use crate::document::OutputFormat;
@@ -42,6 +42,8 @@ options! {
     groups {
         /// Energy and barrier, for a mean triangle area of 1.
         pub model: Model;
+        /// Which ways handles go.
+        pub pulling: Pulling;
         /// What works.
         pub workers: Workers;
         /// How long it may take.
@@ -63,6 +65,7 @@ impl EditOptions {
             boundary: self.boundary.unwrap_or(default.boundary),
             rest: self.rest.unwrap_or(default.rest),
             model: self.model,
+            search: self.pulling.search,
         }
     }
 }

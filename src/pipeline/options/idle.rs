@@ -1,6 +1,6 @@
 //! Refuses options that would have no effect: their user expects one.
 
-use super::{Course, KeptMaps, Options, Preset};
+use super::{Course, KeptMaps, Options, Preset, Pulling};
 use crate::barrier::BarrierKind;
 use crate::charts::Cut;
 use crate::deform::{Method, Model};
@@ -18,11 +18,15 @@ fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
 }
 
 /// Refuses options of the projected method where another one solves.
-pub(super) fn check_course(course: &Course, method: Method) -> Result<(), String> {
+pub(super) fn check_method(
+    course: &Course,
+    pulling: Pulling,
+    method: Method,
+) -> Result<(), String> {
     let is_other = method != Method::Projected;
     let with = "`method` projected";
     refused([
-        ("search", with, course.search && is_other),
+        ("search", with, pulling.search && is_other),
         ("tolerance", with, course.tolerance.is_some() && is_other),
     ])
 }

@@ -25,6 +25,8 @@ mod measure;
 #[cfg(feature = "files")]
 mod preset;
 #[cfg(feature = "files")]
+mod pulling;
+#[cfg(feature = "files")]
 mod repack;
 #[cfg(feature = "files")]
 mod sets;
@@ -58,6 +60,8 @@ pub(super) use idle::check_grouping;
 pub use measure::MeasureOptions;
 #[cfg(feature = "files")]
 pub use preset::Preset;
+#[cfg(feature = "files")]
+pub use pulling::Pulling;
 #[cfg(feature = "files")]
 pub use repack::RepackOptions;
 #[cfg(feature = "files")]

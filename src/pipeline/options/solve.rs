@@ -1,6 +1,6 @@
 //! How a problem file is solved.
 
-use super::{Budget, Caller, CommandOptions, Course, Workers, idle};
+use super::{Budget, Caller, CommandOptions, Course, Pulling, Workers, idle};
 use crate::deform::Method;
 use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
@@ -23,6 +23,8 @@ options! {
     groups {
         /// What the solver does besides one minimization.
         pub course: Course;
+        /// Which ways handles go.
+        pub pulling: Pulling;
         /// What works.
         pub workers: Workers;
         /// How long it may take.
@@ -43,7 +45,7 @@ impl SolveOptions {
 impl CommandOptions for SolveOptions {
     fn check(&self) -> Result<(), PipelineError> {
         self.check_ranges()
-            .and_then(|()| idle::check_course(&self.course, self.method))
+            .and_then(|()| idle::check_method(&self.course, self.pulling, self.method))
             .map_err(PipelineError::InvalidOptions)?;
         self.format.check_for_mesh()
     }

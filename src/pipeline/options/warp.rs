@@ -1,6 +1,6 @@
 //! How a picture is warped.
 
-use super::{Budget, Caller, CommandOptions, Workers, idle};
+use super::{Budget, Caller, CommandOptions, Pulling, Workers, idle};
 use crate::deform::warp::{self, PictureHandle};
 use crate::deform::{Boundary, Model};
 use crate::options::{OptionSet, options};
@@ -27,6 +27,8 @@ options! {
     groups {
         /// Energy and barrier, for a mean triangle area between ½ and 2.
         pub model: Model;
+        /// Which ways handles go.
+        pub pulling: Pulling;
         /// What works.
         pub workers: Workers;
         /// How long it may take.
@@ -48,6 +50,7 @@ impl WarpOptions {
                 Boundary::Free
             },
             model: self.model,
+            search: self.pulling.search,
         }
     }
 }
