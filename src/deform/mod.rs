@@ -9,7 +9,9 @@
 
 mod aims;
 mod apart;
+mod attempt;
 mod axes;
+mod bends;
 mod body;
 mod bound;
 mod boundary;
@@ -18,11 +20,13 @@ pub mod cage;
 #[cfg(feature = "files")]
 mod cells;
 mod continuation;
+mod flowed;
 mod handles;
 mod history;
 mod idle;
 mod live;
 mod locate;
+mod missing;
 mod model;
 mod normalized;
 mod numbers;
@@ -36,7 +40,6 @@ mod problem_file;
 mod pull;
 mod session;
 mod shake;
-mod singly;
 mod slices;
 mod solve;
 mod turns_left;

@@ -11,8 +11,7 @@ use super::worth::Worth;
 use crate::barrier::Barrier;
 use crate::energy::{Positional, Term};
 use crate::solver::{
-    Continued, Handles, LevenbergSettings, Objective, Settings, Status, Summary, Watch, follow,
-    levenberg,
+    Continued, LevenbergSettings, Objective, Settings, Status, Summary, Watch, levenberg,
 };
 
 /// How a problem is solved.
@@ -46,34 +45,15 @@ impl Solution {
             Status::TargetsUnreachable | Status::Stopped
         )
     }
-
-    /// The better one, with the work of both: that of the lower energy where both have arrived, otherwise the one that has or has
-    /// come nearer.
-    pub(super) fn or(self, other: Self) -> Self {
-        let is_better = match (self.has_arrived(), other.has_arrived()) {
-            (true, true) => other.summary.energy_last < self.summary.energy_last,
-            (false, false) => other.worth.residual < self.worth.residual,
-            (_, arrived) => arrived,
-        };
-        let (best, worse) = if is_better {
-            (other, self)
-        } else {
-            (self, other)
-        };
-        Self {
-            summary: worse.summary.followed_by(&best.summary),
-            ..best
-        }
-    }
 }
 
 impl Problem {
     /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`]). With a barrier
     /// every iterate is without inversion.
     ///
-    /// Handles that change places stand in each other's way. Where they do not arrive straight they try again from the start on
-    /// bent ways, at most eight; where none leads to all targets each handle that can be reached is reached from the nearest map, and
-    /// [`unreached`](Self::unreached) names the rest. With [`search`](Self::search) all bent ways are tried, and the map with
+    /// Handles that change places stand in each other's way. Where they do not arrive straight they try bent ways from the start, at
+    /// most eight, and [flow](crate::solver::flow()); where none leads to all targets each handle that is reached alone is,
+    /// and [`unreached`](Self::unreached) names the rest. With [`search`](Self::search) all bent ways are tried, and the map with
     /// the lowest energy is the solution. Iterations and factorizations are those of all attempts.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
         self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))
@@ -128,43 +108,6 @@ impl Problem {
             worth: solution.worth.restored(frame),
             summary: solution.summary,
         }
-    }
-
-    /// Follows the handles on ways with these bends, straight ones if there are none.
-    pub(super) fn solve_along(
-        &self,
-        bends: &[[f64; 3]],
-        settings: &Settings,
-        watch: &dyn Watch,
-    ) -> Result<Solution, ProblemError> {
-        let mut objective = self.objective()?;
-        let mut x = self.start.clone();
-        if x == self.body.rest && self.stations.len() == 1 {
-            self.shake(&objective, &mut x);
-        }
-        let stations = self.stations.iter().map(|handles| Handles {
-            bends: bends.to_vec(),
-            ..handles.clone()
-        });
-        let stations: Vec<Handles> = stations.collect();
-        let total = self.follow(&mut objective, &mut x, &stations, settings, watch)?;
-        Ok(self.solution(x, total))
-    }
-
-    /// Moves the map until the handles are at their stations.
-    pub(super) fn follow(
-        &self,
-        objective: &mut Objective,
-        x: &mut [f64],
-        stations: &[Handles],
-        settings: &Settings,
-        watch: &dyn Watch,
-    ) -> Result<Summary, ProblemError> {
-        Ok(if self.body.dim() == 2 {
-            follow::<2>(objective, x, stations, settings, watch)?
-        } else {
-            follow::<3>(objective, x, stations, settings, watch)?
-        })
     }
 
     fn iterate_softly(

@@ -1,7 +1,7 @@
 //! Handles that are being moved: [`follow()`](super::follow()) an iteration at a time.
 
-use super::follow::{HARD, HARDENED, LEAST_PROGRESS, ROUNDING};
 use super::handles::{Handles, HandlesError};
+use super::journey::{HARD, HARDENED, LEAST_PROGRESS, ROUNDING};
 use super::kept::Kept;
 use super::objective::Objective;
 use super::path::Rotation;

@@ -8,7 +8,8 @@
 //! until the energy falls enough.
 //!
 //! [`follow()`] pulls handles to targets by Newton's method, the other vertices following each advance, and gives the
-//! removed curvature back little by little instead: between advances there are few steps. [`Drag`] does the same an iteration
+//! removed curvature back little by little instead: between advances there are few steps. A [`Journey`] does so with pauses.
+//! [`flow()`] lets each go as fast as the others allow. [`Drag`] does the same an iteration
 //! at a time, while the handles are being moved. [`levenberg()`] is the
 //! iteration of the paper itself, kept for comparison: it shifts the Hessian until it factors instead of projecting it,
 //! and holds handles by soft constraints.
@@ -19,15 +20,18 @@
 
 mod directions;
 mod drag;
+mod flow;
 mod follow;
 mod handles;
 mod held;
+mod journey;
 mod kept;
 mod levenberg;
 mod line_search;
 mod newton;
 mod newton_direction;
 mod objective;
+mod pace;
 mod path;
 mod points;
 mod quadratic_model;
@@ -39,11 +43,14 @@ mod trust_region;
 mod watch;
 
 pub use drag::{Drag, Stage};
+pub use flow::{Flow, flow};
 pub use follow::follow;
 pub use handles::{Handles, HandlesError};
+pub use journey::Journey;
 pub use levenberg::{LevenbergSettings, levenberg};
 pub use newton::minimize;
 pub use objective::Objective;
+pub use pace::Pace;
 pub use path::{Path, Rotation};
 pub use scale::best_scale;
 pub use settings::{Projection, Settings, Status, Summary};

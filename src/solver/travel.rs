@@ -4,6 +4,7 @@ use super::handles::{Handles, HandlesError};
 use super::line_search::{Search, line_search};
 use super::newton_direction::newton_direction;
 use super::objective::Objective;
+use super::pace::Pace;
 use super::path::{Path, Rotation};
 use super::points::Points;
 use super::relaxation::Relaxation;
@@ -111,18 +112,26 @@ where
         self.stride = FIRST_ADVANCE;
     }
 
-    /// Advances until the targets are reached or the handles are stuck.
+    /// Advances until the targets are reached or the handles are stuck, or miss the pace.
     pub fn advance(
         &mut self,
         objective: &mut Objective,
         x: &mut [f64],
-        settings: &Settings,
+        (settings, pace): (&Settings, Pace),
         watch: &dyn Watch,
     ) -> Control {
         self.points.pull::<D>(objective, x, SOFT, self.s);
         let mut stuck = 0;
+        let (mut passed, mut looked) = (self.s, self.summary.iterations);
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
         {
+            let since = self.summary.iterations - looked;
+            if pace.is_missed(self.s - passed, since) {
+                break;
+            }
+            if since >= pace.window {
+                (passed, looked) = (self.s, self.summary.iterations);
+            }
             let before = self.s;
             let Some(sigma) = self.iterate(objective, x) else {
                 break;

@@ -1,7 +1,7 @@
 //! Targets whose straight ways are blocked: bent ways lead there, and what cannot be reached holds back nothing else.
 
-use unwrapd::deform::{Body, Handle, Model, Problem, Solution};
-use unwrapd::solver::{Control, Iterate, Settings, Status};
+use unwrapd::deform::{Body, Handle, Model, Problem, Solution, Units};
+use unwrapd::solver::{Control, Handles, Iterate, Journey, Objective, Pace, Settings, Status};
 
 use crate::bodies::{block, sheet};
 
@@ -57,6 +57,80 @@ fn a_search_ends_no_higher_and_counts_all_its_work() {
     assert!(best.summary.iterations > first.summary.iterations);
 }
 
+/// A sheet of which so many places on a circle each go to the next but one.
+fn carousel() -> Problem {
+    const CELLS: u32 = 24;
+    let sheet = sheet(CELLS);
+    let near = |[x, y]: [f64; 2]| {
+        let away = |v: &[f64; 2]| (v[0] - x).hypot(v[1] - y);
+        let all = sheet.vertices().iter().enumerate();
+        all.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))
+            .map_or(0, |(v, _)| v as u32)
+    };
+    let size = sheet.vertices().last().expect("vertices")[0];
+    let on_circle = |k: u32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / 6.0;
+        near([
+            size * (0.5 + 0.25 * angle.cos()),
+            size * (0.5 + 0.25 * angle.sin()),
+        ])
+    };
+    let handles = (0..6).map(|k| {
+        let target = sheet.vertices()[on_circle(k + 2) as usize];
+        vertex(on_circle(k), &target)
+    });
+    let handles: Vec<Handle> = handles.collect();
+    Problem::new(Body::from(&sheet), &handles, &Model::default()).expect("a problem")
+}
+
+#[test]
+fn places_that_all_meet_on_straight_ways_arrive() {
+    let problem = carousel();
+    let solution = solved(&problem);
+    assert_eq!(problem.unreached(&solution), []);
+    assert_eq!(solution.summary.status, Status::Converged);
+    assert!(solution.worth.residual < 1e-16, "{:?}", solution.worth);
+    assert!(solution.summary.iterations < 1000, "{:?}", solution.summary);
+}
+
+#[test]
+fn a_journey_that_pauses_arrives_when_it_goes_on() {
+    let problem = Problem {
+        units: Units::Given,
+        ..swapped()
+    };
+    let station = Handles {
+        bends: vec![[0.0, -0.5, 0.0], [0.0, 0.5, 0.0]],
+        ..problem.stations[0].clone()
+    };
+    let barrier = problem.barrier;
+    let terms = (problem.energy.terms(&problem.body, barrier, None)).expect("an energy");
+    let mut objective = Objective::of_terms(problem.body.n_vertices(), terms);
+    let (mut x, settings) = (problem.start.clone(), Settings::follow());
+    let stations = vec![station.clone()];
+    let journey = Journey::<2>::new(&mut objective, &x, stations, &settings);
+    let mut journey = journey.expect("fitting handles");
+    // Nothing is fast enough for this pace.
+    let pace = Pace {
+        window: 1,
+        gain: 1.0,
+    };
+    let course = (&settings, pace);
+    (journey.go_on(&mut objective, &mut x, course, &go_on)).expect("fitting handles");
+    assert!(journey.is_paused());
+    assert!(0.0 < journey.share() && journey.share() < 1.0);
+    assert_eq!(journey.summary().status, Status::TargetsUnreachable);
+    let before = journey.summary().iterations;
+    let course = (&settings, Pace::ANY);
+    (journey.go_on(&mut objective, &mut x, course, &go_on)).expect("fitting handles");
+    assert!(!journey.is_paused());
+    assert_eq!(journey.share(), 1.0);
+    assert!(journey.summary().iterations > before);
+    for (&v, to) in station.vertices.iter().zip(station.targets.chunks(2)) {
+        assert_eq!(&x[2 * v as usize..2 * v as usize + 2], to);
+    }
+}
+
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
     let of = |threads: usize| {
@@ -105,6 +179,7 @@ fn assert_only_the_first_is_not_reached(body: Body, mut handles: Vec<Handle>, bo
     let problem = Problem::new(body, &handles, &Model::default()).expect("a problem");
     let solution = solved(&problem);
     assert_eq!(solution.summary.status, Status::TargetsUnreachable);
+    assert!(solution.summary.iterations < 1000, "{:?}", solution.summary);
     let unreached = problem.unreached(&solution);
     assert_eq!(unreached.len(), 1, "{unreached:?}");
     assert_eq!(unreached[0].handle, 0);

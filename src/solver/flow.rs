@@ -1,0 +1,170 @@
+//! Points that flow to their targets, each as fast as the others let it.
+
+use super::line_search::{Search, line_search};
+use super::newton_direction::newton_direction;
+use super::objective::Objective;
+use super::relaxation::Relaxation;
+use super::settings::{Settings, Status, Summary};
+use super::watch::{Control, Taken, Watch};
+
+/// The strength of the pull beside the energy's mean curvature: one that is blocked presses so much, and crushes nothing.
+const STRENGTH: f64 = 10.0;
+
+/// How far ahead of itself a point is pulled, at most and at least, in units of a mean element's edge.
+const FARTHEST_PULL: f64 = 4.0;
+const NEAREST_PULL: f64 = 0.05;
+
+/// A step longer than this share of the direction says that points may be pulled farther.
+const LONG: f64 = 0.9;
+
+/// So many iterations must have brought
+const WINDOW: usize = 20;
+
+/// this share of the distances.
+const LEAST_GAIN: f64 = 0.02;
+
+/// Where points flow.
+#[derive(Clone, Copy, Debug)]
+pub struct Flow<'a> {
+    /// A target for each of the objective's constraints, coordinates one after another.
+    pub targets: &'a [f64],
+    /// The edge of a mean element.
+    pub edge: f64,
+}
+
+/// Pulls the points that are the constraints of `objective` toward their targets, until they come no nearer; `x` stays in the domain.
+///
+/// Each is pulled to a place a few edges ahead of itself on the straight line to its target, wherever it is by now, and all with the
+/// same moderate strength: one that is blocked waits, or slides along what is in its way, and holds back no other. That is
+/// the substepping of Schüller et al. 2013, equation 11, with a step in units of length. The points end near to their targets, not
+/// on them.
+///
+/// Cost of an iteration: one factorization, one solve, one or two evaluations.
+pub fn flow(
+    objective: &mut Objective,
+    x: &mut [f64],
+    flow: &Flow,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Summary {
+    let mut stream = Stream::new(objective, x, settings);
+    if !stream.summary.energy_first.is_finite() {
+        return stream.summary;
+    }
+    let mut looked = distance(objective, x, flow.targets);
+    while stream.summary.iterations < settings.max_iterations {
+        let Some(taken) = stream.step(objective, x, flow) else {
+            break;
+        };
+        if objective.show(x, &stream.summary, taken, watch) == Control::Finish {
+            return stream.summary.ended(Status::Stopped);
+        }
+        if stream.summary.iterations.is_multiple_of(WINDOW) {
+            let now = distance(objective, x, flow.targets);
+            if now > (1.0 - LEAST_GAIN) * looked {
+                break;
+            }
+            looked = now;
+        }
+    }
+    stream.summary.energy_last = objective.energy(x);
+    stream.summary.ended(Status::TargetsUnreachable)
+}
+
+/// What is known from one iteration to the next.
+struct Stream {
+    alpha: f64,
+    /// How far ahead of themselves points are pulled, in units of an edge.
+    pull: f64,
+    relaxation: Relaxation,
+    summary: Summary,
+    direction: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl Stream {
+    fn new(objective: &mut Objective, x: &[f64], settings: &Settings) -> Self {
+        objective.linearize(x, 0.0);
+        Self {
+            alpha: STRENGTH * objective.mean_diagonal(),
+            pull: 1.0,
+            relaxation: Relaxation::new(settings.projection),
+            summary: Summary::at_start(objective.energy(x)),
+            direction: vec![0.0; x.len()],
+            trial: vec![0.0; x.len()],
+        }
+    }
+
+    /// One iteration; `None` if none moves anything.
+    fn step(&mut self, objective: &mut Objective, x: &mut [f64], flow: &Flow) -> Option<Taken> {
+        let ahead = ahead(objective, x, flow.targets, self.pull * flow.edge);
+        objective.set_constraints(self.alpha, &ahead);
+        let energy = objective.value(x);
+        let decrement = newton_direction(
+            objective,
+            x,
+            &mut self.relaxation,
+            &mut self.direction,
+            &mut self.summary.factorizations,
+        )?;
+        let search = Search {
+            x,
+            direction: &self.direction,
+            energy,
+            slope: -2.0 * decrement,
+        };
+        let step = line_search(objective, &search, &mut self.trial);
+        self.summary.iterations += 1;
+        let length = step.map_or(0.0, |step| step.length);
+        if let Some(step) = step {
+            x.copy_from_slice(&self.trial);
+            self.summary.energy_last = step.energy;
+            let decrease = (energy - step.energy) / energy.abs();
+            self.relaxation.after_step(step.length, decrease);
+        } else if !self.relaxation.after_useless_direction() && self.pull <= NEAREST_PULL {
+            return None;
+        }
+        let times = if length > LONG {
+            2.0
+        } else {
+            0.5 + 0.5 * length
+        };
+        self.pull = (times * self.pull).clamp(NEAREST_PULL, FARTHEST_PULL);
+        Some(Taken {
+            mu: objective.shift(),
+            sigma: length,
+        })
+    }
+}
+
+/// Where the constraints are.
+fn places(objective: &Objective, x: &[f64]) -> Vec<f64> {
+    let constraints = objective.constraints();
+    constraints.map_or(Vec::new(), |points| points.places(x).collect())
+}
+
+/// The sum of their distances from their targets.
+fn distance(objective: &Objective, x: &[f64], targets: &[f64]) -> f64 {
+    let dim = objective.dim();
+    let places = places(objective, x);
+    let pairs = places.chunks_exact(dim).zip(targets.chunks_exact(dim));
+    pairs.map(|(place, target)| gap(place, target)).sum()
+}
+
+fn gap(place: &[f64], target: &[f64]) -> f64 {
+    let squares = place.iter().zip(target).map(|(x, t)| (x - t) * (x - t));
+    squares.sum::<f64>().sqrt()
+}
+
+/// Their targets, or what lies so far ahead of them on the way there.
+fn ahead(objective: &Objective, x: &[f64], targets: &[f64], most: f64) -> Vec<f64> {
+    let dim = objective.dim();
+    let places = places(objective, x);
+    let pairs = places.chunks_exact(dim).zip(targets.chunks_exact(dim));
+    let ahead = pairs.flat_map(|(place, target)| {
+        let share = (most / gap(place, target)).min(1.0);
+        let pairs = place.iter().zip(target);
+        pairs.map(move |(x, t)| x + share * (t - x))
+    });
+    ahead.collect()
+}

@@ -1,0 +1,234 @@
+//! Handles on their way through their stations: a journey that may pause and go on.
+
+use super::handles::{Handles, HandlesError};
+use super::newton::minimize_with;
+use super::objective::Objective;
+use super::pace::Pace;
+use super::path::Rotation;
+use super::relaxation::Relaxation;
+use super::settings::{Settings, Status, Summary};
+use super::travel::{SOFT, Travel};
+use super::watch::{Continued, Control, Taken, Watch};
+use crate::numerics::square::{Matrix, Square};
+
+/// What a round of advances must gain for another to be worth while, as a share of the path.
+pub(super) const LEAST_PROGRESS: f64 = 1e-3;
+
+/// By how much hardening must bring points nearer to their targets: it pulls 10⁶ times as strongly at the end, so points that can
+/// arrive come nearer by about as much.
+pub(super) const HARDENED: f64 = 1e-3;
+
+/// What rounding leaves of the distance of points from their targets, as a share of their coordinates.
+pub(super) const ROUNDING: f64 = 1e-12;
+
+/// The strength of the constraints at the end, beside the energy's mean curvature.
+pub(super) const HARD: f64 = 1e9;
+
+/// How far the rest settles before handles that are stuck try again: see [`Settings::tolerance`].
+const SETTLED: f64 = 1e-6;
+
+/// Iterations of that at most: elements that are nearly crushed take thousands to settle, and give no room.
+const MOST_SETTLING: usize = 100;
+
+/// Handles that [`follow()`](super::follow()) moves, as far as they are.
+pub struct Journey<const D: usize> {
+    stations: Vec<Handles>,
+    /// The one they travel to.
+    station: usize,
+    travel: Travel<D>,
+    /// The work before that.
+    before: Summary,
+    is_paused: bool,
+}
+
+impl<const D: usize> Journey<D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    /// To these stations, at least one, from the map `x`.
+    ///
+    /// # Errors
+    /// If handles do not fit each other, the map or the objective.
+    pub fn new(
+        objective: &mut Objective,
+        x: &[f64],
+        stations: Vec<Handles>,
+        settings: &Settings,
+    ) -> Result<Self, HandlesError> {
+        let constraints = (objective.constraints()).map_or(0, |points| points.rows.len());
+        for handles in &stations {
+            handles.check(D, x.len())?;
+            let points = handles.points.len();
+            if points != constraints {
+                return Err(HandlesError::Points {
+                    points,
+                    constraints,
+                });
+            }
+        }
+        let relaxation = Relaxation::new(settings.projection);
+        let first = stations.first().cloned().unwrap_or_default();
+        let travel = Travel::new(objective, x, &first, relaxation)?;
+        Ok(Self {
+            before: Summary::at_start(objective.value(x)),
+            station: 0,
+            travel,
+            stations,
+            is_paused: false,
+        })
+    }
+
+    /// Did they pause because they were slow? Otherwise they have arrived, cannot go on or were stopped.
+    pub fn is_paused(&self) -> bool {
+        self.is_paused
+    }
+
+    /// How much of the way lies behind, from 0 to 1, all stations being as far from each other.
+    pub fn share(&self) -> f64 {
+        (self.station as f64 + self.travel.s) / self.stations.len().max(1) as f64
+    }
+
+    /// All work so far, and how it ended.
+    pub fn summary(&self) -> Summary {
+        self.before.followed_by(&self.travel.summary)
+    }
+
+    /// Goes on from the map that the journey left in `x`, as long as it keeps the pace.
+    ///
+    /// # Errors
+    /// If handles do not fit.
+    pub fn go_on(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        (settings, pace): (&Settings, Pace),
+        watch: &dyn Watch,
+    ) -> Result<(), HandlesError> {
+        self.is_paused = false;
+        loop {
+            let Some(handles) = self.stations.get(self.station) else {
+                return Ok(());
+            };
+            objective.fix(&handles.vertices);
+            let counted = Continued {
+                watch,
+                before: self.before.iterations,
+            };
+            self.is_paused = (self.travel).arrive(objective, x, (settings, pace), &counted);
+            let status = self.travel.summary.status;
+            let is_last = self.station + 1 >= self.stations.len();
+            if is_last || matches!(status, Status::TargetsUnreachable | Status::Stopped) {
+                return Ok(());
+            }
+            self.station += 1;
+            self.before = self.summary();
+            let relaxation = self.travel.relaxation;
+            objective.fix(&self.stations[self.station].vertices);
+            self.travel = Travel::new(objective, x, &self.stations[self.station], relaxation)?;
+        }
+    }
+}
+
+impl<const D: usize> Travel<D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    /// Goes all the way, if that is possible at this pace; true if it would be at a slower one, perhaps.
+    fn arrive(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        (settings, pace): (&Settings, Pace),
+        watch: &dyn Watch,
+    ) -> bool {
+        if !self.summary.energy_first.is_finite() {
+            return false;
+        }
+        if objective.show(x, &self.summary, Taken::default(), watch) == Control::Finish {
+            self.summary.status = Status::Stopped;
+            return false;
+        }
+        loop {
+            let (before, begun) = (self.s, self.summary.iterations);
+            if self.advance(objective, x, (settings, pace), watch) == Control::Finish
+                || self.settle(objective, x, settings, watch) == Control::Finish
+            {
+                return false;
+            }
+            if self.s >= 1.0 {
+                self.harden(objective, x, settings, watch);
+                return false;
+            }
+            let is_spent = self.summary.iterations >= settings.max_iterations;
+            let is_stuck = is_spent || self.s < before + LEAST_PROGRESS;
+            let is_slow = pace.is_missed(self.s - before, self.summary.iterations - begun);
+            if is_stuck || is_slow {
+                self.summary.status = Status::TargetsUnreachable;
+                return !is_stuck;
+            }
+            self.start_over();
+        }
+    }
+
+    /// Makes the points meet their targets; says so if they do not.
+    fn harden(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) {
+        let before = self.points.farthest(objective, x);
+        let mut strength = SOFT;
+        while !self.points.is_empty() && strength < HARD {
+            strength *= 10.0;
+            self.points.pull::<D>(objective, x, strength, 1.0);
+            self.summary.energy_last = objective.value(x);
+            if self.settle(objective, x, settings, watch) == Control::Finish {
+                return;
+            }
+        }
+        let rounding = ROUNDING * x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if self.points.farthest(objective, x) > (HARDENED * before).max(rounding) {
+            self.summary.status = Status::TargetsUnreachable;
+        }
+    }
+
+    /// Minimizes with the handles held where they are.
+    fn settle(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Control {
+        let before = self.summary;
+        let counted = Continued {
+            watch,
+            before: before.iterations,
+        };
+        let left = settings.max_iterations.saturating_sub(before.iterations);
+        let (most, tolerance) = if self.s < 1.0 {
+            (left.min(MOST_SETTLING), settings.tolerance.min(SETTLED))
+        } else {
+            (left, settings.tolerance)
+        };
+        let settings = Settings {
+            max_iterations: most,
+            tolerance,
+            ..*settings
+        };
+        self.summary = before.followed_by(&minimize_with(
+            &mut self.relaxation,
+            objective,
+            x,
+            &settings,
+            &counted,
+        ));
+        if self.summary.status == Status::Stopped {
+            Control::Finish
+        } else {
+            Control::Continue
+        }
+    }
+}
