@@ -134,11 +134,14 @@
 //! - The pages of an atlas are the first row of UDIM tiles, at most ten: v stays in the unit interval, where floating point is finest.
 //! - Charts come from the top down: disks are slit until they keep a bound on the distortion, rather than regions grown or
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
+//! - What consists of planes is put together instead: each plane is laid into the page as it is, and they are joined along straight
+//!   borders, first where a seam would cost most, as long as none covers another. So no plane is bent, stretched or cut,
+//!   and only what is round between them is mapped.
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as a draft of the
 //!   atlas gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
 //! - A surface that is its own mirror image, exactly or nearly, is cut alike on both sides. It is not halved: seams are planned on the
 //!   whole, and each is drawn once more along the cheapest edges near its mirror image, so that it does not matter whether
-//!   the triangles are mirrored, too.
+//!   the triangles are mirrored, too. Planes are joined in pairs that are mirror images of each other.
 //! - Placing charts one after the other leaves room between them. All of a page move and turn at once afterward,
 //!   pushed apart by Levenberg's method on rasters of their distances while the page shrinks, and end exactly as far from each
 //!   other as they must be; a raster decides only where that fails, and for crowds.

@@ -4,7 +4,7 @@ use super::regions::within_cones::regions;
 use super::symmetry::opening::opened_alike;
 use super::symmetry::plane::MirrorPlane;
 use crate::cut::{Branches, Sheet, isolate_doubled_edges, join_disks};
-use crate::mesh::{CUT, Disk, Surface, UnionFind, spread};
+use crate::mesh::{CUT, Disk, Surface, UnionFind, next, spread};
 use crate::numerics::vec3::{area_vector, norm};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -67,15 +67,16 @@ pub(super) fn charts_alike(surface: &Surface, cut: Cut, mirror: Option<MirrorPla
     charts_glued(surface, &twin, mirror)
 }
 
-/// The charts of given regions of a surface, each opened to a disk; `region` labels triangles.
+/// The charts of given regions of a surface, each opened to a disk, alike on both sides of a plane;
+/// `region` labels triangles.
 pub(super) fn charts_of_regions(
     surface: &Surface,
     region: &[u32],
     n_regions: usize,
-    branches: Branches,
+    mirror: Option<MirrorPlane>,
 ) -> Vec<Chart> {
-    let twin = opened(surface, region, n_regions, (branches, None));
-    charts_glued(surface, &twin, None)
+    let twin = opened(surface, region, n_regions, (Branches::None, mirror));
+    charts_glued(surface, &twin, mirror)
 }
 
 /// The gluing that is left when regions are parted and opened to disks.
@@ -103,6 +104,22 @@ fn opened(
     }
     isolate_doubled_edges(surface, &mut twin);
     twin
+}
+
+/// The charts that a gluing leaves of some faces, which it does not glue to others.
+pub(super) fn glued_charts(
+    surface: &Surface,
+    twin: &mut [u32],
+    mirror: Option<MirrorPlane>,
+    is_wanted: impl Fn(usize) -> bool,
+) -> Vec<Chart> {
+    isolate_doubled_edges(surface, twin);
+    let mesh = (&*surface.triangles, &*surface.positions);
+    let (label, n_charts) = connected_faces(twin);
+    let sheets = Sheet::divide(mesh, twin, &label, n_charts).into_iter();
+    let wanted = sheets.filter(|sheet| is_wanted(sheet.triangles[0] as usize));
+    let charts = wanted.flat_map(|sheet| open(surface, sheet));
+    charts.map(|chart| Chart { mirror, ..chart }).collect()
 }
 
 /// The charts that a gluing leaves.
@@ -181,6 +198,13 @@ impl Chart {
     pub fn is_wound_as_surface(&self, triangle: usize) -> bool {
         let [a, b, _] = self.corners[triangle].map(|corner| corner % 3);
         b == (a + 1) % 3
+    }
+
+    /// The surface's halfedge that is one of the chart's.
+    pub(super) fn surface_halfedge(&self, h: u32) -> u32 {
+        let corner = |h: u32| self.corners[h as usize / 3][h as usize % 3];
+        let [from, to] = [h, next(h)].map(corner);
+        if next(from) == to { from } else { to }
     }
 
     /// Seen from behind: every triangle in the other winding.

@@ -10,8 +10,8 @@
 //! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
 //! With a large disk a chart of fewer faces goes that way first, and the disk begins with its slits.
 //!
-//! Before that [`Cut::Auto`] looks for components that can be laid flat in a few pieces, such as machine parts and sheet metal:
-//! they are cut along their creases and keep all lengths (`creases`).
+//! Before that [`Cut::Auto`] looks for components that consist mostly of planes, such as machine parts and sheet metal (`facets`):
+//! each plane is laid into the page as it is, and they are joined where a seam would cost most (`creases`).
 //!
 //! With [`Symmetry::Auto`] it looks for the plane in which a surface is its own mirror image, exactly or nearly, and cuts both
 //! sides alike (`symmetry`): openings run in the plane, slits come in pairs, and what is parted or given back on one side is on
@@ -34,10 +34,12 @@ mod chart;
 mod compact;
 mod crease;
 mod creases;
+mod facets;
 mod give_back;
 mod halves;
 mod mapped;
 mod min_cut;
+mod motion;
 mod observer;
 mod parts;
 mod regions;

@@ -1,12 +1,13 @@
 //! Hard surfaces, cut along their creases.
 
 use crate::zoo::{self, Mesh};
+use std::collections::BTreeMap;
 use unwrapd::certificate::{Claims, certify};
 use unwrapd::charts::{Bound, MappedChart, Symmetry, Unobserved, charts_under_bound};
 use unwrapd::embed::Options;
 use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::Surface;
-use unwrapd::numerics::vec3::distance;
+use unwrapd::numerics::vec3::{area_vector, distance, dot, unit};
 
 fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Mesh {
     Mesh {
@@ -26,7 +27,7 @@ fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
         mean: 4.1,
         stretch: None,
     };
-    charts_under_bound(&surface, &bound, &options, Symmetry::Auto, &Unobserved)
+    charts_under_bound(&surface, &bound, 1.0, &options, Symmetry::Auto, &Unobserved)
 }
 
 /// For each side of a triangle its length in the map over that on the surface.
@@ -62,6 +63,41 @@ fn assert_unfolded(charts: &[MappedChart]) {
     }
 }
 
+/// An edge by the places of its ends.
+type Place = [[i64; 3]; 2];
+
+/// The seams of charts of a closed surface, with the normals of the faces beside each.
+fn seams(charts: &[MappedChart]) -> BTreeMap<Place, Vec<[f64; 3]>> {
+    let mut seams: BTreeMap<Place, Vec<[f64; 3]>> = BTreeMap::new();
+    for MappedChart { chart, .. } in charts {
+        let mut sides: BTreeMap<[u32; 2], Vec<[f64; 3]>> = BTreeMap::new();
+        for &[a, b, c] in &chart.disk.triangles {
+            let [p, q, r] = [a, b, c].map(|v| chart.positions[v as usize]);
+            for [v, w] in [[a, b], [b, c], [c, a]] {
+                let edge = sides.entry([v.min(w), v.max(w)]).or_default();
+                edge.push(unit(area_vector(p, q, r)));
+            }
+        }
+        for (ends, normals) in sides.into_iter().filter(|(_, normals)| normals.len() == 1) {
+            let place = |v: u32| chart.positions[v as usize].map(|x| (1e4 * x).round() as i64);
+            let mut ends = ends.map(place);
+            ends.sort_unstable();
+            seams.entry(ends).or_default().extend(normals);
+        }
+    }
+    seams
+}
+
+/// No seam runs between two faces of a plane.
+#[track_caller]
+fn assert_planes_whole(charts: &[MappedChart]) {
+    for (edge, normals) in seams(charts) {
+        if let [a, b] = normals[..] {
+            assert!(dot(a, b) < 0.999_85, "{edge:?}");
+        }
+    }
+}
+
 /// A prism with `n` sides, closed by two discs.
 fn cylinder(n: u32, height: f32) -> Mesh {
     let at = |i: u32, z: f32| {
@@ -87,6 +123,87 @@ fn a_cube_becomes_a_cross() {
     let charts = unfolded(&zoo::voxels(&[[0, 0, 0]]));
     assert_eq!(charts.len(), 1);
     assert_unfolded(&charts);
+    assert_planes_whole(&charts);
+    // Of twelve edges five hold the six sides together.
+    assert_eq!(seams(&charts).len(), 7);
+    // A cross has four squares in a row and three in the other: it fills six of twelve.
+    let uv = &charts[0].embedding.uv;
+    let along = |direction: [f64; 2]| {
+        let places = uv.iter().map(|p| p[0] * direction[0] + p[1] * direction[1]);
+        let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        high - low
+    };
+    let [a, b, _] = charts[0].chart.disk.triangles[0].map(|v| uv[v as usize]);
+    let [x, y] = [b[0] - a[0], b[1] - a[1]];
+    let turns = [[x, y], [x + y, y - x]].map(|[x, y]| [x / x.hypot(y), y / x.hypot(y)]);
+    let boxes = turns.map(|[x, y]| along([x, y]) * along([-y, x]));
+    let smallest = boxes[0].min(boxes[1]);
+    assert!((smallest - 12.0).abs() < 1e-3, "{smallest}");
+}
+
+#[test]
+fn both_sides_of_a_plane_are_cut_alike() {
+    // An angle bar with unequal arms is its own mirror image only in the plane y = 1/2.
+    let charts = unfolded(&zoo::voxels(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 0, 1]]));
+    assert_unfolded(&charts);
+    assert_planes_whole(&charts);
+    let seams = seams(&charts);
+    for edge in seams.keys() {
+        let mut image = edge.map(|[x, y, z]| [x, 10_000 - y, z]);
+        image.sort_unstable();
+        assert!(seams.contains_key(&image), "{edge:?}");
+    }
+}
+
+/// A cylinder whose wall has `n` sides, with a floor, and half a sphere of `m` rings on top.
+fn domed_cylinder(n: u32, m: u32, height: f32) -> Mesh {
+    let at = |i: u32, radius: f32, z: f32| {
+        let angle = std::f32::consts::TAU * i as f32 / n as f32;
+        [radius * angle.cos(), radius * angle.sin(), z]
+    };
+    let mut positions: Vec<[f32; 3]> = (0..n).map(|i| at(i, 1.0, -height)).collect();
+    for j in 0..m {
+        let (z, radius) = (std::f32::consts::FRAC_PI_2 * j as f32 / m as f32).sin_cos();
+        positions.extend((0..n).map(|i| at(i, radius, z)));
+    }
+    let pole = positions.len() as u32;
+    positions.push([0.0, 0.0, 1.0]);
+    let mut triangles: Vec<[u32; 3]> = (1..n - 1).map(|i| [0, i + 1, i]).collect();
+    for i in 0..n {
+        let j = (i + 1) % n;
+        for ring in 0..m {
+            let (low, high) = (n * ring, n * (ring + 1));
+            triangles.extend([[low + i, low + j, high + j], [low + i, high + j, high + i]]);
+        }
+        triangles.push([n * m + i, n * m + j, pole]);
+    }
+    mesh(positions, triangles)
+}
+
+#[test]
+fn planes_beside_what_is_round_stay_whole_and_unstretched() {
+    let charts = unfolded(&domed_cylinder(32, 8, 3.0));
+    assert_planes_whole(&charts);
+    let (mut of_planes, mut of_dome) = (1.0_f64, 1.0_f64);
+    for map in &charts {
+        let faces = map.chart.disk.triangles.iter();
+        for (triangle, ratios) in faces.zip(edge_ratios(map).as_chunks::<3>().0) {
+            let highest = triangle.map(|v| map.chart.positions[v as usize][2]);
+            let is_flat = highest.into_iter().all(|z| z < 1e-6);
+            let most = if is_flat {
+                &mut of_planes
+            } else {
+                &mut of_dome
+            };
+            *most = ratios
+                .iter()
+                .fold(*most, |most, ratio| most.max(ratio.max(1.0 / ratio)));
+        }
+    }
+    assert!(of_planes < 1.05, "{of_planes}");
+    assert!(of_dome > 1.05, "{of_dome}");
 }
 
 #[test]

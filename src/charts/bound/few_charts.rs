@@ -6,10 +6,11 @@ use super::rounds::{mean_excess, rounds};
 use super::simplified::Simplified;
 use super::slits::Slits;
 use crate::charts::chart::{Chart, Cut, charts, charts_alike};
-use crate::charts::creases::hard_components::hard_components;
+use crate::charts::creases::hard_components::Divided;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
 use crate::charts::observer::Observer;
+use crate::charts::symmetry::exact::exact_mirror_planes;
 use crate::charts::symmetry::search::mirror_plane;
 use crate::embed::{self, is_needle};
 use crate::mesh::Surface;
@@ -17,6 +18,7 @@ use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::Control;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::cell::LazyCell;
 
 /// Triangles of a chart from which on its first slits are planned on a simplification, and the vertices of that.
 const LARGE: usize = 60_000;
@@ -45,9 +47,12 @@ pub enum Symmetry {
 /// large the same goes on as for a smaller mean. A surface on which this does not lead below the bound is divided as by
 /// [`Cut::Fast`] if that does better. At last small charts are [given back](given_back). A surface of needles, of which no map keeps the
 /// shape, is not slit.
+///
+/// `seam_price` is what a seam costs, over its usual price: planes are joined along shorter borders where it is higher.
 pub fn charts_under_bound(
     surface: &Surface,
     bound: &Bound,
+    seam_price: f64,
     options: &embed::Options,
     symmetry: Symmetry,
     observer: &dyn Observer,
@@ -57,25 +62,35 @@ pub fn charts_under_bound(
         options.solver.max_iterations = STEPS_FOR_NEEDLES;
         return map_all(charts(surface, Cut::Disk), &options, observer);
     }
-    let divided = hard_components(surface);
-    let mut is_hard = divided.is_hard.clone();
-    let hard = divided.mapped(surface, bound, options, observer);
+    let divided = Divided::new(surface);
+    let mirror = LazyCell::new(|| match symmetry {
+        Symmetry::Auto => mirror_plane(surface),
+        Symmetry::Off => None,
+    });
+    let mut planes = match symmetry {
+        Symmetry::Auto if divided.is_hard.contains(&true) => exact_mirror_planes(surface),
+        _ => Vec::new(),
+    };
+    if planes.is_empty() && divided.is_hard.contains(&true) {
+        planes.extend(*mirror);
+    }
+    let hard = divided.mapped(bound, seam_price, &planes, options, observer);
+    let mut is_hard = divided.is_hard;
     let mut hard: Vec<Piece> = hard.into_iter().map(Piece::of).collect();
     if mean_excess(&hard) > bound.budget() {
         is_hard.fill(false);
         hard.clear();
     }
     let is_soft = |chart: &Chart| !is_hard[chart.corners[0][0] as usize / 3];
-    let is_any_soft = is_hard.contains(&false);
-    let mirror = match symmetry {
-        Symmetry::Auto if is_any_soft => mirror_plane(surface),
-        _ => None,
-    };
     let soft = |cut| {
-        let charts = charts_alike(surface, cut, mirror);
+        let charts = charts_alike(surface, cut, *mirror);
         charts.into_iter().filter(is_soft).collect()
     };
-    let soft = soft_charts(surface, &soft, bound, options, observer);
+    let soft = if is_hard.contains(&false) {
+        soft_charts(surface, &soft, bound, options, observer)
+    } else {
+        Vec::new()
+    };
     maps(hard).chain(soft).collect()
 }
 

@@ -127,16 +127,6 @@ impl Piece {
         self.map.is_some() && self.slits().is_some_and(Slits::is_cut)
     }
 
-    /// What the predictor says of a chart that is not mapped, with the slits that are planned.
-    pub fn predicted_excess(&self) -> f64 {
-        self.slits.as_ref().map_or(0.0, |slits| slits.excess)
-    }
-
-    /// A triangle of the surface that is in it.
-    pub fn first_face(&self) -> u32 {
-        self.chart().map_or(0, |chart| chart.corners[0][0] / 3)
-    }
-
     /// The slits that are planned.
     pub fn slits(&self) -> Option<&Slits> {
         self.slits.as_ref().map(|predicted| &predicted.slits)

@@ -15,7 +15,7 @@ impl MappedChart {
     /// The seam that makes the chart's parts most compact and small for its length; none if no cut leaves two parts of some size.
     ///
     /// Candidates are straight chords of the map; the best are moved within a narrow band to where a seam costs least, a minimum
-    /// cut, which prefers creases. `unit` is the square root of the area on a page. None either once `control` says to end.
+    /// cut, which prefers creases. Planes are cut only where the page is too small for a chart that cannot be cut elsewhere. `unit` is the square root of the area on a page. None either once `control` says to end.
     pub fn best_split(&self, unit: f64, control: &dyn Fn() -> Control) -> Option<Split> {
         let goes_on = || control() == Control::Continue;
         if !goes_on() {
@@ -26,15 +26,23 @@ impl MappedChart {
         let labels = vec![0; disk.triangles.len()];
         let sheet = Sheet::divide(mesh, &disk.twins(), &labels, 1).pop()?;
         let splitter = Splitter::new(self, &sheet, unit);
-        let mut chords = chords(&splitter.clusters, splitter.crumb, splitter.square);
-        let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, (chord.length, 1));
-        chords.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-        chords.dedup_by(|a, b| a.is_like(b));
-        let tried = chords.iter().take(TRIED).take_while(|_| goes_on());
-        let splits = tried.filter_map(|chord| splitter.split(chord, control));
-        let best = splits
-            .take(REFINED)
-            .max_by(|a, b| a.worth.total_cmp(&b.worth));
+        let best = best_of(&splitter, control).or_else(|| {
+            let splitter = splitter.cutting_planes()?;
+            best_of(&splitter, control)
+        });
         best.filter(|_| goes_on())
     }
+}
+
+fn best_of(splitter: &Splitter, control: &dyn Fn() -> Control) -> Option<Split> {
+    let mut chords = chords(&splitter.clusters, splitter.crumb, splitter.square);
+    let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, (chord.length, 1));
+    chords.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+    chords.dedup_by(|a, b| a.is_like(b));
+    let tried = chords.iter().take(TRIED);
+    let tried = tried.take_while(|_| control() == Control::Continue);
+    let splits = tried.filter_map(|chord| splitter.split(chord, control));
+    splits
+        .take(REFINED)
+        .max_by(|a, b| a.worth.total_cmp(&b.worth))
 }

@@ -47,8 +47,7 @@ impl Clusters {
         let mut sets = UnionFind::new(n_faces);
         for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
             let is_near = !is_crease(h) && place(h as usize / 3) == place(t as usize / 3);
-            let in_plane = cost[h as usize] > sheet.length(h);
-            if is_near || planes == Planes::Whole && in_plane {
+            if is_near || planes.keep(cost[h as usize], sheet.length(h)) {
                 sets.unite(h / 3, t / 3);
             }
         }

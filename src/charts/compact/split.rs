@@ -1,8 +1,9 @@
 //! Seams that part charts.
 
+use super::planes::Planes;
 use crate::charts::parts::{parted, parts};
 use crate::charts::symmetry::counterpart::counterpart;
-use crate::charts::symmetry::image::cut_as_image;
+use crate::charts::symmetry::image::{cut_as_exact_image, cut_as_image};
 use crate::charts::{Chart, MappedChart};
 use crate::numerics::vec3::distance;
 use std::cmp::Reverse;
@@ -15,6 +16,8 @@ pub struct Split {
     pub(super) part: Vec<u32>,
     /// Length of the seam on the surface; where it crosses a plane it counts several times.
     pub length: f64,
+    /// What it does to planes.
+    pub(super) planes: Planes,
     /// How much the atlas may be expected to gain from it, for its length.
     pub worth: f64,
 }
@@ -49,8 +52,13 @@ pub fn parted_alike(
     let of = &charts[place];
     let mut parted = vec![(place, of.parted(split))];
     let all: Vec<&Chart> = charts.iter().map(|mapped| &mapped.chart).collect();
+    let image = |other: usize| {
+        let exactly = (split.planes != Planes::Cut)
+            .then(|| cut_as_exact_image(all[other], &of.chart, &split.part));
+        (exactly.flatten()).or_else(|| cut_as_image(all[other], &of.chart, &split.part))
+    };
     if let Some(other) = counterpart(&all, place)
-        && let Some(twin) = cut_as_image(all[other], &of.chart, &split.part)
+        && let Some(twin) = image(other)
     {
         parted.push((other, charts[other].parts_of(&twin)));
     }

@@ -9,6 +9,7 @@ use crate::charts::chart::connected_faces;
 use crate::charts::crease::edge_costs;
 use crate::charts::min_cut::min_cut;
 use crate::charts::parts::{parted, twins_among};
+use crate::charts::symmetry::edge_images::EdgeImages;
 use crate::charts::symmetry::image::{Canvas, InPlane};
 use crate::charts::unfold::overlaps::capacities;
 use crate::cut::Sheet;
@@ -44,14 +45,16 @@ pub(super) struct Splitter<'a> {
     /// The room that it takes up, and the square that should be enough for the atlas.
     room: f64,
     pub square: f64,
-    /// Those of a chart that is much larger than that may be cut.
     planes: Planes,
+    /// Whether it is much larger than that.
+    is_too_large: bool,
     /// The least area of a part, and what a seam costs beside its length.
     pub crumb: f64,
     per_seam: f64,
     directions: Directions,
-    /// Where the chart is its own mirror image.
+    /// Where the chart is its own mirror image; and where its planes stay whole, whose edges are mirrored exactly.
     canvas: Option<Canvas<'a>>,
+    images: Option<EdgeImages<'a>>,
 }
 
 impl<'a> Splitter<'a> {
@@ -66,32 +69,48 @@ impl<'a> Splitter<'a> {
         let square = unit * unit / HOPE;
         let hull = hull_of(sheet, &uv, &directions, |_| true);
         let cost = edge_costs(sheet);
-        let planes = Planes::of(sheet, &uv, &cost, hull.square() > TOO_LARGE * square);
+        let planes = Planes::of(sheet, &uv, &cost, hull.area());
         let clusters = Clusters::new(sheet, &uv, &cost, planes);
+        let canvas = (mapped.chart.mirror).and_then(|plane| Canvas::new(sheet, &plane));
+        let are_exact = canvas.is_some() && planes != Planes::Cut;
+        let mirror = mapped.chart.mirror.filter(|_| are_exact);
         Self {
+            images: mirror.map(|plane| EdgeImages::new(sheet, &plane)),
             cost,
             area: clusters.area.iter().sum(),
             room: hull.room(square),
             square,
             planes,
+            is_too_large: hull.square() > TOO_LARGE * square,
             crumb: CRUMB * unit * unit,
             per_seam: PER_SEAM * unit,
             directions,
-            canvas: (mapped.chart.mirror).and_then(|plane| Canvas::new(sheet, &plane)),
+            canvas,
             sheet,
             uv,
             clusters,
         }
     }
 
-    /// The seam near a chord, if it leaves parts of some size and crosses no plane. A chart for which the page is too small is cut
-    /// across planes too.
+    /// The same where planes may be cut, too; none if they may be already, or the page is not too small for the chart.
+    pub(super) fn cutting_planes(self) -> Option<Self> {
+        (self.is_too_large && self.planes != Planes::Cut).then(|| Self {
+            clusters: Clusters::new(self.sheet, &self.uv, &self.cost, Planes::Cut),
+            planes: Planes::Cut,
+            images: None,
+            ..self
+        })
+    }
+
+    /// The seam near a chord, if it leaves parts of some size and crosses no plane that stays whole.
     pub(super) fn split(&self, chord: &Chord, control: &dyn Fn() -> Control) -> Option<Split> {
         let is_piece = self.refined(&self.beyond(chord), chord, control);
         let twin = &self.sheet.twin;
-        let (part, n_parts) = connected_faces(&match &self.canvas {
-            Some(canvas) => canvas.cut_alike(&is_piece, InPlane::Refused)?,
-            None => parted(twin, &is_piece),
+        let exactly = self.images.as_ref().and_then(|of| of.cut_alike(&is_piece));
+        let (part, n_parts) = connected_faces(&match (exactly, &self.canvas) {
+            (Some(twin), _) => twin,
+            (None, Some(canvas)) => canvas.cut_alike(&is_piece, InPlane::Refused)?,
+            (None, None) => parted(twin, &is_piece),
         });
         let seam = || {
             (0u32..).zip(twin).filter(|&(h, &t)| {
@@ -99,8 +118,7 @@ impl<'a> Splitter<'a> {
             })
         };
         let cost = |h: u32| self.cost[h as usize].max(self.sheet.length(h));
-        let crosses_plane = seam().any(|(h, _)| self.cost[h as usize] > self.sheet.length(h));
-        if crosses_plane && self.planes == Planes::Whole {
+        if seam().any(|(h, _)| self.is_kept(h)) {
             return None;
         }
         let mut areas = vec![0.0; n_parts];
@@ -118,6 +136,7 @@ impl<'a> Splitter<'a> {
             worth: self.worth(gain, smallest, (length, n_parts - 1)),
             part,
             length,
+            planes: self.planes,
         })
     }
 
@@ -173,9 +192,12 @@ impl<'a> Splitter<'a> {
             .collect();
         let twin = twins_among(&sheet.twin, &faces);
         let halfedges = faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
-        let cost = |h: u32| match self.planes {
-            Planes::Whole if self.cost[h as usize] > sheet.length(h) => NEVER * sheet.length(h),
-            _ => self.cost[h as usize],
+        let cost = |h: u32| {
+            if self.is_kept(h) {
+                NEVER * sheet.length(h)
+            } else {
+                self.cost[h as usize]
+            }
         };
         let cost: Vec<f64> = halfedges.map(cost).collect();
         let beside = |side: bool| -> Vec<u32> {
@@ -195,6 +217,12 @@ impl<'a> Splitter<'a> {
             refined[f as usize] = stays;
         }
         refined
+    }
+
+    /// Whether no seam may run along a halfedge.
+    fn is_kept(&self, h: u32) -> bool {
+        self.planes
+            .keep(self.cost[h as usize], self.sheet.length(h))
     }
 
     fn corners(&self, face: usize) -> [[f64; 2]; 3] {

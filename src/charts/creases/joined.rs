@@ -1,162 +1,160 @@
-//! Charts laid side by side as rigid pieces.
+//! Charts joined as rigid pieces.
 
-use crate::charts::give_back::border::{Borders, Run};
-use crate::charts::give_back::laid::Laid;
-use crate::charts::give_back::occupied::Ground;
-use crate::charts::mapped::MappedChart;
+use super::images::images;
+use super::joints::joints;
+use super::layout::Layout;
+use super::mirrored::Joined;
+use crate::charts::chart::glued_charts;
+use crate::charts::facets::faces::Faces;
+use crate::charts::facets::planar::Facets;
+use crate::charts::mapped::{Folds, MappedChart, map_chart};
 use crate::charts::observer::Observer;
-use crate::mesh::Surface;
-use crate::numerics::vec2::{cross, dot, sub};
-use crate::plane::keep_apart;
+use crate::charts::symmetry::plane::MirrorPlane;
+use crate::charts::unfold::overlaps::overlaps;
+use crate::embed;
+use crate::mesh::{CUT, Surface};
 use crate::solver::Control;
-use std::collections::{BTreeMap, BTreeSet};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 
-/// A border along which charts are joined has at least this share of the outline of the smaller: a
-/// disc that hangs by one of a hundred edges makes no layout easier to read.
-const LEAST_SHARE: f64 = 0.1;
+/// Equal joints among which the one is sought whose pieces were joined most often; of more, the first
+/// is taken.
+const COMPARED: usize = 64;
 
-/// How far the two sides of a border may differ, as a part of its length.
-const SAME: f64 = 1e-5;
-
-/// How far a border may turn at a vertex: the sine of the angle.
-const STRAIGHT: f64 = 1e-3;
-
-/// The least distance of an outline from itself, as a part of its extent: rounding would close what
-/// is narrower.
-const APART: f64 = 1e-6;
-
-/// Charts with maps that keep lengths, joined along straight borders where none covers another.
-///
-/// The smallest comes first, and its longest border. Maps stay as they are but for their place.
-///
-/// Ends early when the observer wants the work to end.
-pub fn joined(
-    surface: &Surface,
-    charts: Vec<MappedChart>,
-    observer: &dyn Observer,
-) -> Vec<MappedChart> {
-    if charts.len() < 2 {
-        return charts;
-    }
-    let charts: BTreeMap<u32, MappedChart> = (0..).zip(charts).collect();
-    let mut joining = Joining {
-        borders: Borders::new(surface, charts.iter().map(|(&n, map)| (n, &map.chart))),
-        charts,
-        grounds: BTreeMap::new(),
-        observer,
-    };
-    while joining.pass() {}
-    joining.charts.into_values().collect()
-}
-
-struct Joining<'a> {
-    borders: Borders<'a>,
-    charts: BTreeMap<u32, MappedChart>,
-    /// The faces of charts next to which others were laid.
-    grounds: BTreeMap<u32, Ground>,
-    observer: &'a dyn Observer,
+/// How charts of a surface are joined.
+pub struct Joining<'a> {
+    pub surface: &'a Surface,
+    pub faces: &'a Faces<'a>,
+    pub facets: &'a Facets,
+    /// What a seam costs, over its usual price: the higher, the shorter the borders that count.
+    pub seam_price: f64,
+    pub observer: &'a dyn Observer,
 }
 
 impl Joining<'_> {
-    /// Tries to join each chart to a larger one, the smallest first; false if none was.
-    fn pass(&mut self) -> bool {
-        let size = |number: u32, map: &MappedChart| (map.area().to_bits(), number);
-        let all = self.charts.iter();
-        let mut queue: BTreeSet<(u64, u32)> = all.map(|(&n, map)| size(n, map)).collect();
-        let n_before = queue.len();
-        while self.observer.control() == Control::Continue
-            && let Some((_, number)) = queue.pop_first()
-        {
-            if let Some(neighbor) = self.join(number) {
-                queue.retain(|&(_, other)| other != neighbor);
-                queue.insert(size(neighbor, &self.charts[&neighbor]));
+    /// Charts joined along straight borders where none covers another: a spanning tree of which the
+    /// seams that are left cost least, or nearly.
+    ///
+    /// From: Kruskal 1956. The joint that saves most comes first; once it is refused it stays refused,
+    /// since pieces only grow. Both sides of a mirror plane are joined alike; at last what that leaves out,
+    /// such as a part of a ring, on one. Maps stay as they are but for their place.
+    ///
+    /// Ends early when the observer wants the work to end.
+    pub fn joined(
+        &self,
+        charts: Vec<MappedChart>,
+        mirror: Option<MirrorPlane>,
+        options: &embed::Options,
+    ) -> Vec<MappedChart> {
+        let charts: BTreeMap<u32, MappedChart> = (0..).zip(charts).collect();
+        let (layout, _) = self.laid_out(&charts, mirror.as_ref());
+        let n_faces = |map: &MappedChart| map.chart.disk.triangles.len();
+        self.observer.worked(charts.values().map(n_faces).sum());
+        as_charts(
+            (self.surface, mirror),
+            &charts,
+            &layout,
+            (options, self.observer),
+        )
+    }
+
+    /// The plane of which both sides can be joined alike at the least cost of the seams that are left;
+    /// the first of equals.
+    pub fn best_plane(
+        &self,
+        charts: &[MappedChart],
+        planes: &[MirrorPlane],
+    ) -> Option<MirrorPlane> {
+        if planes.len() < 2 {
+            return planes.first().copied();
+        }
+        let charts: BTreeMap<u32, MappedChart> = (0..).zip(charts.iter().cloned()).collect();
+        let saving = |plane: &MirrorPlane| (self.laid_out(&charts, Some(plane)).1, *plane);
+        let savings: Vec<(u64, MirrorPlane)> = planes.par_iter().map(saving).collect();
+        let best = savings.into_iter().rev().max_by_key(|(saving, _)| *saving);
+        best.map(|(_, plane)| plane)
+    }
+
+    /// The charts joined, and what the seams would cost that are saved on both sides of the plane alike.
+    fn laid_out<'b>(
+        &'b self,
+        charts: &'b BTreeMap<u32, MappedChart>,
+        mirror: Option<&MirrorPlane>,
+    ) -> (Layout<'b>, u64) {
+        let joints = joints(self.surface, (self.faces, self.facets), charts, mirror);
+        let image = mirror.map_or_else(|| vec![None; joints.len()], |of| images(&joints, of));
+        let twin = &self.surface.adjacency().twin;
+        let mut layout = Layout::new(twin, charts.values().collect(), self.seam_price);
+        let (mut saved, mut single) = (0, Vec::new());
+        let places: Vec<usize> = (0..joints.len()).collect();
+        for equal in places.chunk_by(|&a, &b| joints[a].rank == joints[b].rank) {
+            let mut open = equal.to_vec();
+            while !open.is_empty() && self.observer.control() == Control::Continue {
+                let compared = open[..open.len().min(COMPARED)].iter().enumerate();
+                let most = (compared.rev()).max_by_key(|&(_, &i)| layout.n_joins(&joints[i]));
+                let place = open.remove(most.map_or(0, |(i, _)| i));
+                let other = image[place];
+                let joined = layout.join_alike(&joints[place], other.map(|other| &joints[other]));
+                saved += joined.alike() * joints[place].cost;
+                if joined == Joined::OneAtMost {
+                    single.push(place);
+                }
+                if let Some(other) = other {
+                    open.retain(|&i| i != other);
+                }
             }
         }
-        self.charts.len() < n_before
-    }
-
-    /// Joins a chart to a neighbor, which is returned.
-    fn join(&mut self, number: u32) -> Option<u32> {
-        let map = &self.charts[&number];
-        self.observer.worked(map.chart.disk.triangles.len());
-        let outline = outline(map);
-        let mut runs: Vec<Run> = (self.borders.runs(number, &self.charts).iter())
-            .flat_map(|run| straight_parts(run, &map.embedding.uv))
-            .collect();
-        let uv = &map.embedding.uv;
-        runs.sort_by(|a, b| b.length(uv).total_cmp(&a.length(uv)));
-        let runs: Vec<Run> = (runs.into_iter())
-            .take_while(|run| run.length(uv) >= LEAST_SHARE * outline)
-            .collect();
-        runs.into_iter().find_map(|run| {
-            let joint = self.laid_beside(number, &run)?;
-            self.charts.remove(&number);
-            self.grounds.remove(&number);
-            self.grounds.remove(&run.neighbor);
-            self.borders.place(run.neighbor, &joint.chart);
-            self.charts.insert(run.neighbor, joint);
-            Some(run.neighbor)
-        })
-    }
-
-    /// A chart and its neighbor as one, if they fit and neither covers the other.
-    fn laid_beside(&mut self, number: u32, run: &Run) -> Option<MappedChart> {
-        let (map, neighbor) = (&self.charts[&number], &self.charts[&run.neighbor]);
-        if !is_same(run, &map.embedding.uv, &neighbor.embedding.uv) {
-            return None;
+        for place in single {
+            layout.join(&joints[place]);
         }
-        let laid = Laid::new(map, neighbor, run)?;
-        let ground = self.grounds.entry(run.neighbor);
-        let ground = ground.or_insert_with(|| Ground::new(neighbor));
-        if laid.n_overlaps(ground, 0) > 0 {
-            return None;
-        }
-        let joint = laid.glued(neighbor)?.facing_front();
-        let outline = joint.chart.disk.boundary_in(&joint.embedding.uv);
-        keep_apart(&outline, APART).then_some(joint)
+        (layout, saved)
     }
 }
 
-/// The length of a chart's outer boundary in its map.
-fn outline(map: &MappedChart) -> f64 {
-    let loops = map.chart.disk.boundary_in(&map.embedding.uv);
-    let length = |polygon: &Vec<[f64; 2]>| {
-        let edges = polygon.iter().zip(polygon.iter().cycle().skip(1));
-        edges.map(|(&a, &b)| norm(sub(b, a))).sum::<f64>()
+/// The pieces of a layout as charts; one that is not valid is mapped anew.
+fn as_charts(
+    (surface, mirror): (&Surface, Option<MirrorPlane>),
+    charts: &BTreeMap<u32, MappedChart>,
+    layout: &Layout,
+    (options, observer): (&embed::Options, &dyn Observer),
+) -> Vec<MappedChart> {
+    let of_surface = &surface.adjacency().twin;
+    let mut twin = vec![CUT; of_surface.len()];
+    let mut is_ours = vec![false; surface.triangles.len()];
+    for MappedChart { chart, .. } in charts.values() {
+        let corners = chart.corners.as_flattened();
+        for &corner in corners {
+            is_ours[corner as usize / 3] = true;
+        }
+        for (h, t) in (0u32..).zip(chart.disk.twins()).filter(|&(_, t)| t != CUT) {
+            let [h, t] = [h, t].map(|h| chart.surface_halfedge(h) as usize);
+            twin[h] = t as u32;
+        }
+    }
+    for &h in &layout.joined {
+        let t = of_surface[h as usize];
+        (twin[h as usize], twin[t as usize]) = (t, h);
+    }
+    let mut place = vec![[0.0; 2]; of_surface.len()];
+    for (corner, at) in layout.corners() {
+        place[corner as usize] = at;
+    }
+    let mapped = glued_charts(surface, &mut twin, mirror, |face| is_ours[face]).into_iter();
+    let placed = mapped.map(|chart| {
+        let mut uv = vec![[0.0; 2]; chart.disk.n_vertices];
+        let corners = chart.corners.as_flattened().iter();
+        for (&v, &corner) in chart.disk.triangles.as_flattened().iter().zip(corners) {
+            uv[v as usize] = place[corner as usize];
+        }
+        MappedChart::given(chart, uv)
+    });
+    let valid = |map: MappedChart| {
+        let (disk, uv) = (&map.chart.disk, &map.embedding.uv);
+        if embed::is_positive(&disk.triangles, uv) && overlaps(disk, uv).is_empty() {
+            vec![map.facing_front()]
+        } else {
+            map_chart(map.chart, options, Folds::Cut, observer)
+        }
     };
-    loops.iter().map(length).fold(0.0, f64::max)
-}
-
-/// The parts of a run that are straight in a map.
-fn straight_parts(run: &Run, uv: &[[f64; 2]]) -> Vec<Run> {
-    let at = |i: usize| uv[run.vertices[i][0] as usize];
-    let turns = |i: usize| {
-        let (before, after) = (sub(at(i), at(i - 1)), sub(at(i + 1), at(i)));
-        let sine = cross(before, after).abs();
-        sine > STRAIGHT * norm(before) * norm(after) || dot(before, after) < 0.0
-    };
-    let last = run.vertices.len() - 1;
-    let mut ends: Vec<usize> = vec![0];
-    ends.extend((1..last).filter(|&i| turns(i)));
-    ends.push(last);
-    let part = |ends: &[usize]| Run {
-        vertices: run.vertices[ends[0]..=ends[1]].to_vec(),
-        ..*run
-    };
-    ends.windows(2).map(part).collect()
-}
-
-/// Whether the two sides of a run have the same shape.
-fn is_same(run: &Run, uv: &[[f64; 2]], of_neighbor: &[[f64; 2]]) -> bool {
-    let first = run.vertices[0];
-    let length = run.length(uv);
-    run.vertices.iter().all(|&[v, w]| {
-        let here = norm(sub(uv[v as usize], uv[first[0] as usize]));
-        let there = norm(sub(of_neighbor[w as usize], of_neighbor[first[1] as usize]));
-        (here - there).abs() <= SAME * length
-    })
-}
-
-fn norm(v: [f64; 2]) -> f64 {
-    v[0].hypot(v[1])
+    placed.flat_map(valid).collect()
 }

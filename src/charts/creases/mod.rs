@@ -1,11 +1,17 @@
-//! Hard surfaces: charts that begin and end at creases.
+//! Hard surfaces: planes cut and joined as a modeler would.
 //!
-//! Planes, cylinders, cones and bent sheets can be laid flat without distortion. A component that
-//! consists of such parts is divided at its creases ([`Creases`](smooth_regions::Creases)). Each
-//! region is opened to a disk and mapped by itself. Regions with a straight border in common are
-//! joined as rigid pieces if neither covers the other ([`joined`](joined::joined)): a box becomes a
-//! cross, sheet metal its blank. Distortion of one part never pays for another.
+//! A [hard component](hard_components::Divided) consists of [facets](super::facets), each of which lies in the
+//! page as it is, and perhaps of a few curved patches. Facets with a straight border in common
+//! are [joined](joined::Joining) as rigid pieces if neither covers the other, first where a seam
+//! would cost most: a box becomes a cross, a cylinder a rectangle and two discs, sheet metal its
+//! blank. Nothing is bent or stretched but the patches, and distortion of one never pays for another.
 
+mod contact;
+mod flat;
 pub(super) mod hard_components;
+mod images;
 mod joined;
-mod smooth_regions;
+mod joints;
+mod layout;
+mod mirrored;
+mod piece;

@@ -108,6 +108,5 @@ fn part_along(run: &Run, line: &[[f64; 3]], positions: &[[f64; 3]]) -> Option<Ru
         (away(&place) <= reach).then_some(place)
     };
     let [a, b] = [nearest(*line.first()?)?, nearest(*line.last()?)?];
-    let vertices = run.vertices[a.min(b)..=a.max(b)].to_vec();
-    (vertices.len() > 1).then_some(Run { vertices, ..*run })
+    (a != b).then(|| run.part(a.min(b)..a.max(b)))
 }

@@ -4,6 +4,7 @@ use crate::charts::{Chart, MappedChart};
 use crate::mesh::{CUT, Surface, next};
 use crate::numerics::vec2::sub;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Which chart each triangle of a surface is in.
 pub struct Borders<'a> {
@@ -21,6 +22,8 @@ pub struct Run {
     pub is_turned: bool,
     /// The vertices along it, at least two: of the chart and of the neighbor.
     pub vertices: Vec<[u32; 2]>,
+    /// The surface's halfedges along it, those of the chart's faces.
+    pub halfedges: Vec<u32>,
 }
 
 impl<'a> Borders<'a> {
@@ -64,7 +67,10 @@ impl<'a> Borders<'a> {
                 };
                 let last = runs[first_of_loop..].last_mut();
                 match last.filter(|last| goes_on(last, &run)) {
-                    Some(last) => last.vertices.push(run.vertices[1]),
+                    Some(last) => {
+                        last.vertices.push(run.vertices[1]);
+                        last.halfedges.extend(run.halfedges);
+                    }
                     None => runs.push(run),
                 }
             }
@@ -75,6 +81,7 @@ impl<'a> Borders<'a> {
             {
                 last.vertices.pop();
                 last.vertices.append(&mut runs[first_of_loop].vertices);
+                last.halfedges.append(&mut runs[first_of_loop].halfedges);
                 runs[first_of_loop] = last;
             }
         }
@@ -87,11 +94,7 @@ impl<'a> Borders<'a> {
         let corners = ends.map(|h| chart.corners[h as usize / 3][h as usize % 3]);
         let vertices = ends.map(|h| chart.disk.triangles[h as usize / 3][h as usize % 3]);
         let welded = |corner: u32| self.surface.triangles[corner as usize / 3][corner as usize % 3];
-        let of_surface = if next(corners[0]) == corners[1] {
-            corners[0]
-        } else {
-            corners[1]
-        };
+        let of_surface = chart.surface_halfedge(h);
         let twin = self.surface.adjacency().twin[of_surface as usize];
         if twin == CUT {
             return None;
@@ -110,11 +113,21 @@ impl<'a> Borders<'a> {
             neighbor,
             is_turned: end == (start + 1) % 3,
             vertices: vec![[vertices[0], triangle[start]], [vertices[1], triangle[end]]],
+            halfedges: vec![of_surface],
         })
     }
 }
 
 impl Run {
+    /// The edges in this range.
+    pub fn part(&self, edges: Range<usize>) -> Self {
+        Self {
+            vertices: self.vertices[edges.start..=edges.end].to_vec(),
+            halfedges: self.halfedges[edges].to_vec(),
+            ..*self
+        }
+    }
+
     /// How long it is in a map of the chart.
     pub fn length(&self, uv: &[[f64; 2]]) -> f64 {
         let edges = self.vertices.windows(2);

@@ -42,10 +42,23 @@ pub fn given_back(
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
+    some_given_back(surface, charts, &|_| true, bound, options, observer)
+}
+
+/// The same where only those of which `is_given` holds are laid on others.
+pub fn some_given_back(
+    surface: &Surface,
+    charts: Vec<MappedChart>,
+    is_given: &dyn Fn(&MappedChart) -> bool,
+    bound: &Bound,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
     if charts.len() < 2 {
         return charts;
     }
     let mut giving = Giving::new(surface, charts, bound, options, observer);
+    giving.is_given = is_given;
     // What covers nothing costs nothing of the bound: it comes first.
     while giving.pass(0) || giving.pass(MOST_PUSHED) {}
     giving.charts.into_values().collect()
@@ -58,6 +71,8 @@ pub(super) struct Giving<'a> {
     /// What all may cost.
     most: Cost,
     bound: &'a Bound,
+    /// Whether a chart may be laid on another.
+    is_given: &'a dyn Fn(&MappedChart) -> bool,
     /// The faces of charts on which others were laid.
     pub(super) grounds: BTreeMap<u32, Ground>,
     /// Those that were pushed in vain, once for each.
@@ -111,6 +126,7 @@ impl<'a> Giving<'a> {
             charts,
             costs,
             bound,
+            is_given: &|_| true,
             grounds: BTreeMap::new(),
             in_vain: BTreeSet::new(),
             left: MOST_GLUED * surface.triangles.len(),
@@ -129,7 +145,11 @@ impl<'a> Giving<'a> {
             && let Some((_, number)) = queue.pop_first()
         {
             // With its mirror image another may have been given back.
-            if !self.charts.contains_key(&number) {
+            if self
+                .charts
+                .get(&number)
+                .is_none_or(|map| !(self.is_given)(map))
+            {
                 continue;
             }
             if let Some(neighbor) = self.give_back(number, most_pushed) {
@@ -260,10 +280,7 @@ fn parts_of_runs(runs: &[Run], uv: &[[f64; 2]]) -> Vec<Run> {
         let mut n_edges = run.vertices.len() - 1;
         while n_edges > 0 {
             let starts = (0..run.vertices.len() - n_edges).step_by(n_edges.div_ceil(2));
-            parts.extend(starts.map(|start| Run {
-                vertices: run.vertices[start..=start + n_edges].to_vec(),
-                ..*run
-            }));
+            parts.extend(starts.map(|start| run.part(start..start + n_edges)));
             n_edges /= 2;
         }
     }

@@ -2,10 +2,10 @@
 
 use super::border::Run;
 use super::occupied::Ground;
+use crate::charts::motion::Motion;
 use crate::charts::{Chart, MappedChart};
 use crate::embed::{self, Embedding};
 use crate::mesh::Disk;
-use crate::numerics::vec2::{cross, dot, sub};
 
 /// A chart moved to where it might be glued to another.
 pub struct Laid {
@@ -27,7 +27,10 @@ impl Laid {
                 p[0] = -p[0];
             }
         }
-        let mut uv = fitted(&from, &neighbor.embedding.uv, &run.vertices);
+        let pairs = run.vertices.iter();
+        let pairs = pairs.map(|&[v, w]| [from[v as usize], neighbor.embedding.uv[w as usize]]);
+        let motion = Motion::fitting(&pairs.collect::<Vec<_>>());
+        let mut uv: Vec<[f64; 2]> = from.iter().map(|&p| motion.moved(p)).collect();
         for &[v, w] in &run.vertices {
             uv[v as usize] = neighbor.embedding.uv[w as usize];
         }
@@ -60,30 +63,6 @@ impl Laid {
             seconds: neighbor.seconds,
         })
     }
-}
-
-/// The places of one map, moved rigidly to where those of its vertices in `pairs` are as near as can be to their partners' in another.
-fn fitted(from: &[[f64; 2]], to: &[[f64; 2]], pairs: &[[u32; 2]]) -> Vec<[f64; 2]> {
-    let mean = |places: &[[f64; 2]], k: usize| {
-        let sum = pairs.iter().fold([0.0; 2], |sum, pair| {
-            let p = places[pair[k] as usize];
-            [sum[0] + p[0], sum[1] + p[1]]
-        });
-        sum.map(|x| x / pairs.len() as f64)
-    };
-    let (here, there) = (mean(from, 0), mean(to, 1));
-    let mut turn = [0.0; 2];
-    for &[v, w] in pairs {
-        let (p, q) = (sub(from[v as usize], here), sub(to[w as usize], there));
-        turn = [turn[0] + dot(p, q), turn[1] + cross(p, q)];
-    }
-    let length = turn[0].hypot(turn[1]).max(f64::MIN_POSITIVE);
-    let [cos, sin] = turn.map(|x| x / length);
-    let moved = |&p: &[f64; 2]| {
-        let [x, y] = sub(p, here);
-        [there[0] + cos * x - sin * y, there[1] + sin * x + cos * y]
-    };
-    from.iter().map(moved).collect()
 }
 
 /// The second chart with the first glued to it where vertices are paired, and the numbers of the first's vertices in it; none if

@@ -14,12 +14,37 @@ pub struct Ground {
 impl Ground {
     /// Of a map without flips. O(n log n).
     pub fn new(map: &MappedChart) -> Self {
-        let corners = corners(&map.chart.disk.triangles, &map.embedding.uv);
+        Self::of(corners(&map.chart.disk.triangles, &map.embedding.uv))
+    }
+
+    /// Of faces, each counter-clockwise. O(n log n).
+    pub fn of(corners: Vec<CornerUvs>) -> Self {
         let boxes: Vec<_> = corners.iter().map(|c| bounds_of(c)).collect();
         Self {
             index: BoxIndex::new(&boxes),
             corners,
         }
+    }
+
+    /// How many faces there are.
+    pub fn len(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// Both together.
+    pub fn and(&self, other: &Self) -> Self {
+        Self::of([&*self.corners, &other.corners].concat())
+    }
+
+    /// Whether a face here and one of these, counter-clockwise too, overlap, decided exactly.
+    pub fn meets(&self, faces: &[CornerUvs]) -> bool {
+        faces.iter().any(|face| {
+            let mut is_met = false;
+            self.index.meeting(&bounds_of(face), |f| {
+                is_met |= interiors_intersect(face, &self.corners[f as usize]);
+            });
+            is_met
+        })
     }
 
     /// How many pairs of a face here and one of these overlap, decided exactly; counted no farther than a first face with which

@@ -1,13 +1,13 @@
 //! Seams of a chart, drawn once more as their mirror images.
 
 use super::chains::{Chain, border};
+use super::edge_images::{EdgeImages, border_edges, without};
 use super::own_image::are_own_image;
 use super::plane::MirrorPlane;
 use super::sheet_mirror::SheetMirror;
 use super::way::{Way, along, vertices_at};
 use crate::charts::chart::Chart;
 use crate::cut::{Neighbors, Sheet};
-use crate::mesh::CUT;
 use crate::numerics::vec3::distance;
 
 /// How far the ends of an image may lie from their places, in mean lengths of the edges.
@@ -21,7 +21,8 @@ pub fn cut_alike(chart: &Chart, is_inside: &[bool]) -> Option<Vec<u32>> {
     Canvas::new(&sheet, &plane)?.cut_alike(is_inside, InPlane::Allowed)
 }
 
-/// The gluing of a chart without the mirror image of the border between the parts of another; none if it cannot be drawn.
+/// The gluing of a chart without the edges nearest to the mirror image of the border between the parts of another; none if it
+/// cannot be drawn.
 pub fn cut_as_image(chart: &Chart, of: &Chart, part: &[u32]) -> Option<Vec<u32>> {
     let plane = chart.mirror?;
     let [sheet, other] = [sheet_of(chart)?, sheet_of(of)?];
@@ -30,7 +31,15 @@ pub fn cut_as_image(chart: &Chart, of: &Chart, part: &[u32]) -> Option<Vec<u32>>
     for chain in border(&other, part) {
         edges.extend(canvas.image(&from.line(&chain)?)?);
     }
-    Some(canvas.without(edges))
+    Some(without(&sheet.twin, edges))
+}
+
+/// The same where each edge has an exact mirror image.
+pub fn cut_as_exact_image(chart: &Chart, of: &Chart, part: &[u32]) -> Option<Vec<u32>> {
+    let plane = chart.mirror?;
+    let [sheet, other] = [sheet_of(chart)?, sheet_of(of)?];
+    let edges = EdgeImages::new(&sheet, &plane).of(&other, &border_edges(&other, part))?;
+    Some(without(&sheet.twin, edges))
 }
 
 fn sheet_of(chart: &Chart) -> Option<Sheet> {
@@ -90,19 +99,7 @@ impl<'a> Canvas<'a> {
                 return None;
             }
         }
-        Some(self.without(edges))
-    }
-
-    /// The gluing without some edges.
-    fn without(&self, edges: Vec<u32>) -> Vec<u32> {
-        let mut twin = self.sheet.twin.clone();
-        for h in edges {
-            let t = std::mem::replace(&mut twin[h as usize], CUT);
-            if t != CUT {
-                twin[t as usize] = CUT;
-            }
-        }
-        twin
+        Some(without(&self.sheet.twin, edges))
     }
 
     fn line(&self, chain: &Chain) -> Option<Line> {

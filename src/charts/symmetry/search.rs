@@ -11,11 +11,11 @@ use crate::numerics::vec3::{cross, distance, dot, norm, sub};
 /// Points of the cloud, and those of them that are mirrored to judge a candidate, to fit it and to accept it.
 const CLOUD: usize = 20_000;
 const JUDGING: usize = 150;
-const FITTING: usize = 400;
+pub(super) const FITTING: usize = 400;
 const ACCEPTING: usize = 1_000;
 
 /// Times that a plane is fitted to new pairs at most.
-const ROUNDS: usize = 10;
+pub(super) const ROUNDS: usize = 10;
 
 /// Vertices that are mirrored to fit a plane to the vertices.
 const VERTICES: usize = 1_000;
@@ -39,10 +39,10 @@ const ACCEPTED: f64 = 0.95;
 const NEAR: f64 = 0.01;
 
 /// A vertex has a mirror image if there is a vertex within this part of the diagonal.
-const EXACT: f64 = 1e-4;
+pub(super) const EXACT: f64 = 1e-4;
 
 /// A plane in which half of the surface lies mirrors nothing.
-const IN_PLANE: f64 = 0.0025;
+pub(super) const IN_PLANE: f64 = 0.0025;
 
 /// The plane in which a surface is its own mirror image, exactly or nearly; the best if there are several.
 ///
@@ -56,13 +56,8 @@ pub fn mirror_plane(surface: &Surface) -> Option<MirrorPlane> {
     let [low, high] = corners_of(&cloud)?;
     let diagonal = distance(low, high);
     let cloud = PointTree::new(cloud);
-    let mut candidates: Vec<(f64, MirrorPlane)> = candidates(cloud.points())
-        .into_iter()
-        .map(|plane| (mismatch(&plane, &cloud, JUDGING), plane))
-        .filter(|(mismatch, _)| *mismatch < PROMISING * diagonal)
-        .collect();
-    candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let fitted = candidates.into_iter().take(FOLLOWED).map(|(_, plane)| {
+    let candidates = promising(&cloud, diagonal);
+    let fitted = candidates.into_iter().take(FOLLOWED).map(|plane| {
         let plane = fitted(plane, &every(cloud.points(), FITTING), &cloud, ROUNDS);
         (mismatch(&plane, &cloud, ACCEPTING), plane)
     });
@@ -76,9 +71,7 @@ pub fn mirror_plane(surface: &Surface) -> Option<MirrorPlane> {
 
 /// The plane fitted to the vertices if more of them have a mirror image then.
 fn sharpened(plane: MirrorPlane, surface: &Surface, diagonal: f64) -> MirrorPlane {
-    let corners = surface.triangles.as_flattened().iter().copied();
-    let used = UsedVertices::new(corners).into_vec().into_iter();
-    let vertices = PointTree::new(used.map(|v| surface.positions[v as usize]).collect());
+    let vertices = vertices(surface);
     let sample = every(vertices.points(), VERTICES);
     let n_mirrored = |plane: &MirrorPlane| {
         let is_mirrored = |p: &&[f64; 3]| {
@@ -95,6 +88,24 @@ fn sharpened(plane: MirrorPlane, surface: &Surface, diagonal: f64) -> MirrorPlan
     } else {
         plane
     }
+}
+
+/// The vertices of faces.
+pub(super) fn vertices(surface: &Surface) -> PointTree {
+    let corners = surface.triangles.as_flattened().iter().copied();
+    let used = UsedVertices::new(corners).into_vec().into_iter();
+    PointTree::new(used.map(|v| surface.positions[v as usize]).collect())
+}
+
+/// Planes through the center of the points in which the cloud may be its own mirror image, the likeliest first.
+pub(super) fn promising(cloud: &PointTree, diagonal: f64) -> Vec<MirrorPlane> {
+    let candidates = candidates(cloud.points()).into_iter();
+    let judged = candidates.map(|plane| (mismatch(&plane, cloud, JUDGING), plane));
+    let mut judged: Vec<(f64, MirrorPlane)> = judged
+        .filter(|(mismatch, _)| *mismatch < PROMISING * diagonal)
+        .collect();
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    judged.into_iter().map(|(_, plane)| plane).collect()
 }
 
 /// Planes through the center of the points.
@@ -164,7 +175,7 @@ fn is_accepted(plane: &MirrorPlane, cloud: &PointTree, diagonal: f64) -> bool {
 /// Σ |y − mirrored(x)|² is least for the plane through c = mean (x + y) / 2
 /// whose normal is the eigenvector of Σ (x − c)(y − c)ᵀ + (y − c)(x − c)ᵀ for the least eigenvalue
 /// ```
-fn fitted(
+pub(super) fn fitted(
     mut plane: MirrorPlane,
     points: &[[f64; 3]],
     cloud: &PointTree,
@@ -213,7 +224,7 @@ fn best_plane(pairs: &[([f64; 3], [f64; 3], f64)], normal: [f64; 3]) -> Option<M
 }
 
 /// About so many of the points, evenly.
-fn every(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
+pub(super) fn every(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
     points
         .iter()
         .copied()
@@ -221,6 +232,6 @@ fn every(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn corners_of(points: &[[f64; 3]]) -> Option<[[f64; 3]; 2]> {
+pub(super) fn corners_of(points: &[[f64; 3]]) -> Option<[[f64; 3]; 2]> {
     (!points.is_empty()).then(|| bounds_of(points))
 }

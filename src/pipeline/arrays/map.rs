@@ -59,7 +59,11 @@ fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<M
     let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);
     let mut bound = plan.bound;
     let options = &plan.embedding;
-    let mut fewest = charts_under_bound(surface, &bound, options, plan.symmetry, observer);
+    let seam_price = plan.compaction.unwrap_or(1.0);
+    let under = |bound: &Bound| {
+        charts_under_bound(surface, bound, seam_price, options, plan.symmetry, observer)
+    };
+    let mut fewest = under(&bound);
     while fewest.len() > most {
         let next = Quality::looser_than(bound.mean);
         let others = match next {
@@ -68,7 +72,7 @@ fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<M
                     mean,
                     stretch: None,
                 };
-                charts_under_bound(surface, &bound, options, plan.symmetry, observer)
+                under(&bound)
             }
             None => charts(surface, Cut::Disk)
                 .into_iter()
