@@ -33,7 +33,7 @@ pub(super) struct Missing<'a, const D: usize> {
     /// The parts that have a way to go at the start.
     n_moving: usize,
     /// Those that have not arrived.
-    missing: Vec<usize>,
+    away: Vec<usize>,
     x: Vec<f64>,
     energy: f64,
     is_stopped: bool,
@@ -49,7 +49,7 @@ where
         let away = |x: &[f64]| away(problem, &parts, x, problem.least_gap(), f64::INFINITY);
         Self {
             n_moving: away(start).len(),
-            missing: away(&x),
+            away: away(&x),
             energy,
             is_stopped: false,
             problem,
@@ -60,11 +60,11 @@ where
 
     /// The share of the handles that are missing.
     pub fn share(&self) -> f64 {
-        self.missing.len() as f64 / self.n_moving.max(1) as f64
+        self.away.len() as f64 / self.n_moving.max(1) as f64
     }
 
     pub fn is_none(&self) -> bool {
-        self.missing.is_empty()
+        self.away.is_empty()
     }
 
     pub fn is_stopped(&self) -> bool {
@@ -78,13 +78,13 @@ where
 
     /// Brings all of them to their targets or, if they do not arrive together, those that are near.
     pub fn together(&mut self, trial: &mut Trial) -> Result<(), ProblemError> {
-        if self.missing.len() > 1 {
-            self.try_set(trial, &self.missing.clone(), MOST_EACH)?;
+        if self.away.len() > 1 {
+            self.try_set(trial, &self.away.clone(), MOST_EACH)?;
         }
         let near = NEAR * Frame::of(&self.problem.body).squared(1.0).sqrt();
         let least = self.problem.least_gap();
         let mut set = away(self.problem, &self.parts, &self.x, least, near);
-        set.retain(|part| self.missing.contains(part));
+        set.retain(|part| self.away.contains(part));
         if set.len() > 1 {
             self.try_set(trial, &set, MOST_EACH)?;
         }
@@ -93,14 +93,14 @@ where
 
     /// Brings those to their targets that get there together, or by halves, or alone.
     pub fn alone(&mut self, trial: &mut Trial) -> Result<(), ProblemError> {
-        self.reach(trial, vec![self.missing.clone()])
+        self.reach(trial, vec![self.away.clone()])
     }
 
     /// The map as a solution.
     pub fn into_solution(self, trial: &Trial) -> Solution {
         let status = if self.is_stopped {
             Status::Stopped
-        } else if self.missing.is_empty() {
+        } else if self.away.is_empty() {
             Status::Converged
         } else {
             Status::TargetsUnreachable
@@ -149,7 +149,7 @@ where
             self.energy = attempt.energy();
             self.x = attempt.into_map();
             if has_arrived {
-                self.missing.retain(|part| !set.contains(part));
+                self.away.retain(|part| !set.contains(part));
                 return Ok(true);
             }
         }
