@@ -84,6 +84,7 @@ impl Code {
     ];
 
     /// Its word, its status, and what it says.
+    #[expect(clippy::too_many_lines, reason = "a table")]
     pub fn row(self) -> (&'static str, u16, &'static str) {
         match self {
             Self::InvalidRequest => (
