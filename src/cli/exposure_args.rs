@@ -17,7 +17,7 @@ const OTHER_FILES: u64 = 256;
 #[derive(clap::Args)]
 #[command(next_help_heading = "Connections")]
 pub(super) struct ExposureArgs {
-    /// Origin whose pages may use the service, such as https://example.org; can be repeated
+    /// Origin whose pages may use the service, such as `https://example.org`; can be repeated
     #[arg(
         long = "allow-origin",
         value_name = "ORIGIN",

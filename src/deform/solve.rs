@@ -48,7 +48,7 @@ impl Solution {
 }
 
 impl Problem {
-    /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`]). With a barrier
+    /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`](crate::solver::follow)). With a barrier
     /// every iterate is without inversion.
     ///
     /// Handles that change places stand in each other's way. Where they do not arrive straight they try bent ways from the start, at
