@@ -43,9 +43,9 @@ export class Refused extends Error {
   }
 }
 
-/** An address of the service, relative to the page. */
+/** An address of the service, relative to the page: without what a proxy puts in front of it. */
 export function address(path: string): string {
-  return path.replace(/^\//, "");
+  return path.replace(/^\/(?:.*?\/(?=v1\/))?/, "");
 }
 
 /** Calls the service; errors say what is wrong in words. */
