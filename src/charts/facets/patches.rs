@@ -17,8 +17,9 @@ const LEAST_DEFECT: f64 = 1e-4;
 /// A facet of this share of the area of all is a plane, whatever it touches.
 const PLANE: f64 = 0.01;
 
-/// A facet is a strip, of a cylinder or of a fillet that ends at a curved corner, if it is so many
-/// times as long as it is wide on average, and so many times as long as what it meets there.
+/// The longest edge of a strip, which is of a cylinder or of a fillet, is so many times its mean
+/// width. It is also so many times the longest edge of the small facets that it meets at curved
+/// vertices.
 const STRIP: [f64; 2] = [6.0, 2.0];
 
 /// Facets and patches of facets.
