@@ -12,9 +12,9 @@ use tokio::io::AsyncWriteExt;
 use super::framing;
 use super::options::{self, UploadQuery};
 use super::problem::{Code, Problem};
-use super::received::{Folder, Received};
+use super::received::Received;
 use crate::deform::from_json;
-use crate::jobs::{Digest, InputFile, Kind};
+use crate::jobs::{InputFile, Kind, Scratch};
 
 /// Names of the part that holds the input.
 const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
@@ -29,7 +29,7 @@ const MAX_INPUT_NAME: usize = 255;
 
 /// Takes in the parts of one upload.
 pub(super) struct Receiver {
-    folder: Folder,
+    folder: Scratch,
     left: u64,
     limit: u64,
     input: Option<(InputFile, PathBuf)>,
@@ -42,9 +42,8 @@ pub(super) struct Receiver {
 impl Receiver {
     /// An upload into a fresh folder, of at most `limit` bytes.
     pub fn new(folder: PathBuf, limit: u64) -> Result<Self, Problem> {
-        std::fs::create_dir(&folder)?;
         Ok(Self {
-            folder: Folder(folder),
+            folder: Scratch::make(folder)?,
             left: limit,
             limit,
             input: None,
@@ -117,7 +116,7 @@ impl Receiver {
         problem: impl Fn(E) -> Problem,
     ) -> Result<(InputFile, PathBuf), Problem> {
         at_most(&name, MAX_NAME)?;
-        let path = self.folder.0.join(format!(
+        let path = self.folder.path().join(format!(
             "file-{}",
             self.resources.len() + usize::from(self.input.is_some())
         ));
@@ -168,20 +167,12 @@ impl Receiver {
 
         let mut files = vec![(input, path)];
         files.extend(self.resources);
-        let mut digest = Digest::default();
-        digest.add(kind.word().as_bytes());
-        digest.add(options.to_string().as_bytes());
-        for (file, _) in &files {
-            digest.add(file.name.as_bytes());
-            digest.add(file.sha256.as_deref().unwrap_or_default().as_bytes());
-        }
         Ok(Received {
             folder: self.folder,
             kind,
             options,
             files,
             priority: query.priority.unwrap_or_default(),
-            digest: digest.finish(),
         })
     }
 }

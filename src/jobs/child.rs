@@ -37,21 +37,26 @@ pub(super) enum Exit {
     OutOfMemory,
 }
 
+/// Starts `program WORD FOLDER` in a process group of its own, with pipes, and with an empty environment but for the
+/// allocator's setting: address space that was freed must not count against the memory limit. Dropping it kills the process.
+pub fn spawn(program: &Path, word: &str, folder: &Path) -> std::io::Result<tokio::process::Child> {
+    Command::new(program)
+        .arg(word)
+        .arg(folder)
+        .env_clear()
+        .env("_RJEM_MALLOC_CONF", "retain:false")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .process_group(0)
+        .kill_on_drop(true)
+        .spawn()
+}
+
 impl Child {
-    /// Starts `program compute FOLDER` in a process group of its own, with an empty environment but for the
-    /// allocator's setting: address space that was freed must not count against the memory limit.
+    /// Starts `program compute FOLDER`.
     pub fn start(program: &Path, folder: &Path) -> std::io::Result<Self> {
-        let mut process = Command::new(program)
-            .arg("compute")
-            .arg(folder)
-            .env_clear()
-            .env("_RJEM_MALLOC_CONF", "retain:false")
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .process_group(0)
-            .kill_on_drop(true)
-            .spawn()?;
+        let mut process = spawn(program, "compute", folder)?;
         let gone = || std::io::Error::other("a pipe of the compute child is missing");
         let stdout = process.stdout.take().ok_or_else(gone)?;
         let stderr = process.stderr.take().ok_or_else(gone)?;
@@ -125,7 +130,8 @@ impl Child {
     }
 }
 
-async fn read_stderr(stderr: tokio::process::ChildStderr) -> String {
+/// What a process says on its standard error, up to 64 KiB of it.
+pub async fn read_stderr(stderr: tokio::process::ChildStderr) -> String {
     let mut kept = Vec::new();
     let mut limited = stderr.take(STDERR_BYTES);
     let _ = limited.read_to_end(&mut kept).await;

@@ -4,7 +4,6 @@
 //! in the folder. SIGTERM ends it as it ends any process; SIGINT has it finish early with the present valid map; when
 //! its standard input closes, the server is gone, and so is it.
 
-use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 use std::process::ExitCode;
@@ -22,7 +21,6 @@ use super::reporter::Reporter;
 use super::store_error::StoreError;
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::work::Work;
-use crate::document::Upload;
 use crate::pipeline::PipelineError;
 
 /// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
@@ -45,11 +43,9 @@ fn attempt(folder: &Path) -> Attempt<()> {
     let finish = Arc::new(AtomicBool::new(false));
     listen(&finish).map_err(internal)?;
     let task: Task = task::read_json(folder, TASK).map_err(internal)?;
-    setrlimit(Resource::RLIMIT_DATA, task.memory, task.memory).map_err(internal)?;
-    // A crash is reported by its signal; an image of the memory would only fill the disk.
-    setrlimit(Resource::RLIMIT_CORE, 0, 0).map_err(internal)?;
+    contain(task.memory).map_err(internal)?;
     let reporter = Reporter::start(finish, Frames::new(folder)).map_err(internal)?;
-    let upload = read_upload(folder, &task.input).map_err(internal)?;
+    let upload = task::read_upload(folder, &task.input).map_err(internal)?;
     let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
     let mut made = work
         .run(&upload, task.limits, &reporter)
@@ -73,6 +69,13 @@ fn attempt(folder: &Path) -> Attempt<()> {
     task::write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(unwritten)
 }
 
+/// Limits the memory of this process, in bytes.
+pub fn contain(memory: u64) -> std::io::Result<()> {
+    setrlimit(Resource::RLIMIT_DATA, memory, memory)?;
+    // A crash is reported by its signal; an image of the memory would only fill the disk.
+    Ok(setrlimit(Resource::RLIMIT_CORE, 0, 0)?)
+}
+
 /// Starts the threads that hear the end of standard input and SIGINT. Called before any other thread exists, since a
 /// thread inherits which signals are blocked.
 fn listen(finish: &Arc<AtomicBool>) -> std::io::Result<()> {
@@ -91,23 +94,6 @@ fn listen(finish: &Arc<AtomicBool>) -> std::io::Result<()> {
         std::process::exit(1);
     })?;
     Ok(())
-}
-
-fn read_upload(folder: &Path, names: &[String]) -> std::io::Result<Upload> {
-    let mut files = Vec::new();
-    for (index, name) in names.iter().enumerate() {
-        files.push((
-            name.clone(),
-            std::fs::read(folder.join(task::input_file(index)))?,
-        ));
-    }
-    let (name, bytes) = files.remove(0);
-    let resources: BTreeMap<_, _> = files.into_iter().collect();
-    Ok(Upload {
-        name,
-        bytes,
-        resources,
-    })
 }
 
 fn refusal(error: &PipelineError) -> (u8, Failure) {

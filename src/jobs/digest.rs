@@ -1,5 +1,7 @@
 //! What a piece of work follows from, as one digest.
 
+use super::input_output::InputFile;
+use super::job::Kind;
 use sha2::{Digest as _, Sha256};
 
 /// A digest of several texts: no two sequences of texts have the same.
@@ -11,6 +13,22 @@ impl Digest {
     pub fn add(&mut self, text: &[u8]) {
         self.0.update((text.len() as u64).to_le_bytes());
         self.0.update(text);
+    }
+
+    /// That of a job of this kind with these options and input files.
+    pub fn of_job<'a>(
+        kind: Kind,
+        options: &serde_json::Value,
+        files: impl Iterator<Item = &'a InputFile>,
+    ) -> String {
+        let mut digest = Self::default();
+        digest.add(kind.word().as_bytes());
+        digest.add(options.to_string().as_bytes());
+        for file in files {
+            digest.add(file.name.as_bytes());
+            digest.add(file.sha256.as_deref().unwrap_or_default().as_bytes());
+        }
+        digest.finish()
     }
 
     /// The digest in hexadecimal digits.

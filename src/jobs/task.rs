@@ -4,6 +4,7 @@
 //! JSON line per [`Message`] on standard output, and leaves either `outcome.json` ([`Outcome`]), written last and
 //! renamed into place, with the files that it lists, or `error.json` ([`super::Failure`]).
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -11,17 +12,19 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use super::input_output::OutputFile;
 use super::job::{Kind, Verdict};
 use super::progress::Progress;
+use crate::document::Upload;
 use crate::pipeline::Limits;
 
-pub(super) const TASK: &str = "job.json";
+/// The file of a [`Task`].
+pub const TASK: &str = "job.json";
 pub(super) const OUTCOME: &str = "outcome.json";
 pub(super) const ERROR: &str = "error.json";
 
 /// Exit code of a child that has no space to write what it made. It may not even be able to say so in a file.
 pub(super) const NO_SPACE: i32 = 75;
 
-/// Name of the n-th input file in the attempt's folder.
-pub(super) fn input_file(index: usize) -> String {
+/// Name of the n-th input file in the folder of an attempt.
+pub fn input_file(index: usize) -> String {
     format!("input-{index}")
 }
 
@@ -32,14 +35,18 @@ pub fn output_file(index: usize) -> String {
 
 /// What a child has to do and what it may use.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Task {
+pub struct Task {
+    /// What.
     pub kind: Kind,
     /// Names of the input files, the mesh first; the n-th lies in [`input_file`]`(n)`.
     pub input: Vec<String>,
+    /// Its options, complete.
     pub options: serde_json::Value,
+    /// What it may use.
     pub limits: Limits,
     /// Bytes.
     pub memory: u64,
+    /// Whether an atlas is drawn.
     pub pictures: Pictures,
 }
 
@@ -70,17 +77,28 @@ pub(super) struct Outcome {
 }
 
 /// Writes JSON so that a reader sees all of it or nothing.
-pub(super) fn write_json<T: Serialize>(
-    folder: &Path,
-    name: &str,
-    value: &T,
-) -> std::io::Result<()> {
+pub fn write_json<T: Serialize>(folder: &Path, name: &str, value: &T) -> std::io::Result<()> {
     let partial = folder.join(format!("{name}.partial"));
     std::fs::write(&partial, serde_json::to_vec(value)?)?;
     std::fs::rename(&partial, folder.join(name))
 }
 
+/// Reads the input files with these names, the mesh first.
+pub fn read_upload(folder: &Path, names: &[String]) -> std::io::Result<Upload> {
+    let mut files = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        files.push((name.clone(), std::fs::read(folder.join(input_file(index)))?));
+    }
+    let (name, bytes) = files.remove(0);
+    let resources: BTreeMap<_, _> = files.into_iter().collect();
+    Ok(Upload {
+        name,
+        bytes,
+        resources,
+    })
+}
+
 /// Reads what [`write_json`] wrote.
-pub(super) fn read_json<T: DeserializeOwned>(folder: &Path, name: &str) -> std::io::Result<T> {
+pub fn read_json<T: DeserializeOwned>(folder: &Path, name: &str) -> std::io::Result<T> {
     Ok(serde_json::from_slice(&std::fs::read(folder.join(name))?)?)
 }
