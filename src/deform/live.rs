@@ -1,7 +1,9 @@
 //! A problem that is solved while its handles change.
 
+use super::body::BodyElements;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
+use crate::plane::are_disjoint;
 use crate::solver::{Drag, Handles, Objective, Stage, Summary};
 
 /// Handles that are nearer to their targets than this, the mean element having size 1, are there: a body at rest stays so.
@@ -89,6 +91,20 @@ impl Live {
     pub fn put(&mut self, x: Vec<f64>) -> Result<(), ProblemError> {
         self.x = x;
         self.aim(self.problem.stations[0].clone())
+    }
+
+    /// Refuses a map that is outside the domain of the energy.
+    pub fn check_domain(&self) -> Result<(), ProblemError> {
+        let is_apart = match (&self.problem.boundary_barrier, &self.problem.body.elements) {
+            (Some(_), BodyElements::Triangles { corners, .. }) => {
+                are_disjoint(self.x.as_chunks().0, corners)
+            }
+            _ => true,
+        };
+        if is_apart && self.objective.value(&self.x).is_finite() {
+            return Ok(());
+        }
+        Err(ProblemError::OutsideDomain)
     }
 
     pub fn problem(&self) -> &Problem {

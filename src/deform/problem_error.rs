@@ -109,6 +109,9 @@ pub enum ProblemError {
     /// The map should be kept bijective, which it is not at the start.
     #[error("the start overlaps or touches itself, so no map from it can stay bijective")]
     OverlappingStart,
+    /// The present map has no finite energy under another model.
+    #[error("the present map is outside the domain of this energy, barrier or bound")]
+    OutsideDomain,
     /// The start does not belong to the mesh.
     #[error("the start has {found} coordinates, but the mesh has {expected}")]
     WrongStart {
@@ -143,6 +146,7 @@ impl ProblemError {
             Self::PlanarEnergy => "planar_energy",
             Self::PlanarBijectivity => "planar_bijectivity",
             Self::OverlappingStart => "overlapping_start",
+            Self::OutsideDomain => "outside_domain",
             Self::WrongStart { .. } => "wrong_start",
         }
     }

@@ -136,6 +136,21 @@ impl Session {
         Ok(())
     }
 
+    /// Exchanges energy and barrier. The map, the handles and what is remembered stay.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), or if the present map is outside the domain of that energy, as one with a larger distortion than the
+    /// new bound. Then all is as it was.
+    pub fn remodel(&mut self, model: &Model) -> Result<(), ProblemError> {
+        let problem = Problem::at_rest(self.body.clone(), model)?;
+        let mut live = Live::new(problem.normalized().0)?;
+        live.aim(self.frame.handles(&self.held.bound))?;
+        live.put(self.live.x().to_vec())?;
+        live.check_domain()?;
+        self.live = live;
+        Ok(())
+    }
+
     /// The handles with their names, in the order in which they were added.
     pub fn handles(&self) -> impl Iterator<Item = (HandleId, &Handle)> {
         self.held.handles.iter().map(|(id, handle)| (*id, handle))
@@ -215,6 +230,15 @@ impl Session {
         let present = self.state();
         let state = self.history.forth(present);
         self.restore(state)
+    }
+
+    /// Returns to rest, without handles. What is remembered stays.
+    pub fn reset(&mut self) {
+        let rest = State {
+            x: self.live.problem().body.rest.clone(),
+            held: Held::default(),
+        };
+        self.restore(Some(rest));
     }
 
     fn state(&self) -> State {

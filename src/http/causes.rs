@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 53] = [
+pub(super) const CAUSES: [(&str, &str); 54] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -134,6 +134,10 @@ pub(super) const CAUSES: [(&str, &str); 53] = [
     ),
     // Problems.
     ("malformed_problem", "The problem file cannot be parsed"),
+    (
+        "outside_domain",
+        "The present map is outside the domain of the new energy, barrier or bound",
+    ),
     (
         "wrong_start",
         "The numbers of coordinates of start and mesh differ",

@@ -7,7 +7,8 @@
 //!
 //! The other applications are a function from a file's bytes to files' bytes each: [`solve_file`], [`deform_file`], [`warp_file`].
 //! All take options of their own, [`Limits`] that their caller sets, and an [`Observer`]; the command line and the service are
-//! two ways to call them.
+//! two ways to call them. [`hold_body`], [`hold_picture`] and [`hold_uvs`] take what they would deform into the hand of
+//! someone who watches.
 //!
 //! The work runs on a thread pool of its own. Charts of all groups share one queue, largest first; each is mapped by
 //! one thread, so the result does not depend on their number. Meshes of one shape are mapped once, and packed once where each has an
@@ -35,11 +36,13 @@ mod judge;
 mod limits;
 #[cfg(feature = "files")]
 mod rebake;
+#[cfg(feature = "files")]
+mod start;
 
 pub use arrays::repeated::GridCorners;
 pub use arrays::seams::Seams;
 pub use arrays::settings::Settings;
-pub use arrays::unwrap::{ChartRecord, Unwrapped, unwrap, unwrap_along};
+pub use arrays::unwrap::{ChartRecord, Unwrapped, in_pool, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
@@ -52,6 +55,8 @@ pub use deform::caged::{CageOptions, CagedDocument, Surfaces};
 pub use deform::file::deform_file;
 #[cfg(feature = "files")]
 pub use deform::formats::BodyFormat;
+#[cfg(feature = "files")]
+pub use deform::held::{HeldBody, Skin, hold_body, hold_picture};
 #[cfg(feature = "files")]
 pub use deform::pull_report::PullReport;
 #[cfg(feature = "files")]
@@ -68,6 +73,8 @@ pub use documents::repack::repack_document;
 pub use documents::texel_weight::TexelWeight;
 #[cfg(feature = "files")]
 pub use documents::unwrap::{Outcome, unwrap_document};
+#[cfg(feature = "files")]
+pub use edit::held::hold_uvs;
 #[cfg(feature = "files")]
 pub use edit::report::{ChartEditReport, EditReport};
 #[cfg(feature = "files")]
@@ -90,3 +97,5 @@ pub use options::{
 };
 #[cfg(feature = "files")]
 pub use rebake::ImageFormat;
+#[cfg(feature = "files")]
+pub use start::{START, start_file};

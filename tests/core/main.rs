@@ -72,6 +72,7 @@ mod random;
 mod searched;
 mod separation;
 mod session;
+mod session_model;
 #[cfg(feature = "files")]
 mod simple_polygons;
 mod solver;

@@ -55,6 +55,13 @@ impl UvVertices {
         map.uvs[corner / 3][corner % 3]
     }
 
+    /// Where UVs of corners put these vertices.
+    pub fn places(&self, uvs: &[CornerUvs], vertices: &[u32]) -> Vec<[f64; 2]> {
+        let corner = |&v: &u32| self.first_corner[v as usize] as usize;
+        let corners = vertices.iter().map(corner);
+        corners.map(|c| uvs[c / 3][c % 3]).collect()
+    }
+
     /// UVs of corners with some vertices elsewhere.
     pub fn moved(&self, uvs: &[CornerUvs], to: &BTreeMap<u32, [f64; 2]>) -> Vec<CornerUvs> {
         let mut uvs = uvs.to_vec();

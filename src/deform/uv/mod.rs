@@ -10,6 +10,8 @@ mod chart;
 mod error;
 mod flat_chart;
 mod map;
+mod remembered;
+mod seen;
 mod session;
 
 use std::collections::BTreeMap;
@@ -126,6 +128,18 @@ pub fn edit_uvs(
     options: &UvEditOptions,
     watch: &dyn Watch,
 ) -> Result<EditedUvs, EditError> {
+    edit_uvs_from(mesh, None, anchors, options, watch)
+}
+
+/// As [`edit_uvs`], but the pull starts where a session left the map: at the UVs `start` of each face's corners. Rest shapes and
+/// the places that anchors name are those of the mesh all the same.
+pub fn edit_uvs_from(
+    mesh: &UvMesh,
+    start: Option<&[CornerUvs]>,
+    anchors: &[Anchor],
+    options: &UvEditOptions,
+    watch: &dyn Watch,
+) -> Result<EditedUvs, EditError> {
     let map = UvMap::new(mesh);
     let vertices = UvVertices::new(&map);
     let mut held: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
@@ -142,7 +156,8 @@ pub fn edit_uvs(
     for (number, held) in held {
         let mut chart = UvChart::new(&map, &vertices, number, positive[number as usize])?;
         chart.untangle(options.boundary)?;
-        let (uvs, summary) = edit_chart(&chart, &held, options, watch)?;
+        let start = start.map(|uvs| vertices.places(uvs, &chart.vertices));
+        let (uvs, summary) = edit_chart(&chart, start, &held, options, watch)?;
         moved.extend(chart.moved(&map, &vertices, &uvs));
         charts.push(EditedChart {
             chart: number,
@@ -162,6 +177,7 @@ pub fn edit_uvs(
 /// The UVs of a chart's vertices after its anchors were pulled.
 fn edit_chart(
     chart: &UvChart,
+    start: Option<Vec<[f64; 2]>>,
     held: &[Held],
     options: &UvEditOptions,
     watch: &dyn Watch,
@@ -169,12 +185,14 @@ fn edit_chart(
     let flat = FlatChart::new(chart, options.rest)?;
     let grips = flat.grips(chart, held, options.boundary)?;
     let (body, unit) = (flat.body.clone(), flat.unit);
+    let start = start.map(|uvs| uvs.iter().map(|uv| uv.map(|x| x / unit)).collect());
+    let start: &Vec<[f64; 2]> = start.as_ref().unwrap_or(&flat.start);
     let how = How {
         model: &options.model,
         search: options.search,
         unit,
     };
-    let result = pull(body, &flat.start, &grips.holds, &how, watch)?;
+    let result = pull(body, start, &grips.holds, &how, watch)?;
     Ok((flat.uvs(chart, &grips, &result.vertices), result.summary))
 }
 

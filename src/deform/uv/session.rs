@@ -9,6 +9,7 @@ use super::map::UvMap;
 use super::{EditError, Spot, UvEditOptions, UvMesh};
 use crate::deform::history::History;
 use crate::deform::live::Live;
+use crate::deform::problem::Model;
 use crate::deform::pull::{arrive, pulled};
 use crate::mesh::CornerUvs;
 use crate::solver::Stage;
@@ -23,14 +24,14 @@ pub struct UvSession {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
     uvs: Vec<CornerUvs>,
-    map: UvMap,
-    vertices: UvVertices,
+    pub(super) map: UvMap,
+    pub(super) vertices: UvVertices,
     /// Of each chart the orientation of most of its area.
-    positive: Vec<i8>,
-    charts: BTreeMap<u32, LiveChart>,
-    anchors: BTreeMap<AnchorId, Anchor>,
+    pub(super) positive: Vec<i8>,
+    pub(super) charts: BTreeMap<u32, LiveChart>,
+    pub(super) anchors: BTreeMap<AnchorId, Anchor>,
     next: u32,
-    history: History<State>,
+    pub(super) history: History<State>,
 }
 
 /// The name of an anchor of a session; none is given twice.
@@ -38,19 +39,19 @@ pub struct UvSession {
 pub struct AnchorId(u32);
 
 /// A chart that anchors have hold of, or had; then it stays.
-struct LiveChart {
-    chart: UvChart,
-    flat: FlatChart,
+pub(super) struct LiveChart {
+    pub chart: UvChart,
+    pub flat: FlatChart,
     grips: Grips,
     is_held: bool,
-    live: Live,
+    pub live: Live,
 }
 
 /// What [`UvSession::undo`] returns to.
-struct State {
-    anchors: BTreeMap<AnchorId, Anchor>,
+pub(super) struct State {
+    pub anchors: BTreeMap<AnchorId, Anchor>,
     /// Where the vertices of each chart are that was held then.
-    charts: BTreeMap<u32, Vec<f64>>,
+    pub charts: BTreeMap<u32, Vec<f64>>,
 }
 
 impl UvSession {
@@ -99,6 +100,19 @@ impl UvSession {
         self.take(anchors)
     }
 
+    /// Exchanges an anchor for another one.
+    ///
+    /// # Errors
+    /// As [`add`](Self::add), or if there is no such anchor.
+    pub fn exchange(&mut self, id: AnchorId, anchor: Anchor) -> Result<(), EditError> {
+        let mut anchors = self.anchors.clone();
+        match anchors.get_mut(&id) {
+            Some(present) => *present = anchor,
+            None => return Err(EditError::UnknownHandle(id.0 as usize)),
+        }
+        self.take(anchors)
+    }
+
     /// Lets go. A chart that no anchor holds any more stays as it is.
     ///
     /// # Errors
@@ -117,7 +131,7 @@ impl UvSession {
     }
 
     /// Takes these anchors in place of those before; on an error all is as it was.
-    fn take(&mut self, anchors: BTreeMap<AnchorId, Anchor>) -> Result<(), EditError> {
+    pub(super) fn take(&mut self, anchors: BTreeMap<AnchorId, Anchor>) -> Result<(), EditError> {
         let mut of_chart: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
         for held in self.held(&anchors)? {
             let chart = match held.spot {
@@ -213,6 +227,39 @@ impl UvSession {
         unfinished.unwrap_or(Stage::Settled)
     }
 
+    /// Exchanges energy and barrier. The map, the anchors and what is remembered stay.
+    ///
+    /// # Errors
+    /// As [`add`](Self::add), or if the present map is outside the domain of that energy. Then all is as it was.
+    pub fn remodel(&mut self, model: &Model) -> Result<(), EditError> {
+        let before = std::mem::replace(&mut self.options.model, *model);
+        match self.rebuilt() {
+            Ok(lives) => {
+                for (chart, live) in self.charts.values_mut().zip(lives) {
+                    chart.live = live;
+                }
+                Ok(())
+            }
+            Err(error) => {
+                self.options.model = before;
+                Err(error)
+            }
+        }
+    }
+
+    /// Each chart as it is, under the present model.
+    fn rebuilt(&self) -> Result<Vec<Live>, EditError> {
+        let rebuilt = self.charts.values().map(|chart| {
+            let (body, start) = (chart.flat.body.clone(), &chart.flat.start);
+            let handles = chart.live.problem().stations[0].clone();
+            let mut live = Live::new(pulled(body, start, handles, &self.options.model)?)?;
+            live.put(chart.live.x().to_vec())?;
+            live.check_domain()?;
+            Ok(live)
+        });
+        rebuilt.collect()
+    }
+
     /// How often the linear systems of charts were ordered and analyzed.
     pub fn analyses(&self) -> usize {
         self.charts
@@ -223,6 +270,11 @@ impl UvSession {
 
     /// The UVs of each face's corners. Charts without anchors keep theirs to the bit, and so does every vertex that has not moved.
     pub fn uvs(&self) -> Vec<CornerUvs> {
+        self.vertices.moved(&self.uvs, &self.moved())
+    }
+
+    /// The vertices of the UV map that are elsewhere than at the start.
+    pub(super) fn moved(&self) -> BTreeMap<u32, [f64; 2]> {
         let mut moved: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
         for LiveChart {
             chart,
@@ -237,50 +289,6 @@ impl UvSession {
             let uvs = flat.uvs(chart, grips, &places);
             moved.extend(chart.moved(&self.map, &self.vertices, &uvs));
         }
-        self.vertices.moved(&self.uvs, &moved)
-    }
-
-    /// Remembers the map and the anchors, as before a drag; [`undo`](Self::undo) returns here. The last hundred are kept.
-    pub fn remember(&mut self) {
-        let state = self.state();
-        self.history.remember(state);
-    }
-
-    /// Returns to what was remembered last, UVs and anchors alike, to the bit; false if there is nothing.
-    pub fn undo(&mut self) -> bool {
-        let present = self.state();
-        let state = self.history.back(present);
-        self.restore(state)
-    }
-
-    /// Takes an undo back; false if there is none, or something was remembered since.
-    pub fn redo(&mut self) -> bool {
-        let present = self.state();
-        let state = self.history.forth(present);
-        self.restore(state)
-    }
-
-    fn state(&self) -> State {
-        let places = |(&number, chart): (&u32, &LiveChart)| (number, chart.live.x().to_vec());
-        State {
-            anchors: self.anchors.clone(),
-            charts: self.charts.iter().map(places).collect(),
-        }
-    }
-
-    /// Charts that were not held then go back to their start.
-    fn restore(&mut self, state: Option<State>) -> bool {
-        let Some(State { anchors, charts }) = state else {
-            return false;
-        };
-        // First the anchors, then the places: others would set a map that is at rest in motion.
-        if self.take(anchors).is_err() {
-            return false;
-        }
-        self.charts.iter_mut().all(|(number, chart)| {
-            let start = || chart.flat.start.as_flattened().to_vec();
-            let places = charts.get(number).cloned().unwrap_or_else(start);
-            chart.live.put(places).is_ok()
-        })
+        moved
     }
 }

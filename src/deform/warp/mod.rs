@@ -15,4 +15,5 @@ pub use grid::{GridError, picture_grid};
 #[cfg(feature = "files")]
 pub use picture::{
     PictureHandle, PictureWarp, WarpError, WarpOptions, parse_handles, warp_picture,
+    warp_picture_from,
 };

@@ -140,8 +140,20 @@ pub fn warp_picture(
     options: &WarpOptions,
     watch: &dyn Watch,
 ) -> Result<PictureWarp, WarpError> {
+    warp_picture_from(image, None, handles, options, watch)
+}
+
+/// As [`warp_picture`], but the pull starts where a session left the vertices of the grid.
+pub fn warp_picture_from(
+    image: &Image,
+    start: Option<&[[f64; 2]]>,
+    handles: &[PictureHandle],
+    options: &WarpOptions,
+    watch: &dyn Watch,
+) -> Result<PictureWarp, WarpError> {
     let grid = picture_grid(image.width, image.height, options.grid)?;
-    let (deformed, summary) = warp_grid(&grid, handles, options, watch)?;
+    let start = start.unwrap_or(grid.vertices());
+    let (deformed, summary) = warp_grid(&grid, start, handles, options, watch)?;
     let deformation = Deformation {
         rest: grid.vertices(),
         deformed: &deformed,
@@ -162,6 +174,7 @@ pub fn warp_picture(
 /// Where the vertices of a picture's grid go.
 fn warp_grid(
     grid: &PlanarMesh,
+    start: &[[f64; 2]],
     handles: &[PictureHandle],
     options: &WarpOptions,
     watch: &dyn Watch,
@@ -173,8 +186,9 @@ fn warp_grid(
     // A power of two, so that nothing is rounded on the way there and back.
     let unit = mean_area(grid).sqrt().log2().round().exp2();
     let to_unit = |p: [f64; 2]| p.map(|x| x / unit);
-    let scaled: Vec<[f64; 2]> = grid.vertices().iter().map(|&p| to_unit(p)).collect();
-    let body = Body::planar(&scaled, grid.triangles());
+    let scale =
+        |places: &[[f64; 2]]| -> Vec<[f64; 2]> { places.iter().map(|&p| to_unit(p)).collect() };
+    let body = Body::planar(&scale(grid.vertices()), grid.triangles());
     let mut holds = Holds::new(
         options
             .boundary
@@ -196,7 +210,7 @@ fn warp_grid(
         search: options.search,
         unit,
     };
-    let pulled = pull(body, &scaled, &holds, &how, watch)?;
+    let pulled = pull(body, &scale(start), &holds, &how, watch)?;
     let deformed = pulled.vertices.iter().map(|p| p.map(|x| x * unit));
     Ok((deformed.collect(), pulled.summary))
 }

@@ -15,6 +15,7 @@ use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::limits::Limits;
 use crate::pipeline::observer::Stage;
 use crate::pipeline::options::DeformOptions;
+use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
 use crate::solver::Watch;
 
@@ -91,7 +92,13 @@ pub fn deform(
         },
     )?;
     caged.problem.search = options.pulling.search;
-    caged.start_coarse(tracker);
+    match start(upload, caged.problem.start.len())? {
+        Some(start) => {
+            caged.problem.start = start;
+            caged.problem.untangle_start()?;
+        }
+        None => caged.start_coarse(tracker),
+    }
     let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
     let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
     let solved = solve(caged.problem(), options.plan(), tracker, frames)?;
@@ -192,13 +199,16 @@ impl CagedDocument {
 }
 
 /// The positions of every primitive.
-fn positions(document: &Document) -> Vec<Vec<[f64; 3]>> {
+pub fn positions(document: &Document) -> Vec<Vec<[f64; 3]>> {
     let primitives = document.primitives().iter();
     primitives.map(|p| widened(&p.positions)).collect()
 }
 
 /// The triangles of every primitive over its positions.
-fn surfaces<'a>(document: &'a Document, positions: &'a [Vec<[f64; 3]>]) -> Vec<CagedSurface<'a>> {
+pub fn surfaces<'a>(
+    document: &'a Document,
+    positions: &'a [Vec<[f64; 3]>],
+) -> Vec<CagedSurface<'a>> {
     let primitives = positions.iter().zip(document.primitives());
     primitives
         .map(|(positions, primitive)| CagedSurface {

@@ -9,6 +9,7 @@ use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, DeformOptions};
+use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
 
 /// Pulls a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a barrier no
@@ -39,6 +40,10 @@ fn deform_body(
     source.check(format, options.frames)?;
     let mut problem = Problem::new(source.body()?, &options.handles, &options.model)?;
     problem.search = options.pulling.search;
+    if let Some(start) = start(upload, problem.start.len())? {
+        problem.start = start;
+        problem.untangle_start()?;
+    }
     let file = |x: &[f64]| source.frame(format, &problem, x);
     let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
     let solved = solve(&problem, options.plan(), tracker, frames)?;

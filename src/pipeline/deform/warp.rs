@@ -7,13 +7,14 @@ use super::pull_report::PullReport;
 use crate::barrier::BarrierKind;
 use crate::certificate::{boundary_crossings, certify_planar};
 use crate::deform::Boundary;
-use crate::deform::warp::warp_picture;
+use crate::deform::warp::{WarpError, picture_grid, warp_picture_from};
 use crate::document::{Upload, Warning};
 use crate::picture::Image;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, WarpOptions};
+use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
 
 /// A warped picture.
@@ -59,7 +60,10 @@ pub fn warp_file(
         tracker.stage(Stage::Read);
         let image = Image::decode(&upload.bytes)?;
         let how = options.of_grid();
-        let warped = warp_picture(&image, &options.handles, &how, &tracker)?;
+        let grid = picture_grid(image.width, image.height, how.grid).map_err(WarpError::from)?;
+        let start = start(upload, 2 * grid.vertices().len())?;
+        let start = start.as_deref().map(|start| start.as_chunks().0);
+        let warped = warp_picture_from(&image, start, &options.handles, &how, &tracker)?;
         let (vertices, triangles) = (&warped.deformed, warped.grid.triangles());
         let map = PullReport::new(
             warped.summary,

@@ -4,7 +4,7 @@ use super::report::{ChartEditReport, EditReport, unreached};
 use super::terms::{edited_terms, holds};
 use crate::barrier::BarrierKind;
 use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar, chart_ids};
-use crate::deform::uv::{ChartFaces, EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs};
+use crate::deform::uv::{ChartFaces, EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs_from};
 use crate::document::{
     Corners, Document, DocumentError, Layout, NewUvs, Upload, Warning, WriteOptions, Written,
 };
@@ -14,6 +14,7 @@ use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::deform::pull_report::PullReport;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, EditOptions, Editing};
+use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
 
 /// A document with edited UVs.
@@ -41,7 +42,11 @@ pub fn edit_document(
         options.caller.limits.check(&document)?;
         let whole = Whole::gather(&document, options.texcoord)?;
         let how = options.of_map(editing);
-        let edited = edit_uvs(&whole.mesh(), &options.anchors, &how, &tracker)?;
+        let start = start(upload, 6 * whole.triangles.len())?;
+        let start = start
+            .as_deref()
+            .map(|start| start.as_chunks().0.as_chunks().0);
+        let edited = edit_uvs_from(&whole.mesh(), start, &options.anchors, &how, &tracker)?;
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
         let mut write_options = WriteOptions {
@@ -89,7 +94,7 @@ pub fn edit_document(
 }
 
 /// All primitives of a document as one mesh; those without UVs have vertices only.
-struct Whole {
+pub(super) struct Whole {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
     uvs: Vec<CornerUvs>,
@@ -98,7 +103,7 @@ struct Whole {
 }
 
 impl Whole {
-    fn gather(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
+    pub fn gather(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
         let mut whole = Self {
             positions: Vec::new(),
             triangles: Vec::new(),
@@ -139,7 +144,7 @@ impl Whole {
         numbers
     }
 
-    fn mesh(&self) -> UvMesh<'_> {
+    pub fn mesh(&self) -> UvMesh<'_> {
         UvMesh {
             positions: &self.positions,
             triangles: &self.triangles,

@@ -1,0 +1,59 @@
+//! UVs in the hand as they were.
+
+use std::collections::BTreeMap;
+
+use super::session::{LiveChart, State, UvSession};
+
+impl UvSession {
+    /// Remembers the map and the anchors, as before a drag; [`undo`](Self::undo) returns here. The last hundred are kept.
+    pub fn remember(&mut self) {
+        let state = self.state();
+        self.history.remember(state);
+    }
+
+    /// Returns to what was remembered last, UVs and anchors alike, to the bit; false if there is nothing.
+    pub fn undo(&mut self) -> bool {
+        let present = self.state();
+        let state = self.history.back(present);
+        self.restore(state)
+    }
+
+    /// Takes an undo back; false if there is none, or something was remembered since.
+    pub fn redo(&mut self) -> bool {
+        let present = self.state();
+        let state = self.history.forth(present);
+        self.restore(state)
+    }
+
+    /// Returns to the map at the start, without anchors. What is remembered stays.
+    pub fn reset(&mut self) {
+        self.restore(Some(State {
+            anchors: BTreeMap::new(),
+            charts: BTreeMap::new(),
+        }));
+    }
+
+    fn state(&self) -> State {
+        let places = |(&number, chart): (&u32, &LiveChart)| (number, chart.live.x().to_vec());
+        State {
+            anchors: self.anchors.clone(),
+            charts: self.charts.iter().map(places).collect(),
+        }
+    }
+
+    /// Charts that were not held then go back to their start.
+    fn restore(&mut self, state: Option<State>) -> bool {
+        let Some(State { anchors, charts }) = state else {
+            return false;
+        };
+        // First the anchors, then the places: others would set a map that is at rest in motion.
+        if self.take(anchors).is_err() {
+            return false;
+        }
+        self.charts.iter_mut().all(|(number, chart)| {
+            let start = || chart.flat.start.as_flattened().to_vec();
+            let places = charts.get(number).cloned().unwrap_or_else(start);
+            chart.live.put(places).is_ok()
+        })
+    }
+}

@@ -1,0 +1,20 @@
+//! UVs of documents in the hand.
+
+use super::uvs::Whole;
+use crate::deform::uv::UvSession;
+use crate::document::{Document, Upload};
+use crate::pipeline::PipelineError;
+use crate::pipeline::options::{CommandOptions, EditOptions, Editing};
+
+/// Takes the UVs that [`edit_document`](crate::pipeline::edit_document) would edit into the hand. Its anchors are for the caller to add.
+pub fn hold_uvs(
+    upload: &Upload,
+    editing: Editing,
+    options: &EditOptions,
+) -> Result<UvSession, PipelineError> {
+    options.check()?;
+    let document = Document::read(upload)?;
+    options.caller.limits.check(&document)?;
+    let whole = Whole::gather(&document, options.texcoord)?;
+    Ok(UvSession::new(&whole.mesh(), options.of_map(editing)))
+}
