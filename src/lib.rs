@@ -38,6 +38,7 @@
 //!
 //!  http ─► jobs ─► store (records, files) ◄─ jobs ─► compute child process ─► pipeline
 //!      unwrapd serve                    unwrapd worker, or the same serve
+//!  http ─► sessions ───────────────────────────────► session child process ─► pipeline, deform::Session
 //!  cli ─► bulk (lists, records, summaries) ────────► compute child process ─► pipeline
 //!  cli  ──────────────────────────────────────────────────────────────────► pipeline
 //! ```
@@ -83,6 +84,10 @@
 #![cfg_attr(
     feature = "service",
     doc = "| [`jobs`], [`store`], [`http`] | queue and compute child; records in SQLite or PostgreSQL, files in a folder or S3; routes |"
+)]
+#![cfg_attr(
+    feature = "service",
+    doc = "| [`sessions`] | bodies, pictures and UVs pulled live: messages in, frames out, each in a child process |"
 )]
 #![cfg_attr(
     feature = "service",
@@ -243,6 +248,9 @@ pub mod pipeline;
 pub mod jobs;
 #[cfg(feature = "service")]
 pub mod store;
+
+#[cfg(feature = "service")]
+pub mod sessions;
 
 #[cfg(feature = "service")]
 pub mod bulk;

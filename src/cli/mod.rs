@@ -48,13 +48,16 @@ use failure::Failure;
 
 /// Runs the command line of this process and returns its exit code.
 pub fn run() -> ExitCode {
-    // `compute FOLDER` is one job of the service, started by `serve` with the folder of an attempt: no help, suggestion or
-    // completion knows it.
+    // `compute FOLDER` is one job of the service, `session FOLDER` one live session, started by `serve` with the folder of it: no
+    // help, suggestion or completion knows them.
     let mut arguments = std::env::args_os().skip(1);
-    if let (Some(word), Some(folder)) = (arguments.next(), arguments.next())
-        && word == "compute"
-    {
-        return crate::jobs::compute::run(Path::new(&folder));
+    if let (Some(word), Some(folder)) = (arguments.next(), arguments.next()) {
+        if word == "compute" {
+            return crate::jobs::compute::run(Path::new(&folder));
+        }
+        if word == "session" {
+            return crate::sessions::run(Path::new(&folder));
+        }
     }
     match run_typed(command::typed()) {
         Ok(()) => ExitCode::SUCCESS,

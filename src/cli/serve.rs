@@ -13,6 +13,7 @@ use super::process;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
 use crate::jobs;
+use crate::sessions::{self, Sessions};
 
 /// The arguments of `serve`. Each has an environment variable.
 #[derive(clap::Args)]
@@ -58,6 +59,18 @@ pub(super) struct Args {
         value_parser = days
     )]
     retain_days: f64,
+    /// Maximum number of live sessions, each with a process of its own
+    #[arg(long, value_name = "N", env = "UNWRAPD_SESSIONS", default_value_t = 16)]
+    sessions: u16,
+    /// Seconds without a message after which a live session ends
+    #[arg(
+        long,
+        value_name = "S",
+        env = "UNWRAPD_SESSION_SECONDS",
+        default_value_t = 600.0,
+        value_parser = seconds
+    )]
+    session_seconds: f64,
     #[command(flatten)]
     exposure: ExposureArgs,
 }
@@ -79,6 +92,13 @@ impl Args {
             retention: Some(Duration::from_secs_f64(self.retain_days * DAY_SECONDS)),
             ..self.work.settings()?
         })
+    }
+
+    fn session_settings(&self) -> sessions::Settings {
+        sessions::Settings {
+            most: usize::from(self.sessions),
+            idle: Duration::from_secs_f64(self.session_seconds),
+        }
     }
 
     fn http_settings(&self, address: SocketAddr) -> http::Settings {
@@ -103,6 +123,7 @@ async fn serve(args: &Args) -> Result<(), String> {
     let text = |error: &dyn std::fmt::Display| error.to_string();
     let settings = args.job_settings().map_err(|e| text(&e))?;
     let grace = settings.grace;
+    let sessions = Sessions::new(args.session_settings(), settings.clone());
     let jobs = process::queue(&args.work, settings).await?;
 
     let wished = args.listen.address;
@@ -120,7 +141,7 @@ async fn serve(args: &Args) -> Result<(), String> {
     let queue = tokio::spawn(Arc::clone(&jobs).run(stop.clone()));
     let server = tokio::spawn(http::serve(
         listener,
-        jobs,
+        (jobs, Arc::new(sessions)),
         args.http_settings(address),
         stop.clone(),
     ));

@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 54] = [
+pub(super) const CAUSES: [(&str, &str); 57] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -134,6 +134,13 @@ pub(super) const CAUSES: [(&str, &str); 54] = [
     ),
     // Problems.
     ("malformed_problem", "The problem file cannot be parsed"),
+    // Sessions.
+    (
+        "invalid_message",
+        "The message is not JSON, or has no such wish",
+    ),
+    ("nothing_to_undo", "Nothing was remembered"),
+    ("nothing_to_redo", "Nothing was undone"),
     (
         "outside_domain",
         "The present map is outside the domain of the new energy, barrier or bound",

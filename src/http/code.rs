@@ -11,6 +11,7 @@ pub(super) enum Code {
     NotFound,
     JobNotFound,
     NoSuchFile,
+    SessionNotFound,
     MethodNotAllowed,
     RequestTimeout,
     NotFinished,
@@ -33,6 +34,7 @@ pub(super) enum Code {
     Crashed,
     DamagedFile,
     QueueFull,
+    SessionsTaken,
     Stopping,
     Draining,
     NotReady,
@@ -43,7 +45,7 @@ pub(super) enum Code {
 }
 
 impl Code {
-    pub const ALL: [Self; 37] = [
+    pub const ALL: [Self; 39] = [
         Self::InvalidRequest,
         Self::InvalidOptions,
         Self::MissingMesh,
@@ -52,6 +54,7 @@ impl Code {
         Self::NotFound,
         Self::JobNotFound,
         Self::NoSuchFile,
+        Self::SessionNotFound,
         Self::MethodNotAllowed,
         Self::RequestTimeout,
         Self::NotFinished,
@@ -74,6 +77,7 @@ impl Code {
         Self::Crashed,
         Self::DamagedFile,
         Self::QueueFull,
+        Self::SessionsTaken,
         Self::Stopping,
         Self::Draining,
         Self::NotReady,
@@ -107,6 +111,7 @@ impl Code {
             Self::NotFound => ("not_found", 404, "The path does not exist"),
             Self::JobNotFound => ("job_not_found", 404, "The job does not exist"),
             Self::NoSuchFile => ("no_such_file", 404, "The job does not produce this file"),
+            Self::SessionNotFound => ("session_not_found", 404, "The session does not exist"),
             Self::MethodNotAllowed => (
                 "method_not_allowed",
                 405,
@@ -149,7 +154,7 @@ impl Code {
             Self::UpgradeRequired => (
                 "upgrade_required",
                 426,
-                "Events require a WebSocket, or Accept: text/event-stream",
+                "The path requires a WebSocket; events can also be had as text/event-stream",
             ),
             Self::TooManyConnections => (
                 "too_many_connections",
@@ -165,6 +170,7 @@ impl Code {
             Self::Crashed => ("crashed", 500, "A bug in the service ended the computation"),
             Self::DamagedFile => ("damaged_file", 500, "A stored file is damaged"),
             Self::QueueFull => ("queue_full", 503, "The queue is full"),
+            Self::SessionsTaken => ("sessions_taken", 503, "All live sessions are taken"),
             Self::Stopping => ("stopping", 503, "The service is shutting down"),
             Self::Draining => ("draining", 503, "The process takes in no more jobs"),
             Self::NotReady => ("not_ready", 503, "The service would not accept a job now"),

@@ -96,7 +96,7 @@ impl From<SubmitError> for Problem {
     }
 }
 
-fn located(app: &App, status: StatusCode, job: &Job) -> Response {
+pub(super) fn located(app: &App, status: StatusCode, job: &Job) -> Response {
     let mut response = json(status, &view(app, job));
     if let Ok(path) = HeaderValue::from_str(&job_path(&app.settings.base_path, job)) {
         response.headers_mut().insert(header::LOCATION, path);

@@ -2,7 +2,6 @@
 
 use std::convert::Infallible;
 use std::sync::Arc;
-use std::time::Duration;
 
 use axum::extract::State;
 use axum::extract::ws::rejection::WebSocketUpgradeRejection;
@@ -16,13 +15,9 @@ use serde::Deserialize;
 use super::extract::{Parameters, PathId};
 use super::missing::missing;
 use super::problem::{Code, Problem};
+use super::socket::{KEEP_ALIVE, goodbye};
 use super::{App, Shared};
 use crate::jobs::Subscription;
-
-/// Between signs of life on a quiet connection.
-const KEEP_ALIVE: Duration = Duration::from_secs(15);
-/// For a client to answer a close frame.
-const CLOSE_TIME: Duration = Duration::from_secs(1);
 
 /// The largest integer that every JSON reader has exactly.
 const MAX_SEQ: u64 = (1 << 53) - 1;
@@ -127,12 +122,11 @@ async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>) {
             return;
         }
     };
-    let goodbye = CloseFrame {
+    let close = CloseFrame {
         code,
         reason: "".into(),
     };
-    if socket.send(Message::Close(Some(goodbye))).await.is_ok() {
-        let answer = async { while let Some(Ok(_)) = socket.recv().await {} };
-        let _ = tokio::time::timeout(CLOSE_TIME, answer).await;
+    if socket.send(Message::Close(Some(close))).await.is_ok() {
+        goodbye(&mut socket).await;
     }
 }

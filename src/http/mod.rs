@@ -18,6 +18,7 @@ mod framing;
 mod held;
 mod inputs;
 mod jobs;
+mod live;
 mod missing;
 mod openapi;
 mod options;
@@ -29,7 +30,10 @@ mod received;
 mod receiver;
 mod results;
 mod schemas;
+mod session_input;
+mod sessions;
 mod settings;
+mod socket;
 mod steady;
 mod synchronous;
 mod upload;
@@ -57,6 +61,7 @@ pub use self::origins::origin;
 use self::problem::{Code, Problem};
 pub use self::settings::{Connections, Settings};
 use crate::jobs::Jobs;
+use crate::sessions::Sessions;
 
 /// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
 /// itself made: pictures inside meshes.
@@ -66,6 +71,7 @@ const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; wo
 /// What every handler may use.
 struct App {
     jobs: Arc<Jobs>,
+    sessions: Arc<Sessions>,
     settings: Settings,
     stop: CancellationToken,
     sockets: TaskTracker,
@@ -88,6 +94,10 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(results::get_layout))
         .routes(routes!(results::get_heatmap))
         .routes(routes!(results::get_file))
+        .routes(routes!(sessions::open_session, sessions::list_sessions))
+        .routes(routes!(sessions::get_session, sessions::close_session))
+        .routes(routes!(sessions::bake_session))
+        .routes(routes!(live::pull_session))
         .routes(routes!(synchronous::unwrap))
         .routes(routes!(synchronous::measure))
         .routes(routes!(
@@ -117,18 +127,25 @@ pub fn openapi() -> String {
 /// Serves until told to stop; then answers what is under way, closes WebSockets with 1001 and returns.
 pub async fn serve(
     listener: TcpListener,
-    jobs: Arc<Jobs>,
+    (jobs, sessions): (Arc<Jobs>, Arc<Sessions>),
     settings: Settings,
     stop: CancellationToken,
 ) -> std::io::Result<()> {
     let app = Arc::new(App {
         jobs,
+        sessions,
         settings,
         stop: stop.clone(),
         sockets: TaskTracker::new(),
     });
     let router = router(Arc::clone(&app)).map_err(std::io::Error::other)?;
+    let (stopping, sessions) = (stop.clone(), Arc::clone(&app.sessions));
+    let ended = tokio::spawn(async move {
+        stopping.cancelled().await;
+        sessions.stop().await;
+    });
     connections::serve(listener, router, &app.settings.connections, stop).await;
+    ended.await.map_err(std::io::Error::other)?;
     app.sockets.close();
     app.sockets.wait().await;
     Ok(())

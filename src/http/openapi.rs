@@ -16,6 +16,9 @@ const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with ce
     RFC 9457 problems with a stable `code`; `x-problems` lists all codes. Errors caused by the input have status 422. A \
     failed job reports the same codes in `error`, and so does the command line.";
 
+/// The paths of uploads whose kind the upload says.
+const OF_ANY_KIND: [&str; 2] = ["/v1/jobs", "/v1/sessions"];
+
 /// What stands above the paths.
 pub(super) fn preamble() -> OpenApi {
     let license = LicenseBuilder::new()
@@ -44,13 +47,18 @@ pub(super) fn document(mut api: OpenApi) -> String {
     let all = Kind::ALL.map(schemas::options);
     let all: BTreeSet<&str> = all.into_iter().collect();
     describe_upload(&mut document, "/v1/jobs", &Vec::from_iter(all));
+    let pulled = ["DeformOptions", "EditOptions", "WarpOptions"];
+    describe_upload(&mut document, "/v1/sessions", &pulled);
     describe_upload(&mut document, "/v1/unwrap", &["Options"]);
     describe_upload(&mut document, "/v1/measure", &["MeasureOptions"]);
     let paths = &mut document["paths"];
     let report = &mut paths["/v1/jobs/{id}/report"]["get"]["responses"]["200"];
     report["content"]["application/json"]["schema"] = schemas::any_report();
-    paths["/v1/jobs"]["post"]["requestBody"]["content"]["multipart/form-data"]["schema"]["properties"]
-        ["kind"] = reference("Kind");
+    for path in OF_ANY_KIND {
+        let form = &mut paths[path]["post"]["requestBody"]["content"]["multipart/form-data"];
+        form["schema"]["properties"]["kind"] = reference("Kind");
+    }
+    paths["/v1/sessions"]["post"]["requestBody"]["required"] = false.into();
     for status in ["200", "202"] {
         paths["/v1/jobs"]["post"]["responses"][status]["links"] = links();
     }
@@ -142,7 +150,7 @@ fn problems() -> Value {
 
 /// What the uploads share: the body as a form or raw, options in the form or the query.
 fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
-    let is_job = path == "/v1/jobs";
+    let is_job = OF_ANY_KIND.contains(&path);
     let parameters = schemas::parameters(&document["components"]["schemas"], options);
     let options: Vec<Value> = options.iter().map(|name| reference(name)).collect();
     let operation = &mut document["paths"][path]["post"];

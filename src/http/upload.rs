@@ -113,7 +113,7 @@ fn may_fit(app: &App, headers: &HeaderMap) -> Result<(), Problem> {
 }
 
 /// Whether this process takes in jobs now.
-fn accepts(app: &App) -> Result<(), Problem> {
+pub(super) fn accepts(app: &App) -> Result<(), Problem> {
     if app.jobs.is_draining() {
         return Err(Problem::new(Code::Draining, "try again elsewhere"));
     }

@@ -86,13 +86,18 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     (
+        "sessions",
+        &["jobs"],
+        &["tokio", "tokio_util", "serde_json", "tracing"],
+    ),
+    (
         "bulk",
         &["jobs"],
         &["tokio", "serde_json", "csv", "uuid", "reqwest", "rustls"],
     ),
     (
         "http",
-        &["jobs"],
+        &["sessions"],
         &[
             "axum",
             "utoipa_axum",

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-/// Process ids of the compute children that work within a folder.
+/// Process ids of the children that compute jobs and sessions, and work within a folder.
 pub fn within(folder: &Path) -> Vec<i32> {
     let folder = folder.to_string_lossy();
     let is_child = |pid: &i32| {
         let command = std::fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
         let command = String::from_utf8_lossy(&command).replace('\0', " ");
-        command.contains(" compute ") && command.contains(&*folder)
+        let is_ours = [" compute ", " session "];
+        is_ours.iter().any(|word| command.contains(word)) && command.contains(&*folder)
     };
     all().filter(is_child).collect()
 }

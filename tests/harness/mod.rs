@@ -9,6 +9,7 @@ pub mod disk;
 pub mod fault;
 pub mod history;
 pub mod judge;
+pub mod live;
 pub mod machines;
 pub mod memory;
 pub mod ports;

@@ -18,6 +18,8 @@ mod requests;
 mod restarts;
 mod results;
 mod retention;
+pub mod sessions;
+mod sessions_end;
 mod submitted;
 mod synchronous;
 mod verdicts;

@@ -1,0 +1,126 @@
+//! The WebSocket of a session.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::extract::ws::rejection::WebSocketUpgradeRejection;
+use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, WebSocketUpgrade, close_code};
+use axum::response::Response;
+use futures_util::stream::{SplitSink, SplitStream};
+use futures_util::{SinkExt, StreamExt};
+use tokio::sync::broadcast::error::RecvError;
+
+use super::problem::{Code, Problem};
+use super::sessions::PathSession;
+use super::socket::KEEP_ALIVE;
+use super::{App, Shared};
+use crate::sessions::{End, Session};
+
+/// Bytes of a message at most: a handle, or settings.
+const MOST_MESSAGE_BYTES: usize = 64 << 10;
+
+/// Pull what a session holds, live.
+///
+/// A WebSocket. The client sends messages as JSON texts. The server sends the mesh once, then frames,
+/// both binary, and a reply to each message. Frames that a slow client has not received are dropped in
+/// favor of the latest. The close code is 1000 if the session was ended or expired, 1001 if the service
+/// stops, and 1011 if the computation failed, with the code of the failure as the reason. `live.md`
+/// beside this document describes messages, replies, meshes and frames.
+#[utoipa::path(
+    get, path = "/v1/sessions/{id}/live", operation_id = "pullSession", tag = "sessions",
+    params(("id" = String, Path, format = "uuid", description = "The session")),
+    responses(
+        (status = 101, description = "The connection is a WebSocket"),
+        (status = 404, description = "`session_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 426, description = "`upgrade_required`: the request does not ask for a WebSocket", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn pull_session(
+    State(app): Shared,
+    PathSession(session): PathSession,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Result<Response, Problem> {
+    let Ok(upgrade) = upgrade else {
+        return Err(Problem::new(Code::UpgradeRequired, "connect a WebSocket"));
+    };
+    let sockets = app.sockets.clone();
+    let upgrade = upgrade.max_message_size(MOST_MESSAGE_BYTES);
+    Ok(upgrade.on_upgrade(move |socket| sockets.track_future(relay(socket, session, app))))
+}
+
+/// Relays until the session or the connection ends.
+async fn relay(socket: WebSocket, session: Arc<Session>, _app: Arc<App>) {
+    let (mut sink, mut stream) = socket.split();
+    let code = tokio::select! {
+        () = hear(&mut stream, &session) => return,
+        code = tell(&mut sink, &session) => code,
+    };
+    let Some((code, reason)) = code else {
+        return;
+    };
+    let reason = Utf8Bytes::from(reason);
+    let goodbye = Message::Close(Some(CloseFrame { code, reason }));
+    if sink.send(goodbye).await.is_ok() {
+        super::socket::goodbye(&mut stream).await;
+    }
+}
+
+/// Passes messages on until the client is gone, or the child.
+async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) {
+    while let Some(Ok(message)) = stream.next().await {
+        let said = match &message {
+            Message::Text(text) => session.say(text.as_bytes()).await,
+            Message::Close(_) => return,
+            Message::Binary(_) | Message::Ping(_) | Message::Pong(_) => Ok(()),
+        };
+        if said.is_err() {
+            // The session is about to say why.
+            session.ended().await;
+        }
+    }
+}
+
+/// Sends the mesh, frames and replies until the session ends; then how to close. `None` if the client is gone.
+async fn tell(
+    sink: &mut SplitSink<WebSocket, Message>,
+    session: &Session,
+) -> Option<(u16, String)> {
+    let (mut frames, mut replies) = (session.frames(), session.replies());
+    sink.send(Message::Binary(session.mesh.clone()))
+        .await
+        .ok()?;
+    let mut quiet = tokio::time::interval(KEEP_ALIVE);
+    frames.mark_changed();
+    loop {
+        let message = tokio::select! {
+            biased;
+            why = session.ended() => return Some(closing(why)),
+            reply = replies.recv() => match reply {
+                Ok(reply) => Message::Text(Utf8Bytes::try_from(reply).ok()?),
+                Err(RecvError::Lagged(_)) => {
+                    return Some((close_code::POLICY, "too_slow".to_owned()));
+                }
+                Err(RecvError::Closed) => return None,
+            },
+            changed = frames.changed() => {
+                changed.ok()?;
+                let frame = frames.borrow_and_update().clone();
+                if frame.is_empty() {
+                    continue;
+                }
+                Message::Binary(frame)
+            }
+            _ = quiet.tick() => Message::Ping(Vec::new().into()),
+        };
+        sink.send(message).await.ok()?;
+    }
+}
+
+fn closing(why: End) -> (u16, String) {
+    match why {
+        End::Closed => (close_code::NORMAL, "closed".to_owned()),
+        End::Expired => (close_code::NORMAL, "expired".to_owned()),
+        End::Stopping => (close_code::AWAY, "stopping".to_owned()),
+        End::Failed(failure) => (close_code::ERROR, failure.code),
+    }
+}
