@@ -28,7 +28,13 @@ export async function run(page, url, job) {
       await page.click("#tab-report");
       await page.waitForSelector(".certificate");
       await check(page, `${colorScheme} report at ${width}`);
-      checked += 2;
+      await page.click("#tab-pull");
+      await page.click("#pull-start");
+      await page.waitForFunction(() => document.querySelector("#pull-figures").textContent.includes("0 flips"));
+      await check(page, `${colorScheme} pull at ${width}`);
+      await page.click("#pull-tools button:has-text('End')");
+      await check(page, `${colorScheme} pull at its end at ${width}`);
+      checked += 4;
     }
     await page.setViewportSize({ width: 1280, height: 800 });
     await page.click("#tab-view");

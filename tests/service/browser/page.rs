@@ -8,6 +8,7 @@ use serde_json::Value;
 use crate::cli::{assert_status, unwrapd};
 use crate::meshes::PLATE;
 use crate::places;
+use crate::server::sessions::sheet;
 use crate::server::{Server, ended, form};
 
 /// Runs a scenario at an address with arguments; what it returns.
@@ -92,7 +93,7 @@ async fn nothing_on_the_pages_is_inaccessible() {
     let url = unwrapped(&server, "cat_head.obj").await;
     let (page, job) = url.split_once("#job=").expect("a job");
     let said = scenario("accessible", page.to_owned(), &[job.to_owned()]).await;
-    assert_eq!(said["checked"], 18);
+    assert_eq!(said["checked"], 30);
 }
 
 #[tokio::test]
@@ -157,6 +158,35 @@ async fn jobs_of_every_kind_are_shown() {
         );
     }
     scenario("kinds", server.url("/"), &shown).await;
+}
+
+/// Something is held at a first place of the view and dragged by the mouse from a second to a third, in shares of its size.
+async fn pulled(file: String, what: &str, places: &str) {
+    let server = Server::start();
+    let arguments = [file, what.to_owned(), places.to_owned()];
+    let said = scenario("pull", server.url("/"), &arguments).await;
+    assert!(said["frames"].as_u64() > Some(10), "{said}");
+}
+
+#[tokio::test]
+async fn a_mesh_of_the_plane_is_pulled() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let off = folder.path().join("sheet.off");
+    std::fs::write(&off, sheet(16).1).expect("a file");
+    let places = "[[0.5, 0.85], [0.5, 0.2], [0.62, 0.4]]";
+    pulled(text(&off), "Planar mesh", places).await;
+}
+
+#[tokio::test]
+async fn a_picture_is_pulled() {
+    let places = "[[0.4, 0.6], [0.6, 0.5], [0.7, 0.3]]";
+    pulled(asset("pictures/spot.png"), "Picture", places).await;
+}
+
+#[tokio::test]
+async fn a_surface_in_a_cage_is_pulled() {
+    let places = "[[0.5, 0.62], [0.5, 0.42], [0.62, 0.3]]";
+    pulled(asset("spot.ply"), "Surface in a cage", places).await;
 }
 
 /// Sources and bundle agree: building it again gives the same bytes.

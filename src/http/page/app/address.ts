@@ -6,7 +6,7 @@ import type { Shade } from "../viewer/look";
 /** The state that is worth sharing. */
 export interface Place {
   job: string | null;
-  tab: "view" | "report";
+  tab: "view" | "report" | "pull";
   shade: Shade;
   measure: Measure;
   seams: boolean;

@@ -7,26 +7,38 @@ export interface Key {
   key: string;
   does: string;
   act: () => void;
+  /** Whether Ctrl is held, and Shift. */
+  ctrl?: boolean;
+  shift?: boolean;
+  /** Whether it does this only where the view has the focus: elsewhere it means what it means everywhere. */
+  inPane?: boolean;
 }
 
 /** Listens to keys wherever nothing is typed. */
-export function listen(keys: Key[]): void {
+export function listen(keys: () => Key[]): void {
   addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     const isTyping = target.matches("input:not([type=radio], [type=checkbox]), select, textarea");
-    if (isTyping || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-    const found = keys.find(({ key }) => key.toLowerCase() === event.key.toLowerCase());
+    if (isTyping || event.altKey || document.querySelector("dialog[open]")) return;
+    const isCtrl = event.ctrlKey || event.metaKey;
+    const found = keys().find(({ key, ctrl = false, shift, inPane = false }) => (!inPane || target.closest(".pane") !== null) &&
+      key.toLowerCase() === event.key.toLowerCase() && ctrl === isCtrl && (shift ?? event.shiftKey) === event.shiftKey);
     if (!found) return;
     event.preventDefault();
     found.act();
   });
 }
 
+function nameOf({ key, ctrl, shift }: Key): string {
+  const name = key === " " ? "Space" : key.length === 1 ? key.toUpperCase() : key;
+  return [ctrl && "Ctrl", shift && "Shift", name].filter(Boolean).join(" ");
+}
+
 /** Shows all keys. */
 export function showKeys(keys: Key[]): void {
   const dialog = byId<HTMLDialogElement>("keys");
   const rows = [
-    ...keys.map(({ key, does }) => [key === " " ? "Space" : key.length === 1 ? key.toUpperCase() : key, does] as const),
+    ...keys.map((key) => [nameOf(key), key.does] as const),
     ["Drag", "Turn the surface, move the UVs"], ["Right drag", "Move the surface"], ["Wheel", "Zoom to the pointer"], ["Click", "Select; elsewhere, select nothing"],
   ];
   dialog.replaceChildren(

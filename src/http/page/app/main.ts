@@ -5,7 +5,7 @@ import { SHADES } from "../viewer/look";
 import { type Place, readPlace, START, writePlace } from "./address";
 import type { Analysis } from "../analysis/analysis";
 import { analyzed } from "./analyst";
-import { address, download, type Job } from "./api";
+import { address, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
 import { short, whole } from "./format";
 import { JobList } from "./job_list";
@@ -17,6 +17,7 @@ import { type Chosen, Setup } from "./setup";
 import { soupOf } from "../viewer/soups";
 import { showLegend, showPointed } from "./status";
 import { startTheme } from "./theme";
+import { PullView } from "../pull/pull_view";
 import { Toolbar } from "./toolbar";
 import { Viewer } from "./viewer";
 
@@ -25,8 +26,11 @@ const toolbar = new Toolbar(viewer, change, () => void compare());
 const list = new JobList((id) => void open(id));
 const setup = new Setup((first) => void preview(first), made, failed);
 const jobs = new JobView({ viewer, list, setup, failed, removed: () => void open(null), shown: refresh });
+const pull = new PullView({ failed, baked: (job) => { void list.refresh(); void open(job.id, { ...START }); } });
 let before: Analysis | null = null;
 let isBefore = false;
+
+const TABS = ["view", "report", "pull"] as const;
 
 // ---- state
 
@@ -42,13 +46,23 @@ function refresh(): void {
   toolbar.refresh(isBefore, jobs.report !== null && jobs.input !== null);
   showLegend(viewer, (measure) => change({ measure }));
   showPointed(viewer);
-  for (const tab of ["view", "report"] as const) {
+  for (const tab of TABS) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(place.tab === tab));
     byId(tab).hidden = place.tab !== tab;
   }
   byId("title-state").textContent = isBefore ? "before" : "";
   if (place.tab === "report") void report();
+  if (place.tab === "pull") offer();
   writePlace(place);
+}
+
+/** What is shown can be pulled. */
+function offer(): void {
+  const { job } = jobs;
+  const result = job?.state === "succeeded" ? fileOf(job, "result") : undefined;
+  const known = { isMapped: viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ?? false, isFlat: viewer.model?.isFlat ?? false };
+  if (job && result) pull.offer({ name: result.name, job: job.id }, known);
+  else pull.offer(setup.chosen[0] ?? null, known);
 }
 
 function failed(error: unknown): void {
@@ -185,10 +199,22 @@ const KEYS: Key[] = [
   { key: "?", does: "These keys", act: () => showKeys(KEYS) },
 ];
 
+const pulls = (key: string, does: string, wish: string, more: Partial<Key> = {}): Key => ({ key, does, act: () => pull.does(wish), ...more });
+const PULL_KEYS: Key[] = [
+  pulls("g", "Grab the selected handles: they follow the pointer until you click", "grab"), pulls("r", "Rotate them", "rotate"),
+  pulls("s", "Scale them", "scale"), pulls("Enter", "Leave them there", "confirm", { inPane: true }), pulls("Escape", "Put them back; select nothing", "cancel"),
+  pulls("p", "Pin what is below the pointer", "pin"), pulls("l", "Lock: stay when others are moved together", "lock"),
+  pulls("Tab", "Next handle", "next", { shift: false, inPane: true }), pulls("a", "Select all handles", "all"), pulls("x", "Let go", "let_go"), pulls("Delete", "Let go", "let_go"),
+  pulls("z", "Undo", "undo", { ctrl: true, shift: false }), pulls("z", "Redo", "redo", { ctrl: true, shift: true }),
+  pulls("f", "Show everything", "frame"), pulls("b", "Bake: make a job of what is shown", "bake"),
+  { key: "?", does: "These keys", act: () => showKeys(PULL_KEYS) },
+];
+
 function wire(): void {
-  listen(KEYS);
-  byId("keys-button").addEventListener("click", () => showKeys(KEYS));
-  for (const tab of ["view", "report"] as const) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));
+  const keys = () => (viewer.place.tab === "pull" ? PULL_KEYS : KEYS);
+  listen(keys);
+  byId("keys-button").addEventListener("click", () => showKeys(keys()));
+  for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));
   viewer.pointing.onHover = () => showPointed(viewer);
   viewer.pointing.onSelect = () => change({});
   viewer.changed = refresh;

@@ -9,6 +9,7 @@ import { Model } from "../viewer/model";
 import { soupOf } from "../viewer/soups";
 import { pictureOf, sheetOf } from "../viewer/sheet";
 import { Stage } from "../viewer/stage";
+import { color } from "../viewer/theme_color";
 import type { View } from "../viewer/surface";
 import { type Place, START } from "./address";
 import { analyzed } from "./analyst";
@@ -207,15 +208,6 @@ function stageOn(places: { canvas: HTMLCanvasElement; solid: HTMLElement; plane:
   } catch {
     return null;
   }
-}
-
-/** A color of the style sheet, as the theme has it. */
-function color(name: string): string {
-  const probe = byId("panes");
-  probe.style.color = `var(${name})`;
-  const { color: resolved } = getComputedStyle(probe);
-  probe.style.color = "";
-  return resolved;
 }
 
 function boundsOf(scene: Object3D) {

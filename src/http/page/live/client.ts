@@ -1,0 +1,89 @@
+// A client of live sessions: see openapi/live.md.
+
+import { decode, type LiveFrame, type LiveMesh } from "./decode";
+
+/** A handle as the options of a job have it. */
+export type Handle =
+  | { at: number[]; to: number[] }
+  | { vertex: number; to: number[] }
+  | { center: number[]; radius: number; to: number[]; turn?: number; axis?: number[] };
+
+/** What a client may wish. */
+export type Wish =
+  | { add: { name: number; handle: Handle } }
+  | { move: { name: number; to: number[] } }
+  | { remove: { name: number } }
+  | { settings: Record<string, unknown> }
+  | { remember: object } | { undo: object } | { redo: object } | { reset: object } | { list: object };
+
+/** What a wish is answered. */
+export interface Reply {
+  n: number;
+  step: number;
+  superseded?: boolean;
+  handles?: { name: number; handle: Handle }[];
+  error?: { code: string; detail: string };
+}
+
+/** Who listens to a session. */
+export interface Listener {
+  mesh(mesh: LiveMesh): void;
+  frame(frame: LiveFrame, milliseconds: number | null): void;
+  reply(reply: Reply, wish: Wish | null): void;
+  closed(code: number, reason: string): void;
+}
+
+/** A connection to a session. */
+export class LiveClient {
+  readonly #socket: WebSocket;
+  #n = 0;
+  /** When wishes were sent that no frame has contained yet, and wishes without a reply. */
+  readonly #sent = new Map<number, number>();
+  readonly #wishes = new Map<number, Wish>();
+
+  constructor(url: URL, listener: Listener) {
+    this.#socket = new WebSocket(url);
+    this.#socket.binaryType = "arraybuffer";
+    this.#socket.onmessage = ({ data }: MessageEvent<ArrayBuffer | string>) => {
+      if (typeof data === "string") return this.#replied(JSON.parse(data) as Reply, listener);
+      const said = decode(data);
+      if ("mesh" in said) listener.mesh(said.mesh);
+      else listener.frame(said.frame, this.#waited(said.frame.message));
+    };
+    this.#socket.onclose = ({ code, reason }) => listener.closed(code, reason);
+  }
+
+  /** Wishes something; its number. */
+  say(wish: Wish): number {
+    const n = ++this.#n;
+    this.#sent.set(n, performance.now());
+    this.#wishes.set(n, wish);
+    const text = JSON.stringify({ n, ...wish });
+    if (this.#socket.readyState === WebSocket.CONNECTING) this.#socket.addEventListener("open", () => this.#socket.send(text), { once: true });
+    else this.#socket.send(text);
+    return n;
+  }
+
+  close(): void {
+    this.#socket.onclose = null;
+    this.#socket.close();
+  }
+
+  /** Whether all that was said is in a frame. */
+  get isAnswered(): boolean {
+    return this.#sent.size === 0;
+  }
+
+  #replied(reply: Reply, listener: Listener): void {
+    const wish = this.#wishes.get(reply.n) ?? null;
+    this.#wishes.delete(reply.n);
+    listener.reply(reply, wish);
+  }
+
+  /** Milliseconds since the last message was said that a frame contains and none before it did. */
+  #waited(message: number): number | null {
+    const sent = this.#sent.get(message);
+    for (const n of this.#sent.keys()) if (n <= message) this.#sent.delete(n);
+    return sent === undefined ? null : performance.now() - sent;
+  }
+}

@@ -1,0 +1,146 @@
+// What a pointer does in the view of a session: it holds, drags, and moves grips together.
+
+import type { Grip, Grips } from "./grips";
+import { type Gesture, Motion } from "./grips";
+import type { PullScene, Touched } from "./scene";
+
+/** Pixels within which a grip is below the pointer. */
+const NEAR = 12;
+/** Pixels up to which a press is no drag. */
+const STILL = 3;
+
+/** Who does what the pointer wants. */
+export interface Doer {
+  /** Before the grips are moved. */
+  begin(): void;
+  hold(touched: Touched): Grip;
+  /** Grips are elsewhere; `isTurned` if more than their targets changed. */
+  moved(grips: Grip[], isTurned: boolean): void;
+  cancel(): void;
+  refresh(): void;
+}
+
+/** Follows the pointer. */
+export class Pointer {
+  #motion: Motion | null = null;
+  /** Where a gesture or a drag began, and where the pointer is. */
+  #from: [number, number] = [0, 0];
+  #at: [number, number] = [0, 0];
+  #dragged = false;
+  /** Whether a button is down, or else a key began the gesture. */
+  #isDown = false;
+
+  constructor(readonly scene: PullScene, readonly grips: Grips, readonly doer: Doer) {
+    for (const pane of [scene.places.plane, scene.places.solid]) {
+      pane.addEventListener("pointerdown", (event) => this.#down(event, pane), { capture: true });
+      pane.addEventListener("pointermove", (event) => this.#move(event, pane), { capture: true });
+      pane.addEventListener("pointerup", (event) => this.#up(event), { capture: true });
+    }
+  }
+
+  get gesture(): Gesture | null {
+    return this.#motion?.gesture ?? null;
+  }
+
+  /** The place of the mesh below the pointer. */
+  get touched(): Touched | null {
+    return this.scene.touch(this.#at);
+  }
+
+  /** Begins to move the selected grips together, without a button. */
+  start(gesture: Gesture): void {
+    const chosen = this.grips.chosen();
+    if (!chosen.length) return;
+    this.doer.begin();
+    [this.#motion, this.#from, this.#isDown] = [new Motion(gesture, chosen), this.#at, false];
+    this.doer.refresh();
+  }
+
+  /** Ends the gesture; the grips go back if it is not wanted. */
+  end(isWanted: boolean): void {
+    if (!this.#motion) return;
+    this.#motion = null;
+    if (!isWanted) this.doer.cancel();
+    this.doer.refresh();
+  }
+
+  /** The grip at a place. */
+  #gripAt([x, y]: [number, number]): Grip | null {
+    const distance = ({ to }: Grip) => {
+      const [px, py] = this.scene.project(to);
+      return Math.hypot(px - x, py - y);
+    };
+    const near = this.grips.all.map((grip) => ({ grip, far: distance(grip) })).filter(({ far }) => far <= NEAR);
+    return near.sort((a, b) => a.far - b.far)[0]?.grip ?? null;
+  }
+
+  #down(event: PointerEvent, pane: HTMLElement): void {
+    if (event.button !== 0) return;
+    this.#at = placeIn(pane, event);
+    if (this.#motion) {
+      stop(event);
+      return this.end(true);
+    }
+    const grip = this.#gripAt(this.#at);
+    const touched = grip ? null : this.scene.touch(this.#at);
+    if (!grip && !touched) return this.#empty();
+    stop(event);
+    pane.focus();
+    pane.setPointerCapture(event.pointerId);
+    this.doer.begin();
+    const held = grip ?? this.doer.hold(touched!);
+    if (event.shiftKey) this.grips.select(held.name, true);
+    else if (!this.grips.selected.has(held.name)) this.grips.select(held.name);
+    const together = this.grips.chosen();
+    if (together.length) [this.#motion, this.#from, this.#isDown, this.#dragged] = [new Motion("grab", together), this.#at, true, false];
+    this.doer.refresh();
+  }
+
+  #empty(): void {
+    this.grips.select(null);
+    this.doer.refresh();
+  }
+
+  #move(event: PointerEvent, pane: HTMLElement): void {
+    this.#at = placeIn(pane, event);
+    if (!this.#motion) {
+      pane.style.cursor = this.#gripAt(this.#at) ? "grab" : "";
+      return;
+    }
+    if (this.#isDown) stop(event);
+    const far = Math.hypot(this.#at[0] - this.#from[0], this.#at[1] - this.#from[1]);
+    if (!this.#dragged && this.#isDown && far < STILL) return;
+    this.#dragged = true;
+    this.doer.moved(this.#grips(this.#motion), this.#motion.gesture === "rotate");
+  }
+
+  /** What the gesture has made of the grips by now. */
+  #grips(motion: Motion): Grip[] {
+    const { scene } = this;
+    const [from, to] = [this.#from, this.#at].map((at) => scene.placeAt(at, motion.pivot)) as [number[], number[]];
+    if (motion.gesture === "grab") return motion.shifted(to.map((x, k) => x - from[k]!));
+    const center = scene.project(motion.pivot);
+    const arm = ([x, y]: [number, number]) => [x - center[0], y - center[1]] as const;
+    const [[ax, ay], [bx, by]] = [arm(this.#from), arm(this.#at)];
+    if (motion.gesture === "scale") return motion.scaled(Math.hypot(bx, by) / Math.max(Math.hypot(ax, ay), 1));
+    // Pixels count downward.
+    const turn = -Math.atan2(ax * by - ay * bx, ax * bx + ay * by);
+    return motion.turned(((turn * 180) / Math.PI) * scene.handedness, scene.axis);
+  }
+
+  #up(event: PointerEvent): void {
+    if (!this.#motion || !this.#isDown) return;
+    stop(event);
+    this.end(true);
+  }
+}
+
+function placeIn(pane: HTMLElement, event: PointerEvent): [number, number] {
+  const { left, top } = pane.getBoundingClientRect();
+  return [event.clientX - left, event.clientY - top];
+}
+
+function stop(event: Event): void {
+  event.stopImmediatePropagation();
+  event.preventDefault();
+}

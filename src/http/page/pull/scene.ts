@@ -1,0 +1,232 @@
+// What is pulled, drawn: one mesh in the plane or in space, its wire, and the places of a pointer on it.
+
+import {
+  BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  MeshStandardMaterial, Raycaster, SRGBColorSpace, type Texture, TextureLoader, Vector2, Vector3, WebGLRenderer,
+} from "three";
+import type { LiveMesh } from "../live/decode";
+import { PlanePane } from "../viewer/plane_pane";
+import { SolidPane } from "../viewer/solid_pane";
+import { color } from "../viewer/theme_color";
+import { sheetOf } from "../viewer/sheet";
+import { Seen } from "./seen";
+
+/** Triangles up to which their sides are drawn. */
+const MOST_WIRED = 60_000;
+
+/** How what is pulled is drawn. */
+export interface Look {
+  /** The height from which y is counted down, or null where it points up. */
+  down: number | null;
+  picture: Blob | null;
+  /** Whether the pages of UVs are drawn below. */
+  isMap: boolean;
+}
+
+/** A place on the mesh: at rest, and now. */
+export interface Touched { at: number[]; to: number[] }
+
+/** The view of a session. Its constructor throws where there is no WebGL. */
+export class PullScene {
+  readonly #renderer: WebGLRenderer;
+  readonly #plane: PlanePane;
+  readonly #solid: SolidPane;
+  #seen: Seen | null = null;
+  #look: Look = { down: null, picture: null, isMap: false };
+  #body: Mesh | null = null;
+  #things: (Mesh | LineSegments)[] = [];
+  #isAsked = false;
+  /** Called after each frame is drawn. */
+  drawn: () => void = () => {};
+
+  constructor(canvas: HTMLCanvasElement, readonly places: { plane: HTMLElement; solid: HTMLElement }) {
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.#plane = new PlanePane(places.plane, () => this.redraw());
+    this.#solid = new SolidPane(places.solid, () => this.redraw());
+    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
+  }
+
+  get isPlanar(): boolean {
+    return this.#seen?.mesh.dim !== 3;
+  }
+
+  /** The element that is dragged in. */
+  get pane(): HTMLElement {
+    return this.isPlanar ? this.places.plane : this.places.solid;
+  }
+
+  async show(mesh: LiveMesh, look: Look): Promise<void> {
+    this.clear();
+    this.#look = look;
+    this.#seen = new Seen(mesh, look.down);
+    this.places.plane.hidden = mesh.dim === 3;
+    this.places.solid.hidden = mesh.dim === 2;
+    const texture = look.picture ? await textureOf(look.picture) : null;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", this.#seen.attribute);
+    geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
+    if (texture) geometry.setAttribute("uv", new BufferAttribute(pictureUvs(mesh), 2));
+    this.#body = new Mesh(geometry, this.#material(texture));
+    this.#body.frustumCulled = false;
+    this.#things = [...(look.isMap ? sheetOf(1, 1, { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") }) : []), this.#body];
+    if (!texture && mesh.triangles.length <= 3 * MOST_WIRED) this.#things.push(this.#wire(mesh));
+    const key = new DirectionalLight(0xffffff, 2);
+    key.position.set(1, 2, 3);
+    const lights = [new HemisphereLight(0xffffff, 0x8a8f98, 2), key];
+    geometry.computeBoundingSphere();
+    if (mesh.dim === 3) this.#solid.show([...this.#things, ...lights], geometry.boundingSphere);
+    else this.#plane.show(this.#things);
+    this.#resize();
+    this.frame();
+  }
+
+  #material(map: Texture | null): MeshBasicMaterial | MeshStandardMaterial {
+    const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, side: DoubleSide } as const;
+    if (this.isPlanar) return new MeshBasicMaterial({ ...(map ? { map } : { color: color("--pulled") }), depthTest: false, depthWrite: false, toneMapped: false, side: DoubleSide });
+    return new MeshStandardMaterial({ color: color("--pulled"), flatShading: true, roughness: 0.8, ...offset });
+  }
+
+  #wire(mesh: LiveMesh): LineSegments {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", this.#seen!.attribute);
+    geometry.setIndex(new BufferAttribute(edgesOf(mesh.triangles), 1));
+    const wire = new LineSegments(geometry, new LineBasicMaterial({ color: color("--pulled-wire"), transparent: true, opacity: 0.55, depthTest: mesh.dim === 3, toneMapped: false }));
+    wire.frustumCulled = false;
+    wire.renderOrder = 1;
+    return wire;
+  }
+
+  /** Shows where the vertices are now. */
+  move(positions: Float32Array | Float64Array): void {
+    this.#seen?.move(positions);
+    this.redraw();
+  }
+
+  clear(): void {
+    for (const thing of this.#things) {
+      thing.geometry.dispose();
+      for (const material of [thing.material].flat()) material.dispose();
+    }
+    this.#things = [];
+    this.#body = this.#seen = null;
+    this.#plane.show([]);
+    this.#solid.show([], null);
+    this.redraw();
+  }
+
+  /** Shows everything. */
+  frame(): void {
+    if (!this.#seen) return;
+    if (!this.isPlanar) return this.#solid.frame();
+    const [u0, v0, u1, v1] = this.#look.isMap ? [0, 0, 1, 1] : this.#seen.box();
+    const [du, dv] = [0.15 * (u1 - u0), 0.15 * (v1 - v0)];
+    this.#plane.frame([u0 - du, v0 - dv, u1 + du, v1 + dv]);
+  }
+
+  redraw(): void {
+    if (this.#isAsked) return;
+    this.#isAsked = true;
+    requestAnimationFrame(() => {
+      this.#isAsked = false;
+      this.#draw();
+    });
+  }
+
+  #draw(): void {
+    const pane = this.isPlanar ? this.#plane : this.#solid;
+    if (!this.isPlanar && this.#solid.update()) this.redraw();
+    this.#renderer.setClearColor(new Color(color("--stage")), 1);
+    this.#renderer.clear();
+    if (this.#seen) this.#renderer.render(pane.scene, pane.camera);
+    this.drawn();
+  }
+
+  #resize(): void {
+    const { width, height } = this.#renderer.domElement.parentElement!.getBoundingClientRect();
+    if (width < 1 || height < 1) return;
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#renderer.setSize(width, height, false);
+    this.#plane.resize(width, height);
+    this.#solid.resize(width, height);
+    this.redraw();
+  }
+
+  get #camera() {
+    const { camera } = this.isPlanar ? this.#plane : this.#solid;
+    camera.updateMatrixWorld();
+    return camera;
+  }
+
+  /** Where a place of the mesh's coordinates is, in pixels of the view. */
+  project(place: number[]): [number, number] {
+    const { width, height } = this.pane.getBoundingClientRect();
+    const { x, y } = this.#seen!.outward(place).project(this.#camera);
+    return [((x + 1) / 2) * width, ((1 - y) / 2) * height];
+  }
+
+  /** The place at a pixel, as far away as another place. */
+  placeAt([x, y]: [number, number], depthOf: number[]): number[] {
+    const { z } = this.#seen!.outward(depthOf).project(this.#camera);
+    return this.#seen!.inward(new Vector3(...this.#device(x, y), z).unproject(this.#camera));
+  }
+
+  /** The mesh below a pixel. */
+  touch([x, y]: [number, number]): Touched | null {
+    if (!this.#body || !this.#seen) return null;
+    if (this.isPlanar) return this.#seen.touchPlane(this.placeAt([x, y], [0, 0]));
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2(...this.#device(x, y)), this.#camera);
+    this.#body.geometry.computeBoundingSphere();
+    const [hit] = ray.intersectObject(this.#body, false);
+    return hit?.faceIndex === undefined || hit.faceIndex === null ? null : this.#seen.touchFace(hit.faceIndex, hit.point);
+  }
+
+  /** The direction that points at who looks, in the mesh's coordinates. */
+  get axis(): number[] | null {
+    if (this.isPlanar) return null;
+    const toward = new Vector3(0, 0, 1).transformDirection(this.#camera.matrixWorld);
+    return toward.toArray();
+  }
+
+  /** 1 where counter-clockwise in the mesh's numbers is so on the screen, too. */
+  get handedness(): number {
+    return this.isPlanar && this.#look.down !== null ? -1 : 1;
+  }
+
+  /** The size of the mesh at rest. */
+  get extent(): number {
+    return this.#seen?.extent ?? 1;
+  }
+
+  #device(x: number, y: number): [number, number] {
+    const { width, height } = this.pane.getBoundingClientRect();
+    return [(x / width) * 2 - 1, 1 - (y / height) * 2];
+  }
+}
+
+function pictureUvs({ rest, picture: [columns, rows] }: LiveMesh): Float32Array {
+  return Float32Array.from(rest, (x, k) => (k % 2 ? 1 - x / rows : x / columns));
+}
+
+async function textureOf(picture: Blob): Promise<Texture> {
+  const url = URL.createObjectURL(picture);
+  const texture = await new TextureLoader().loadAsync(url).finally(() => URL.revokeObjectURL(url));
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}
+
+/** The sides of triangles, each once. */
+function edgesOf(triangles: Uint32Array): Uint32Array {
+  const seen = new Set<number>();
+  const edges: number[] = [];
+  for (let k = 0; k < triangles.length; k += 3) {
+    for (const [i, j] of [[0, 1], [1, 2], [2, 0]] as const) {
+      const [a, b] = [triangles[k + i]!, triangles[k + j]!];
+      const key = Math.min(a, b) * 0x4000000 + Math.max(a, b);
+      if (seen.has(key)) continue;
+      seen.add(key);
+      edges.push(a, b);
+    }
+  }
+  return Uint32Array.from(edges);
+}

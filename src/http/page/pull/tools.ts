@@ -1,0 +1,123 @@
+// The tools of the pull view: what to pull, what to do, and what the solver says.
+
+import { button, byId, element } from "../app/dom";
+import { short } from "../app/format";
+import type { LiveFrame } from "../live/decode";
+import type { Gesture, Grips } from "./grips";
+import { ACCEPTED, type Way } from "./what";
+
+/** What the tools ask for. */
+export interface Asked {
+  start(way: number): void;
+  take(files: File[]): void;
+  resize(share: number): void;
+  does(wish: string): void;
+}
+
+/** Buttons of what is done while pulling: name, key, wish. */
+const ACTS = [
+  ["Undo", "Ctrl Z", "undo"], ["Redo", "Ctrl Shift Z", "redo"], ["Reset", "", "reset"],
+] as const;
+const GESTURES = [["Grab", "G", "grab"], ["Rotate", "R", "rotate"], ["Scale", "S", "scale"]] as const;
+const HELDS = [["Lock", "L", "lock"], ["Let go", "X", "let_go"], ["Next", "Tab", "next"]] as const;
+
+/** The keys, shown below the view as long as something is pulled. */
+const HINTS = [["Press", "hold"], ["Drag", "pull"], ["P", "pin"], ["G R S", "grab, rotate, scale"], ["L", "lock"], ["Tab", "next handle"], ["X", "let go"], ["Ctrl Z", "undo"]] as const;
+
+/** The bar above the view and the line below it. */
+export class PullTools {
+  readonly #ways = element("select", { id: "pull-way", aria: { label: "What to pull" } });
+  readonly #start: HTMLButtonElement;
+  readonly #size = element("input", { type: "range", id: "pull-size", min: "0", max: "0.3", step: "0.01", aria: { label: "Size of a handle" } });
+  readonly #name = element("strong", { id: "pull-name" });
+  readonly #before: HTMLElement[];
+  readonly #during: HTMLElement[];
+  readonly #said = byId("pull-note");
+  #waits: number[] = [];
+
+  constructor(asked: Asked) {
+    const files = element("input", { type: "file", accept: ACCEPTED, multiple: true, hidden: true, id: "pull-files", aria: { label: "File to pull" } });
+    files.addEventListener("change", () => {
+      asked.take([...(files.files ?? [])]);
+      files.value = "";
+    });
+    this.#start = button("Take hold", () => asked.start(this.#ways.selectedIndex), { id: "pull-start", className: "primary" });
+    this.#size.addEventListener("input", () => asked.resize(Number(this.#size.value)));
+    const act = ([text, key, wish]: readonly [string, string, string]) =>
+      button(text, () => asked.does(wish), { title: key ? `${text} (${key})` : text, data: { does: wish } });
+    const group = (label: string, acts: readonly (readonly [string, string, string])[]) =>
+      element("div", { className: "tools", aria: { role: "group", label } }, ...acts.map(act));
+    this.#before = [this.#ways, this.#start, button("Choose a file", () => files.click(), { id: "pull-choose" })];
+    this.#during = [
+      this.#name, group("Change", ACTS), group("Move", GESTURES), group("Handles", HELDS),
+      element("label", { className: "size", textContent: "Handle size " }, this.#size),
+      button("Bake", () => asked.does("bake"), { id: "pull-bake", className: "primary", title: "Make a job of what is shown: written and certified (B)" }),
+      button("End", () => asked.does("end"), { title: "End the session" }),
+    ];
+    byId("pull-tools").append(...this.#before, ...this.#during, files);
+    byId("pull-hints").append(...HINTS.flatMap(([key, does]) => [element("kbd", { textContent: key }), ` ${does} `]));
+    this.ended("");
+  }
+
+  /** What may be pulled; nothing where it could not be shown. */
+  offer(name: string | null, ways: Way[]): void {
+    this.#ways.replaceChildren(...ways.map(({ name: text, title }) => element("option", { textContent: text, title })));
+    this.#start.disabled = !ways.length;
+    this.say(name ? `${name} can be pulled here: its shape follows your handles, live, and no element is ever inverted.` : "Choose a mesh, a picture or a drawing to pull.");
+  }
+
+  started(name: string, way: Way, size: number): void {
+    this.#show(true);
+    this.#name.textContent = name;
+    this.#name.title = way.title;
+    this.#size.value = String(size);
+    this.#size.parentElement!.hidden = way.kind !== "deform";
+    this.#waits = [];
+  }
+
+  ended(why: string): void {
+    this.#show(false);
+    this.say(why);
+    byId("pull-figures").textContent = "";
+  }
+
+  #show(isPulled: boolean): void {
+    for (const tool of this.#before) tool.hidden = isPulled;
+    for (const tool of this.#during) tool.hidden = !isPulled;
+    byId("pull-hints").hidden = !isPulled;
+  }
+
+  /** Says something in the middle of the view. */
+  say(text: string): void {
+    this.#said.textContent = text;
+    this.#said.hidden = text === "";
+  }
+
+  /** Says something for a moment. */
+  note(text: string): void {
+    this.say(text);
+    setTimeout(() => this.#said.textContent === text && this.say(""), 4000);
+  }
+
+  refresh(grips: Grips, gesture: Gesture | null): void {
+    const hasSelected = grips.chosen(true).length > 0;
+    for (const tool of byId("pull-tools").querySelectorAll<HTMLButtonElement>("[data-does]")) {
+      const { does } = tool.dataset;
+      tool.disabled = ["grab", "rotate", "scale"].includes(does!) ? !grips.chosen().length : ["lock", "let_go"].includes(does!) ? !hasSelected : false;
+      tool.setAttribute("aria-pressed", String(does === gesture));
+    }
+  }
+
+  /** Milliseconds that a message waited for the frame that contains it. */
+  waited(milliseconds: number): void {
+    this.#waits = [...this.#waits.slice(-60), milliseconds];
+  }
+
+  frame({ stage, step, flips, energy, smallest }: LiveFrame): void {
+    const wait = [...this.#waits].sort((a, b) => a - b)[this.#waits.length >> 1];
+    byId("pull-figures").textContent = [
+      `${flips} flips`, `smallest element ${(100 * smallest).toFixed(1)} % of rest`, Number.isFinite(energy) ? `energy ${short(energy)}` : "", `iteration ${step}`,
+      { moving: "moving", settled: "at rest", unreached: "targets cannot be reached" }[stage], wait === undefined ? "" : `follows in ${wait.toFixed(0)} ms`,
+    ].filter(Boolean).join(" · ");
+  }
+}

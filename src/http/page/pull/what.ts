@@ -1,0 +1,76 @@
+// What can be pulled of a file, and the session that does so.
+
+import { address, call } from "../app/api";
+import { extension } from "../viewer/loading";
+
+/** A way to pull a file. */
+export interface Way {
+  name: string;
+  title: string;
+  kind: "deform" | "warp" | "edit_uv" | "texture_map";
+  options: Record<string, unknown>;
+  /** The height at which y begins where it points down: of UVs of a glTF, and of pictures. */
+  isMap: boolean;
+}
+
+const way = (name: string, title: string, kind: Way["kind"], options: Way["options"] = {}): Way => ({ name, title, kind, options, isMap: kind === "edit_uv" || kind === "texture_map" });
+
+const UVS = way("UVs", "Anchors pull the UVs; the shapes that they have are kept", "edit_uv");
+const TEXTURE = way("UVs to a texture", "Anchors pull the UVs inside fixed borders; the shapes of the surface are kept", "texture_map");
+const CAGE = way("Surface in a cage", "A cage of cubes around the surface is pulled and carries it along", "deform", { cage: 14 });
+const PLANAR = way("Planar mesh", "The triangles of a mesh in the plane are pulled", "deform");
+const SOLID = way("Mesh", "The tetrahedra, or the triangles of the plane, are pulled", "deform");
+const PICTURE = way("Picture", "A grid over the picture is pulled", "warp");
+const DRAWING = way("Outline", "The outline is filled with triangles, which are pulled", "deform");
+
+/** File names of what can be pulled. */
+export const ACCEPTED = ".glb,.gltf,.obj,.ply,.stl,.off,.msh,.mesh,.tet,.png,.jpg,.jpeg,.svg";
+
+/** What is known of a surface. */
+export interface Known { isMapped: boolean; isFlat: boolean }
+
+/** The ways to pull a file, the likeliest first; all of them where nothing is known of a surface. */
+export function waysOf(name: string, known: Known | null): Way[] {
+  switch (extension(name)) {
+    case "png": return [PICTURE, DRAWING];
+    case "jpg": case "jpeg": return [PICTURE];
+    case "svg": return [DRAWING];
+    case "msh": case "mesh": case "tet": return [SOLID];
+    default:
+      if (!known) return [CAGE, PLANAR, UVS, TEXTURE];
+      if (known.isFlat) return [PLANAR, ...(known.isMapped ? [UVS, TEXTURE] : [])];
+      return known.isMapped ? [UVS, TEXTURE, CAGE] : [CAGE];
+  }
+}
+
+/** What is pulled: a file, or what a job made. */
+export type Origin = { name: string; content: Blob; resources: Map<string, Blob> } | { name: string; job: string };
+
+/** A session, as the service describes it. */
+export interface Session {
+  id: string;
+  kind: Way["kind"];
+  filename: string;
+  links: { self: string; live: string; bake: string };
+}
+
+/** Opens a session. */
+export async function openSession(origin: Origin, { kind, options }: Way): Promise<Session> {
+  if ("job" in origin) {
+    const query = new URLSearchParams({ job: origin.job, kind });
+    for (const [name, value] of Object.entries(options)) query.set(name, String(value));
+    return call(`v1/sessions?${query}`, { method: "POST" });
+  }
+  const form = new FormData();
+  form.append("options", JSON.stringify(options));
+  form.append("mesh", origin.content, origin.name);
+  for (const [name, file] of origin.resources) form.append("resource", file, name);
+  return call(`v1/sessions?kind=${kind}`, { method: "POST", body: form });
+}
+
+/** The address of a session's WebSocket. */
+export function socketOf(session: Session): URL {
+  const url = new URL(address(session.links.live), document.baseURI);
+  url.protocol = url.protocol.replace("http", "ws");
+  return url;
+}

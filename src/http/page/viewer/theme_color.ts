@@ -1,0 +1,11 @@
+// Colors of the style sheet, as the theme has them.
+
+/** A color by the name of its variable. */
+export function color(name: string): string {
+  const probe = document.documentElement;
+  const before = probe.style.outlineColor;
+  probe.style.outlineColor = `var(${name})`;
+  const { outlineColor } = getComputedStyle(probe);
+  probe.style.outlineColor = before;
+  return outlineColor;
+}
