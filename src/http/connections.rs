@@ -84,7 +84,11 @@ pub(super) async fn serve(
 async fn accepted(listener: &TcpListener) -> (TcpStream, SocketAddr) {
     loop {
         match listener.accept().await {
-            Ok(accepted) => return accepted,
+            Ok((stream, address)) => {
+                // A frame behind a reply would else wait for the reply's acknowledgment: 40 ms.
+                let _ = stream.set_nodelay(true);
+                return (stream, address);
+            }
             // The client has gone already.
             Err(error) if is_of_client(&error) => {}
             Err(error) => {
