@@ -62,12 +62,12 @@ pub(super) struct SessionList {
     limit: usize,
 }
 
-fn path(id: JobId) -> String {
-    format!("/v1/sessions/{id}")
+fn path(app: &App, id: JobId) -> String {
+    format!("{}/v1/sessions/{id}", app.settings.base_path)
 }
 
 fn view(app: &App, session: &Session) -> SessionView {
-    let path = path(session.id);
+    let path = path(app, session.id);
     SessionView {
         id: session.id.to_string(),
         kind: session.kind,
@@ -146,7 +146,7 @@ pub(super) async fn open_session(
     };
     let session = app.sessions.open(opened).await?;
     let mut response = json(StatusCode::CREATED, &view(&app, &session));
-    if let Ok(path) = HeaderValue::from_str(&path(session.id)) {
+    if let Ok(path) = HeaderValue::from_str(&path(&app, session.id)) {
         response.headers_mut().insert(header::LOCATION, path);
     }
     Ok(response)
