@@ -1,8 +1,8 @@
 //! Axes that ways are bent about.
 
 use super::body::Body;
+use crate::numerics::jacobi::svd3;
 use crate::numerics::square::Square;
-use crate::numerics::svd::svd3;
 use crate::numerics::vec3;
 
 /// The axis of the plane, or of a body of space its principal axes, that of its least extent first: they turn with the body.

@@ -1,11 +1,17 @@
 //! The sum over a mesh.
 
+use std::array;
+
 use super::modes::Modes;
 use super::simplex::{Pulled, Simplex};
 use super::{Assembly, Density, Guard, RestShape, Term};
 use crate::numerics::roots::smallest_root_below;
 use crate::numerics::square::{Matrix, Square};
 use crate::numerics::stencils::Stencils;
+use crate::numerics::svd::Svd;
+
+/// Elements that are decomposed at once.
+const LANES: usize = 8;
 
 /// Σ over elements of weight·ψ(σ(J)) + φ(det J): a density and a guard on triangles (D = 2) or tetrahedra (D = 3).
 pub struct Simplices<const D: usize> {
@@ -77,24 +83,69 @@ where
         }
     }
 
-    fn element_value(&self, element: &Simplex<D>, x: &[f64]) -> f64 {
-        let (j, det) = element.jacobian(x);
-        let sigma = j.singular_values(det);
-        element.weight * self.density.value(&sigma) + self.guard.value(det, element.size)
+    /// `sum` and the values of some elements.
+    fn add_values<const N: usize>(&self, sum: f64, elements: &[Simplex<D>; N], x: &[f64]) -> f64 {
+        let (matrices, dets) = jacobians(elements, x);
+        let sigmas = Matrix::all_singular_values(&matrices, &dets);
+        let parts = elements.iter().zip(sigmas).zip(dets);
+        parts.fold(sum, |sum, ((element, sigma), det)| {
+            let density = element.weight * self.density.value(&sigma);
+            sum + (density + self.guard.value(det, element.size))
+        })
+    }
+
+    /// The derivatives of some elements, the first of which is the `first` of all.
+    fn add_derivatives_of<const N: usize>(
+        &self,
+        first: usize,
+        elements: &[Simplex<D>; N],
+        x: &[f64],
+        tau: f64,
+        assembly: &mut Assembly,
+    ) {
+        let (matrices, dets) = jacobians(elements, x);
+        let svds = Matrix::svds(&matrices, &dets);
+        let tau = assembly.wants_hessian().then_some(tau);
+        for (k, element) in elements.iter().enumerate() {
+            let pulled = self.pulled(element, &svds[k], dets[k], tau);
+            pulled.gradients(|vertex, gradient| assembly.add_gradient(vertex, &gradient));
+            if tau.is_some() {
+                pulled.add_blocks(first + k, assembly);
+            }
+        }
     }
 
     /// Negative eigenvalues of the Hessian times `tau`; without `tau`, the gradient alone.
-    fn pulled<'a>(&self, element: &'a Simplex<D>, x: &[f64], tau: Option<f64>) -> Pulled<'a, D> {
-        let (j, det) = element.jacobian(x);
-        let svd = j.svd(det);
+    fn pulled<'a>(
+        &self,
+        element: &'a Simplex<D>,
+        svd: &Svd<D>,
+        det: f64,
+        tau: Option<f64>,
+    ) -> Pulled<'a, D> {
         let (density, sigma) = (&*self.density, &svd.sigma);
         let mut modes = match tau {
             Some(_) => Modes::new(density, sigma, element.weight),
             None => Modes::of_slope(density, sigma, element.weight),
         };
         modes.add_guard(self.guard.derivatives(det, element.size), &svd.sigma);
-        element.pull(modes, &svd, tau.unwrap_or(1.0))
+        element.pull(modes, svd, tau.unwrap_or(1.0))
     }
+}
+
+/// The Jacobians of some elements, and their determinants.
+fn jacobians<const D: usize, const N: usize>(
+    elements: &[Simplex<D>; N],
+    x: &[f64],
+) -> ([Matrix<D>; N], [f64; N])
+where
+    Matrix<D>: Square<D>,
+{
+    let (mut matrices, mut dets) = ([[[0.0; D]; D]; N], [0.0; N]);
+    for (k, element) in elements.iter().enumerate() {
+        (matrices[k], dets[k]) = element.jacobian(x);
+    }
+    (matrices, dets)
 }
 
 impl<const D: usize> Term for Simplices<D>
@@ -114,18 +165,20 @@ where
     }
 
     fn value(&self, x: &[f64]) -> f64 {
-        self.elements.iter().map(|e| self.element_value(e, x)).sum()
+        let (blocks, rest) = self.elements.as_chunks::<LANES>();
+        let sum = blocks.iter().fold(0.0, |sum, b| self.add_values(sum, b, x));
+        rest.iter()
+            .fold(sum, |sum, e| self.add_values(sum, array::from_ref(e), x))
     }
 
     fn add_derivatives(&self, x: &[f64], tau: f64, assembly: &mut Assembly) {
-        let wants_hessian = assembly.wants_hessian();
-        let tau = wants_hessian.then_some(tau);
-        for (index, element) in self.elements.iter().enumerate() {
-            let pulled = self.pulled(element, x, tau);
-            pulled.gradients(|vertex, gradient| assembly.add_gradient(vertex, &gradient));
-            if wants_hessian {
-                pulled.add_blocks(index, assembly);
-            }
+        let (blocks, rest) = self.elements.as_chunks::<LANES>();
+        for (k, block) in blocks.iter().enumerate() {
+            self.add_derivatives_of(LANES * k, block, x, tau, assembly);
+        }
+        let done = self.elements.len() - rest.len();
+        for (k, element) in rest.iter().enumerate() {
+            self.add_derivatives_of(done + k, array::from_ref(element), x, tau, assembly);
         }
     }
 

@@ -10,6 +10,8 @@ pub mod bounds;
 pub mod cholesky;
 pub mod conjugate_gradients;
 pub mod hull;
+pub mod jacobi;
+pub mod lanes;
 pub mod linear_solver;
 pub mod point_tree;
 pub mod predicates;

@@ -2,8 +2,11 @@
 //!
 //! Everything else about elements is written once for both dimensions.
 
+use std::array;
+
+use super::jacobi::{singular_values3, svds3};
 pub use super::svd::Matrix;
-use super::svd::{Svd, svd2, svd3};
+use super::svd::{Svd, singular_values2, svd2};
 use super::vec3;
 
 /// What energies need of a matrix, in either dimension.
@@ -17,11 +20,23 @@ pub trait Square<const D: usize>: Copy {
     /// Its inverse, given its determinant.
     fn inverse(&self, det: f64) -> Matrix<D>;
 
-    /// Its signed singular value decomposition, given its determinant.
-    fn svd(&self, det: f64) -> Svd<D>;
+    /// The signed singular value decompositions of matrices, given their determinants.
+    fn svds<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [Svd<D>; N];
 
-    /// The signed singular values alone; see [`Svd`].
-    fn singular_values(&self, det: f64) -> [f64; D];
+    /// Their signed singular values alone; see [`Svd`].
+    fn all_singular_values<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [[f64; D]; N];
+
+    /// Its signed singular value decomposition, given its determinant.
+    fn svd(&self, det: f64) -> Svd<D> {
+        let [svd] = Self::svds(&[*self], &[det]);
+        svd
+    }
+
+    /// Its signed singular values alone; see [`Svd`].
+    fn singular_values(&self, det: f64) -> [f64; D] {
+        let [values] = Self::all_singular_values(&[*self], &[det]);
+        values
+    }
 }
 
 impl Square<2> for Matrix<2> {
@@ -45,12 +60,12 @@ impl Square<2> for Matrix<2> {
         [[d / det, -b / det], [-c / det, a / det]]
     }
 
-    fn svd(&self, det: f64) -> Svd<2> {
-        svd2(self, det)
+    fn svds<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [Svd<2>; N] {
+        array::from_fn(|l| svd2(&matrices[l], dets[l]))
     }
 
-    fn singular_values(&self, det: f64) -> [f64; 2] {
-        super::svd::singular_values2(self, det)
+    fn all_singular_values<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [[f64; 2]; N] {
+        array::from_fn(|l| singular_values2(&matrices[l], dets[l]))
     }
 }
 
@@ -77,18 +92,18 @@ impl Square<3> for Matrix<3> {
         [0, 1, 2].map(|r| [0, 1, 2].map(|k| columns[k][r] / det))
     }
 
-    fn svd(&self, det: f64) -> Svd<3> {
-        svd3(self, det)
+    fn svds<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [Svd<3>; N] {
+        svds3(matrices, dets)
     }
 
-    fn singular_values(&self, det: f64) -> [f64; 3] {
-        svd3(self, det).sigma
+    fn all_singular_values<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [[f64; 3]; N] {
+        singular_values3(matrices, dets)
     }
 }
 
 /// `value` times the identity.
 pub fn identity<const D: usize>(value: f64) -> Matrix<D> {
-    std::array::from_fn(|r| std::array::from_fn(|c| if r == c { value } else { 0.0 }))
+    array::from_fn(|r| array::from_fn(|c| if r == c { value } else { 0.0 }))
 }
 
 /// a · b.
@@ -106,7 +121,7 @@ pub fn times<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
 
 /// aᵀ.
 pub fn transposed<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
-    std::array::from_fn(|r| std::array::from_fn(|c| a[c][r]))
+    array::from_fn(|r| array::from_fn(|c| a[c][r]))
 }
 
 /// a · x.

@@ -1,8 +1,6 @@
-//! Signed singular value decompositions of 2×2 and 3×3 matrices.
+//! Signed singular value decompositions, and that of 2×2 matrices; for 3×3 see [`jacobi`](super::jacobi).
 
 use std::f64::consts::FRAC_1_SQRT_2;
-
-use super::vec3;
 
 /// A D×D matrix, rows first.
 pub type Matrix<const D: usize> = [[f64; D]; D];
@@ -74,83 +72,5 @@ fn half_angle([cos, sin]: [f64; 2]) -> [f64; 2] {
     } else {
         let half = (0.5 * (1.0 - cos)).sqrt();
         [0.5 * sin / half, half]
-    }
-}
-
-/// Sweeps of rotations at most; four are usual.
-const MAX_SWEEPS: usize = 30;
-
-/// The decomposition of a matrix with this determinant by one-sided Jacobi rotations (Hestenes), which find small singular
-/// values as exactly as large ones.
-pub fn svd3(f: &Matrix<3>, det: f64) -> Svd<3> {
-    // Columns of F V and of V.
-    let mut a = [0, 1, 2].map(|c| [f[0][c], f[1][c], f[2][c]]);
-    let mut v = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    for _ in 0..MAX_SWEEPS {
-        let mut turned = false;
-        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-            turned |= orthogonalize(&mut a, &mut v, i, j);
-        }
-        if !turned {
-            break;
-        }
-    }
-    sort_columns(&mut a, &mut v);
-    let first = vec3::norm(a[0]);
-    let u0 = direction(a[0], [1.0, 0.0, 0.0]);
-    let u1 = direction(orthogonal_part(a[1], u0), vec3::perpendicular(u0));
-    let u2 = vec3::cross(u0, u1);
-    let second = vec3::norm(a[1]);
-    let product = first * second;
-    let third = if product > 0.0 { det / product } else { 0.0 };
-    let columns = |m: [[f64; 3]; 3]| [0, 1, 2].map(|r| [m[0][r], m[1][r], m[2][r]]);
-    Svd {
-        u: columns([u0, u1, u2]),
-        sigma: [first, second, third],
-        v: columns(v),
-    }
-}
-
-/// Turns columns i and j so that they are orthogonal; false if they were.
-fn orthogonalize(a: &mut [[f64; 3]; 3], v: &mut [[f64; 3]; 3], i: usize, j: usize) -> bool {
-    let (x, y) = (vec3::dot(a[i], a[i]), vec3::dot(a[j], a[j]));
-    let z = vec3::dot(a[i], a[j]);
-    if z * z <= 1e-32 * x * y || z == 0.0 {
-        return false;
-    }
-    let zeta = (y - x) / (2.0 * z);
-    let t = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
-    let cos = 1.0 / (1.0 + t * t).sqrt();
-    let sin = cos * t;
-    for m in [a, v] {
-        let (p, q) = (m[i], m[j]);
-        m[i] = [0, 1, 2].map(|k| cos * p[k] - sin * q[k]);
-        m[j] = [0, 1, 2].map(|k| sin * p[k] + cos * q[k]);
-    }
-    true
-}
-
-/// Longest columns first; V stays a rotation.
-fn sort_columns(a: &mut [[f64; 3]; 3], v: &mut [[f64; 3]; 3]) {
-    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-        if vec3::dot(a[i], a[i]) < vec3::dot(a[j], a[j]) {
-            for m in [&mut *a, &mut *v] {
-                m.swap(i, j);
-                m[j] = m[j].map(|x| -x);
-            }
-        }
-    }
-}
-
-fn orthogonal_part(a: [f64; 3], unit: [f64; 3]) -> [f64; 3] {
-    vec3::add_scaled(a, -vec3::dot(a, unit), unit)
-}
-
-fn direction(a: [f64; 3], otherwise: [f64; 3]) -> [f64; 3] {
-    let length = vec3::norm(a);
-    if length > 0.0 {
-        a.map(|x| x / length)
-    } else {
-        otherwise
     }
 }
