@@ -12,7 +12,11 @@ use crate::places;
 /// are the variants of an enum, which is declared where it is used.
 const LAYERS: &[(&str, &[&str], &[&str])] = &[
     ("options", &[], &["serde_json"]),
-    ("numerics", &[], &["faer", "feral_metis", "pulp", "robust", "rayon"]),
+    (
+        "numerics",
+        &[],
+        &["faer", "feral_metis", "pulp", "robust", "rayon"],
+    ),
     ("mesh", &["numerics"], &["spade"]),
     ("plane", &["numerics"], &["static_aabb2d_index"]),
     ("cut", &["mesh"], &[]),
