@@ -95,13 +95,13 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     )
 }
 
-/// A draft that has been searched, here if it has not been before.
+/// A draft that has been searched, here if it has not been before; none of a crowd.
 pub(super) fn searched(
     draft: Option<&Draft>,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Option<Draft> {
-    let mut draft = draft?.clone();
+    let mut draft = draft.filter(|draft| !draft.is_crowded())?.clone();
     if !draft.is_searched() {
         let words = options.patience * Look::Last.words(draft.n_charts());
         draft.improve(Look::Last, words.min(options.search_words), on_read);

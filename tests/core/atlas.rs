@@ -228,7 +228,7 @@ fn a_draft_becomes_fuller_when_a_chart_is_cut() {
 
 #[test]
 fn crowds_and_needles_have_no_draft() {
-    let crowd: Vec<Chart> = (0..200).map(|_| bar(1)).collect();
+    let crowd: Vec<Chart> = (0..600).map(|_| bar(1)).collect();
     let needle = (vec![[0.0, 0.0], [1e6, 0.0], [1e6, 1.0]], vec![[0, 1, 2]]);
     for charts in [crowd, vec![needle]] {
         let draft = Draft::new(&maps(&charts), &AtlasOptions::default());

@@ -21,17 +21,23 @@ use super::{AtlasError, AtlasOptions, ChartMap, Turns};
 /// Cells along the side of the square page that the charts are expected to need. With 64 worse cuts are chosen; with 256 a trial
 /// costs four times as much, and less is found in the same time.
 const RASTER: u32 = 96;
+/// The same of more charts than so many, each of which has fewer cells.
+const FINE_RASTER: u32 = 256;
+const FEW: usize = 64;
+/// Several small charts count as one; a layout of more than so many is not searched: a trial takes too long to find anything in time.
+const CROWD: usize = 64;
 /// A chart is small whose rectangle has less than such a half perimeter, as a share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
-/// Sides of squares in which all charts are first placed.
-const SIDES: [u32; 3] = [RASTER, 2 * RASTER, 4 * RASTER];
+/// Sides of squares in which all charts are first placed, in sides of the page.
+const SIDES: [u32; 3] = [1, 2, 4];
 /// Charts at most: of more the large ones leave room enough for the small ones.
-const MOST_CHARTS: usize = 128;
+const MOST_CHARTS: usize = 512;
 
 /// A layout on a coarse raster.
 ///
 /// It follows from an order of the charts and a pose of each: every chart is placed where the used page grows least. Simulated
-/// annealing changes the one or the other and keeps what makes the page smaller, at first also what makes it a little larger.
+/// annealing changes the one or the other and keeps what makes the page smaller, at first also what makes it a little larger. Of a
+/// crowd the largest chart is placed first, and so on.
 /// Charts are rounded to the nearest cells there, so that they may overlap by a fraction of one. What comes of that is squeezed, charts
 /// moving and turning all at once.
 /// What that costs is counted in words read, so the result is the same on every machine and for any number of threads.
@@ -40,7 +46,7 @@ pub struct Draft {
     poses: Vec<Arc<Poses>>,
     raster: Raster,
     state: Arrangement,
-    /// What that or a better one became when charts made room for each other; none before the first search.
+    /// What that or a better one became when charts made room for each other; none before the first search, nor of a crowd.
     pages: Vec<Page>,
     /// The charts in the order of their sizes.
     by_size: Vec<usize>,
@@ -53,6 +59,8 @@ pub struct Draft {
 /// How charts become cells.
 #[derive(Clone, Copy)]
 struct Raster {
+    /// Cells along the side of the square page that the charts are expected to need.
+    side: u32,
     /// Cells per mesh unit.
     scale: f64,
     /// Cells kept free between charts.
@@ -75,15 +83,21 @@ impl Draft {
     fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
         let area = plan.area().max(f64::MIN_POSITIVE);
         let texture = options.texture;
-        let cells = f64::from(texture.raster(RASTER));
+        let side = if plan.order.len() > FEW {
+            FINE_RASTER
+        } else {
+            RASTER
+        };
+        let cells = f64::from(texture.raster(side));
         let raster = Raster {
+            side,
             scale: cells * (HOPE * texture.share() * f64::from(texture.pages) / area).sqrt(),
             padding: padding(options, plan.order.len(), cells),
             texture,
         };
         let extents = plan.order.iter().flat_map(|&i| plan.outlines[i].extent);
         let longest = extents.fold(0.0, f64::max) * raster.scale;
-        if longest > f64::from(texture.raster(SIDES[2])) {
+        if longest > f64::from(raster.largest(SIDES[2])) {
             return None;
         }
         let poses = plan.outlines.iter().map(|o| raster.poses(o)).collect();
@@ -129,7 +143,7 @@ impl Draft {
             cost: f64::INFINITY,
         };
         SIDES.into_iter().find_map(|side| {
-            let largest = raster.texture.raster(side);
+            let largest = raster.largest(side);
             let mut sheet = raster.sheet(largest);
             state.lay_out(&poses, &mut sheet, 0..by_size.len(), largest)
         })?;
@@ -152,6 +166,11 @@ impl Draft {
     pub fn fill(&self) -> f64 {
         let ratio = self.raster.cells() / (self.side() + self.raster.padding);
         HOPE * ratio * ratio
+    }
+
+    /// Whether there are so many charts that only the first layout is known.
+    pub fn is_crowded(&self) -> bool {
+        self.n_charts() > CROWD
     }
 
     /// Whether it has been improved.
@@ -195,7 +214,12 @@ impl Raster {
 
     /// Cells along the longer side of the page that the charts are expected to need.
     fn cells(self) -> f64 {
-        f64::from(self.texture.raster(RASTER))
+        f64::from(self.texture.raster(self.side))
+    }
+
+    /// The same for so many sides of the page.
+    fn largest(self, sides: u32) -> u32 {
+        self.texture.raster(sides * self.side)
     }
 
     fn sheet(self, side: u32) -> Sheet {

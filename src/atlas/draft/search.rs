@@ -78,7 +78,8 @@ impl Draft {
         self.n_large + small.div_ceil(SMALL_PER_LARGE)
     }
 
-    /// Searches a fuller layout; reads about so many words, less where nothing is left to be tried. The layout never gets worse.
+    /// Searches a fuller layout; reads about so many words, less where nothing is left to be tried, and none of a crowd. The layout
+    /// never gets worse.
     pub fn improve(&mut self, look: Look, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
@@ -91,7 +92,7 @@ impl Draft {
     }
 
     fn improve_within(&mut self, look: Look, words: u64, on_read: &OnRead) {
-        if self.state.order.is_empty() {
+        if self.state.order.is_empty() || self.is_crowded() {
             return;
         }
         let course = look.course();

@@ -13,11 +13,14 @@ use std::sync::Arc;
 const PRICE: f64 = 0.04;
 /// A further chart costs as much as a seam of this length, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
-/// Cuts at most for each page, in all and for each chart that there was.
-const MOST_CUTS: usize = 18;
-const MOST_CUTS_PER_CHART: usize = 14;
-/// Charts at most that are cut: of more the small ones fill what the large ones leave empty.
-pub const MOST_CHARTS: usize = 64;
+/// Candidates at most for each page beside the charts as they are, in all and for each chart that there was.
+const MOST_CANDIDATES: usize = 18;
+const MOST_CANDIDATES_PER_CHART: usize = 14;
+/// Candidates differ by one cut, and one more for so many charts beyond so many: of those one cut changes little.
+const CHARTS_PER_CUT: usize = 16;
+const CHARTS_OF_ONE_CUT: usize = 64;
+/// Charts at most that are cut, several small ones counted as one.
+pub const MOST_CHARTS: usize = 512;
 /// The words that looking for one more cut counts for.
 const WORDS_PER_CUT: u64 = 1_000_000;
 /// Cuts that are made before what comes of them is looked at, and how often in a row nothing better may come of them.
@@ -51,14 +54,14 @@ pub fn compacted(
 ) -> Result<Drafted, AtlasError> {
     let Drafted { charts, draft } = Drafted::new(charts, options)?;
     let draft = match draft {
-        Some(draft) if charts.len() <= MOST_CHARTS => draft,
+        Some(draft) if draft.n_charts() <= MOST_CHARTS => draft,
         draft => return Ok(Drafted { charts, draft }),
     };
     let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
-    let most_cuts = most_cuts(charts.len(), options).min(wanted.saturating_sub(charts.len()));
-    let search = Search::new(charts.len(), most_cuts, options, on_read);
+    let most = most_candidates(charts.len(), options).min(wanted.saturating_sub(charts.len()));
+    let search = Search::new(charts.len(), most, options, on_read);
     let cutter = Cutter::new(charts, draft, (seam_price, wanted), &search);
-    let candidates = candidates(cutter, most_cuts)?;
+    let candidates = candidates(cutter, most)?;
     let Candidate { charts, draft, .. } = search.fullest(candidates);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
@@ -66,30 +69,30 @@ pub fn compacted(
     })
 }
 
-/// Cuts of so many charts at most.
-fn most_cuts(n_charts: usize, options: &AtlasOptions) -> usize {
-    options.texture.pages as usize * MOST_CUTS.min(MOST_CUTS_PER_CHART * n_charts)
+/// Candidates of so many charts at most, beside the charts as they are.
+fn most_candidates(n_charts: usize, options: &AtlasOptions) -> usize {
+    options.texture.pages as usize * MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts)
 }
 
 /// The words that are read where so many charts are cut and half of the cuts are looked at, about.
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
-    let cuts = most_cuts(n_charts, options) / 2;
-    let numbers: Vec<usize> = (n_charts..=n_charts + cuts).collect();
+    let candidates = most_candidates(n_charts, options) / 2;
+    let numbers: Vec<usize> = (n_charts..=n_charts + candidates).collect();
     let words = options.patience * wanted_words(&numbers);
-    WORDS_PER_CUT * cuts as u64 + words.min(options.search_words)
+    WORDS_PER_CUT * candidates as u64 + words.min(options.search_words)
 }
 
-/// The charts as they are, after the cut that is worth most, after another, and so on, all looked at once. The end is where many
-/// cuts in a row bring nothing.
-fn candidates(mut cutter: Cutter, most_cuts: usize) -> Result<Vec<Candidate>, AtlasError> {
+/// The charts as they are, after the cut that is worth most, after another, and so on, all looked at once; of many charts, after
+/// several cuts each. The end is where many in a row bring nothing; of a crowd, whose value is a matter of luck, where there are enough.
+fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasError> {
     let search = cutter.search;
     let mut candidates = vec![cutter.candidate.clone()];
     let mut best = search.most_valued(&mut candidates);
     let mut idle = 0;
-    while idle < MOST_IDLE {
+    while idle < MOST_IDLE || cutter.candidate.draft.is_crowded() {
         let mut batch = Vec::new();
         while batch.len() < BATCH
-            && candidates.len() + batch.len() <= most_cuts
+            && candidates.len() + batch.len() <= most
             && let Some(cut) = cutter.next()?
         {
             batch.push(cut);
@@ -155,21 +158,33 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// The charts after one more cut, the one that is worth most; none where no chart can be cut, or none is worth it.
+    /// The charts after some more cuts, those that are worth most; none where no chart can be cut, or none is worth it.
     fn next(&mut self) -> Result<Option<Candidate>, AtlasError> {
+        let n_charts = self.candidate.draft.n_charts();
+        let n_cuts = 1 + n_charts.saturating_sub(CHARTS_OF_ONE_CUT) / CHARTS_PER_CUT;
+        for i in 0..n_cuts {
+            if !self.cut()? {
+                return Ok((i > 0).then(|| self.candidate.clone()));
+            }
+        }
+        Ok(Some(self.candidate.clone()))
+    }
+
+    /// Makes the cut that is worth most; false where there is none.
+    fn cut(&mut self) -> Result<bool, AtlasError> {
         let on_read = self.search.on_read;
         let candidate = &mut self.candidate;
         if candidate.cost >= MOST_COST || on_read(WORDS_PER_CUT) == Control::Finish {
-            return Ok(None);
+            return Ok(false);
         }
         let Some((chart, split)) = most_worth(&self.splits) else {
-            return Ok(None);
+            return Ok(false);
         };
         let parted = parted_alike(&candidate.charts, chart, split);
         let cost = self.price * (split.length + split.n_new() as f64 * self.per_chart);
         let cut = candidate.cut(parted, cost)?;
         let Some(cut) = cut.filter(|cut| cut.candidate.charts.len() <= self.most_charts) else {
-            return Ok(None);
+            return Ok(false);
         };
         for &place in &cut.replaced {
             self.splits.remove(place);
@@ -177,7 +192,7 @@ impl<'a> Cutter<'a> {
         *candidate = cut.candidate;
         let new = &candidate.charts[self.splits.len()..];
         (self.splits).extend(best_splits(new, self.of_page, on_read));
-        Ok(Some(candidate.clone()))
+        Ok(true)
     }
 }
 
