@@ -31,6 +31,12 @@ MESHES = {
     "Boot": ("closed/boot.obj", (60, 15, "y"), "inciprocal, CC BY 4.0"),
     "Plane": ("closed/plane_holes.obj", (40, 30, "z"), "YahooJAPAN, CC BY 3.0"),
     "Fox": ("gltf/Fox.glb", (60, 10, "y"), "PixelMannen, CC0"),
+    "Cube": ("hard/cube.obj", (30, 25, "y"), "CC0"),
+    "Cylinder": ("hard/cylinder.obj", (30, 25, "z"), "CC0"),
+    "Bracket": ("hard/bracket.obj", (40, 25, "z"), "CC0"),
+    "Nut": ("hard/nut.obj", (20, 35, "z"), "CC0"),
+    "Gear": ("hard/gear.obj", (20, 40, "z"), "CC0"),
+    "Mug": ("hard/mug.obj", (60, 20, "z"), "CC0"),
     "Hand": ("disk/hand_lowres.obj", (20, 10, "y"), "Max Planck Society via SMPL, CC BY 4.0"),
 }
 TOOLS = {"unwrapd": "unwrapd", "uvunwrap, gap 2": "uvunwrap", "xatlas": "xatlas"}
