@@ -150,6 +150,8 @@
 //! - Placing charts one after the other leaves room between them. All of a page move and turn at once afterward,
 //!   pushed apart by Levenberg's method on rasters of their distances while the page shrinks, and end exactly as far from each
 //!   other as they must be; a raster decides only where that fails, and for crowds.
+//! - Islands that stay where a user puts them take their cells before the first chart is placed. The others have one scale among
+//!   themselves, the largest at which each finds a place; what stays has its own, and is not moved to make room.
 //! - Layouts are searched on a raster of only 96 cells, on which charts may overlap by half a cell: looked at briefly, many ways to
 //!   cut charts can be compared, and what a fine raster would add is found again when charts are pushed apart.
 //! - Unwrapping minimizes the symmetric Dirichlet energy by default ([`pipeline::Mapping`]), in which the bound is stated:

@@ -38,6 +38,8 @@ pub(super) struct Packing<'a> {
     pub border: f64,
     /// How far pages are used from the start.
     pub extent: Extent,
+    /// Pages on which cells are taken before the first chart is placed.
+    pub taken: Option<&'a Sheet>,
     pub on_read: &'a OnRead<'a>,
 }
 
@@ -75,17 +77,28 @@ impl Packing<'_> {
         Form::new(self.texture, self.border)
     }
 
+    /// The same in whole cells.
+    pub(super) fn whole(&self) -> u32 {
+        self.target().max(1.0) as u32
+    }
+
+    /// Cells kept free around a chart, with what charts may be moved by.
+    pub(super) fn reach(&self) -> f64 {
+        self.padding + 2.0 * SLACK
+    }
+
     /// All charts placed at one scale, or the share of their area that was placed.
     pub(super) fn attempt(&self, scale: f64, work: &mut u64) -> Result<Attempt, f64> {
-        let target = self.target().max(1.0) as u32;
+        let target = self.whole();
         let is_full = self.is_crowded() || self.extent == Extent::Full;
         let (capacity, side) = if is_full {
             (target, target)
         } else {
             (target + target / 4, 0)
         };
-        let padding = self.padding + 2.0 * SLACK;
-        let mut sheet = Sheet::new(self.form(), capacity, padding.ceil() as u32 + 1, side);
+        let padding = self.reach();
+        let empty = || Sheet::new(self.form(), capacity, padding.ceil() as u32 + 1, side);
+        let mut sheet = self.taken.cloned().unwrap_or_else(empty);
         let mut spots = vec![(Spot::default(), 1.0); self.plan.outlines.len()];
         let mut lowest: HashMap<[u32; 2], Corner> = HashMap::new();
         let mut placed = 0.0;
@@ -150,7 +163,9 @@ impl Packing<'_> {
                 QuarterTurns::Only(turns) => vec![Turned::new(mask, turns)],
                 // The first chart goes to the corner of a square, whichever way it is turned.
                 QuarterTurns::Any
-                    if self.plan.order.first() == Some(&i) && self.form().is_square() =>
+                    if self.plan.order.first() == Some(&i)
+                        && self.form().is_square()
+                        && self.taken.is_none() =>
                 {
                     vec![Turned::new(mask, 0)]
                 }

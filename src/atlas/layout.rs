@@ -39,7 +39,7 @@ const NEAR_IF_KNOWN: f64 = 1.0005;
 const LOWERED: f64 = 0.993;
 
 /// Cells along a side of a square, of which each chart has some 16 along its own.
-fn raster(n_charts: usize, most_cells: u32) -> u32 {
+pub(super) fn raster(n_charts: usize, most_cells: u32) -> u32 {
     match n_charts {
         0..=400 => {
             let least = (256 * n_charts as u32).isqrt().next_power_of_two();
@@ -81,6 +81,7 @@ pub(super) fn layout(
         padding,
         border,
         on_read,
+        taken: None,
         extent: match options.scale {
             Scale::Largest => Extent::Growing,
             Scale::TexelsPerUnit(_) => Extent::Full,

@@ -19,6 +19,7 @@
 //! Charts are never mirrored. None is scaled against the others, except those so small (below a
 //! texel) that the grid has fewer than a handful of cells for each of their triangles.
 mod align;
+mod around;
 mod arrangement;
 mod attempt;
 mod bitmap;
@@ -38,11 +39,13 @@ mod sheet;
 mod snap;
 mod spot;
 mod squeeze;
+mod stays;
 mod texture;
 mod tight;
 mod turned;
 mod upright;
 
+pub use around::{AroundError, Stay, pack_around};
 pub use clear::cleared;
 pub use draft::{Draft, Look};
 pub use enough::{Enough, enough};

@@ -62,6 +62,16 @@ impl Outline {
         turned
     }
 
+    /// With another origin than the lower left corner of the bounding rectangle: a point to the left of it and below.
+    pub(super) fn with_corner(&self, corner: [f64; 2]) -> Self {
+        let extent = |k: usize| self.low[k] + self.extent[k] - corner[k];
+        Self {
+            extent: [0, 1].map(extent),
+            low: corner,
+            ..self.clone()
+        }
+    }
+
     /// Turned upright, if it leans; none of another.
     pub(super) fn straightened(&self) -> Option<Self> {
         match self.straightness {

@@ -72,7 +72,7 @@ pub fn pack_draft(
 }
 
 /// A chart of which a vertex moves farther than its slack, if there is one; all such get more.
-fn cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> Option<usize> {
+pub(super) fn cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> Option<usize> {
     let mut cramped = None;
     for (chart, (snapped, slack)) in snapped.iter().zip(slack).enumerate() {
         // Shifting and turning round to whole grid units once more.
@@ -139,7 +139,7 @@ pub(super) fn best(
 }
 
 /// Every chart on its own grid.
-fn snapped(
+pub(super) fn snapped(
     charts: &[ChartMap],
     outlines: &[Outline],
     layout: &Layout,
@@ -157,7 +157,7 @@ fn snapped(
 }
 
 /// Turns and shifts every chart to its place on its page.
-fn atlas(
+pub(super) fn atlas(
     charts: &[ChartMap],
     layout: &Layout,
     slack: &[f64],

@@ -3,7 +3,7 @@
 //! All positions of one row are tested together, 64 to a machine word: a run of a mask, of length
 //! between 2ᵏ and 2ᵏ⁺¹, is blocked at x when one of two windows of 2ᵏ cells is, and for each k the
 //! sheet keeps one bit per window. Runs longer than two of the widest windows take more of them.
-use super::bitmap::set_bits;
+use super::bitmap::{Run, set_bits};
 use super::spot::{Corner, Spot, Window};
 use super::texture::Form;
 use super::turned::Turned;
@@ -12,6 +12,7 @@ use super::turned::Turned;
 const WIDTHS: usize = 7;
 
 /// The occupied cells of all pages.
+#[derive(Clone)]
 pub(super) struct Sheet {
     pub form: Form,
     /// The longer side of what may be used of each page, in cells.
@@ -180,6 +181,24 @@ impl Sheet {
         self.side = self.side.max(side);
         let highest = &mut self.tops[corner.page as usize];
         *highest = top.max(*highest);
+    }
+
+    /// Takes the cells of a body, whose lower left cell comes to lie at `corner`, also within the frame; not what sticks out of that.
+    pub(super) fn cover(&mut self, body: &[Run], page: u32, corner: [i64; 2]) {
+        let stride = self.words * self.widths;
+        let frame = i64::from(self.frame);
+        let width = i64::from(self.form.reach(self.capacity)[0]) + 2 * frame;
+        for run in body {
+            let row = i64::from(run.row) + corner[1] + frame;
+            let ends = [run.start, run.end].map(|x| i64::from(x) + corner[0] + frame);
+            let [start, end] = ends.map(|x| x.clamp(0, width) as u32);
+            if start < end && (0..self.height as i64).contains(&row) {
+                let row = page as usize * self.height + row as usize;
+                let row = &mut self.rows[row * stride..][..stride];
+                set_bits(&mut row[..self.words], start, end);
+                widen(row, self.words, [start, end]);
+            }
+        }
     }
 
     /// Where the row of a corner lies among those of all pages.

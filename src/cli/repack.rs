@@ -1,14 +1,19 @@
 //! `unwrapd repack`: UVs packed anew, as they are.
 
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
 use super::console::{json, print_json};
 use super::failure::Failure;
 use super::format::output_format;
-use super::input::{Mapped, read_upload};
+use super::input::{Mapped, read_file, read_upload};
 use super::output::{Files, Outputs, Target, caller};
 use super::progress::Display;
 use super::unwrap::summarize;
 use crate::document::OutputFormat;
-use crate::pipeline::{CommandOptions, RepackOptions, repack_document};
+use crate::options::help_of;
+use crate::pipeline::{CommandOptions, Island, RepackOptions, repack_document};
 
 /// The arguments of `repack`.
 #[derive(clap::Args)]
@@ -19,6 +24,13 @@ pub(super) struct Args {
     target: Target,
     #[command(flatten)]
     files: Files<OutputFormat>,
+    #[arg(
+        long,
+        value_name = "I.json",
+        help_heading = "Atlas",
+        help = help_of::<RepackOptions>("islands")
+    )]
+    islands: Option<PathBuf>,
     #[command(flatten)]
     options: RepackOptions,
 }
@@ -26,14 +38,20 @@ pub(super) struct Args {
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let (input, to) = (&args.mapped.input, &args.target.output);
-    let options = RepackOptions {
+    let mut options = RepackOptions {
         format: output_format(to, args.files.format)?,
         caller: caller(to),
         ..args.options.clone()
     };
     options.check()?;
     let (report, output) = (&args.files.report, &args.files.output);
-    let outputs = Outputs::check(to, &[report], &[input], output)?;
+    let islands = args.islands.as_deref();
+    let inputs: Vec<&Path> = [input.as_path()].into_iter().chain(islands).collect();
+    let outputs = Outputs::check(to, &[report], &inputs, output)?;
+    if let Some(islands) = islands {
+        options.islands = given_islands(islands)?;
+        options.check()?;
+    }
     let upload = read_upload(input)?;
     let outputs = outputs.with_resources_of(&upload);
     let display = Display::new(&output.talk);
@@ -45,4 +63,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         print_json(&outcome.report)?;
     }
     summarize(&outcome)
+}
+
+/// The islands in a file.
+fn given_islands(path: &Path) -> Result<Vec<Island>, Failure> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        islands: Vec<Island>,
+    }
+    let file: Result<File, _> = serde_json::from_slice(&read_file(path)?);
+    let file = file.map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
+    Ok(file.islands)
 }

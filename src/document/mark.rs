@@ -186,16 +186,29 @@ impl Mark {
 impl Document {
     /// Whether the document says of its UVs what they were made for.
     pub fn marked(&self) -> Result<Marked, DocumentError> {
-        let mark = match self {
-            Self::Gltf(document) => document.mark(),
-            Self::Obj(document) => document.mark(),
-            Self::Soup(_) => None,
-        };
-        Ok(match mark.as_ref().map(Mark::parse) {
+        Ok(match self.mark().as_ref().map(Mark::parse) {
             None => Marked::Not,
             Some(Some(mark)) if mark.fits(self)? => Marked::Fits(Box::new(mark)),
             Some(_) => Marked::Stale,
         })
+    }
+
+    /// The texture that a UV set was made for, as the document says. The UVs may have been changed since: that does not change
+    /// the shape of the texture.
+    pub fn texture_of(&self, set: u32) -> Option<Resolution> {
+        let mark = Mark::parse(&self.mark()?)?;
+        let is_marked = |primitive: usize| mark.sets.of(primitive) == Some(set);
+        let is_known = (0..self.primitives().len()).any(is_marked);
+        (is_known && mark.terms.resolution.is_regular()).then_some(mark.terms.resolution)
+    }
+
+    /// What the document has in the place of a mark.
+    fn mark(&self) -> Option<Value> {
+        match self {
+            Self::Gltf(document) => document.mark(),
+            Self::Obj(document) => document.mark(),
+            Self::Soup(_) => None,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 57] = [
+pub(super) const CAUSES: [(&str, &str); 62] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -97,6 +97,21 @@ pub(super) const CAUSES: [(&str, &str); 57] = [
         "A weight names a material that does not exist; only glTF materials have weights",
     ),
     ("invalid_seams", "The seams do not match the mesh"),
+    // Islands.
+    (
+        "unknown_face",
+        "An island is named by a face that does not exist or names a vertex twice",
+    ),
+    ("island_named_twice", "Two entries name the same island"),
+    ("island_off_page", "An island leaves the page"),
+    (
+        "islands_too_near",
+        "Two islands that stay overlap, or are closer than the padding",
+    ),
+    (
+        "no_room",
+        "The other islands do not fit around those that stay",
+    ),
     ("invalid_uvs", "The new UVs do not match the document"),
     (
         "planar_bijectivity",

@@ -53,6 +53,11 @@ impl Resolution {
         [self.width, self.height].map(|side| (self.longer() / side.max(1)).max(1).ilog2())
     }
 
+    /// Both sides over the longer one; powers of two of a regular one.
+    pub fn sides(self) -> [f64; 2] {
+        [self.width, self.height].map(|side| f64::from(side) / f64::from(self.longer()))
+    }
+
     /// Width over height.
     pub fn aspect(self) -> f64 {
         f64::from(self.width) / f64::from(self.height)

@@ -1,5 +1,6 @@
 //! Why a file could not be worked on.
 
+use super::island_error::IslandError;
 use crate::atlas::{AtlasError, Enough};
 use crate::deform::ProblemError;
 use crate::deform::cage::CageError;
@@ -61,6 +62,9 @@ pub enum PipelineError {
     /// At the texels per unit asked for the charts do not fit.
     #[error("the texture is too small for this texel density{0}")]
     TextureTooSmall(Enough),
+    /// Islands cannot stay where they are put.
+    #[error(transparent)]
+    Islands(#[from] IslandError),
     /// The UVs that were to be written have flips where none were promised: a mistake of this program, found by the certificate.
     #[cfg(feature = "files")]
     #[error("nothing was written because the result is not valid: {0}")]
@@ -117,6 +121,7 @@ impl PipelineError {
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
             Self::TextureTooSmall(_) => "texture_too_small",
+            Self::Islands(error) => error.code(),
             Self::Atlas(_) | Self::Inverted | Self::Crossed => "no_valid_result",
             #[cfg(feature = "files")]
             Self::NotValid(_) => "no_valid_result",
@@ -132,6 +137,7 @@ impl PipelineError {
             | Self::TooManyTriangles { .. }
             | Self::NoTriangles
             | Self::TextureTooSmall(_)
+            | Self::Islands(_)
             | Self::Cage(_)
             | Self::Problem(_)
             | Self::Seams(_)

@@ -19,6 +19,7 @@
 
 mod arrays;
 mod error;
+mod island_error;
 mod observer;
 mod options;
 mod portion;
@@ -39,11 +40,13 @@ mod rebake;
 #[cfg(feature = "files")]
 mod start;
 
+pub use arrays::placement::Placement;
 pub use arrays::repeated::GridCorners;
 pub use arrays::seams::Seams;
 pub use arrays::settings::Settings;
 pub use arrays::unwrap::{ChartRecord, Unwrapped, in_pool, unwrap, unwrap_along};
 pub use error::PipelineError;
+pub use island_error::IslandError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
 
@@ -92,8 +95,8 @@ pub use limits::Limits;
 #[cfg(feature = "files")]
 pub use options::{
     Baking, Caller, CommandOptions, Course, DeformOptions, EditOptions, Editing, GivenSeams,
-    MeasureOptions, NamedSeams, Options, Preset, Pulling, RepackOptions, Sets, SolveOptions,
-    WarpOptions,
+    Island, MeasureOptions, NamedSeams, Options, Preset, Pulling, RepackOptions, Sets,
+    SolveOptions, WarpOptions,
 };
 #[cfg(feature = "files")]
 pub use rebake::ImageFormat;

@@ -36,6 +36,8 @@ mod given_seams;
 mod handles;
 #[cfg(feature = "files")]
 mod io;
+#[cfg(feature = "files")]
+mod islands;
 mod layers;
 mod layouts;
 mod left_out;

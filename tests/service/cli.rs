@@ -513,6 +513,40 @@ fn uvs_of_a_file_are_edited_and_proven() {
 }
 
 #[test]
+fn islands_stay_where_a_file_puts_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (mapped, output, islands) = (path("a.glb"), path("b.glb"), path("i.json"));
+    let spot = asset("spot.ply").to_string_lossy().into_owned();
+    assert_status(&unwrapd(&["unwrap", &spot, "-o", &mapped]), 0);
+    let repack = ["repack", &mapped, "-o", &output, "--islands", &islands];
+    std::fs::write(&islands, r#"{"islands": [{"face": 0}]}"#).expect("a file");
+    assert_status(&unwrapd(&repack), 0);
+    assert_status(&unwrapd(&["verify", &output, "--bijective"]), 0);
+    for (text, code, words) in [
+        ("[]", 3, "i.json"),
+        (r#"{"islands": [{"face": -1}]}"#, 3, "i.json"),
+        (r#"{"islands": [{"face": 0, "moves": [0, 0]}]}"#, 3, "moves"),
+        (
+            r#"{"islands": [{"face": 0, "scale": 0}]}"#,
+            2,
+            "islands[0].scale",
+        ),
+        (r#"{"islands": [{"face": 100000}]}"#, 3, "(unknown_face)"),
+        (
+            r#"{"islands": [{"face": 0}, {"face": 0}]}"#,
+            3,
+            "islands 0 and 1 are the same one",
+        ),
+    ] {
+        std::fs::write(&islands, text).expect("a file");
+        let run = unwrapd(&repack);
+        assert_status(&run, code);
+        assert!(last_error(&run).contains(words), "{}", last_error(&run));
+    }
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_failure() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
         .arg("openapi")

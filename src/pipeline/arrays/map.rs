@@ -9,9 +9,12 @@ use crate::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
     given_back, map_chart, map_chart_from,
 };
-use crate::mesh::{CornerUvs, Surface};
+use crate::mesh::{CornerUvs, Resolution, Surface};
 use crate::pipeline::portion::Portion;
 use crate::pipeline::tracker::Tracker;
+
+/// What UVs were made for of which that is not known.
+const SQUARE: Resolution = Resolution::square(1);
 
 /// The charts of every surface with their maps.
 pub fn mapped_charts(
@@ -39,7 +42,8 @@ pub fn mapped_charts(
         .collect();
     let kept = |mesh: usize, chart: &Chart| {
         let uvs = plan.reads_uvs().then_some(seams[mesh].uvs.as_ref());
-        Some(uvs_of(chart, surfaces[mesh], uvs.flatten()?))
+        let texture = seams[mesh].texture.unwrap_or(SQUARE);
+        Some(uvs_of(chart, surfaces[mesh], (uvs.flatten()?, texture)))
     };
     let maps = map_charts(charts, kept, plan, tracker);
     if plan.refinement != Refinement::GivenBack {
@@ -89,13 +93,19 @@ fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<M
     fewest
 }
 
-/// The given UVs at the vertices of a chart.
-fn uvs_of(chart: &Chart, surface: &Surface, uvs: &[CornerUvs]) -> Vec<[f64; 2]> {
+/// The given UVs at the vertices of a chart, along both axes in longer sides of the texture.
+fn uvs_of(
+    chart: &Chart,
+    surface: &Surface,
+    (uvs, texture): (&[CornerUvs], Resolution),
+) -> Vec<[f64; 2]> {
+    let sides = texture.sides();
     let mut of_vertex = vec![[0.0; 2]; chart.disk.n_vertices];
     for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
         for (&vertex, &corner) in triangle.iter().zip(corners) {
             let face = surface.faces[corner as usize / 3] as usize;
-            of_vertex[vertex as usize] = uvs[face][corner as usize % 3];
+            let [u, v] = uvs[face][corner as usize % 3];
+            of_vertex[vertex as usize] = [u * sides[0], v * sides[1]];
         }
     }
     of_vertex

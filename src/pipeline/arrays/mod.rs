@@ -1,6 +1,7 @@
 //! From plain arrays to an atlas: meshes are welded, cut, mapped and packed; each shape is mapped once.
 
 pub(super) mod alike;
+mod arranged;
 mod candidate;
 mod chart_maps;
 mod clearance;
@@ -9,6 +10,7 @@ mod divided;
 mod map;
 mod packed;
 mod packing;
+pub(super) mod placement;
 pub(super) mod plan;
 mod position_key;
 pub(super) mod repeated;

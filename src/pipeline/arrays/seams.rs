@@ -3,20 +3,26 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
+use super::placement::Placement;
 use super::position_key::position_key;
 use crate::cut::surface_fans;
-use crate::mesh::{CUT, CornerUvs, Surface, next};
+use crate::mesh::{CUT, CornerUvs, Resolution, Surface, next};
 use crate::numerics::vec3::dot;
 use crate::pipeline::PipelineError;
 
 /// Cosine of the least angle between normals on the two sides of a hard edge: 1°.
 const SOFT: f64 = 0.999_85;
 
-/// Edges that a mesh shall be cut along, by what its faces have at their corners. Each part is absent or has an entry per face.
+/// Edges that a mesh shall be cut along, by what its faces have at their corners. Each list of those is absent or has an entry per
+/// face.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seams {
     /// UVs, v up: an edge at which those of two faces differ is a seam. With [`Cut::Keep`](crate::charts::Cut::Keep) maps begin here.
     pub uvs: Option<Vec<CornerUvs>>,
+    /// The texture that the UVs were made for, whose texels are square on the surface; a square one if absent.
+    pub texture: Option<Resolution>,
+    /// Islands of the UVs that stay where they are put, where all maps are kept as they are given.
+    pub placed: Vec<Placement>,
     /// Normals: an edge at which those of two faces differ by more than a degree is a seam.
     pub normals: Option<Vec<[[f64; 3]; 3]>>,
     /// Labels, as of materials: an edge between faces of different labels is a seam.
@@ -65,6 +71,8 @@ impl Seams {
         };
         Self {
             uvs: of(self.uvs.as_ref(), faces),
+            texture: self.texture,
+            placed: Vec::new(),
             normals: of(self.normals.as_ref(), faces),
             labels: of(self.labels.as_ref(), faces),
             weights: of(self.weights.as_ref(), faces),

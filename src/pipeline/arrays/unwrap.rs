@@ -2,10 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::arranged::arranged;
 use super::divided::Divided;
 use super::packed::packed;
 use super::packing::{atlas_options, expected_words, likely_words};
-use super::plan::Plan;
+use super::placement::PlacedFaces;
+use super::plan::{Plan, Start};
 use super::repeated::{self, GridCorners};
 use super::seams::Seams;
 use super::settings::Settings;
@@ -33,6 +35,8 @@ pub struct Unwrapped {
     pub scale: f64,
     /// The mesh of which it is the atlas too, where several are unwrapped and that one has the same shape.
     pub same_as: Option<usize>,
+    /// Faces of islands that stay where they are: their UVs are those that were given.
+    pub still: Vec<u32>,
     /// Padding that was kept, in texels; less than asked for only where the charts alone would fill the square.
     pub padding_texels: f64,
 }
@@ -133,10 +137,17 @@ pub fn unwrap_all(
             }
             let options = atlas_options((settings, &plan), n_atlases, &charts);
             let charts = weighted(charts, meshes[index].seams);
+            let placed = placed_faces(&meshes[index], &plan)?;
             let expected = expected_words(&plan, &options, charts.len());
             let portion = Portion::of_atlas(tracker, words(index), expected);
             let on_read = |words| portion.read(words);
-            packed(charts, &options, &plan, &on_read).map(Some)
+            match placed {
+                None => packed(charts, &options, &plan, &on_read).map(Some),
+                Some(placed) => {
+                    let how = (settings, &plan, n_atlases);
+                    arranged(charts, &meshes[index], &placed, how, &on_read).map(Some)
+                }
+            }
         })
         .collect::<Result<_, PipelineError>>()?;
     (meshes.par_iter().enumerate())
@@ -149,10 +160,27 @@ pub fn unwrap_all(
                 defects: divided.defects(index, mesh)?,
                 scale: atlas.scale / size,
                 same_as: (first != index).then_some(first),
+                still: placed_faces(mesh, &plan)?.map_or_else(Vec::new, |placed| placed.still()),
                 padding_texels: atlas.padding_texels,
             })
         })
         .collect()
+}
+
+/// Which faces belong to islands that stay where they are put, if any do.
+fn placed_faces<'a>(
+    mesh: &Soup<'a>,
+    plan: &Plan,
+) -> Result<Option<PlacedFaces<'a>>, PipelineError> {
+    if plan.start == Start::Final {
+        Ok(PlacedFaces::new(
+            mesh.positions,
+            mesh.triangles,
+            mesh.seams,
+        )?)
+    } else {
+        Ok(None)
+    }
 }
 
 /// The charts enlarged by the weights of their faces.

@@ -63,8 +63,7 @@ impl Merged {
     ) -> Result<Self, PipelineError> {
         let mut merged = Self::new(primitives, group);
         if plan.reads_uvs() {
-            let set = options.sets.source_texcoord.unwrap_or(0);
-            merged.seams.uvs = Some(corner_uvs(document, group, set)?);
+            merged.seams.uvs = Some(corner_uvs(document, group, options.sets.source())?);
         }
         if options.material_borders {
             let labels = group.primitives.iter().flat_map(|&index| {

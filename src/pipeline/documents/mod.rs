@@ -1,6 +1,8 @@
 //! Documents unwrapped and packed: read, prepared, merged by group, written, read again and judged.
 
+pub(super) mod islands;
 pub(super) mod merged;
+mod new_uvs;
 pub(super) mod nodes;
 pub(super) mod pictures;
 pub(super) mod prepared;

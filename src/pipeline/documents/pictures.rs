@@ -41,7 +41,7 @@ impl Pictures {
     pub fn draw(&self) -> Result<Drawn, PipelineError> {
         in_pool(self.workers, || {
             let texture = self.texture;
-            let width = f64::from(texture.width) / f64::from(texture.longer());
+            let [width, _] = texture.sides();
             let groups = self.uvs.groups.iter();
             let pages: Vec<Faces> = groups
                 .flat_map(|group| Faces::new(group, texture).pages(width))
@@ -70,8 +70,7 @@ struct Faces {
 impl Faces {
     /// A group as its texels lie: the unit of u and v is the longer side of the texture.
     fn new(group: &GroupUvs, texture: Resolution) -> Self {
-        let unit = f64::from(texture.longer());
-        let [u, v] = [texture.width, texture.height].map(|side| f64::from(side) / unit);
+        let [u, v] = texture.sides();
         let scaled = |face: &CornerUvs| face.map(|uv| [uv[0] * u, uv[1] * v]);
         let uvs: Vec<CornerUvs> = group.uvs.iter().map(scaled).collect();
         Self {

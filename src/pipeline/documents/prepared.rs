@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::merged::check_edges;
 use crate::document::{Document, DocumentError, GroupBy, OldUvs, OutputFormat, Primitive, Upload};
+use crate::mesh::Resolution;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::options::{GivenSeams, Options, check_grouping};
@@ -15,6 +16,8 @@ pub struct Prepared {
     pub group_by: GroupBy,
     /// The options, with seams in the numbers of the document.
     pub seams: Options,
+    /// The texture that the UVs which are kept were made for, where the file says it.
+    pub texture: Option<Resolution>,
 }
 
 impl Prepared {
@@ -41,6 +44,7 @@ impl Prepared {
             OldUvs::Sampled
         };
         check_edges(document.primitives(), options)?;
+        let texture = document.texture_of(options.sets.source());
         let conversion = document.for_output(options.format, old_uvs)?;
         let mut seams = options.clone();
         if let (Some(GivenSeams::Edges(edges)), Some(vertices)) =
@@ -54,6 +58,7 @@ impl Prepared {
             document: options.nodes().prepared(conversion.document)?,
             group_by,
             seams,
+            texture,
         })
     }
 }

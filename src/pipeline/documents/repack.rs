@@ -1,17 +1,19 @@
 //! UVs packed anew, as they are.
 
-use super::unwrap::{Outcome, unwrap_document};
+use super::unwrap::{Outcome, unwrap_around};
 use crate::document::Upload;
 use crate::pipeline::PipelineError;
 use crate::pipeline::observer::Observer;
-use crate::pipeline::options::RepackOptions;
+use crate::pipeline::options::{CommandOptions, RepackOptions};
 
 /// Packs the islands of all primitives of a group into one atlas. Each stays as it is but for quarter turns, shifts and one scale for
-/// all; faces that are flipped or overlap within an island stay so, and the certificate counts them.
+/// all; those that the options put somewhere stay there, and the others are packed around them. Faces that are flipped or overlap
+/// within an island stay so, and the certificate counts them.
 pub fn repack_document(
     upload: &Upload,
     options: &RepackOptions,
     observer: &dyn Observer,
 ) -> Result<Outcome, PipelineError> {
-    unwrap_document(upload, &options.to_unwrap(), observer)
+    options.check()?;
+    unwrap_around(upload, &options.to_unwrap(), &options.islands, observer)
 }

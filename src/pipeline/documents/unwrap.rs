@@ -1,16 +1,13 @@
 //! From a file's bytes to a file's bytes: read, unwrap, write, read again, judge.
 
+use super::islands::placements;
 use super::merged::Merged;
+use super::new_uvs::new_uvs;
 use super::pictures::Pictures;
 use super::prepared::Prepared;
-use crate::atlas::GRID_BITS;
-use crate::document::{
-    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, Upload, WriteOptions, Written,
-};
-use crate::mesh::VAxis;
+use crate::document::{BakedTextures, Document, GroupBy, NewUvs, Upload, WriteOptions, Written};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
-use crate::pipeline::arrays::repeated::GridCorners;
 use crate::pipeline::arrays::soup::Soup;
 use crate::pipeline::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
 use crate::pipeline::judge::bound_report::BoundReport;
@@ -18,7 +15,7 @@ use crate::pipeline::judge::groups::WrittenUvs;
 use crate::pipeline::judge::report::{AtlasReport, GroupReport, Report, Seconds};
 use crate::pipeline::judge::shortfalls::shortfalls;
 use crate::pipeline::observer::{Observer, Stage};
-use crate::pipeline::options::{CommandOptions, Options};
+use crate::pipeline::options::{CommandOptions, Island, Options};
 use crate::pipeline::rebake::{self, rebaked};
 use crate::pipeline::tracker::Tracker;
 
@@ -39,18 +36,29 @@ pub fn unwrap_document(
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Outcome, PipelineError> {
+    unwrap_around(upload, options, &[], observer)
+}
+
+/// The same with islands of kept UVs that stay where they are put.
+pub fn unwrap_around(
+    upload: &Upload,
+    options: &Options,
+    islands: &[Island],
+    observer: &dyn Observer,
+) -> Result<Outcome, PipelineError> {
     let options = &options.resolved();
     options.check()?;
     let settings = options.settings();
     let tracker = Tracker::new(observer, settings.budget);
     in_pool(settings.workers, || {
-        unwrap_in_pool(upload, options, &tracker)
+        unwrap_in_pool(upload, options, islands, &tracker)
     })?
 }
 
 fn unwrap_in_pool(
     upload: &Upload,
     options: &Options,
+    islands: &[Island],
     tracker: &Tracker,
 ) -> Result<Outcome, PipelineError> {
     let mut seconds = Seconds::default();
@@ -62,20 +70,26 @@ fn unwrap_in_pool(
         document,
         group_by,
         seams,
+        texture,
     } = Prepared::read(upload, options, &plan)?;
     let groups = document.groups(group_by);
     let primitives = nodes.primitives(&document)?;
-    let meshes: Vec<Merged> = groups
-        .iter()
-        .map(|group| Merged::with_seams((&document, &primitives), group, &seams, &plan))
-        .collect::<Result<_, _>>()?;
+    let placed = placements(&document, &groups, islands)?;
+    let merged = |(group, placed)| {
+        let mut merged = Merged::with_seams((&document, &primitives), group, &seams, &plan)?;
+        merged.seams.texture = texture;
+        merged.seams.placed = placed;
+        Ok(merged)
+    };
+    let meshes: Vec<Merged> =
+        (groups.iter().zip(placed).map(merged)).collect::<Result<_, PipelineError>>()?;
     seconds.read = watch.lap();
 
     let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
     let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
     seconds.unwrap = watch.lap();
 
-    let uvs = new_uvs(&document, &groups, &atlases, options.layout.pages);
+    let uvs = new_uvs(&document, &groups, &atlases, options)?;
     let mut baked = None;
     if options.baking.rebake {
         tracker.stage(Stage::Bake);
@@ -149,31 +163,6 @@ fn write(
         written.notes.warnings.extend(warnings);
     }
     Ok(written)
-}
-
-/// The atlases as UVs of the document.
-fn new_uvs(document: &Document, groups: &[Group], atlases: &[Unwrapped], pages: u32) -> NewUvs {
-    let primitives = document.primitives();
-    let mut corners = vec![None; primitives.len()];
-    for (group, atlas) in groups.iter().zip(atlases) {
-        let mut rest = atlas.grid.as_slice();
-        for &index in &group.primitives {
-            let (own, others) = rest.split_at(primitives[index].triangles.len());
-            corners[index] = Some(own.iter().map(from_grid).collect());
-            rest = others;
-        }
-    }
-    NewUvs {
-        layout: Layout::New,
-        pages,
-        v_axis: VAxis::Up,
-        corners,
-    }
-}
-
-/// Exact in f32.
-fn from_grid(corners: &GridCorners) -> Corners {
-    corners.map(|uv| uv.map(|i| i as f32 / (1_u32 << GRID_BITS) as f32))
 }
 
 /// Adds to each group what only unwrapping knows.

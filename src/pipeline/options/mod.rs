@@ -21,6 +21,8 @@ mod edit;
 #[cfg(feature = "files")]
 mod idle;
 #[cfg(feature = "files")]
+mod islands;
+#[cfg(feature = "files")]
 mod measure;
 #[cfg(feature = "files")]
 mod preset;
@@ -56,6 +58,8 @@ pub use deform::DeformOptions;
 pub use edit::{EditOptions, Editing};
 #[cfg(feature = "files")]
 pub(super) use idle::check_grouping;
+#[cfg(feature = "files")]
+pub use islands::Island;
 #[cfg(feature = "files")]
 pub use measure::MeasureOptions;
 #[cfg(feature = "files")]

@@ -1,6 +1,6 @@
 //! How the UVs of a document are packed.
 
-use super::{Caller, CommandOptions, Cutting, KeptMaps, Layout, Options, Sets, Workers};
+use super::{Caller, CommandOptions, Cutting, Island, KeptMaps, Layout, Options, Sets, Workers};
 use crate::charts::Cut;
 use crate::document::{GroupBy, OutputFormat};
 use crate::options::options;
@@ -13,6 +13,12 @@ options! {
         pub group_by: GroupBy = GroupBy::Scene;
     }
     files {
+        /// Islands that stay where they are put, around which the others are packed: {"islands":
+        /// [{"primitive": i, "face": f, "move": [u, v], "turn": degrees, "scale": s, "pivot": [u,
+        /// v]}, …]}. Each is named by one of its faces and is moved, turned and scaled from where it
+        /// is, all of which may be absent. UVs and faces are those of the result; in glTF, v points
+        /// down, and `turn` goes from the direction of u to that of v.
+        pub islands: Vec<Island>;
         /// Format of the result.
         pub format: OutputFormat = OutputFormat::Glb;
     }
@@ -52,6 +58,9 @@ impl RepackOptions {
 
 impl CommandOptions for RepackOptions {
     fn check(&self) -> Result<(), PipelineError> {
+        for (index, island) in self.islands.iter().enumerate() {
+            island.check(index).map_err(PipelineError::InvalidOptions)?;
+        }
         self.to_unwrap().check()
     }
 

@@ -15,3 +15,10 @@ options! {
         pub overwrite: bool;
     }
 }
+
+impl Sets {
+    /// The UV set that provides the islands.
+    pub(in crate::pipeline) fn source(self) -> u32 {
+        self.source_texcoord.unwrap_or(0)
+    }
+}

@@ -205,6 +205,27 @@ async fn pictures_are_warped_and_uvs_are_edited() {
 }
 
 #[tokio::test]
+async fn islands_stay_where_they_are_put() {
+    let server = Server::start();
+    let unwrap = form("unwrap", "{}", ("hills.glb", meshes::small()));
+    let (_, _, mapped) = outcome(&server, unwrap).await;
+    let around = |islands: &str| {
+        let options = format!(r#"{{"islands": {islands}}}"#);
+        form("repack", &options, ("mapped.glb", mapped.clone()))
+    };
+    let put = r#"[{"face": 0, "turn": 90, "scale": 0.5}]"#;
+    let (report, _, glb) = outcome(&server, around(put)).await;
+    assert_eq!(report["certified"], true, "{report}");
+    assert_ne!(glb, mapped);
+    let job = ended(&server, around(r#"[{"face": 0, "move": [3, 0]}]"#)).await;
+    assert_eq!(job["error"]["code"], "island_off_page", "{job}");
+    assert_eq!(job["error"]["status"], 422, "{job}");
+    let problem = ended(&server, around(r#"[{"face": 0, "scale": -1}]"#)).await;
+    assert_eq!(problem["code"], "invalid_options", "{problem}");
+    assert_eq!(problem["status"], 400, "{problem}");
+}
+
+#[tokio::test]
 async fn a_body_stops_early_with_a_valid_map() {
     let server = Server::start();
     let swung = r#"{"handles": [{"center": [0, 0.5, 0.5], "radius": 0.8, "to": [0, 0.5, 0.5]},

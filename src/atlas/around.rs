@@ -1,0 +1,208 @@
+//! Charts packed around others that stay where they are.
+//!
+//! The cells of those that stay are taken before the first chart is placed; nothing else is known of them. The pages are used as
+//! they are, so that only the scale of the others is searched for: the largest at which each finds a place, the largest chart first.
+use super::attempt::{Attempt, Extent, Packing, SLACK};
+use super::layout::{Layout, padding, raster};
+use super::outline::outlines;
+use super::pack::{self, cramped, snapped};
+use super::plan::{HOPE, Plan};
+use super::sheet::Sheet;
+use super::stays::{Staying, too_near};
+use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, OnRead, Scale, doubled_area};
+use crate::solver::Control;
+use thiserror::Error;
+
+/// Scales tried after the first at which the charts fit.
+const ATTEMPTS: usize = 12;
+/// The search ends when the largest scale and one that failed are as near as this.
+const NEAR: f64 = 1.003;
+/// By how much the scale grows as long as the charts fit.
+const LARGER: f64 = 1.15;
+/// By how much the scale shrinks where they do not, at most and at least.
+const SMALLER: [f64; 2] = [0.5, 0.95];
+/// The share of what area allows from which on a scale is too small to be of use: there is no room.
+const LEAST: f64 = 0.01;
+/// The share of the pages that is hoped to be free at least.
+const LEAST_FREE: f64 = 1e-3;
+/// Cells by which the used part of a page is rounded down at most, and one more.
+const FRAME: u32 = 4;
+/// Layouts tried until no vertex moves farther than its chart's room.
+const ROUNDS: usize = 6;
+
+/// A chart that stays where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Stay<'a> {
+    /// Its map, of which the unit is the longer side of a page and the origin the lower left corner of the first.
+    pub map: ChartMap<'a>,
+    /// What it is a part of: parts of one island keep no distance.
+    pub island: usize,
+}
+
+/// Why charts cannot be packed around others.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum AroundError {
+    /// One that stays leaves the page that its middle is on, or all pages.
+    #[error("island {island} leaves its page")]
+    OffPage {
+        /// The island.
+        island: usize,
+    },
+    /// Two that stay are nearer than the padding, or overlap.
+    #[error("islands {} and {} are {texels} texels apart", islands[0], islands[1])]
+    TooNear {
+        /// Both.
+        islands: [usize; 2],
+        /// Their distance; 0 where they overlap.
+        texels: f64,
+    },
+    /// The others do not fit around those that stay.
+    #[error("the other charts do not fit")]
+    NoRoom,
+    /// The charts cannot be placed at all.
+    #[error(transparent)]
+    Atlas(#[from] AtlasError),
+}
+
+/// Packs charts around some that stay. The atlas has those first that are packed, then those that stay.
+pub fn pack_around(
+    charts: &[ChartMap],
+    stays: &[Stay],
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Result<Atlas, AroundError> {
+    let texture = options.texture;
+    let staying = Staying::all(stays, texture)?;
+    let longer = f64::from(texture.resolution.longer());
+    let gap = f64::from(options.padding_texels) / longer;
+    if let Some((islands, distance)) = too_near(&staying, gap) {
+        return Err(AroundError::TooNear {
+            islands,
+            texels: distance * longer,
+        });
+    }
+    let mut atlas = around(charts, &staying, options, on_read)?;
+    for (stay, staying) in stays.iter().zip(staying) {
+        let placed = staying.placed(texture);
+        let doubled = |t: &[u32; 3]| doubled_area(t.map(|v| placed.grid[v as usize])) as f64;
+        let covered: f64 = stay.map.triangles.iter().map(doubled).sum();
+        atlas.utilization += covered / (2.0 * GRID_SIDE * GRID_SIDE * f64::from(texture.pages));
+        atlas.placed.push(placed);
+    }
+    Ok(atlas)
+}
+
+fn around(
+    charts: &[ChartMap],
+    staying: &[Staying],
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Result<Atlas, AroundError> {
+    let texture = options.texture;
+    let plan = Plan::largest_first(&outlines(charts)?, options);
+    let on_page = plan.order.len() / texture.pages.max(1) as usize;
+    let cells = texture.raster(raster(on_page, options.most_cells));
+    let padding = padding(options, plan.order.len().max(1), f64::from(cells));
+    let mut slack = vec![SLACK; charts.len()];
+    let mut chart = 0;
+    for _ in 0..ROUNDS {
+        let mut packing = Packing {
+            plan: &plan,
+            slack: &slack,
+            texture,
+            cells,
+            padding,
+            border: (padding / 2.0).max(SLACK),
+            on_read,
+            extent: Extent::Full,
+            taken: None,
+        };
+        let taken = taken(&packing, staying);
+        packing.taken = Some(&taken);
+        let (scale, attempt) = placed(&packing, staying, options).ok_or(AroundError::NoRoom)?;
+        let cell = texture.grid_side() / f64::from(cells);
+        let longer = f64::from(texture.resolution.longer());
+        let layout = Layout {
+            scale: scale * cell,
+            cell,
+            border: packing.border,
+            spare: 0.0,
+            padding_texels: (padding * longer / f64::from(cells))
+                .min(f64::from(options.padding_texels)),
+            charts: attempt.spots,
+        };
+        let snapped = snapped(charts, &plan.outlines, &layout)?;
+        match cramped(&snapped, &layout, &mut slack) {
+            Some(cramped) => chart = cramped,
+            None => return Ok(pack::atlas(charts, &layout, &slack, snapped, options)),
+        }
+    }
+    Err(AtlasError::NotRepresentable { chart }.into())
+}
+
+/// Pages on which the cells of charts that stay are taken.
+fn taken(packing: &Packing, staying: &[Staying]) -> Sheet {
+    let whole = packing.whole();
+    // Charts that stay may reach into the borders, which are free of others.
+    let frame = (packing.reach() + packing.border).ceil() as u32 + FRAME;
+    let mut sheet = Sheet::new(packing.form(), whole, frame, whole);
+    for chart in staying {
+        let (body, corner) = chart.body(packing.texture, packing.cells, packing.border);
+        sheet.cover(&body, chart.page, corner);
+    }
+    sheet
+}
+
+/// The scale, in cells per mesh unit, and a place for every chart; none where one finds none.
+fn placed(
+    packing: &Packing,
+    staying: &[Staying],
+    options: &AtlasOptions,
+) -> Option<(f64, Attempt)> {
+    let cells = f64::from(packing.cells);
+    if packing.plan.order.is_empty() {
+        // The unit of what stays is that of a page.
+        return Some((cells, packing.attempt(cells, &mut 0).ok()?));
+    }
+    match options.scale {
+        Scale::Largest => largest(packing, staying, options.search_words),
+        Scale::TexelsPerUnit(texels) => {
+            let scale = texels * cells / f64::from(options.texture.resolution.longer());
+            Some((scale, packing.attempt(scale, &mut 0).ok()?))
+        }
+    }
+}
+
+/// The same at the largest scale that is found.
+fn largest(packing: &Packing, staying: &[Staying], search_words: u64) -> Option<(f64, Attempt)> {
+    let texture = packing.texture;
+    let pages = f64::from(texture.pages) * texture.share();
+    let taken: f64 = staying.iter().map(|chart| chart.outline.size.powi(2)).sum();
+    let free = (pages - taken).max(LEAST_FREE * pages) * f64::from(packing.cells).powi(2);
+    let most = (free / packing.plan.area()).sqrt();
+    let mut scale = HOPE.sqrt() * most;
+    let mut best: Option<(f64, Attempt)> = None;
+    let (mut failed, mut work, mut tried) = (f64::INFINITY, 0, 0);
+    while scale >= LEAST * most {
+        match packing.attempt(scale, &mut work) {
+            Ok(attempt) => best = Some((scale, attempt)),
+            Err(share) => {
+                failed = scale;
+                scale *= share.sqrt().clamp(SMALLER[0], SMALLER[1]);
+            }
+        }
+        if let Some((good, _)) = best {
+            let is_ended = (packing.on_read)(0) == Control::Finish || work > search_words;
+            if is_ended || tried == ATTEMPTS || failed < good * NEAR {
+                break;
+            }
+            tried += 1;
+            scale = if failed.is_finite() {
+                (good * failed).sqrt()
+            } else {
+                LARGER * good
+            };
+        }
+    }
+    best
+}
