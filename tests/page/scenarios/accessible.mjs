@@ -25,6 +25,11 @@ export async function run(page, url, job) {
       await check(page, `${colorScheme} view at ${width}`);
       const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
       assert.ok(overflow <= 0, `nothing is wider than ${width}: ${overflow}`);
+      await page.click("#arrange");
+      await check(page, `${colorScheme} arranging at ${width}`);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wide <= 0, `nothing is wider than ${width} while islands are arranged: ${wide}`);
+      await page.click("#arrange");
       await page.click("#tab-report");
       await page.waitForSelector(".certificate");
       await check(page, `${colorScheme} report at ${width}`);
@@ -34,7 +39,7 @@ export async function run(page, url, job) {
       await check(page, `${colorScheme} pull at ${width}`);
       await page.click("#pull-tools button:has-text('End')");
       await check(page, `${colorScheme} pull at its end at ${width}`);
-      checked += 4;
+      checked += 5;
     }
     await page.setViewportSize({ width: 1280, height: 800 });
     await page.click("#tab-view");

@@ -93,7 +93,7 @@ async fn nothing_on_the_pages_is_inaccessible() {
     let url = unwrapped(&server, "cat_head.obj").await;
     let (page, job) = url.split_once("#job=").expect("a job");
     let said = scenario("accessible", page.to_owned(), &[job.to_owned()]).await;
-    assert_eq!(said["checked"], 30);
+    assert_eq!(said["checked"], 36);
 }
 
 #[tokio::test]
@@ -187,6 +187,19 @@ async fn a_picture_is_pulled() {
 async fn a_surface_in_a_cage_is_pulled() {
     let places = "[[0.5, 0.62], [0.5, 0.42], [0.62, 0.3]]";
     pulled(asset("spot.ply"), "Surface in a cage", places).await;
+}
+
+#[tokio::test]
+async fn islands_are_arranged_and_the_others_packed_around_them() {
+    let server = Server::start();
+    let folder = tempfile::tempdir().expect("a folder");
+    let url = unwrapped(&server, "spot.ply").await;
+    let files = ["before.glb", "after.glb"].map(|name| text(&folder.path().join(name)));
+    scenario("arrange", url, &files).await;
+    let [_, output] = files;
+    let verified =
+        tokio::task::spawn_blocking(move || unwrapd(&["verify", &output, "--bijective"]));
+    assert_status(&verified.await.expect("no panic"), 0);
 }
 
 /// Sources and bundle agree: building it again gives the same bytes.

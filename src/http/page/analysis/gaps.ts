@@ -26,7 +26,7 @@ export function nearBorders(faces: Faces, charts: Charts, texture: Texture): Uin
   meetingBoxes(boxes, Math.max(4 * texture.padding, 8), (one, other) => {
     const [a, b] = [of(one), of(other)];
     if (faces.group[a] !== faces.group[b] || charts.ofFace[a] === charts.ofFace[b]) return;
-    if (distance(ends, 4 * one, 4 * other) < limit) near[one] = near[other] = 1;
+    if (segmentDistance(ends, 4 * one, ends, 4 * other) < limit) near[one] = near[other] = 1;
   });
   return near;
 }
@@ -42,15 +42,15 @@ function borderEnds(faces: Faces, charts: Charts, { width, height }: Texture): F
   return ends;
 }
 
-/** Between two segments that do not cross. */
-function distance(ends: Float64Array, one: number, other: number): number {
-  return Math.min(toSegment(ends, one, other), toSegment(ends, one + 2, other), toSegment(ends, other, one), toSegment(ends, other + 2, one));
+/** Between two segments that do not cross: four numbers each, from places of two lists. */
+export function segmentDistance(a: Float64Array, i: number, b: Float64Array, j: number): number {
+  return Math.min(toSegment(a, i, b, j), toSegment(a, i + 2, b, j), toSegment(b, j, a, i), toSegment(b, j + 2, a, i));
 }
 
-function toSegment(ends: Float64Array, point: number, segment: number): number {
+function toSegment(points: Float64Array, point: number, ends: Float64Array, segment: number): number {
   const [u, v] = [ends[segment]!, ends[segment + 1]!];
   const [du, dv] = [ends[segment + 2]! - u, ends[segment + 3]! - v];
-  const [pu, pv] = [ends[point]! - u, ends[point + 1]! - v];
+  const [pu, pv] = [points[point]! - u, points[point + 1]! - v];
   const length = du * du + dv * dv;
   const t = 0 < length ? Math.min(Math.max((pu * du + pv * dv) / length, 0), 1) : 0;
   return Math.hypot(pu - t * du, pv - t * dv);

@@ -1,5 +1,7 @@
 // The service as the page uses it. All addresses are relative to the page, so that it may lie below any prefix.
 
+import { extension } from "../viewer/loading";
+
 /** A job, as the service describes it. */
 export interface Job {
   id: string;
@@ -73,6 +75,16 @@ async function reach(path: string, request: RequestInit = {}): Promise<Response>
 
 export const jobPath = (id: string) => `v1/jobs/${encodeURIComponent(id)}`;
 
+/** Makes a job of a file with those that it references. */
+export function createJob(kind: string, options: Record<string, unknown>, { name, content, resources }: { name: string; content: Blob; resources: Map<string, Blob> }): Promise<Job> {
+  const form = new FormData();
+  form.append("kind", kind);
+  form.append("options", JSON.stringify(options));
+  form.append("mesh", content, name);
+  if (["gltf", "obj"].includes(extension(name))) for (const [path, blob] of resources) form.append("resource", blob, path);
+  return call<Job>("v1/jobs", { method: "POST", body: form });
+}
+
 export function isFinal(state: Job["state"]): boolean {
   return state !== "queued" && state !== "running";
 }
@@ -106,4 +118,20 @@ export function watch(job: Job, heard: (event: Progress) => void): () => void {
     isOver = true;
     socket.close();
   };
+}
+
+/** The job as it has ended; throws if it has not succeeded. */
+export async function outcomeOf(job: Job): Promise<Job> {
+  if (!isFinal(job.state)) {
+    await new Promise<void>((over) => {
+      const stop = watch(job, ({ state }) => {
+        if (!isFinal(state)) return;
+        stop();
+        over();
+      });
+    });
+  }
+  const last = await call<Job>(job.links.self);
+  if (last.state !== "succeeded") throw last.error ? new Refused(last.error) : new Error(`The job was ${last.state}.`);
+  return last;
 }

@@ -20,9 +20,9 @@ export function curl(kind: string, filename: string, options: Record<string, unk
   return ["curl", "-s", url, ...parts.flat()].map(quoted).join(" ");
 }
 
-/** The command that does the same without the service; null for kinds whose handles come in a file. */
+/** The command that does the same without the service; null where handles or islands would come in a file. */
 export function commandLine(kind: string, filename: string, options: Record<string, unknown>): string | null {
-  if (!["unwrap", "repack", "measure"].includes(kind)) return null;
+  if (!["unwrap", "repack", "measure"].includes(kind) || "islands" in options) return null;
   const { format = "glb", ...others } = options;
   const stem = filename.replace(/\.[^.]*$/, "");
   const flags = Object.entries(others).flatMap(([name, value]) => {

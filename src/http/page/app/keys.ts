@@ -12,16 +12,28 @@ export interface Key {
   shift?: boolean;
   /** Whether it does this only where the view has the focus: elsewhere it means what it means everywhere. */
   inPane?: boolean;
+  /** Whether it does this only in a view that a pointer went into: who came by keys goes on by them. */
+  byPointer?: boolean;
+  /** Whether another line of the list says it. */
+  isSaid?: boolean;
 }
+
+/** The view that was pressed last, as long as it has the focus. */
+let pressed: Element | null = null;
 
 /** Listens to keys wherever nothing is typed. */
 export function listen(keys: () => Key[]): void {
+  addEventListener("pointerdown", ({ target }) => (pressed = (target as Element).closest(".pane")), { capture: true });
+  addEventListener("focusin", ({ target }) => {
+    if ((target as Element).closest(".pane") !== pressed) pressed = null;
+  });
   addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     const isTyping = target.matches("input:not([type=radio], [type=checkbox]), select, textarea");
     if (isTyping || event.altKey || document.querySelector("dialog[open]")) return;
     const isCtrl = event.ctrlKey || event.metaKey;
-    const found = keys().find(({ key, ctrl = false, shift, inPane = false }) => (!inPane || target.closest(".pane") !== null) &&
+    const pane = target.closest(".pane");
+    const found = keys().find(({ key, ctrl = false, shift, inPane = false, byPointer = false }) => (!inPane || pane !== null) && (!byPointer || (pane !== null && pane === pressed)) &&
       key.toLowerCase() === event.key.toLowerCase() && ctrl === isCtrl && (shift ?? event.shiftKey) === event.shiftKey);
     if (!found) return;
     event.preventDefault();
@@ -38,7 +50,7 @@ function nameOf({ key, ctrl, shift }: Key): string {
 export function showKeys(keys: Key[]): void {
   const dialog = byId<HTMLDialogElement>("keys");
   const rows = [
-    ...keys.map((key) => [nameOf(key), key.does] as const),
+    ...keys.filter(({ isSaid }) => !isSaid).map((key) => [nameOf(key), key.does] as const),
     ["Drag", "Turn the surface, move the UVs"], ["Right drag", "Move the surface"], ["Wheel", "Zoom to the pointer"], ["Click", "Select; elsewhere, select nothing"],
   ];
   dialog.replaceChildren(

@@ -5,6 +5,8 @@ import { SHADES } from "../viewer/look";
 import { type Place, readPlace, START, writePlace } from "./address";
 import type { Analysis } from "../analysis/analysis";
 import { analyzed } from "./analyst";
+import { ArrangeView } from "../arrange/arrange_view";
+import { arrangeKeys } from "../arrange/keys";
 import { address, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
 import { short, whole } from "./format";
@@ -27,6 +29,7 @@ const list = new JobList((id) => void open(id));
 const setup = new Setup((first) => void preview(first), made, failed);
 const jobs = new JobView({ viewer, list, setup, failed, removed: () => void open(null), shown: refresh });
 const pull = new PullView({ failed, baked: (job) => { void list.refresh(); void open(job.id, { ...START }); } });
+const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...viewer.place, face: null, chart: null, seam: null }), changed: refresh });
 let before: Analysis | null = null;
 let isBefore = false;
 
@@ -45,7 +48,8 @@ function refresh(): void {
   const { place } = viewer;
   toolbar.refresh(isBefore, jobs.report !== null && jobs.input !== null);
   showLegend(viewer, (measure) => change({ measure }));
-  showPointed(viewer);
+  arrange.offer(isBefore ? null : jobs.job, jobs.report);
+  if (!arrange.isOn) showPointed(viewer);
   for (const tab of TABS) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(place.tab === tab));
     byId(tab).hidden = place.tab !== tab;
@@ -196,6 +200,7 @@ const KEYS: Key[] = [
   { key: "b", does: "Before and after", act: () => void compare() },
   { key: " ", does: "Turn, or stop", act: () => { viewer.stage?.solid.turn(!viewer.stage.solid.isTurning); viewer.stage?.redraw(); } },
   { key: "r", does: "View and report", act: () => change({ tab: viewer.place.tab === "view" ? "report" : "view" }) },
+  { key: "Tab", does: "Arrange islands", act: () => arrange.does("toggle"), shift: false, inPane: true, byPointer: true },
   { key: "?", does: "These keys", act: () => showKeys(KEYS) },
 ];
 
@@ -211,11 +216,12 @@ const PULL_KEYS: Key[] = [
 ];
 
 function wire(): void {
-  const keys = () => (viewer.place.tab === "pull" ? PULL_KEYS : KEYS);
+  const arranges = arrangeKeys(arrange);
+  const keys = () => (viewer.place.tab === "pull" ? PULL_KEYS : viewer.place.tab === "view" && arrange.isOn ? arranges : KEYS);
   listen(keys);
   byId("keys-button").addEventListener("click", () => showKeys(keys()));
   for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));
-  viewer.pointing.onHover = () => showPointed(viewer);
+  viewer.pointing.onHover = () => arrange.isOn || showPointed(viewer);
   viewer.pointing.onSelect = () => change({});
   viewer.changed = refresh;
   startTheme(() => viewer.apply(viewer.place));

@@ -34,6 +34,8 @@ export class Pointing {
   /** Called when something else is hovered, and when something is selected. */
   onHover: () => void = () => {};
   onSelect: () => void = () => {};
+  /** Who takes clicks instead, and whether more is added to what is selected. */
+  taken: ((target: Target | null, isAlso: boolean) => void) | null = null;
 
   constructor(viewer: Shown, places: Places) {
     this.#viewer = viewer;
@@ -57,7 +59,9 @@ export class Pointing {
     element.addEventListener("pointerup", (event) => {
       if (!down || CLICK < Math.hypot(event.clientX - down[0], event.clientY - down[1])) return;
       const box = element.getBoundingClientRect();
-      this.select(this.#at(view, event.clientX - box.left, event.clientY - box.top));
+      const target = this.#at(view, event.clientX - box.left, event.clientY - box.top);
+      if (this.taken) this.taken(target, event.shiftKey);
+      else this.select(target);
     });
   }
 

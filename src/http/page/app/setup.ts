@@ -1,6 +1,6 @@
 // What to do: files, three choices, one button; the rest behind "More".
 
-import { call, type Job } from "./api";
+import { createJob, type Job } from "./api";
 import { type FormKind, KINDS } from "./definitions";
 import { button, byId, element } from "./dom";
 import { bytes, counted } from "./format";
@@ -144,24 +144,13 @@ export class Setup {
     submit.disabled = true;
     const jobs: Job[] = [];
     try {
-      for (const one of this.#chosen) jobs.push(await this.#post(one));
+      for (const one of this.#chosen) jobs.push(await createJob(this.kind, this.#options.values, one));
     } catch (error) {
       this.failed(error);
     } finally {
       submit.disabled = false;
       if (jobs.length) this.made(jobs);
     }
-  }
-
-  #post({ name, content, resources }: Chosen): Promise<Job> {
-    const form = new FormData();
-    form.append("kind", this.kind);
-    form.append("options", JSON.stringify(this.#options.values));
-    form.append("mesh", content, name);
-    if (["gltf", "obj"].includes(extension(name))) {
-      for (const [path, blob] of resources) form.append("resource", blob, path);
-    }
-    return call<Job>("v1/jobs", { method: "POST", body: form });
   }
 }
 

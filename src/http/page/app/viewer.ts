@@ -1,12 +1,13 @@
 // The two views: what they show and what is pointed at in them.
 
-import { Box3, NearestFilter, type Object3D, RepeatWrapping, Sphere, type Texture, TextureLoader } from "three";
+import { Box3, NearestFilter, type Object3D, RepeatWrapping, Sphere, type Texture as Image, TextureLoader } from "three";
 import type { Analysis } from "../analysis/analysis";
 import { MEASURES } from "../analysis/distortion";
+import type { Texture } from "../analysis/soup";
 import { load, type Bundle, type Loaded, type UvRecord } from "../viewer/loading";
 import { SHADES } from "../viewer/look";
 import { Model } from "../viewer/model";
-import { soupOf } from "../viewer/soups";
+import { type Origin, originsOf, soupOf } from "../viewer/soups";
 import { pictureOf, sheetOf } from "../viewer/sheet";
 import { Stage } from "../viewer/stage";
 import { color } from "../viewer/theme_color";
@@ -27,6 +28,9 @@ export interface Source extends Bundle {
   from?: readonly [number, number, number];
 }
 
+/** What is known of a file that is shown. */
+export interface Facts { source: Source; record: UvRecord; texture: Texture; origins: Origin[] }
+
 /** Shows files in both views. */
 export class Viewer {
   readonly stage: Stage | null;
@@ -35,8 +39,10 @@ export class Viewer {
   model: Model | null = null;
   /** Of the file that is shown, or that would be if there were WebGL. */
   analysis: Analysis | null = null;
+  /** What the file is, as far as it is shown. */
+  facts: Facts | null = null;
   #shown = 0;
-  #image: Texture | null = null;
+  #image: Image | null = null;
   /** Called when another file is there or what is pointed at changes. */
   changed: () => void = () => {};
 
@@ -61,6 +67,7 @@ export class Viewer {
     const { width, height } = soup.texture;
     const analysis = await analyzed(soup);
     if (mine !== this.#shown) return false;
+    this.facts = { source, record, texture: soup.texture, origins: originsOf(soup) };
     this.#take(source, loaded, analysis, width / height);
     return true;
   }
@@ -69,7 +76,7 @@ export class Viewer {
   clear(): void {
     this.#shown += 1;
     this.model?.dispose();
-    this.model = this.analysis = null;
+    this.model = this.analysis = this.facts = null;
     this.stage?.solid.show([], null);
     this.stage?.plane.show([]);
     this.stage?.redraw();

@@ -1,6 +1,7 @@
 // The handles that a person holds: which there are, which are selected, and how they are moved together.
 
 import type { Handle } from "../live/client";
+import type { Gesture } from "../viewer/gesture";
 
 /** A handle in the hand. */
 export interface Grip {
@@ -80,9 +81,6 @@ export class Grips {
     return this.all.filter(({ name, isLocked }) => this.selected.has(name) && (withLocked || !isLocked));
   }
 }
-
-/** What a gesture does to grips that are moved together. */
-export type Gesture = "grab" | "rotate" | "scale";
 
 /** Grips as they were when a gesture began, and what becomes of them. */
 export class Motion {

@@ -1,7 +1,7 @@
 // What a pointer does in the view of a session: it holds, drags, and moves grips together.
 
-import type { Grip, Grips } from "./grips";
-import { type Gesture, Motion } from "./grips";
+import { type Gesture, stretched, swept } from "../viewer/gesture";
+import { type Grip, type Grips, Motion } from "./grips";
 import type { PullScene, Touched } from "./scene";
 
 /** Pixels within which a grip is below the pointer. */
@@ -120,12 +120,8 @@ export class Pointer {
     const [from, to] = [this.#from, this.#at].map((at) => scene.placeAt(at, motion.pivot)) as [number[], number[]];
     if (motion.gesture === "grab") return motion.shifted(to.map((x, k) => x - from[k]!));
     const center = scene.project(motion.pivot);
-    const arm = ([x, y]: [number, number]) => [x - center[0], y - center[1]] as const;
-    const [[ax, ay], [bx, by]] = [arm(this.#from), arm(this.#at)];
-    if (motion.gesture === "scale") return motion.scaled(Math.hypot(bx, by) / Math.max(Math.hypot(ax, ay), 1));
-    // Pixels count downward.
-    const turn = -Math.atan2(ax * by - ay * bx, ax * bx + ay * by);
-    return motion.turned(((turn * 180) / Math.PI) * scene.handedness, scene.axis);
+    if (motion.gesture === "scale") return motion.scaled(stretched(center, this.#from, this.#at));
+    return motion.turned(swept(center, this.#from, this.#at) * scene.handedness, scene.axis);
   }
 
   #up(event: PointerEvent): void {

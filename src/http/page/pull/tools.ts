@@ -3,7 +3,8 @@
 import { button, byId, element } from "../app/dom";
 import { short } from "../app/format";
 import type { LiveFrame } from "../live/decode";
-import type { Gesture, Grips } from "./grips";
+import type { Gesture } from "../viewer/gesture";
+import type { Grips } from "./grips";
 import { ACCEPTED, type Way } from "./what";
 
 /** What the tools ask for. */

@@ -30,6 +30,7 @@ export interface UvRecord {
   padding?: number;
   resolution?: number | string;
   pages?: number;
+  mips?: number;
 }
 
 /** Endings of the names of files that can be shown. */

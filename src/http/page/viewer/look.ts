@@ -27,6 +27,9 @@ export function uniforms() {
     uWire: { value: 0 },
     uProblems: { value: 1 },
     uSeams: { value: 1 },
+    /** Whether islands are arranged, and where they are put. */
+    uArranging: { value: 0 },
+    uPlaced: { value: none as Texture },
     uViewport: { value: new Vector2(1, 1) },
     uPixelRatio: { value: 1 },
   };

@@ -79,6 +79,12 @@ export class PlanePane {
     this.#changed();
   }
 
+  /** The place of the plane at one of the page. */
+  at(x: number, y: number): [number, number] {
+    const box = this.element.getBoundingClientRect();
+    return [this.#middle[0]! + (x - box.left - box.width / 2) * this.#unit, this.#middle[1]! - (y - box.top - box.height / 2) * this.#unit];
+  }
+
   /** Units of the plane per pixel. */
   get #unit(): number {
     return (2 * this.#half) / Math.min(...this.#size);

@@ -17,7 +17,31 @@ uniform float uAspect;
 ivec2 texelOf(uint face) { return ivec2(int(face) % ${ROW}, int(face) / ${ROW}); }
 `;
 
-export const SURFACE_VERTEX = /* glsl */ `${FACES}
+/** Where islands of the shown atlas are put, two texels per chart: a, b, s, t of a similarity, and its marks: 1 selected,
+ * 2 locked, 4 wrong. */
+const PLACED = /* glsl */ `
+uniform int uArranging;
+uniform highp sampler2D uPlaced;
+vec4 placedTexel(uint chart, int part) {
+  int k = 2 * int(chart) + part;
+  return texelFetch(uPlaced, ivec2(k % ${ROW}, k / ${ROW}), 0);
+}
+int placedMarks(uint chart, uint group) {
+  return uArranging == 1 && int(group) == uAtlas ? int(placedTexel(chart, 1).x) : 0;
+}
+// What is selected lies above the rest.
+float placedDepth(uint chart, uint group) {
+  return (placedMarks(chart, group) & 1) != 0 ? -0.5 : 0.0;
+}
+vec2 placedAt(vec2 inPlane, uint chart, uint group) {
+  if (uArranging == 0 || int(group) != uAtlas) return inPlane;
+  vec4 m = placedTexel(chart, 0);
+  vec2 p = vec2(inPlane.x * uAspect, inPlane.y);
+  return vec2((m.x * p.x - m.y * p.y + m.z) / uAspect, m.y * p.x + m.x * p.y + m.w);
+}
+`;
+
+export const SURFACE_VERTEX = /* glsl */ `${FACES}${PLACED}
 in vec2 faceUv;
 flat out uint vFace;
 out vec2 vUv;
@@ -27,18 +51,20 @@ void main() {
   vFace = uint(gl_VertexID / 3);
   int corner = gl_VertexID % 3;
   vCorner = vec3(corner == 0, corner == 1, corner == 2);
-  vUv = faceUv;
+  uvec4 ids = texelFetch(uIds, texelOf(vFace), 0);
+  uint group = ids.z & 0xffffu;
+  vUv = placedAt(faceUv, ids.y, group);
   vNormal = normalMatrix * normal;
 #ifdef PLANE
-  uint group = texelFetch(uIds, texelOf(vFace), 0).z & 0xffffu;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(faceUv.x * uAspect, faceUv.y, 0.0, 1.0);
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(vUv.x * uAspect, vUv.y, 0.0, 1.0);
+  gl_Position.z = placedDepth(ids.y, group);
   if (int(group) != uAtlas || isnan(faceUv.x)) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
 #else
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 #endif
 }`;
 
-export const SURFACE_FRAGMENT = /* glsl */ `${FACES}${COLORS}
+export const SURFACE_FRAGMENT = /* glsl */ `${FACES}${PLACED}${COLORS}
 uniform int uShade;
 uniform int uMeasure;
 uniform vec2 uRange;
@@ -48,6 +74,7 @@ uniform vec4 uHover;
 uniform vec4 uSelected;
 uniform int uWire;
 uniform int uProblems;
+uniform float uPixelRatio;
 flat in uint vFace;
 in vec2 vUv;
 in vec3 vNormal;
@@ -89,14 +116,25 @@ void main() {
   float face = float(ids.x), chart = float(ids.y), group = float(ids.z & 0xffffu);
   bool isHovered = uHover.x == face || (uHover.y == chart && uHover.z == group);
   bool isPicked = uSelected.x == face || (uSelected.y == chart && uSelected.z == group);
-  bool isWrong = uProblems == 1 && (marks & 3u) != 0u;
+  int placed = placedMarks(ids.y, ids.z & 0xffffu);
+  isPicked = isPicked || (placed & 1) != 0;
+  bool isWrong = uProblems == 1 && uArranging == 0 && (marks & 3u) != 0u;
 #ifdef OVERLAY
-  if (!isHovered && !isPicked && !isWrong) discard;
+  if (!isHovered && !isPicked && !isWrong && placed == 0) discard;
 #endif
   vec3 base = fill(ids.y);
   if (isWrong) base = (marks & 1u) != 0u ? vec3(0.87, 0.15, 0.17) : vec3(1.0, 0.84, 0.04);
-  if (isPicked) base = mix(base, PICKED, 0.6);
-  if (isHovered) base = mix(base, PICKED, 0.5);
+  if ((placed & 4) != 0) base = mix(base, vec3(0.87, 0.15, 0.17), 0.7);
+  else if (uArranging == 1) base = mix(base, PICKED, isPicked ? 0.35 : isHovered ? 0.2 : 0.0);
+  else {
+    if (isPicked) base = mix(base, PICKED, 0.6);
+    if (isHovered) base = mix(base, PICKED, 0.5);
+  }
+  if ((placed & 2) != 0) {
+    // Hatched: stripes that stay where they are on the screen.
+    float stripe = mod((gl_FragCoord.x + gl_FragCoord.y) / uPixelRatio, 9.0);
+    base *= 1.0 - 0.34 * smoothstep(0.0, 1.0, stripe) * smoothstep(3.2, 2.2, stripe);
+  }
   float light = 1.0;
 #ifndef PLANE
   vec3 n = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
@@ -134,6 +172,7 @@ precision highp float;
 precision highp int;
 uniform int uAtlas;
 uniform float uAspect;
+${PLACED}
 uniform vec2 uViewport;
 uniform float uPixelRatio;
 uniform vec4 uHover;
@@ -155,16 +194,20 @@ vec4 placed(vec3 inScene, vec2 inPlane) {
 }
 
 void main() {
-  vec4 a = placed(from, planeEnds.xy);
-  vec4 b = placed(to, planeEnds.zw);
+  uint ofGroup = facts.y & 0xffffu;
+  int mark = placedMarks(facts.x, ofGroup);
+  vec4 a = placed(from, placedAt(planeEnds.xy, facts.x, ofGroup));
+  vec4 b = placed(to, placedAt(planeEnds.zw, facts.x, ofGroup));
   float chart = float(facts.x), group = float(facts.y & 0xffffu), seam = float(facts.z);
   uint marks = facts.y >> 16;
   bool isHovered = uHover.w == seam || (uHover.y == chart && uHover.z == group);
   bool isPicked = uSelected.w == seam || (uSelected.y == chart && uSelected.z == group);
-  float width = (marks & 4u) != 0u ? 3.0 : (marks & 8u) != 0u ? 2.2 : 1.4;
+  isPicked = isPicked || (mark & 1) != 0;
+  bool isNear = uArranging == 1 ? (mark & 4) != 0 : (marks & 4u) != 0u;
+  float width = isNear ? 3.0 : (marks & 8u) != 0u ? 2.2 : 1.4;
   if (isHovered || isPicked) width += 1.6;
   width = (width + uThick) * uPixelRatio;
-  vColor = isPicked || isHovered ? vec4(0.95, 0.45, 0.0, 1.0) : (marks & 4u) != 0u ? vec4(0.87, 0.15, 0.17, 1.0) : vec4(0.07, 0.33, 0.75, 1.0);
+  vColor = (isPicked || isHovered) && !(isNear && uArranging == 1) ? vec4(0.95, 0.45, 0.0, 1.0) : isNear ? vec4(0.87, 0.15, 0.17, 1.0) : vec4(0.07, 0.33, 0.75, 1.0);
   vId = facts.w + 1u;
   vec2 along = (b.xy / b.w - a.xy / a.w) * uViewport;
   along = length(along) < 1e-4 ? vec2(1.0, 0.0) : normalize(along);
@@ -172,6 +215,7 @@ void main() {
   gl_Position = position.x < 0.5 ? a : b;
   gl_Position.xy += side * width / uViewport * gl_Position.w;
 #ifdef PLANE
+  gl_Position.z = placedDepth(facts.x, ofGroup) - 0.01;
   if (int(group) != uAtlas) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
 #else
   // Both sides of a seam lie at one place: what is pointed at covers the other.

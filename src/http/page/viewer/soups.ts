@@ -34,6 +34,19 @@ export function soupOf(loaded: Loaded, { record, texcoord }: Shown): Soup {
   return { parts, groups, texture: textureOf(record), inScene };
 }
 
+/** The measured faces of a primitive. */
+export interface Origin { mesh: number; primitive: number; begin: number; count: number }
+
+/** Which primitive the measured faces of a soup come from, in their order. */
+export function originsOf({ parts }: Soup): Origin[] {
+  let begin = 0;
+  return parts.filter(({ copyOf }) => copyOf < 0).map(({ mesh, primitive, positions }) => {
+    const count = positions.length / 9;
+    begin += count;
+    return { mesh, primitive, begin: begin - count, count };
+  });
+}
+
 /** The texture that a record speaks of. */
 export function textureOf({ resolution = 1024, padding = 0 }: UvRecord): Texture {
   const [width = 1024, height = width] = String(resolution).split("x").map(Number);

@@ -68,7 +68,7 @@ function material(shared: Uniforms, view: View, vertexShader: string, fragmentSh
   return new ShaderMaterial({
     glslVersion: GLSL3, vertexShader, fragmentShader, uniforms: { ...shared, uThick: { value: define === "PICK" ? 10 : 0 } },
     defines: { ...(view === "plane" ? { PLANE: 1 } : {}), ...(define ? { [define]: 1 } : {}) },
-    side: DoubleSide, blending: NoBlending, depthTest: view === "solid", depthWrite: view === "solid",
+    side: DoubleSide, blending: NoBlending,
   });
 }
 

@@ -1,0 +1,24 @@
+// The keys of arranging.
+
+import { type Key, showKeys } from "../app/keys";
+import type { ArrangeView } from "./arrange_view";
+
+const CHARACTERS = [..."0123456789.-", "Backspace"];
+
+/** All keys while islands are arranged. */
+export function arrangeKeys(view: ArrangeView): Key[] {
+  const does = (key: string, text: string, wish: string, more: Partial<Key> = {}): Key => ({ key, does: text, act: () => view.does(wish), ...more });
+  const keys: Key[] = [
+    does("g", "Grab the selected islands: they follow the pointer until you click", "grab"), does("r", "Rotate them", "rotate"), does("s", "Scale them", "scale"),
+    does("x", "Move along u only", "x"), does("y", "Move along v only", "y"),
+    { key: "0 … 9", does: "Type degrees, a factor, or a way along u or v", act: () => {} },
+    ...CHARACTERS.map((key) => ({ key, does: "", act: () => view.type(key), isSaid: true })),
+    does("Enter", "Leave them there", "confirm", { inPane: true }), does("Escape", "Put them back; select nothing", "cancel"),
+    does("l", "Lock, or let go; what is moved is locked", "lock"), does("a", "Select all islands", "all"), does("p", "Repack the others around the locked ones", "repack"),
+    does("z", "Undo", "undo", { ctrl: true, shift: false }), does("z", "Redo", "redo", { ctrl: true, shift: true }),
+    { key: "f", does: "Show everything", act: () => view.viewer.frame() },
+    does("Tab", "Leave; the arrangement is kept", "toggle", { shift: false, inPane: true, byPointer: true }),
+    { key: "?", does: "These keys", act: () => showKeys(keys) },
+  ];
+  return keys;
+}
