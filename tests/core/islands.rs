@@ -12,19 +12,20 @@ use crate::places;
 
 /// Squares that each have a place and a side in UV, v up, as an OBJ file; they lie apart in space.
 fn squares(places: &[([f64; 2], f64)]) -> Upload {
-    let mut text = String::new();
+    let mut lines = Vec::new();
     for (k, ([u, v], side)) in places.iter().enumerate() {
         for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
             let [px, py] = [10.0 * side * x + 20.0 * k as f64, 10.0 * side * y];
-            text += &format!("v {px} {py} 0\nvt {} {}\n", u + side * x, v + side * y);
+            lines.push(format!("v {px} {py} 0"));
+            lines.push(format!("vt {} {}", u + side * x, v + side * y));
         }
     }
     for k in 0..places.len() {
         let n = |corner: usize| 4 * k + corner;
-        text += &format!("f {0}/{0} {1}/{1} {2}/{2}\n", n(1), n(2), n(3));
-        text += &format!("f {0}/{0} {1}/{1} {2}/{2}\n", n(1), n(3), n(4));
+        lines.push(format!("f {0}/{0} {1}/{1} {2}/{2}", n(1), n(2), n(3)));
+        lines.push(format!("f {0}/{0} {1}/{1} {2}/{2}", n(1), n(3), n(4)));
     }
-    Upload::single("squares.obj", text.into_bytes())
+    Upload::single("squares.obj", lines.join("\n").into_bytes())
 }
 
 const FOUR: [([f64; 2], f64); 4] = [

@@ -193,7 +193,7 @@ async fn a_surface_in_a_cage_is_pulled() {
 async fn islands_are_arranged_and_the_others_packed_around_them() {
     let server = Server::start();
     let folder = tempfile::tempdir().expect("a folder");
-    let url = unwrapped(&server, "spot.ply").await;
+    let url = unwrapped(&server, "cat_head.obj").await;
     let files = ["before.glb", "after.glb"].map(|name| text(&folder.path().join(name)));
     scenario("arrange", url, &files).await;
     let [_, output] = files;
