@@ -1,30 +1,19 @@
 //! Charts packed around others that stay where they are.
 //!
 //! The cells of those that stay are taken before the first chart is placed; nothing else is known of them. The pages are used as
-//! they are, so that only the scale of the others is searched for: the largest at which each finds a place, the largest chart first.
-use super::attempt::{Attempt, Extent, Packing, SLACK};
+//! they are, so that only the scale of the others is searched for: the largest at which each finds a place, in an order that is
+//! searched for, too.
+use super::attempt::{Extent, Packing, SLACK};
+use super::largest::placed;
 use super::layout::{Layout, padding, raster};
 use super::outline::outlines;
 use super::pack::{self, cramped, snapped};
-use super::plan::{HOPE, Plan};
+use super::plan::Plan;
 use super::sheet::Sheet;
 use super::stays::{Staying, too_near};
-use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, OnRead, Scale, doubled_area};
-use crate::solver::Control;
+use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, OnRead, doubled_area};
 use thiserror::Error;
 
-/// Scales tried after the first at which the charts fit.
-const ATTEMPTS: usize = 12;
-/// The search ends when the largest scale and one that failed are as near as this.
-const NEAR: f64 = 1.003;
-/// By how much the scale grows as long as the charts fit.
-const LARGER: f64 = 1.15;
-/// By how much the scale shrinks where they do not, at most and at least.
-const SMALLER: [f64; 2] = [0.5, 0.95];
-/// The share of what area allows from which on a scale is too small to be of use: there is no room.
-const LEAST: f64 = 0.01;
-/// The share of the pages that is hoped to be free at least.
-const LEAST_FREE: f64 = 1e-3;
 /// Cells by which the used part of a page is rounded down at most, and one more.
 const FRAME: u32 = 4;
 /// Layouts tried until no vertex moves farther than its chart's room.
@@ -151,58 +140,4 @@ fn taken(packing: &Packing, staying: &[Staying]) -> Sheet {
         sheet.cover(&body, chart.page, corner);
     }
     sheet
-}
-
-/// The scale, in cells per mesh unit, and a place for every chart; none where one finds none.
-fn placed(
-    packing: &Packing,
-    staying: &[Staying],
-    options: &AtlasOptions,
-) -> Option<(f64, Attempt)> {
-    let cells = f64::from(packing.cells);
-    if packing.plan.order.is_empty() {
-        // The unit of what stays is that of a page.
-        return Some((cells, packing.attempt(cells, &mut 0).ok()?));
-    }
-    match options.scale {
-        Scale::Largest => largest(packing, staying, options.search_words),
-        Scale::TexelsPerUnit(texels) => {
-            let scale = texels * cells / f64::from(options.texture.resolution.longer());
-            Some((scale, packing.attempt(scale, &mut 0).ok()?))
-        }
-    }
-}
-
-/// The same at the largest scale that is found.
-fn largest(packing: &Packing, staying: &[Staying], search_words: u64) -> Option<(f64, Attempt)> {
-    let texture = packing.texture;
-    let pages = f64::from(texture.pages) * texture.share();
-    let taken: f64 = staying.iter().map(|chart| chart.outline.size.powi(2)).sum();
-    let free = (pages - taken).max(LEAST_FREE * pages) * f64::from(packing.cells).powi(2);
-    let most = (free / packing.plan.area()).sqrt();
-    let mut scale = HOPE.sqrt() * most;
-    let mut best: Option<(f64, Attempt)> = None;
-    let (mut failed, mut work, mut tried) = (f64::INFINITY, 0, 0);
-    while scale >= LEAST * most {
-        match packing.attempt(scale, &mut work) {
-            Ok(attempt) => best = Some((scale, attempt)),
-            Err(share) => {
-                failed = scale;
-                scale *= share.sqrt().clamp(SMALLER[0], SMALLER[1]);
-            }
-        }
-        if let Some((good, _)) = best {
-            let is_ended = (packing.on_read)(0) == Control::Finish || work > search_words;
-            if is_ended || tried == ATTEMPTS || failed < good * NEAR {
-                break;
-            }
-            tried += 1;
-            scale = if failed.is_finite() {
-                (good * failed).sqrt()
-            } else {
-                LARGER * good
-            };
-        }
-    }
-    best
 }

@@ -26,6 +26,7 @@ mod bitmap;
 mod clear;
 mod draft;
 mod enough;
+mod largest;
 mod layout;
 mod mask;
 mod orientation;

@@ -137,17 +137,15 @@ pub fn unwrap_all(
             }
             let options = atlas_options((settings, &plan), n_atlases, &charts);
             let charts = weighted(charts, meshes[index].seams);
-            let placed = placed_faces(&meshes[index], &plan)?;
             let expected = expected_words(&plan, &options, charts.len());
             let portion = Portion::of_atlas(tracker, words(index), expected);
             let on_read = |words| portion.read(words);
-            match placed {
-                None => packed(charts, &options, &plan, &on_read).map(Some),
-                Some(placed) => {
-                    let how = (settings, &plan, n_atlases);
-                    arranged(charts, &meshes[index], &placed, how, &on_read).map(Some)
-                }
+            let how = (settings, &plan, n_atlases);
+            match placed_faces(&meshes[index], &plan)? {
+                None => packed(charts, &options, &plan, &on_read),
+                Some(placed) => arranged(charts, &meshes[index], &placed, how, &on_read),
             }
+            .map(Some)
         })
         .collect::<Result<_, PipelineError>>()?;
     (meshes.par_iter().enumerate())

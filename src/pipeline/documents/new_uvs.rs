@@ -30,7 +30,8 @@ pub fn new_uvs(
                 && let Some(given) = document.corner_uvs(index, options.sets.source())?
             {
                 for face in inside.iter().map(|face| (face - first) as usize) {
-                    uvs[face] = given[face].map(|uv| uv.map(|x| x as f32));
+                    // What is less than a step below a page lies on its border.
+                    uvs[face] = given[face].map(|uv| uv.map(|x| (x as f32).max(0.0)));
                 }
             }
             corners[index] = Some(uvs);
