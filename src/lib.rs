@@ -176,7 +176,13 @@
 //!   `cargo bench --bench crash` kills, stops, fills, cuts and sets clocks wrong: nine faults at ten
 //!   moments each of 200 jobs lost none, had no effect twice, and left nothing behind.
 //!
-//! - A job that equals an earlier one gets copies of its files, not references to them: other names of
+//! - Whoever calls the service is known by a key, as in most services that programs use, and not by an
+//!   account: no passwords, no sign-up, nothing to ask elsewhere. What is another owner's is answered
+//!   like what never was. A place that could forget to ask does not exist: the store looks for
+//!   nothing without being told how far to look (`jobs::access::Reach`), and handlers know that
+//!   from their caller only.
+//!
+//! - A job that equals an earlier one of its owner gets copies of its files, not references to them: other names of
 //!   the same content in a folder, copies within the bucket. Every job owns its files, so that nothing
 //!   has to be counted before one is removed. Equal are input, kind, options and the checksum of the
 //!   program that computed; what was cut short is computed again.
@@ -206,7 +212,8 @@
 //! 3. Everything in a document that a job was not asked to change is still there.
 //! 4. An accepted job is never lost: it ends succeeded, failed with a cause, or cancelled, over any
 //!    crash or restart, and what an outdated attempt says or writes changes nothing.
-//! 5. No input makes the process panic, hang, read a file or open a connection it was not given, or exceed its memory.
+//! 5. Whoever has no key for it learns nothing of what others made, not even that it exists.
+//! 6. No input makes the process panic, hang, read a file or open a connection it was not given, or exceed its memory.
 
 pub mod options;
 

@@ -4,7 +4,7 @@ use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    batch, completions, deform, edit_uv, health, man, measure, repack, serve, solve, submit,
+    batch, completions, deform, edit_uv, health, keys, man, measure, repack, serve, solve, submit,
     unwrap_args, verify, warp, worker,
 };
 use crate::options::as_typed;
@@ -86,6 +86,11 @@ pub(super) enum Command {
     /// SIGTERM or SIGINT. Every option can also be set by the environment variable that its help
     /// names.
     Worker(Box<worker::Args>),
+    /// Make, list and revoke the keys with which the HTTP service is used
+    ///
+    /// Keys are in the database of the service and hold for all processes that share it. Once one
+    /// was made, they refuse calls without a key. It can be done while they run.
+    Keys(keys::Args),
     /// Print the OpenAPI document of the service
     Openapi,
     /// Check whether a running service is ready: exit 0 if so, 1 if not
@@ -106,16 +111,19 @@ pub(super) fn typed() -> Command {
 /// The program. Options accept negative numbers, so that the range check can name the option. Help
 /// shows option names as they are typed.
 pub(super) fn command() -> clap::Command {
-    Cli::command().mut_subcommands(|command| {
-        let ids = command.get_arguments().map(clap::Arg::get_id);
-        let ids: Vec<String> = ids.map(ToString::to_string).collect();
-        let is_option = |name: &str| ids.iter().any(|id| id == name);
-        let about = |text: &StyledStr| as_typed(&text.to_string(), is_option);
-        let long = command.get_long_about().map(about);
-        let command =
-            command.mut_args(|option| with_typed_names(with_negative_numbers(option), is_option));
-        long.into_iter().fold(command, clap::Command::long_about)
-    })
+    Cli::command().mut_subcommands(as_people_type)
+}
+
+fn as_people_type(command: clap::Command) -> clap::Command {
+    let ids = command.get_arguments().map(clap::Arg::get_id);
+    let ids: Vec<String> = ids.map(ToString::to_string).collect();
+    let is_option = |name: &str| ids.iter().any(|id| id == name);
+    let about = |text: &StyledStr| as_typed(&text.to_string(), is_option);
+    let long = command.get_long_about().map(about);
+    let command =
+        command.mut_args(|option| with_typed_names(with_negative_numbers(option), is_option));
+    let command = long.into_iter().fold(command, clap::Command::long_about);
+    command.mut_subcommands(as_people_type)
 }
 
 fn with_typed_names(option: clap::Arg, is_option: impl Fn(&str) -> bool) -> clap::Arg {

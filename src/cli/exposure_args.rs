@@ -1,12 +1,15 @@
 //! Who may use the service, and how long a client may be silent.
 
 use std::net::SocketAddr;
+use std::sync::Arc;
 use std::time::Duration;
 
+use clap::builder::BoolishValueParser;
 use nix::sys::resource::{Resource, getrlimit, setrlimit};
 
 use super::work_args::seconds;
 use crate::http::{Connections, origin};
+use crate::jobs::access::{KeyRing, KeyStore};
 
 /// Connections at most if nothing else is said.
 const MOST_CONNECTIONS: u64 = 4096;
@@ -17,6 +20,14 @@ const OTHER_FILES: u64 = 256;
 #[derive(clap::Args)]
 #[command(next_help_heading = "Connections")]
 pub(super) struct ExposureArgs {
+    /// Refuse calls without an API key even if none was made yet. Once one was made, they are always
+    /// refused
+    #[arg(long, env = "UNWRAPD_REQUIRE_KEYS", value_parser = BoolishValueParser::new())]
+    require_keys: bool,
+    /// Start without API keys although others reach the service: whoever does may do everything.
+    /// On loopback, and once a key was made, this changes nothing
+    #[arg(long, env = "UNWRAPD_ALLOW_ANONYMOUS", value_parser = BoolishValueParser::new())]
+    allow_anonymous: bool,
     /// Origin whose pages may use the service, such as `https://example.org`; can be repeated
     #[arg(
         long = "allow-origin",
@@ -96,6 +107,33 @@ impl ExposureArgs {
     pub fn hosts(&self, address: SocketAddr) -> Option<Vec<String>> {
         let is_known = !self.hosts.is_empty() || address.ip().is_loopback();
         is_known.then(|| self.hosts.clone())
+    }
+
+    /// The keys of a service at an address. Whoever others reach needs some, unless told otherwise.
+    pub async fn keys(
+        &self,
+        address: SocketAddr,
+        store: Arc<dyn KeyStore>,
+    ) -> Result<KeyRing, String> {
+        let keys = KeyRing::new(store);
+        let has_keys = keys.are_required().await;
+        let has_keys = has_keys.map_err(|error| format!("no keys read: {error}"))?;
+        if self.require_keys && !has_keys {
+            tracing::warn!("nobody can use the API before `unwrapd keys create` has made a key");
+        }
+        if self.require_keys {
+            return Ok(keys.requiring_keys());
+        }
+        if !has_keys && !address.ip().is_loopback() {
+            if !self.allow_anonymous {
+                return Err(format!(
+                    "there is no API key, and others reach {address}: make one with `unwrapd keys \
+                     create`, or let anybody in with --allow-anonymous"
+                ));
+            }
+            tracing::warn!("NO API KEYS: whoever reaches {address} may do everything");
+        }
+        Ok(keys)
     }
 
     /// How many connections there may be, as far as the limit of open files allows.

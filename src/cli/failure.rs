@@ -94,7 +94,7 @@ impl Failure {
 impl From<RemoteError> for Failure {
     fn from(error: RemoteError) -> Self {
         match error {
-            RemoteError::Address { .. } => Self::usage(error.to_string()),
+            RemoteError::Address { .. } | RemoteError::Key => Self::usage(error.to_string()),
             RemoteError::NoService { .. } => Self::other(error.to_string()),
         }
     }

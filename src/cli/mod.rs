@@ -21,6 +21,7 @@ mod failure;
 mod format;
 mod health;
 mod input;
+mod keys;
 mod listen;
 mod man;
 mod measure;
@@ -31,6 +32,7 @@ mod records;
 mod repack;
 mod serve;
 mod solve;
+mod store_args;
 mod submit;
 mod table;
 mod unwrap;
@@ -80,6 +82,7 @@ fn run_typed(command: Command) -> Result<(), Failure> {
         Command::Submit(args) => submit::run(&args),
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Worker(args) => worker::run(&args).map_err(Failure::other),
+        Command::Keys(args) => keys::run(&args),
         Command::Openapi => {
             console::print(crate::http::openapi());
             Ok(())

@@ -6,12 +6,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use tokio::signal::unix::{SignalKind, signal};
 use tokio_util::sync::CancellationToken;
 
+use super::store_args::url_path;
 use super::work_args::WorkArgs;
-use crate::jobs::{Blobs, Jobs, Settings};
+use crate::jobs::{Blobs, JobStore, Jobs, Settings};
 use crate::store::{RecordStore, blobs_at};
 
 /// Time for connections and computations to end after the stop signal and the time of grace.
@@ -31,9 +31,8 @@ pub(super) fn run(
         .with_writer(std::io::stderr)
         .with_ansi(std::io::stderr().is_terminal())
         .init();
-    std::fs::create_dir_all(&args.data)
-        .map_err(|error| format!("cannot create {}: {error}", args.data.display()))?;
-    let _lock = lock(&args.data)?;
+    args.store.make_folder()?;
+    let _lock = lock(&args.store.data)?;
     tokio::runtime::Runtime::new()
         .map_err(|error| error.to_string())?
         .block_on(process)
@@ -49,32 +48,26 @@ fn lock(data: &Path) -> Result<File, String> {
     Ok(lock)
 }
 
-/// The queue on the stores that are asked for, in order.
-pub(super) async fn queue(args: &WorkArgs, settings: Settings) -> Result<Arc<Jobs>, String> {
-    let text = |error: &dyn std::fmt::Display| error.to_string();
-    let data = std::path::absolute(&args.data).map_err(|e| text(&e))?;
-    let own = |name: &str| {
-        let path = data.join(name).to_string_lossy().into_owned();
-        let path: Vec<_> = path
-            .split('/')
-            .map(|part| utf8_percent_encode(part, NON_ALPHANUMERIC).to_string())
-            .collect();
-        path.join("/")
+/// The queue on the stores that are asked for, in order, and its records.
+pub(super) async fn queue(
+    args: &WorkArgs,
+    settings: Settings,
+) -> Result<(Arc<Jobs>, Arc<RecordStore>), String> {
+    let blobs = match &args.blobs {
+        Some(blobs) => blobs.clone(),
+        None => format!("file://{}", url_path(&args.store.data.join("blobs"))?),
     };
-    let database = args.database.clone();
-    let database =
-        database.unwrap_or_else(|| format!("sqlite://{}?mode=rwc", own("unwrapd.sqlite")));
-    let blobs = args.blobs.clone();
-    let blobs = blobs.unwrap_or_else(|| format!("file://{}", own("blobs")));
-    let store = RecordStore::open(&database, settings.rules)
+    let store = RecordStore::open(&args.store.database_url()?, settings.rules)
         .await
         .map_err(|error| format!("cannot use the database: {error}"))?;
+    let store = Arc::new(store);
     let blobs: Arc<dyn Blobs> = blobs_at(&blobs)
         .map_err(|error| format!("cannot use the place for files: {error}"))?
         .into();
-    let jobs = Arc::new(Jobs::new(settings, Arc::new(store), blobs));
-    jobs.recover().await.map_err(|e| text(&e))?;
-    Ok(jobs)
+    let records: Arc<dyn JobStore> = Arc::clone(&store) as _;
+    let jobs = Arc::new(Jobs::new(settings, records, blobs));
+    jobs.recover().await.map_err(|error| error.to_string())?;
+    Ok((jobs, store))
 }
 
 /// Cancelled by SIGTERM and SIGINT.

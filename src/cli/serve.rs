@@ -62,6 +62,9 @@ pub(super) struct Args {
     /// Maximum number of live sessions, each with a process of its own
     #[arg(long, value_name = "N", env = "UNWRAPD_SESSIONS", default_value_t = 16)]
     sessions: u16,
+    /// Maximum number of live sessions of one owner [default: no limit but `sessions`]
+    #[arg(long, value_name = "N", env = "UNWRAPD_OWNER_SESSIONS")]
+    owner_sessions: Option<u16>,
     /// Seconds without a message after which a live session ends
     #[arg(
         long,
@@ -97,6 +100,7 @@ impl Args {
     fn session_settings(&self) -> sessions::Settings {
         sessions::Settings {
             most: usize::from(self.sessions),
+            most_of_owner: usize::from(self.owner_sessions.unwrap_or(self.sessions)),
             idle: Duration::from_secs_f64(self.session_seconds),
         }
     }
@@ -124,14 +128,16 @@ async fn serve(args: &Args) -> Result<(), String> {
     let settings = args.job_settings().map_err(|e| text(&e))?;
     let grace = settings.grace;
     let sessions = Sessions::new(args.session_settings(), settings.clone());
-    let jobs = process::queue(&args.work, settings).await?;
-
     let wished = args.listen.address;
+    let (jobs, store) = process::queue(&args.work, settings).await?;
+    let keys = args.exposure.keys(wished, store).await?;
+
     let listener = TcpListener::bind(wished)
         .await
         .map_err(|error| format!("cannot listen on {wished}: {error}"))?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
-    if let Err(error) = std::fs::write(args.work.data.join(ADDRESS_FILE), address.to_string()) {
+    if let Err(error) = std::fs::write(args.work.store.data.join(ADDRESS_FILE), address.to_string())
+    {
         tracing::warn!(%error, "`unwrapd health` cannot find the service");
     }
     // A reader may have closed the pipe.
@@ -141,7 +147,7 @@ async fn serve(args: &Args) -> Result<(), String> {
     let queue = tokio::spawn(Arc::clone(&jobs).run(stop.clone()));
     let server = tokio::spawn(http::serve(
         listener,
-        (jobs, Arc::new(sessions)),
+        (jobs, Arc::new(sessions), Arc::new(keys)),
         args.http_settings(address),
         stop.clone(),
     ));

@@ -1,8 +1,8 @@
 //! What `serve` and `worker` have in common: where records and files are, and what a job may use.
 
-use std::path::PathBuf;
 use std::time::Duration;
 
+use super::store_args::StoreArgs;
 use crate::jobs::{self, Deployment, Rules};
 
 /// Default memory of a job, in bytes.
@@ -10,26 +10,10 @@ pub(super) const JOB_MEMORY: u64 = 8 << 30;
 
 /// Where records and files are, and what a job may use.
 #[derive(clap::Args)]
+#[command(mut_arg("database", |database| database.requires("blobs")))]
 pub(super) struct WorkArgs {
-    /// Folder for what this process keeps; created if missing. Without `database` and `blobs`,
-    /// that is everything
-    #[arg(
-        long,
-        value_name = "DIR",
-        env = "UNWRAPD_DATA",
-        default_value = "./data"
-    )]
-    pub data: PathBuf,
-    /// PostgreSQL database for job records, shared with other processes:
-    /// postgres://USER:PASSWORD@HOST/NAME
-    #[arg(
-        long,
-        value_name = "URL",
-        env = "UNWRAPD_DATABASE_URL",
-        hide_env_values = true,
-        requires = "blobs"
-    )]
-    pub database: Option<String>,
+    #[command(flatten)]
+    pub store: StoreArgs,
     /// Place for files, shared with other processes: s3://BUCKET/PREFIX, or a mounted folder as
     /// file:///DIR. S3 is set up by the usual AWS_ environment variables
     #[arg(
@@ -115,7 +99,7 @@ impl WorkArgs {
         let workers = self.workers.map_or(cores, usize::from);
         let memory = self.job_memory_mib.map(|mib| mib.saturating_mul(1 << 20));
         Ok(jobs::Settings {
-            deployment: match self.database {
+            deployment: match self.store.database {
                 None => Deployment::Embedded,
                 Some(_) => Deployment::Shared,
             },
@@ -123,7 +107,7 @@ impl WorkArgs {
                 lease: Duration::from_secs_f64(self.lease_seconds),
                 ..Rules::default()
             },
-            scratch: self.data.join("scratch"),
+            scratch: self.store.data.join("scratch"),
             program: std::env::current_exe()?,
             workers,
             cores,

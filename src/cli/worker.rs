@@ -12,7 +12,7 @@ pub(super) struct Args {
 
 /// Works until SIGTERM or SIGINT.
 pub(super) fn run(args: &Args) -> Result<(), String> {
-    if args.work.database.is_none() {
+    if args.work.store.database.is_none() {
         let why = "a worker needs a database that it shares: --database and --blobs";
         return Err(why.to_owned());
     }
@@ -25,7 +25,7 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
 async fn work(args: &Args) -> Result<(), String> {
     let settings = args.work.settings().map_err(|error| error.to_string())?;
     let grace = settings.grace;
-    let jobs = process::queue(&args.work, settings).await?;
+    let (jobs, _) = process::queue(&args.work, settings).await?;
     let stop = process::stop_on_signals()?;
     tracing::info!("waiting for jobs");
     let queue = tokio::spawn(jobs.run(stop.clone()));

@@ -63,7 +63,7 @@ impl IntoResponses for CallProblems {
 }
 
 /// The codes by their statuses.
-fn problems(codes: &[Code]) -> Responses {
+pub(super) fn problems(codes: &[Code]) -> Responses {
     let mut descriptions: BTreeMap<u16, Vec<String>> = BTreeMap::new();
     for code in codes {
         let (word, status, title) = code.row();

@@ -7,6 +7,9 @@ pub(super) enum Code {
     InvalidOptions,
     MissingMesh,
     NeedsJob,
+    KeyRequired,
+    KeyRefused,
+    MissingScope,
     ForeignOrigin,
     NotFound,
     JobNotFound,
@@ -18,6 +21,7 @@ pub(super) enum Code {
     AlreadyFinished,
     NoResult,
     NotFailed,
+    NoKeys,
     Conflict,
     JobExpired,
     UploadTooLarge,
@@ -45,11 +49,14 @@ pub(super) enum Code {
 }
 
 impl Code {
-    pub const ALL: [Self; 39] = [
+    pub const ALL: [Self; 43] = [
         Self::InvalidRequest,
         Self::InvalidOptions,
         Self::MissingMesh,
         Self::NeedsJob,
+        Self::KeyRequired,
+        Self::KeyRefused,
+        Self::MissingScope,
         Self::ForeignOrigin,
         Self::NotFound,
         Self::JobNotFound,
@@ -61,6 +68,7 @@ impl Code {
         Self::AlreadyFinished,
         Self::NoResult,
         Self::NotFailed,
+        Self::NoKeys,
         Self::Conflict,
         Self::JobExpired,
         Self::UploadTooLarge,
@@ -103,6 +111,9 @@ impl Code {
             ),
             Self::MissingMesh => ("missing_mesh", 400, "The upload has no input"),
             Self::NeedsJob => ("needs_job", 400, "This result is only available from a job"),
+            Self::KeyRequired => ("key_required", 401, "The call needs an API key"),
+            Self::KeyRefused => ("key_refused", 401, "The API key is not valid"),
+            Self::MissingScope => ("missing_scope", 403, "The API key may not do this"),
             Self::ForeignOrigin => (
                 "foreign_origin",
                 403,
@@ -122,6 +133,7 @@ impl Code {
             Self::AlreadyFinished => ("already_finished", 409, "The job has already ended"),
             Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
             Self::NotFailed => ("not_failed", 409, "Only failed jobs can be tried again"),
+            Self::NoKeys => ("no_keys", 409, "The service does not ask for keys"),
             Self::JobExpired => ("job_expired", 410, "The job was removed after its time"),
             Self::Conflict => ("conflict", 409, "Another request changed it meanwhile"),
             Self::UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),

@@ -11,6 +11,7 @@ use super::upload;
 use super::view::{JobView, job_path};
 use super::wishes::Wishes;
 use super::{App, Shared, json};
+use crate::jobs::access::Caller;
 use crate::jobs::{Ended, Job, SubmitError, Submitted};
 
 /// Create a job of any kind.
@@ -29,7 +30,7 @@ use crate::jobs::{Ended, Job, SubmitError, Submitted};
 /// cancelled, even if the service crashes. Unknown formats, malformed JSON and unknown options are
 /// refused immediately. Any other defect of the input fails the job with a code of `x-problems`.
 ///
-/// A job whose kind, options and input equal those of an earlier one gets a copy of its result and
+/// A job whose kind, options and input equal those of an earlier one of its owner gets a copy of its result and
 /// is marked `cached`. `Cache-Control: no-cache` asks for a new computation.
 ///
 /// With `Idempotency-Key`, a repetition within a day returns the same job. With `Prefer: wait=N`,
@@ -60,19 +61,20 @@ use crate::jobs::{Ended, Job, SubmitError, Submitted};
 )]
 pub(super) async fn create_job(
     State(app): Shared,
+    caller: Caller,
     headers: HeaderMap,
     request: Request,
 ) -> Result<Response, Problem> {
     let wishes = Wishes::read(&headers)?;
     let received = upload::receive(&app, None, request).await?;
-    let (submission, _folder) = received.into_submission(wishes, false);
+    let (submission, _folder) = received.into_submission(caller.owner(), wishes, false);
     let job = match app.jobs.submit(submission).await? {
         Submitted::New(job) | Submitted::Replay(job) => job,
     };
     let Some(wait) = preferred_wait(&headers) else {
         return Ok(located(&app, StatusCode::ACCEPTED, &job));
     };
-    let mut response = match wait_for(&app, job.id, wait).await? {
+    let mut response = match wait_for(&app, &caller.reach(), job.id, wait).await? {
         Ended::Yes(job) => located(&app, StatusCode::OK, &job),
         Ended::NotYet(job) => located(&app, StatusCode::ACCEPTED, &job),
     };

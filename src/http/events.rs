@@ -1,6 +1,7 @@
 //! Progress, as it happens.
 
 use std::convert::Infallible;
+use std::pin::pin;
 use std::sync::Arc;
 
 use axum::extract::State;
@@ -18,6 +19,7 @@ use super::problem::{Code, Problem};
 use super::socket::{KEEP_ALIVE, goodbye};
 use super::{App, Shared};
 use crate::jobs::Subscription;
+use crate::jobs::access::Caller;
 
 /// The largest integer that every JSON reader has exactly.
 const MAX_SEQ: u64 = (1 << 53) - 1;
@@ -35,7 +37,7 @@ pub(super) struct EventsQuery {
 /// Watch a job.
 ///
 /// A WebSocket receives one JSON object per text message. It is closed with 1000 after the final
-/// state, or with 1001 when the service stops. With `Accept: text/event-stream`, the same objects
+/// state, with 1001 when the service stops, or with 1008 when the key is refused from now on. With `Accept: text/event-stream`, the same objects
 /// arrive as server-sent events named `progress`, with `seq` as their id. Events are snapshots:
 /// `seq` rises and `fraction` never falls, but a slow client misses events in between. The final
 /// event is always sent, even if the job has already ended.
@@ -56,6 +58,7 @@ pub(super) struct EventsQuery {
 )]
 pub(super) async fn watch_job(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     Parameters(query): Parameters<EventsQuery>,
     headers: HeaderMap,
@@ -68,26 +71,27 @@ pub(super) async fn watch_job(
     let resumed = headers
         .get("last-event-id")
         .and_then(|id| id.to_str().ok()?.parse().ok());
-    let Some(events) = app.jobs.subscribe(id).await? else {
-        return Err(missing(&app, id).await);
+    let reach = caller.reach();
+    let Some(events) = app.jobs.subscribe(&reach, id).await? else {
+        return Err(missing(&app, &reach, id).await);
     };
     let events = events.after(query.after.or(resumed));
     if let Ok(upgrade) = upgrade {
         let sockets = app.sockets.clone();
-        let relayed = move |socket| sockets.track_future(relay(socket, events, app));
+        let relayed = move |socket| sockets.track_future(relay(socket, events, app, caller));
         return Ok(upgrade.on_upgrade(relayed));
     }
     let accepted = headers
         .get(header::ACCEPT)
         .and_then(|value| value.to_str().ok());
     if accepted.is_some_and(|types| types.contains("text/event-stream")) {
-        return Ok(server_sent(events, &app));
+        return Ok(server_sent(events, app, caller));
     }
     let detail = "connect a WebSocket, or accept text/event-stream";
     Err(Problem::new(Code::UpgradeRequired, detail))
 }
 
-fn server_sent(events: Subscription, app: &Arc<App>) -> Response {
+fn server_sent(events: Subscription, app: Arc<App>, caller: Caller) -> Response {
     let stream = stream::unfold(events, async |mut events| {
         let event = events.next().await?;
         let sent = sse::Event::default()
@@ -96,14 +100,22 @@ fn server_sent(events: Subscription, app: &Arc<App>) -> Response {
         let sent = sent.data(serde_json::to_string(&event).unwrap_or_default());
         Some((Ok::<_, Infallible>(sent), events))
     });
-    let stream = stream.take_until(app.stop.clone().cancelled_owned());
+    let end = async move {
+        tokio::select! {
+            () = app.stop.cancelled() => {}
+            () = app.keys.lapsed(&caller) => {}
+        }
+    };
+    let stream = stream.take_until(end);
     let events = Sse::new(stream).keep_alive(KeepAlive::new().interval(KEEP_ALIVE));
     // Proxies such as nginx would collect events before they pass them on.
     ([("x-accel-buffering", "no")], events).into_response()
 }
 
-/// Sends events until the last one, the client's goodbye, or the stop of the service.
-async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>) {
+/// Sends events until the last one, the client's goodbye, the end of its key, or the stop of the
+/// service.
+async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>, caller: Caller) {
+    let mut lapsed = pin!(app.keys.lapsed(&caller));
     let mut quiet = tokio::time::interval(KEEP_ALIVE);
     let code = loop {
         let message = tokio::select! {
@@ -117,6 +129,7 @@ async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>) {
             },
             _ = quiet.tick() => Message::Ping(Vec::new().into()),
             () = app.stop.cancelled() => break close_code::AWAY,
+            () = &mut lapsed => break close_code::POLICY,
         };
         if socket.send(message).await.is_err() {
             return;

@@ -11,6 +11,7 @@ use super::download::{self, File};
 use super::extract::PathId;
 use super::missing::existing;
 use super::problem::{Code, Problem};
+use crate::jobs::access::Caller;
 
 /// The `{index}` of the path. What is no number is the number of no file.
 pub(super) struct PathIndex(usize);
@@ -46,11 +47,12 @@ impl<S: Send + Sync> FromRequestParts<S> for PathIndex {
 )]
 pub(super) async fn get_input(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     PathIndex(index): PathIndex,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let job = existing(&app, id).await?;
+    let job = existing(&app, &caller.reach(), id).await?;
     let file = job.input.get(index).ok_or_else(|| {
         let detail = format!("the job has {} input files", job.input.len());
         Problem::new(Code::NoSuchFile, detail)

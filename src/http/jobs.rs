@@ -12,6 +12,7 @@ use super::missing::{existing, missing};
 use super::problem::{Code, Problem};
 use super::view::{JobPage, JobView};
 use super::{App, Shared, json};
+use crate::jobs::access::{Caller, Reach};
 use crate::jobs::{Changed, Ended, Job, JobId, Listing, Reason, Refusal, Wish};
 
 const DEFAULT_PAGE: u32 = 50;
@@ -42,6 +43,7 @@ pub(super) struct ListQuery {
 )]
 pub(super) async fn list_jobs(
     State(app): Shared,
+    caller: Caller,
     Parameters(query): Parameters<ListQuery>,
 ) -> Result<Response, Problem> {
     let invalid = |detail: String| Problem::new(Code::InvalidRequest, detail);
@@ -58,7 +60,7 @@ pub(super) async fn list_jobs(
         before,
         limit: limit + 1,
     };
-    let mut jobs = app.jobs.list(listing).await?;
+    let mut jobs = app.jobs.list(&caller.reach(), listing).await?;
     let is_last = jobs.len() <= limit as usize;
     jobs.truncate(limit as usize);
     let next = jobs
@@ -92,6 +94,7 @@ pub(super) struct GetQuery {
 )]
 pub(super) async fn get_job(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     Parameters(query): Parameters<GetQuery>,
 ) -> Result<Response, Problem> {
@@ -100,10 +103,11 @@ pub(super) async fn get_job(
         let detail = format!("`wait` must be between 0 and {MAX_WAIT_SECONDS}");
         return Err(Problem::new(Code::InvalidRequest, detail));
     }
+    let reach = caller.reach();
     let job = if wait == 0 {
-        existing(&app, id).await?
+        existing(&app, &reach, id).await?
     } else {
-        match wait_for(&app, id, Duration::from_secs(wait)).await? {
+        match wait_for(&app, &reach, id, Duration::from_secs(wait)).await? {
             Ended::Yes(job) | Ended::NotYet(job) => job,
         }
     };
@@ -126,12 +130,14 @@ pub(super) async fn get_job(
 )]
 pub(super) async fn delete_job(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
-    if app.jobs.remove(id, Reason::Deleted).await? {
+    let reach = caller.reach();
+    if app.jobs.remove(&reach, id, Reason::Deleted).await? {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let (job, _) = wished(&app, id, Wish::Cancel).await?;
+    let (job, _) = wished(&app, &reach, id, Wish::Cancel).await?;
     Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
 }
 
@@ -151,9 +157,10 @@ pub(super) async fn delete_job(
 )]
 pub(super) async fn finish_job(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
-    let (job, refusal) = wished(&app, id, Wish::FinishEarly).await?;
+    let (job, refusal) = wished(&app, &caller.reach(), id, Wish::FinishEarly).await?;
     if refusal.is_some() {
         let detail = format!("its state is {}", job.state.word());
         return Err(Problem::new(Code::AlreadyFinished, detail));
@@ -175,8 +182,12 @@ pub(super) async fn finish_job(
         (status = 410, description = "`job_expired`", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(super) async fn retry_job(State(app): Shared, PathId(id): PathId) -> Result<Response, Problem> {
-    let (job, refusal) = wished(&app, id, Wish::Retry).await?;
+pub(super) async fn retry_job(
+    State(app): Shared,
+    caller: Caller,
+    PathId(id): PathId,
+) -> Result<Response, Problem> {
+    let (job, refusal) = wished(&app, &caller.reach(), id, Wish::Retry).await?;
     if refusal.is_some() {
         let detail = format!("the job is {}", job.state.word());
         return Err(Problem::new(Code::NotFailed, detail));
@@ -185,11 +196,16 @@ pub(super) async fn retry_job(State(app): Shared, PathId(id): PathId) -> Result<
 }
 
 /// The job after a wish, and why the wish was refused.
-async fn wished(app: &App, id: JobId, wish: Wish) -> Result<(Job, Option<Refusal>), Problem> {
-    match app.jobs.wish(id, wish).await? {
+async fn wished(
+    app: &App,
+    reach: &Reach,
+    id: JobId,
+    wish: Wish,
+) -> Result<(Job, Option<Refusal>), Problem> {
+    match app.jobs.wish(reach, id, wish).await? {
         Changed::Yes(job) => Ok((*job, None)),
         Changed::No(job, refusal) => Ok((*job, Some(refusal))),
-        Changed::Missing => Err(missing(app, id).await),
+        Changed::Missing => Err(missing(app, reach, id).await),
     }
 }
 
@@ -199,13 +215,18 @@ pub(super) fn view(app: &App, job: &Job) -> JobView {
 }
 
 /// Waits for the end of a job, or for the stop of the service.
-pub(super) async fn wait_for(app: &App, id: JobId, wait: Duration) -> Result<Ended, Problem> {
+pub(super) async fn wait_for(
+    app: &App,
+    reach: &Reach,
+    id: JobId,
+    wait: Duration,
+) -> Result<Ended, Problem> {
     let ended = tokio::select! {
-        ended = app.jobs.wait(id, wait) => ended?,
-        () = app.stop.cancelled() => app.jobs.get(id).await?.map(Ended::NotYet),
+        ended = app.jobs.wait(reach, id, wait) => ended?,
+        () = app.stop.cancelled() => app.jobs.get(reach, id).await?.map(Ended::NotYet),
     };
     match ended {
         Some(ended) => Ok(ended),
-        None => Err(missing(app, id).await),
+        None => Err(missing(app, reach, id).await),
     }
 }

@@ -14,6 +14,7 @@ use super::problem::{Code, Problem};
 use super::sessions::PathSession;
 use super::socket::KEEP_ALIVE;
 use super::{App, Shared};
+use crate::jobs::access::Caller;
 use crate::sessions::{End, Session};
 
 /// Bytes of a message at most: a handle, or settings.
@@ -24,7 +25,8 @@ const MOST_MESSAGE_BYTES: usize = 64 << 10;
 /// A WebSocket. The client sends messages as JSON texts. The server sends the mesh once, then frames,
 /// both binary, and a reply to each message. Frames that a slow client has not received are dropped in
 /// favor of the latest. The close code is 1000 if the session was ended or expired, 1001 if the service
-/// stops, and 1011 if the computation failed, with the code of the failure as the reason. `live.md`
+/// stops, 1008 if the key is refused from now on, and 1011 if the computation failed, with the code of
+/// the failure as the reason. `live.md`
 /// beside this document describes messages, replies, meshes and frames.
 #[utoipa::path(
     get, path = "/v1/sessions/{id}/live", operation_id = "pullSession", tag = "sessions",
@@ -37,6 +39,7 @@ const MOST_MESSAGE_BYTES: usize = 64 << 10;
 )]
 pub(super) async fn pull_session(
     State(app): Shared,
+    caller: Caller,
     PathSession(session): PathSession,
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Result<Response, Problem> {
@@ -45,15 +48,17 @@ pub(super) async fn pull_session(
     };
     let sockets = app.sockets.clone();
     let upgrade = upgrade.max_message_size(MOST_MESSAGE_BYTES);
-    Ok(upgrade.on_upgrade(move |socket| sockets.track_future(relay(socket, session, app))))
+    let relayed = move |socket| sockets.track_future(relay(socket, session, app, caller));
+    Ok(upgrade.on_upgrade(relayed))
 }
 
-/// Relays until the session or the connection ends.
-async fn relay(socket: WebSocket, session: Arc<Session>, _app: Arc<App>) {
+/// Relays until the session, the connection or the key of the client ends.
+async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: Caller) {
     let (mut sink, mut stream) = socket.split();
     let code = tokio::select! {
         () = hear(&mut stream, &session) => return,
         code = tell(&mut sink, &session) => code,
+        () = app.keys.lapsed(&caller) => Some((close_code::POLICY, "key_refused".to_owned())),
     };
     let Some((code, reason)) = code else {
         return;

@@ -4,6 +4,7 @@
 //! [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI document. Whatever goes wrong is
 //! answered with an RFC 9457 problem that carries a stable code (`code.rs` has the table).
 
+mod admission;
 mod answers;
 mod assets;
 mod causes;
@@ -30,9 +31,12 @@ mod received;
 mod receiver;
 mod results;
 mod schemas;
+mod scopes;
+mod security;
 mod session_input;
 mod sessions;
 mod settings;
+mod sign_in;
 mod socket;
 mod steady;
 mod synchronous;
@@ -45,6 +49,7 @@ use std::sync::Arc;
 
 use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, StatusCode, header};
+use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::{Router, routing::get};
 use tokio::net::TcpListener;
@@ -61,6 +66,7 @@ pub use self::origins::origin;
 use self::problem::{Code, Problem};
 pub use self::settings::{Connections, Settings};
 use crate::jobs::Jobs;
+use crate::jobs::access::KeyRing;
 use crate::sessions::Sessions;
 
 /// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
@@ -72,6 +78,7 @@ const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; wo
 struct App {
     jobs: Arc<Jobs>,
     sessions: Arc<Sessions>,
+    keys: Arc<KeyRing>,
     settings: Settings,
     stop: CancellationToken,
     sockets: TaskTracker,
@@ -80,7 +87,8 @@ struct App {
 /// How handlers get it.
 type Shared = axum::extract::State<Arc<App>>;
 
-/// The table of contents. What is here is in the OpenAPI document.
+/// The table of contents. What is here, and what is open, is in the OpenAPI document. Calls of these
+/// need a key, once there is one.
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(openapi::preamble())
         .routes(routes!(create::create_job, jobs::list_jobs))
@@ -98,6 +106,11 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(sessions::get_session, sessions::close_session))
         .routes(routes!(sessions::bake_session))
         .routes(routes!(live::pull_session))
+        .routes(routes!(
+            sign_in::get_caller,
+            sign_in::sign_in,
+            sign_in::sign_out
+        ))
         .routes(routes!(synchronous::unwrap))
         .routes(routes!(synchronous::measure))
         .routes(routes!(
@@ -105,9 +118,14 @@ fn routes() -> OpenApiRouter<Arc<App>> {
             drain::end_drain,
             drain::get_drain
         ))
+        .routes(routes!(probes::metrics))
+}
+
+/// What anybody may ask.
+fn open_routes() -> OpenApiRouter<Arc<App>> {
+    OpenApiRouter::new()
         .routes(routes!(probes::healthz))
         .routes(routes!(probes::readyz))
-        .routes(routes!(probes::metrics))
         .routes(routes!(probes::openapi_document))
 }
 
@@ -121,19 +139,22 @@ fn pages() -> Router<Arc<App>> {
 
 /// The OpenAPI document of the service, as JSON.
 pub fn openapi() -> String {
-    openapi::document(routes().into_openapi())
+    let open = open_routes().into_openapi().paths.paths;
+    let open: Vec<String> = open.into_keys().collect();
+    openapi::document(routes().merge(open_routes()).into_openapi(), &open)
 }
 
 /// Serves until told to stop; then answers what is under way, closes WebSockets with 1001 and returns.
 pub async fn serve(
     listener: TcpListener,
-    (jobs, sessions): (Arc<Jobs>, Arc<Sessions>),
+    (jobs, sessions, keys): (Arc<Jobs>, Arc<Sessions>, Arc<KeyRing>),
     settings: Settings,
     stop: CancellationToken,
 ) -> std::io::Result<()> {
     let app = Arc::new(App {
         jobs,
         sessions,
+        keys,
         settings,
         stop: stop.clone(),
         sockets: TaskTracker::new(),
@@ -155,7 +176,10 @@ fn router(app: Arc<App>) -> Result<Router, ConfigError> {
     let header =
         |name, value| SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value));
     let settings = app.settings.clone();
+    let admitted = from_fn_with_state(Arc::clone(&app), admission::admit);
     let answering = Router::from(routes())
+        .route_layer(admitted)
+        .merge(Router::from(open_routes()))
         .merge(pages())
         .fallback(async || Problem::new(Code::NotFound, "there is nothing at this path"))
         .method_not_allowed_fallback(async || {

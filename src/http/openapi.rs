@@ -8,6 +8,7 @@ use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 use super::causes::CAUSES;
 use super::problem::Code;
 use super::schemas::{self, bytes, reference};
+use super::security;
 use super::upload::{other_types, surface_types};
 use crate::jobs::Kind;
 
@@ -34,8 +35,8 @@ pub(super) fn preamble() -> OpenApi {
     OpenApiBuilder::new().info(info).build()
 }
 
-/// The document as text.
-pub(super) fn document(mut api: OpenApi) -> String {
+/// The document as text. At open paths nobody needs a key.
+pub(super) fn document(mut api: OpenApi, open: &[String]) -> String {
     api.components
         .get_or_insert_default()
         .schemas
@@ -65,6 +66,7 @@ pub(super) fn document(mut api: OpenApi) -> String {
     for operations in members(paths) {
         members(operations).for_each(complete);
     }
+    security::describe(&mut document, open);
     serde_json::to_string_pretty(&document).unwrap_or_default()
 }
 

@@ -8,6 +8,9 @@ use super::causes;
 pub(super) use super::code::Code;
 use crate::jobs::{Failure, StoreError};
 
+/// How to ask again where a key is needed (RFC 6750).
+const CHALLENGE: &str = "Bearer realm=\"unwrapd\"";
+
 /// What went wrong (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
 #[derive(Clone, Debug, Serialize, utoipa::ToSchema)]
 pub(super) struct Problem {
@@ -109,6 +112,9 @@ impl IntoResponse for Problem {
         match status {
             StatusCode::SERVICE_UNAVAILABLE | StatusCode::TOO_MANY_REQUESTS => {
                 set(header::RETRY_AFTER, "5");
+            }
+            StatusCode::UNAUTHORIZED => {
+                set(header::WWW_AUTHENTICATE, CHALLENGE);
             }
             StatusCode::UPGRADE_REQUIRED => {
                 set(header::UPGRADE, "websocket");

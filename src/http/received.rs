@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use super::wishes::Wishes;
+use crate::jobs::access::Owner;
 use crate::jobs::{Digest, InputFile, Kind, Scratch, Submission};
 
 /// A received upload. Its folder goes when it is dropped.
@@ -18,9 +19,15 @@ pub(super) struct Received {
 }
 
 impl Received {
-    /// What is to be submitted; the folder has to be kept until that is done.
-    pub fn into_submission(self, wishes: Wishes, ephemeral: bool) -> (Submission, Scratch) {
+    /// What is to be submitted for an owner; the folder has to be kept until that is done.
+    pub fn into_submission(
+        self,
+        owner: &Owner,
+        wishes: Wishes,
+        ephemeral: bool,
+    ) -> (Submission, Scratch) {
         let submission = Submission {
+            owner: owner.clone(),
             digest: Digest::of_job(self.kind, &self.options, self.files.iter().map(|(f, _)| f)),
             kind: self.kind,
             options: self.options,

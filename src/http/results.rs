@@ -10,6 +10,7 @@ use super::extract::{PathId, PathName};
 use super::missing::existing;
 use super::problem::{Code, Problem};
 use super::{App, Shared};
+use crate::jobs::access::Caller;
 use crate::jobs::{JobId, State as JobState};
 
 /// Get the result: the mesh with its new UVs, the deformed body, the warped picture.
@@ -26,10 +27,11 @@ use crate::jobs::{JobId, State as JobState};
 )]
 pub(super) async fn get_result(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, id, "result", &headers).await
+    file(&app, &caller, id, "result", &headers).await
 }
 
 /// Get the report: what was done, the quality of the result, and what is proven.
@@ -46,10 +48,11 @@ pub(super) async fn get_result(
 )]
 pub(super) async fn get_report(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, id, "report", &headers).await
+    file(&app, &caller, id, "report", &headers).await
 }
 
 /// Get a picture of the UV layout, oriented like the texture.
@@ -63,10 +66,11 @@ pub(super) async fn get_report(
 )]
 pub(super) async fn get_layout(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, id, "layout.png", &headers).await
+    file(&app, &caller, id, "layout.png", &headers).await
 }
 
 /// Get a heat map of the distortion, oriented like the texture.
@@ -82,10 +86,11 @@ pub(super) async fn get_layout(
 )]
 pub(super) async fn get_heatmap(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, id, "heatmap.png", &headers).await
+    file(&app, &caller, id, "heatmap.png", &headers).await
 }
 
 /// Get a file that belongs to the result.
@@ -102,15 +107,22 @@ pub(super) async fn get_heatmap(
 )]
 pub(super) async fn get_file(
     State(app): Shared,
+    caller: Caller,
     PathId(id): PathId,
     PathName(name): PathName,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, id, &format!("files/{name}"), &headers).await
+    file(&app, &caller, id, &format!("files/{name}"), &headers).await
 }
 
-async fn file(app: &App, id: JobId, role: &str, headers: &HeaderMap) -> Result<Response, Problem> {
-    let job = existing(app, id).await?;
+async fn file(
+    app: &App,
+    caller: &Caller,
+    id: JobId,
+    role: &str,
+    headers: &HeaderMap,
+) -> Result<Response, Problem> {
+    let job = existing(app, &caller.reach(), id).await?;
     match job.state {
         JobState::Succeeded => {}
         JobState::Queued | JobState::Running => {

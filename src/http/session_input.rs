@@ -13,6 +13,7 @@ use super::options::{UploadQuery, complete};
 use super::problem::{Code, Problem};
 use super::received::Received;
 use super::upload::{self, accepts};
+use crate::jobs::access::Caller;
 use crate::jobs::{InputFile, Job, JobId, Kind, Scratch, State};
 
 /// What of a job a session takes.
@@ -35,7 +36,11 @@ struct Named {
 }
 
 /// The input and the options of a session.
-pub(super) async fn received(app: &Arc<App>, request: Request) -> Result<Received, Problem> {
+pub(super) async fn received(
+    app: &Arc<App>,
+    caller: &Caller,
+    request: Request,
+) -> Result<Received, Problem> {
     let Query(named) = Query::<Named>::try_from_uri(request.uri())
         .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
     let Some(job) = named.job else {
@@ -47,7 +52,8 @@ pub(super) async fn received(app: &Arc<App>, request: Request) -> Result<Receive
     query.options.shift_remove("file");
     let kind = query.kind.unwrap_or(Kind::EditUv);
     let options = complete(kind, query.options)?;
-    let job = existing(app, job.parse().map_err(|_| job_not_found())?).await?;
+    let id = job.parse().map_err(|_| job_not_found())?;
+    let job = existing(app, &caller.reach(), id).await?;
     let path = (app.jobs.settings().scratch).join(format!("upload-{}", JobId::fresh()));
     let folder = Scratch::make(path)?;
     let mut files = Vec::new();

@@ -14,6 +14,7 @@ use super::problem::{Code, Problem};
 use super::session_input::received;
 use super::view::JobView;
 use super::{App, Shared, json};
+use crate::jobs::access::Caller;
 use crate::jobs::{Failure, JobId, Kind, Submitted};
 use crate::sessions::{Baked, End, Opened, Session, Unopened};
 
@@ -87,7 +88,7 @@ fn view(app: &App, session: &Session) -> SessionView {
     }
 }
 
-/// The session of the path.
+/// The session of the path, if it is within the caller's reach.
 pub(super) struct PathSession(pub Arc<Session>);
 
 impl FromRequestParts<Arc<App>> for PathSession {
@@ -95,9 +96,10 @@ impl FromRequestParts<Arc<App>> for PathSession {
 
     async fn from_request_parts(parts: &mut Parts, app: &Arc<App>) -> Result<Self, Problem> {
         let missing = || Problem::new(Code::SessionNotFound, "it never existed, or it has ended");
+        let caller = Caller::from_request_parts(parts, app).await?;
         let id = Path::<String>::from_request_parts(parts, app).await;
         let id: Option<JobId> = id.ok().and_then(|Path(id)| id.parse().ok());
-        id.and_then(|id| app.sessions.get(id))
+        id.and_then(|id| app.sessions.get(&caller.reach(), id))
             .map(Self)
             .ok_or_else(missing)
     }
@@ -136,10 +138,12 @@ impl FromRequestParts<Arc<App>> for PathSession {
 )]
 pub(super) async fn open_session(
     State(app): Shared,
+    caller: Caller,
     request: Request,
 ) -> Result<Response, Problem> {
-    let received = received(&app, request).await?;
+    let received = received(&app, &caller, request).await?;
     let opened = Opened {
+        owner: caller.owner().clone(),
         kind: received.kind,
         options: received.options,
         files: received.files,
@@ -156,6 +160,9 @@ impl From<Unopened> for Problem {
     fn from(error: Unopened) -> Self {
         match error {
             Unopened::AllTaken => Self::new(Code::SessionsTaken, "try again later"),
+            Unopened::OwnTaken => {
+                Self::new(Code::SessionsTaken, "end one of yours, or try again later")
+            }
             Unopened::Failed(failure) => Self::of_failure(&failure),
         }
     }
@@ -166,8 +173,8 @@ impl From<Unopened> for Problem {
     get, path = "/v1/sessions", operation_id = "listSessions", tag = "sessions",
     responses((status = 200, description = "The sessions", body = SessionList))
 )]
-pub(super) async fn list_sessions(State(app): Shared) -> Response {
-    let sessions = app.sessions.list();
+pub(super) async fn list_sessions(State(app): Shared, caller: Caller) -> Response {
+    let sessions = app.sessions.list(&caller.reach());
     let list = SessionList {
         sessions: sessions.iter().map(|session| view(&app, session)).collect(),
         limit: app.sessions.settings().most,

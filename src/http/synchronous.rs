@@ -12,6 +12,7 @@ use super::jobs::wait_for;
 use super::problem::{Code, Problem};
 use super::wishes::Wishes;
 use super::{App, Shared, download, upload};
+use crate::jobs::access::Caller;
 use crate::jobs::{Ended, Job, JobId, Jobs, Kind, State as JobState, Submitted, Verdict};
 
 const CERTIFIED: HeaderName = HeaderName::from_static("unwrapd-certified");
@@ -38,8 +39,12 @@ const WARNINGS: HeaderName = HeaderName::from_static("unwrapd-warnings");
         CallProblems,
     )
 )]
-pub(super) async fn unwrap(State(app): Shared, request: Request) -> Result<Response, Problem> {
-    run(&app, Kind::Unwrap, request).await
+pub(super) async fn unwrap(
+    State(app): Shared,
+    caller: Caller,
+    request: Request,
+) -> Result<Response, Problem> {
+    run(&app, &caller, Kind::Unwrap, request).await
 }
 
 /// Measure the UVs of a mesh and get the report.
@@ -53,11 +58,20 @@ pub(super) async fn unwrap(State(app): Shared, request: Request) -> Result<Respo
         CallProblems,
     )
 )]
-pub(super) async fn measure(State(app): Shared, request: Request) -> Result<Response, Problem> {
-    run(&app, Kind::Measure, request).await
+pub(super) async fn measure(
+    State(app): Shared,
+    caller: Caller,
+    request: Request,
+) -> Result<Response, Problem> {
+    run(&app, &caller, Kind::Measure, request).await
 }
 
-async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, Problem> {
+async fn run(
+    app: &Arc<App>,
+    caller: &Caller,
+    kind: Kind,
+    request: Request,
+) -> Result<Response, Problem> {
     let wishes = Wishes {
         key: None,
         ..Wishes::read(request.headers())?
@@ -71,13 +85,13 @@ async fn run(app: &Arc<App>, kind: Kind, request: Request) -> Result<Response, P
         let detail = "a gltf has files beside it: POST /v1/jobs, or ask for glb";
         return Err(Problem::new(Code::NeedsJob, detail));
     }
-    let (submission, _folder) = received.into_submission(wishes, true);
+    let (submission, _folder) = received.into_submission(caller.owner(), wishes, true);
     let (Submitted::New(job) | Submitted::Replay(job)) = app.jobs.submit(submission).await?;
     let _guest = Guest {
         jobs: &app.jobs,
         id: job.id,
     };
-    match wait_for(app, job.id, app.settings.synchronous_time).await? {
+    match wait_for(app, &caller.reach(), job.id, app.settings.synchronous_time).await? {
         Ended::Yes(job) => answer(app, &job).await,
         Ended::NotYet(_) if app.stop.is_cancelled() => {
             Err(Problem::new(Code::Stopping, "try again, or elsewhere"))

@@ -80,10 +80,22 @@ pub(super) async fn receive(
         return Err(late("the next piece of the body", silence));
     }
     if received.is_err() {
-        let drained = async { while let Some(Ok(_)) = rest.next().await {} };
-        let _ = tokio::time::timeout(DRAIN_TIME, drained).await;
+        drain(&mut rest).await;
     }
     received
+}
+
+/// Reads what is left of the body of a refused request, for a while.
+async fn drain<E>(rest: &mut (impl Stream<Item = Result<Bytes, E>> + Unpin)) {
+    let drained = async { while let Some(Ok(_)) = rest.next().await {} };
+    let _ = tokio::time::timeout(DRAIN_TIME, drained).await;
+}
+
+/// Does so for a request of which nothing was read, unless its client asks before it sends.
+pub(super) async fn drain_refused(request: Request) {
+    if !request.headers().contains_key(header::EXPECT) {
+        drain(&mut request.into_body().into_data_stream()).await;
+    }
 }
 
 /// A body of which others read too.

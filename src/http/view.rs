@@ -14,6 +14,8 @@ pub(super) struct JobView {
     /// Identifies the job.
     #[schema(format = "uuid")]
     id: String,
+    /// Owner of the job, which is that of the key it was made with; null if it was made without one.
+    owner: Option<String>,
     /// Kind of job.
     kind: Kind,
     #[serde(flatten)]
@@ -104,6 +106,7 @@ impl JobView {
         });
         Self {
             id: job.id.to_string(),
+            owner: job.owner.name().map(str::to_owned),
             kind: job.kind,
             event: job.event(),
             filename: job

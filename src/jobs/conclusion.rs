@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use tokio_util::sync::CancellationToken;
 
+use super::access::Reach;
 use super::job::Job;
 use super::keys::output_folder;
 use super::queue::Jobs;
@@ -26,7 +27,7 @@ pub(super) async fn conclude(
 ) {
     let happening = Happening::Ended(attempt.token, attempt.saying(), ending);
     loop {
-        match jobs.store.change(job.id, &happening).await {
+        match jobs.store.change(&Reach::All, job.id, &happening).await {
             Ok(Changed::Yes(job)) => {
                 let failure = job.failure.as_ref();
                 let code = failure.map(|failure| failure.code.as_str());

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize, Serializer};
 use uuid::Uuid;
 
+use super::access::Owner;
 use super::input_output::{InputFile, OutputFile};
 use super::lease::{Token, WorkerId};
 use super::progress::{Event, Progress};
@@ -152,6 +153,8 @@ pub struct Verdict {
 pub struct Job {
     /// Names it.
     pub id: JobId,
+    /// Whose it is.
+    pub owner: Owner,
     /// What it does.
     pub kind: Kind,
     /// Where it stands.
@@ -201,10 +204,11 @@ pub struct Job {
 }
 
 impl Job {
-    /// A job that waits and has no files yet.
+    /// A job of the anonymous owner that waits and has no files yet.
     pub fn queued(id: JobId, kind: Kind, options: serde_json::Value) -> Self {
         Self {
             id,
+            owner: Owner::anonymous(),
             kind,
             state: State::Queued,
             options,

@@ -33,6 +33,7 @@
 //!
 //! Where records and files live is not decided here: [`JobStore`] and [`Blobs`] are traits.
 
+pub mod access;
 mod attempt;
 mod beats;
 mod capacity;

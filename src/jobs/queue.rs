@@ -7,6 +7,7 @@ use std::time::Duration;
 use tokio::sync::{Notify, OnceCell};
 use tokio_util::task::TaskTracker;
 
+use super::access::Reach;
 use super::job::{Job, JobId};
 use super::keys::output_folder;
 use super::lease::WorkerId;
@@ -67,9 +68,9 @@ impl Jobs {
     }
 
     /// The job as it is now. Its progress is that of the moment if it runs in this process.
-    pub async fn get(&self, id: JobId) -> StoreResult<Option<Job>> {
+    pub async fn get(&self, reach: &Reach, id: JobId) -> StoreResult<Option<Job>> {
         let running = self.running.attempt(id);
-        let mut job = self.store.get(id).await?;
+        let mut job = self.store.get(reach, id).await?;
         if let (Some(job), Some(running)) = (&mut job, running) {
             let event = running.event();
             if job.state == State::Running && job.token == running.token && job.seq < event.seq {
@@ -81,13 +82,13 @@ impl Jobs {
     }
 
     /// Whether there was such a job until its time was over.
-    pub async fn has_expired(&self, id: JobId) -> StoreResult<bool> {
-        self.store.has_expired(id).await
+    pub async fn has_expired(&self, reach: &Reach, id: JobId) -> StoreResult<bool> {
+        self.store.has_expired(reach, id).await
     }
 
     /// A page of jobs, the newest first.
-    pub async fn list(&self, listing: Listing) -> StoreResult<Vec<Job>> {
-        self.store.list(listing).await
+    pub async fn list(&self, reach: &Reach, listing: Listing) -> StoreResult<Vec<Job>> {
+        self.store.list(reach, listing).await
     }
 
     /// How many jobs there are in each state.
@@ -96,13 +97,18 @@ impl Jobs {
     }
 
     /// Waits for the end of a job, but not longer than this.
-    pub async fn wait(&self, id: JobId, at_most: Duration) -> StoreResult<Option<Ended>> {
-        let Some(mut events) = self.subscribe(id).await? else {
+    pub async fn wait(
+        &self,
+        reach: &Reach,
+        id: JobId,
+        at_most: Duration,
+    ) -> StoreResult<Option<Ended>> {
+        let Some(mut events) = self.subscribe(reach, id).await? else {
             return Ok(None);
         };
         let end = async { while events.next().await.is_some() {} };
         let _ = tokio::time::timeout(at_most, end).await;
-        let job = self.get(id).await?;
+        let job = self.get(reach, id).await?;
         Ok(job.map(|job| {
             if job.state.is_final() {
                 Ended::Yes(job)
@@ -113,10 +119,11 @@ impl Jobs {
     }
 
     /// Cancels a job, has it end early with the map it has, or tries it again, wherever it runs.
-    pub async fn wish(&self, id: JobId, wish: Wish) -> StoreResult<Changed> {
+    pub async fn wish(&self, reach: &Reach, id: JobId, wish: Wish) -> StoreResult<Changed> {
         // The child of this process first, it should not wait for the disk.
-        self.running.wish(id, wish);
-        let changed = self.store.change(id, &Happening::Wished(wish)).await?;
+        self.running.wish(reach, id, wish);
+        let wished = Happening::Wished(wish);
+        let changed = self.store.change(reach, id, &wished).await?;
         if let Changed::Yes(job) = &changed {
             self.tell(job).await;
         }
@@ -124,8 +131,8 @@ impl Jobs {
     }
 
     /// Removes a job in a final state, with its files. False: there is none.
-    pub async fn remove(&self, id: JobId, reason: Reason) -> StoreResult<bool> {
-        let removed = self.store.delete(id, reason).await?;
+    pub async fn remove(&self, reach: &Reach, id: JobId, reason: Reason) -> StoreResult<bool> {
+        let removed = self.store.delete(reach, id, reason).await?;
         if removed {
             self.blobs.remove(&id.to_string()).await?;
             self.live.forget(id);
@@ -138,9 +145,9 @@ impl Jobs {
         let jobs = Arc::clone(self);
         self.tasks.spawn(async move {
             let dismissed = async {
-                jobs.wish(id, Wish::Cancel).await?;
-                jobs.wait(id, DISMISSAL_TIME).await?;
-                jobs.remove(id, Reason::Deleted).await
+                jobs.wish(&Reach::All, id, Wish::Cancel).await?;
+                jobs.wait(&Reach::All, id, DISMISSAL_TIME).await?;
+                jobs.remove(&Reach::All, id, Reason::Deleted).await
             };
             if let Err(error) = dismissed.await {
                 tracing::error!(job = %id, %error, "not removed");

@@ -6,6 +6,7 @@ use std::time::Duration;
 use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 
+use super::access::Reach;
 use super::queue::Jobs;
 use super::settings::Deployment;
 use super::state::State;
@@ -38,8 +39,8 @@ impl Jobs {
         if self.settings.deployment == Deployment::Embedded {
             self.sweep(Sweep::Abandoned).await?;
             for id in self.store.ephemeral().await? {
-                self.wish(id, Wish::Cancel).await?;
-                self.remove(id, Reason::Deleted).await?;
+                self.wish(&Reach::All, id, Wish::Cancel).await?;
+                self.remove(&Reach::All, id, Reason::Deleted).await?;
             }
             self.remove_orphaned_files(Duration::ZERO).await?;
         }
@@ -89,7 +90,7 @@ impl Jobs {
                 return Ok(removed);
             }
             for id in ids {
-                self.remove(id, Reason::Expired).await?;
+                self.remove(&Reach::All, id, Reason::Expired).await?;
                 removed += 1;
             }
         }

@@ -15,7 +15,7 @@ impl Jobs {
         engine.await.map(String::as_str)
     }
 
-    /// Ends a new job with copies of what an equal one made, if there is one. A copy that fails is
+    /// Ends a new job with copies of what an equal one of its owner made, if there is one. A copy that fails is
     /// no reason to refuse the job: the result can be computed. What was copied by then is removed with
     /// the job.
     pub(super) async fn reuse(&self, job: &mut Job) {
@@ -36,7 +36,7 @@ impl Jobs {
     /// The job whose files were copied.
     async fn copy_equal(&self, job: &Job) -> StoreResult<Option<Job>> {
         let engine = self.engine().await?;
-        let equal = self.store.equal(&job.digest).await?;
+        let equal = self.store.equal(job).await?;
         let Some(earlier) = equal.into_iter().find(|equal| equal.is_repeatable(engine)) else {
             return Ok(None);
         };

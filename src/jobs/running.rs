@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 
+use super::access::{Owner, Reach};
 use super::job::{Job, JobId};
 use super::lease::Token;
 use super::progress::{Event, Saying};
@@ -14,6 +15,7 @@ use super::transition::Wish;
 
 /// An attempt of this process.
 pub(super) struct Attempt {
+    pub owner: Owner,
     pub token: Token,
     /// A client wants it to stop.
     pub cancel: CancellationToken,
@@ -72,6 +74,7 @@ impl Running {
     /// An attempt at a claimed job, whose lease is at least this long.
     pub fn start(&self, job: &Job, lease_end: Instant) -> Arc<Attempt> {
         let attempt = Arc::new(Attempt {
+            owner: job.owner.clone(),
             token: job.token,
             cancel: CancellationToken::new(),
             finish: CancellationToken::new(),
@@ -106,9 +109,10 @@ impl Running {
         self.attempts().get(&id).cloned()
     }
 
-    /// Tells the attempt at a job, if it runs here, what a client wants.
-    pub fn wish(&self, id: JobId, wish: Wish) {
-        let Some(attempt) = self.attempt(id) else {
+    /// Tells the attempt at a job, if it runs here and is within reach, what a client wants.
+    pub fn wish(&self, reach: &Reach, id: JobId, wish: Wish) {
+        let attempt = self.attempt(id);
+        let Some(attempt) = attempt.filter(|it| reach.covers(&it.owner)) else {
             return;
         };
         match wish {

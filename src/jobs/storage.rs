@@ -7,6 +7,7 @@ use std::time::Duration;
 use futures_util::future::BoxFuture;
 use futures_util::stream::BoxStream;
 
+use super::access::Reach;
 use super::job::{Job, JobId};
 use super::lease::{Token, WorkerId};
 use super::progress::{Event, Saying};
@@ -14,7 +15,8 @@ use super::state::State;
 use super::store_error::StoreResult;
 use super::transition::{Happening, Refusal};
 
-/// A client's promise that two submissions with the same key are one.
+/// A client's promise that two submissions with the same key are one. Each owner has keys of their
+/// own.
 #[derive(Clone, Debug)]
 pub struct IdempotencyKey {
     /// The client's word.
@@ -91,7 +93,8 @@ pub enum Reason {
 }
 
 /// Records of jobs. Every call is one transaction, durable when it returns. Times are those of the
-/// store's own clock, and what becomes of a record is decided by [`after`](super::after) alone.
+/// store's own clock, and what becomes of a record is decided by [`after`](super::after) alone. What
+/// lies beyond the reach that a call has is missing for it.
 pub trait JobStore: Send + Sync {
     /// Stores a job that is queued or has ended, unless that would exceed the capacity or its key has been used. Its
     /// times are set.
@@ -103,16 +106,20 @@ pub trait JobStore: Send + Sync {
     ) -> BoxFuture<'a, StoreResult<Enqueued>>;
 
     /// The record of a job.
-    fn get(&self, id: JobId) -> BoxFuture<'_, StoreResult<Option<Job>>>;
+    fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>>;
 
     /// A page of the list.
-    fn list(&self, listing: Listing) -> BoxFuture<'_, StoreResult<Vec<Job>>>;
+    fn list<'a>(
+        &'a self,
+        reach: &'a Reach,
+        listing: Listing,
+    ) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
     /// The present states of those of these jobs that exist, in any order.
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>>;
 
-    /// The latest jobs with a digest that succeeded and are kept.
-    fn equal<'a>(&'a self, digest: &'a str) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
+    /// The latest jobs with the digest and the owner of this one that succeeded and are kept.
+    fn equal<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
     /// Gives a queued job that may be started to a worker: one of the highest priority, and of those
     /// the oldest.
@@ -124,6 +131,7 @@ pub trait JobStore: Send + Sync {
     /// Changes a record as what happens demands.
     fn change<'a>(
         &'a self,
+        reach: &'a Reach,
         id: JobId,
         happening: &'a Happening,
     ) -> BoxFuture<'a, StoreResult<Changed>>;
@@ -135,10 +143,15 @@ pub trait JobStore: Send + Sync {
     fn sweep(&self, sweep: Sweep) -> BoxFuture<'_, StoreResult<Vec<Job>>>;
 
     /// Removes a record in a final state and its idempotency key; false if there is none.
-    fn delete(&self, id: JobId, reason: Reason) -> BoxFuture<'_, StoreResult<bool>>;
+    fn delete<'a>(
+        &'a self,
+        reach: &'a Reach,
+        id: JobId,
+        reason: Reason,
+    ) -> BoxFuture<'a, StoreResult<bool>>;
 
     /// Whether there was a job until its time was over. This is known for a year.
-    fn has_expired(&self, id: JobId) -> BoxFuture<'_, StoreResult<bool>>;
+    fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>>;
 
     /// Some jobs that ended longer ago than this. A job that belongs to a call is of no use a few
     /// minutes after its end.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::access::Owner;
 use super::input_output::InputFile;
 use super::job::{Job, JobId, Kind};
 use super::keys::input_key;
@@ -11,6 +12,8 @@ use super::store_error::StoreError;
 
 /// A wish for a job, checked as far as that is possible without computing.
 pub struct Submission {
+    /// Whose the job is.
+    pub owner: Owner,
     /// What to do.
     pub kind: Kind,
     /// Options of its kind, complete with defaults.
@@ -79,6 +82,7 @@ impl Jobs {
             self.blobs.put(&input_key(id, index), path).await?;
         }
         let mut job = Job {
+            owner: submission.owner,
             input: submission.files.into_iter().map(|(file, _)| file).collect(),
             digest: submission.digest,
             priority: submission.priority,

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
+use super::access::Reach;
 use super::job::JobId;
 use super::queue::Jobs;
 use super::store_error::StoreResult;
@@ -12,11 +13,11 @@ use super::subscription::Subscription;
 
 impl Jobs {
     /// Watches a job; `None` if there is none.
-    pub async fn subscribe(&self, id: JobId) -> StoreResult<Option<Subscription>> {
+    pub async fn subscribe(&self, reach: &Reach, id: JobId) -> StoreResult<Option<Subscription>> {
         // What happens after this line is seen, so that no end can fall between it and the record.
         let subscription = self.live.subscribe(id);
-        let Some(job) = self.get(id).await? else {
-            self.live.forget(id);
+        // Others may watch what is out of reach: they go on.
+        let Some(job) = self.get(reach, id).await? else {
             return Ok(None);
         };
         self.live.publish(id, job.event());

@@ -62,6 +62,7 @@ impl Session {
         files.push((file, place));
         let options = with_handles(self.kind, self.options.clone(), handles);
         let submission = Submission {
+            owner: self.owner.clone(),
             digest: Digest::of_job(self.kind, &options, files.iter().map(|(file, _)| file)),
             kind: self.kind,
             options,

@@ -16,7 +16,7 @@
 //! sends the latest frame and drops those before.
 //!
 //! The child ends when its standard input closes, so a killed server leaves no orphans. Sessions end
-//! when nobody has said anything for a time; there are so many at most in all.
+//! when nobody has said anything for a time; there are so many at most in all, and of one owner.
 
 mod baked;
 mod body_hand;

@@ -1,6 +1,6 @@
 //! All sessions of this process.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -13,6 +13,7 @@ use tokio_util::task::TaskTracker;
 
 use super::pipe::{self, FAILED, MESH};
 use super::session::{End, Parts, Session};
+use crate::jobs::access::{Owner, Reach};
 use crate::jobs::{
     self, Failure, InputFile, JobId, Kind, Pictures, Scratch, TASK, Task, input_file, read_stderr,
     write_json,
@@ -27,6 +28,8 @@ const START_TIME: Duration = Duration::from_mins(2);
 pub struct Settings {
     /// Sessions at the same time.
     pub most: usize,
+    /// Those of one owner.
+    pub most_of_owner: usize,
     /// Silence of all clients after which a session ends.
     pub idle: Duration,
 }
@@ -36,12 +39,15 @@ pub struct Sessions {
     settings: Settings,
     jobs: jobs::Settings,
     slots: Arc<Semaphore>,
+    slots_of_owners: Mutex<HashMap<Owner, Arc<Semaphore>>>,
     open: Mutex<BTreeMap<JobId, Arc<Session>>>,
     tasks: TaskTracker,
 }
 
 /// What a session is made of.
 pub struct Opened {
+    /// Whose it is.
+    pub owner: Owner,
     /// What a job would do.
     pub kind: Kind,
     /// The options of the job, complete.
@@ -55,6 +61,8 @@ pub struct Opened {
 pub enum Unopened {
     /// There are as many as there may be.
     AllTaken,
+    /// Its owner has as many as one may have.
+    OwnTaken,
     /// The input or the options are of no use, or the service failed.
     Failed(Failure),
 }
@@ -70,6 +78,7 @@ impl Sessions {
     pub fn new(settings: Settings, jobs: jobs::Settings) -> Self {
         Self {
             slots: Arc::new(Semaphore::new(settings.most)),
+            slots_of_owners: Mutex::default(),
             open: Mutex::default(),
             tasks: TaskTracker::new(),
             settings,
@@ -84,8 +93,7 @@ impl Sessions {
 
     /// Opens a session. When this returns, its child has read the input and is ready.
     pub async fn open(self: &Arc<Self>, opened: Opened) -> Result<Arc<Session>, Unopened> {
-        let slot = Arc::clone(&self.slots).try_acquire_owned();
-        let slot = slot.map_err(|_| Unopened::AllTaken)?;
+        let slots = self.slots(&opened.owner)?;
         let id = JobId::fresh();
         let folder = Scratch::make(self.jobs.scratch.join(format!("session-{id}")))?;
         for (index, (_, path)) in opened.files.iter().enumerate() {
@@ -99,6 +107,7 @@ impl Sessions {
         tokio::spawn(log(id, child.stderr.take().ok_or_else(gone)?));
         let session = Arc::new(Session::new(Parts {
             id,
+            owner: opened.owner,
             mesh: mesh(&mut stdout).await.map_err(Unopened::Failed)?,
             kind: opened.kind,
             options: opened.options,
@@ -107,10 +116,26 @@ impl Sessions {
             stdin,
         }));
         lock(&self.open).insert(id, Arc::clone(&session));
-        let supervised = Arc::clone(self).supervise(Arc::clone(&session), child, stdout, slot);
+        let supervised = Arc::clone(self).supervise(Arc::clone(&session), child, stdout, slots);
         self.tasks.spawn(supervised);
         tracing::info!(session = %id, kind = session.kind.word(), "opened");
         Ok(session)
+    }
+
+    /// The places of a session: one of all, and one of its owner.
+    fn slots(&self, owner: &Owner) -> Result<[OwnedSemaphorePermit; 2], Unopened> {
+        let most = self.settings.most_of_owner;
+        let of_owner = Arc::clone(
+            (lock(&self.slots_of_owners).entry(owner.clone()))
+                .or_insert_with(|| Arc::new(Semaphore::new(most))),
+        );
+        let all = Arc::clone(&self.slots).try_acquire_owned();
+        Ok([
+            all.map_err(|_| Unopened::AllTaken)?,
+            of_owner
+                .try_acquire_owned()
+                .map_err(|_| Unopened::OwnTaken)?,
+        ])
     }
 
     fn task(&self, opened: &Opened) -> Task {
@@ -135,7 +160,7 @@ impl Sessions {
         session: Arc<Session>,
         mut child: Child,
         mut stdout: ChildStdout,
-        slot: OwnedSemaphorePermit,
+        slots: [OwnedSemaphorePermit; 2],
     ) {
         tokio::select! {
             said = session.relay(&mut stdout) => {
@@ -150,23 +175,26 @@ impl Sessions {
         }
         let why = session.ended().await;
         tracing::info!(session = %session.id, ?why, "ended");
-        drop(slot);
+        drop(slots);
     }
 
-    /// The session of this id.
-    pub fn get(&self, id: JobId) -> Option<Arc<Session>> {
-        lock(&self.open).get(&id).cloned()
+    /// The session of this id, if it is within reach.
+    pub fn get(&self, reach: &Reach, id: JobId) -> Option<Arc<Session>> {
+        let session = lock(&self.open).get(&id).cloned();
+        session.filter(|session| reach.covers(&session.owner))
     }
 
-    /// All sessions, in the order in which they were opened.
-    pub fn list(&self) -> Vec<Arc<Session>> {
-        lock(&self.open).values().cloned().collect()
+    /// The sessions within reach, in the order in which they were opened.
+    pub fn list(&self, reach: &Reach) -> Vec<Arc<Session>> {
+        let open = lock(&self.open);
+        let within = open.values().filter(|session| reach.covers(&session.owner));
+        within.cloned().collect()
     }
 
     /// Ends all sessions, and returns when their children are gone.
     pub async fn stop(&self) {
         self.slots.close();
-        for session in self.list() {
+        for session in self.list(&Reach::All) {
             session.close(End::Stopping);
         }
         self.tasks.close();

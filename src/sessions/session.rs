@@ -11,6 +11,7 @@ use tokio_util::bytes::Bytes;
 use tokio_util::sync::CancellationToken;
 
 use super::pipe::{self, BAKE, BAKED, FAILED, FRAME, MESSAGE, REPLY};
+use crate::jobs::access::Owner;
 use crate::jobs::{Failure, InputFile, JobId, Kind, Scratch};
 
 /// Replies that a client may be behind.
@@ -33,6 +34,8 @@ pub enum End {
 pub struct Session {
     /// Names it.
     pub id: JobId,
+    /// Whose it is.
+    pub owner: Owner,
     /// What a job would do.
     pub kind: Kind,
     /// The options of the job, complete.
@@ -56,6 +59,7 @@ pub struct Session {
 /// What a session is made of.
 pub(super) struct Parts {
     pub id: JobId,
+    pub owner: Owner,
     pub kind: Kind,
     pub options: Value,
     pub input: Vec<InputFile>,
@@ -69,6 +73,7 @@ impl Session {
         let (baked, bakes) = mpsc::channel(1);
         Self {
             id: parts.id,
+            owner: parts.owner,
             kind: parts.kind,
             options: parts.options,
             input: parts.input,

@@ -4,6 +4,7 @@ use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
 use super::rows;
+use crate::jobs::access::Owner;
 use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult, Timestamp};
 
 /// How long a key is remembered: one day.
@@ -13,6 +14,7 @@ const LIFE_MS: i64 = 86_400_000;
 pub(super) async fn earlier_use(
     database: &Database,
     key: &IdempotencyKey,
+    owner: &Owner,
     now: Timestamp,
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Option<Enqueued>> {
@@ -24,7 +26,7 @@ pub(super) async fn earlier_use(
          JOIN (SELECT job AS of_key, fingerprint FROM idempotency WHERE key = $1) AS used
          ON id = of_key";
     let row = sqlx::query(database.sql(used))
-        .bind(&key.key)
+        .bind(of_owner(key, owner))
         .fetch_optional(&mut **transaction)
         .await?;
     let Some(row) = row else {
@@ -36,6 +38,12 @@ pub(super) async fn earlier_use(
     Ok(Some(Enqueued::Replay(Box::new(rows::job(&row)?))))
 }
 
+/// A key with its owner. Neither has a line break in it.
+fn of_owner(IdempotencyKey { key, .. }: &IdempotencyKey, owner: &Owner) -> String {
+    let owner = owner.name().map(|name| format!("{name}\n"));
+    owner.unwrap_or_default() + key
+}
+
 /// Remembers what a key was used for.
 pub(super) async fn remember(
     key: &IdempotencyKey,
@@ -44,7 +52,7 @@ pub(super) async fn remember(
 ) -> StoreResult<()> {
     let insert = "INSERT INTO idempotency (key, fingerprint, job, created) VALUES ($1, $2, $3, $4)";
     sqlx::query(insert)
-        .bind(&key.key)
+        .bind(of_owner(key, &job.owner))
         .bind(&key.fingerprint)
         .bind(job.id.to_string())
         .bind(job.created.0)

@@ -1,9 +1,10 @@
-//! Where the records and files of jobs lie.
+//! Where the records and files of jobs lie, and those of keys.
 //!
 //! Records are in SQLite or in PostgreSQL, by one code: `dialect.rs` has the few words that differ.
 //! Files are in a folder or in an object store.
 //!
-//! An embedded service has both below one data folder, which one process at a time may use:
+//! An embedded service has both below one data folder, which one process at a time may use; `unwrapd
+//! keys` opens the records beside it:
 //!
 //! ```text
 //! DATA/lock             held by the process that uses the folder
@@ -19,6 +20,7 @@ mod errors;
 mod files;
 mod hints;
 mod idempotency;
+mod keys;
 mod objects;
 mod reading;
 mod records;
@@ -26,6 +28,7 @@ mod reserve;
 mod rows;
 mod submissions;
 mod transitions;
+mod within;
 
 pub use address::blobs_at;
 pub use files::FileBlobs;

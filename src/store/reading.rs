@@ -5,20 +5,71 @@ use sqlx::{AnyConnection, AssertSqlSafe, Row};
 
 use super::database::Database;
 use super::rows;
+use super::within::within;
+use crate::jobs::access::Reach;
 use crate::jobs::{Event, Job, JobId, Listing, State, StoreResult};
 
 /// Jobs that are looked at together.
 const BATCH: usize = 64;
 
+/// The job of this id.
+pub(super) async fn one(database: &Database, reach: &Reach, id: JobId) -> StoreResult<Option<Job>> {
+    let (within, owner) = within(reach, 2);
+    let one = format!("SELECT {{columns}} FROM job WHERE id = $1 AND {within}");
+    let row = sqlx::query(database.sql(&one))
+        .bind(id.to_string())
+        .bind(owner)
+        .fetch_optional(&database.readers)
+        .await?;
+    row.as_ref().map(rows::job).transpose()
+}
+
+/// Whether there was a job of this id until its time was over.
+pub(super) async fn has_expired(
+    database: &Database,
+    reach: &Reach,
+    id: JobId,
+) -> StoreResult<bool> {
+    let (within, owner) = within(reach, 2);
+    let one = format!("SELECT id FROM expired WHERE id = $1 AND {within}");
+    let row = sqlx::query(database.sql(&one))
+        .bind(id.to_string())
+        .bind(owner)
+        .fetch_optional(&database.readers)
+        .await?;
+    Ok(row.is_some())
+}
+
+/// The latest jobs that this one equals, of the same owner.
+pub(super) async fn equal(database: &Database, job: &Job) -> StoreResult<Vec<Job>> {
+    let equal = "SELECT {columns} FROM job
+         WHERE digest = $1 AND owner = $2 AND state = 'succeeded' AND ephemeral = 0
+         ORDER BY id DESC LIMIT 4";
+    let found = sqlx::query(database.sql(equal))
+        .bind(&job.digest)
+        .bind(job.owner.as_str())
+        .fetch_all(&database.readers)
+        .await?;
+    jobs(&found)
+}
+
 /// A page of jobs, the newest first, without those of calls.
-pub(super) async fn page(database: &Database, listing: Listing) -> StoreResult<Vec<Job>> {
-    let page = "SELECT {columns} FROM job
-         WHERE ephemeral = 0 AND ($1 = '' OR state = $1) AND ($2 = '' OR id < $2)
-         ORDER BY id DESC LIMIT $3";
-    let found = sqlx::query(database.sql(page))
+pub(super) async fn page(
+    database: &Database,
+    reach: &Reach,
+    listing: Listing,
+) -> StoreResult<Vec<Job>> {
+    let (within, owner) = within(reach, 4);
+    let page = format!(
+        "SELECT {{columns}} FROM job
+         WHERE ephemeral = 0 AND ($1 = '' OR state = $1) AND ($2 = '' OR id < $2) AND {within}
+         ORDER BY id DESC LIMIT $3"
+    );
+    let found = sqlx::query(database.sql(&page))
         .bind(listing.state.map_or("", State::word))
         .bind(listing.before.map_or_else(String::new, |id| id.to_string()))
         .bind(i64::from(listing.limit))
+        .bind(owner)
         .fetch_all(&database.readers)
         .await?;
     jobs(&found)
@@ -85,6 +136,6 @@ pub(super) async fn stored_bytes(connection: &mut AnyConnection) -> StoreResult<
 }
 
 /// The jobs that rows hold.
-pub(super) fn jobs(found: &[AnyRow]) -> StoreResult<Vec<Job>> {
+fn jobs(found: &[AnyRow]) -> StoreResult<Vec<Job>> {
     found.iter().map(rows::job).collect()
 }

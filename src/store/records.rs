@@ -7,7 +7,8 @@ use futures_util::future::BoxFuture;
 
 use super::database::Database;
 use super::hints::Hints;
-use super::{reading, reserve, rows, submissions, transitions};
+use super::{reading, reserve, submissions, transitions};
+use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Capacity, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId, JobStore,
     Listing, Reason, Rules, State, StoreError, StoreResult, Sweep, WorkerId,
@@ -21,7 +22,7 @@ const EPHEMERAL_MS: i64 = 10 * 60_000;
 /// Records in SQLite or PostgreSQL. Every change is one transaction, durable when the method returns;
 /// a sweep is several.
 pub struct RecordStore {
-    database: Database,
+    pub(super) database: Database,
     hints: Hints,
     rules: Rules,
 }
@@ -41,7 +42,7 @@ impl RecordStore {
 }
 
 /// A call that does not wait for ever: a connection may be cut without anybody noticing.
-fn bounded<'a, T: 'a>(
+pub(super) fn bounded<'a, T: 'a>(
     call: impl Future<Output = StoreResult<T>> + Send + 'a,
 ) -> BoxFuture<'a, StoreResult<T>> {
     async move {
@@ -68,36 +69,24 @@ impl JobStore for RecordStore {
         ))
     }
 
-    fn get(&self, id: JobId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
-        bounded(async move {
-            let job = self.database.sql("SELECT {columns} FROM job WHERE id = $1");
-            let row = sqlx::query(job)
-                .bind(id.to_string())
-                .fetch_optional(&self.database.readers)
-                .await?;
-            row.as_ref().map(rows::job).transpose()
-        })
+    fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>> {
+        bounded(reading::one(&self.database, reach, id))
     }
 
-    fn list(&self, listing: Listing) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
-        bounded(reading::page(&self.database, listing))
+    fn list<'a>(
+        &'a self,
+        reach: &'a Reach,
+        listing: Listing,
+    ) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
+        bounded(reading::page(&self.database, reach, listing))
     }
 
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>> {
         bounded(reading::events(&self.database, ids))
     }
 
-    fn equal<'a>(&'a self, digest: &'a str) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
-        bounded(async move {
-            let equal = "SELECT {columns} FROM job
-                 WHERE digest = $1 AND state = 'succeeded' AND ephemeral = 0
-                 ORDER BY id DESC LIMIT 4";
-            let found = sqlx::query(self.database.sql(equal))
-                .bind(digest)
-                .fetch_all(&self.database.readers)
-                .await?;
-            reading::jobs(&found)
-        })
+    fn equal<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
+        bounded(reading::equal(&self.database, job))
     }
 
     fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
@@ -110,11 +99,13 @@ impl JobStore for RecordStore {
 
     fn change<'a>(
         &'a self,
+        reach: &'a Reach,
         id: JobId,
         happening: &'a Happening,
     ) -> BoxFuture<'a, StoreResult<Changed>> {
         bounded(transitions::change(
             &self.database,
+            reach,
             id,
             happening,
             &self.rules,
@@ -129,18 +120,17 @@ impl JobStore for RecordStore {
         bounded(transitions::sweep(&self.database, sweep, &self.rules))
     }
 
-    fn delete(&self, id: JobId, reason: Reason) -> BoxFuture<'_, StoreResult<bool>> {
-        bounded(transitions::delete(&self.database, id, reason))
+    fn delete<'a>(
+        &'a self,
+        reach: &'a Reach,
+        id: JobId,
+        reason: Reason,
+    ) -> BoxFuture<'a, StoreResult<bool>> {
+        bounded(transitions::delete(&self.database, reach, id, reason))
     }
 
-    fn has_expired(&self, id: JobId) -> BoxFuture<'_, StoreResult<bool>> {
-        bounded(async move {
-            let row = sqlx::query("SELECT id FROM expired WHERE id = $1")
-                .bind(id.to_string())
-                .fetch_optional(&self.database.readers)
-                .await?;
-            Ok(row.is_some())
-        })
+    fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>> {
+        bounded(reading::has_expired(&self.database, reach, id))
     }
 
     fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {

@@ -5,12 +5,13 @@ use serde::de::DeserializeOwned;
 use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
+use crate::jobs::access::Owner;
 use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 
 /// The columns of a job, each by its name: a statement for all columns would fail in processes that
 /// go on while a newer program adds one.
 pub(super) const COLUMNS: &str =
-    "id, kind, state, options, input, output, verdict, attempt, digest,
+    "id, owner, kind, state, options, input, output, verdict, attempt, digest,
     priority, token, worker, lease, due, lost, cancel, finish_early, ephemeral, seq, progress,
     failure, created, started, finished";
 
@@ -19,9 +20,9 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     sqlx::query(
         "INSERT INTO job (id, kind, state, options, input, output, verdict, attempt, token, due,
                           lost, cancel, finish_early, ephemeral, seq, progress, created, bytes,
-                          digest, priority, finished)
+                          digest, priority, finished, owner)
          VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18,
-                 $19, $20, $21)",
+                 $19, $20, $21, $22)",
     )
     .bind(job.id.to_string())
     .bind(job.kind.word())
@@ -44,6 +45,7 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     .bind(&job.digest)
     .bind(i64::from(job.priority))
     .bind(job.finished.map(|time| time.0))
+    .bind(job.owner.as_str())
     .execute(&mut **transaction)
     .await?;
     Ok(())
@@ -93,7 +95,7 @@ pub(super) fn json<T: Serialize>(value: &T) -> StoreResult<String> {
 }
 
 /// A record that cannot be read is reported, never guessed at.
-fn damaged(error: impl std::fmt::Display) -> StoreError {
+pub(super) fn damaged(error: impl std::fmt::Display) -> StoreError {
     StoreError::Other(format!("a record is damaged: {error}"))
 }
 
@@ -122,7 +124,8 @@ pub(super) fn event(row: &AnyRow) -> StoreResult<(JobId, Event)> {
     Ok((id(row)?, event))
 }
 
-fn time(row: &AnyRow, column: &str) -> StoreResult<Option<Timestamp>> {
+/// The time that a row holds in a column, if it does.
+pub(super) fn time(row: &AnyRow, column: &str) -> StoreResult<Option<Timestamp>> {
     let ms = row.try_get::<Option<i64>, _>(column).map_err(damaged)?;
     Ok(ms.map(Timestamp))
 }
@@ -134,6 +137,7 @@ pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
     let maybe = |column| row.try_get::<Option<String>, _>(column).map_err(damaged);
     Ok(Job {
         id: id(row)?,
+        owner: Owner::recorded(text("owner")?),
         kind: word(&text("kind")?)?,
         state: word(&text("state")?)?,
         options: parsed(&text("options")?)?,

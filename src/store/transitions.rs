@@ -4,10 +4,12 @@
 //! written with the token that it had in the WHERE clause.
 
 use sqlx::any::AnyRow;
-use sqlx::{Any, Transaction};
+use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
 use super::rows;
+use super::within::within;
+use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Changed, Happening, Job, JobId, Reason, Rules, StoreError, StoreResult, Sweep, WorkerId,
     after,
@@ -61,12 +63,13 @@ pub(super) async fn claim(
 
 pub(super) async fn change(
     database: &Database,
+    reach: &Reach,
     id: JobId,
     happening: &Happening,
     rules: &Rules,
 ) -> StoreResult<Changed> {
     let mut transaction = database.begin().await?;
-    let changed = changed(database, id, happening, rules, &mut transaction).await?;
+    let changed = changed(database, reach, id, happening, rules, &mut transaction).await?;
     if let Changed::Yes(_) = changed {
         transaction.commit().await?;
     }
@@ -86,7 +89,8 @@ pub(super) async fn beat(
     for index in order {
         let (id, token, saying) = beats[index];
         let happening = Happening::Beat(token, saying);
-        let changed = changed(database, id, &happening, rules, &mut transaction).await?;
+        let all = &Reach::All;
+        let changed = changed(database, all, id, &happening, rules, &mut transaction).await?;
         answers[index] = Some(changed);
     }
     transaction.commit().await?;
@@ -134,21 +138,31 @@ pub(super) async fn sweep(
     }
 }
 
-pub(super) async fn delete(database: &Database, id: JobId, reason: Reason) -> StoreResult<bool> {
+pub(super) async fn delete(
+    database: &Database,
+    reach: &Reach,
+    id: JobId,
+    reason: Reason,
+) -> StoreResult<bool> {
+    let (within, owner) = within(reach, 2);
     let mut transaction = database.begin().await?;
-    let deleted = sqlx::query(
-        "DELETE FROM job WHERE id = $1 AND state IN ('succeeded', 'failed', 'cancelled')",
-    )
-    .bind(id.to_string())
-    .execute(&mut *transaction)
-    .await?;
-    if deleted.rows_affected() == 0 {
+    let delete = format!(
+        "DELETE FROM job WHERE id = $1 AND {within}
+         AND state IN ('succeeded', 'failed', 'cancelled') RETURNING owner"
+    );
+    let deleted = sqlx::query(database.sql(&delete))
+        .bind(id.to_string())
+        .bind(owner)
+        .fetch_optional(&mut *transaction)
+        .await?;
+    let Some(deleted) = deleted else {
         return Ok(false);
-    }
+    };
     if reason == Reason::Expired {
-        let insert = "INSERT INTO expired (id, at) VALUES ($1, {now})";
+        let insert = "INSERT INTO expired (id, at, owner) VALUES ($1, {now}, $2)";
         sqlx::query(database.sql(insert))
             .bind(id.to_string())
+            .bind(deleted.try_get::<String, _>("owner")?)
             .execute(&mut *transaction)
             .await?;
         sqlx::query(database.sql("DELETE FROM expired WHERE at < {now} - $1"))
@@ -162,14 +176,19 @@ pub(super) async fn delete(database: &Database, id: JobId, reason: Reason) -> St
 
 async fn changed(
     database: &Database,
+    reach: &Reach,
     id: JobId,
     happening: &Happening,
     rules: &Rules,
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Changed> {
-    let row = database.sql("SELECT {columns}, {now} AS now FROM job WHERE id = $1 {locked}");
-    let row = sqlx::query(row)
+    let (within, owner) = within(reach, 2);
+    let row = format!(
+        "SELECT {{columns}}, {{now}} AS now FROM job WHERE id = $1 AND {within} {{locked}}"
+    );
+    let row = sqlx::query(database.sql(&row))
         .bind(id.to_string())
+        .bind(owner)
         .fetch_optional(&mut **transaction)
         .await?;
     match row {

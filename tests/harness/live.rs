@@ -4,6 +4,7 @@ use futures_util::{SinkExt, StreamExt};
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
 use tokio_tungstenite::tungstenite::Message;
+use tokio_tungstenite::tungstenite::client::IntoClientRequest;
 use tokio_tungstenite::{MaybeTlsStream, WebSocketStream, connect_async};
 use unwrapd::numerics::predicates::{orient2d_sign, orient3d_sign};
 
@@ -179,8 +180,8 @@ pub struct Live {
 
 impl Live {
     /// Connects and takes the mesh.
-    pub async fn connect(url: &str) -> Self {
-        let (mut stream, _) = connect_async(url).await.expect("a WebSocket");
+    pub async fn connect(request: impl IntoClientRequest + Unpin) -> Self {
+        let (mut stream, _) = connect_async(request).await.expect("a WebSocket");
         let mesh = loop {
             let message = stream.next().await.expect("a message");
             if let Message::Binary(bytes) = message.expect("a message") {

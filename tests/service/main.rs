@@ -1,5 +1,6 @@
 //! Tests of the binary: as a command and, in `server`, as a service.
 
+mod access;
 mod benches;
 mod browser;
 mod bulk;

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use reqwest::header::RETRY_AFTER;
+use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue, RETRY_AFTER};
 use reqwest::{Method, RequestBuilder, Response, StatusCode, Url};
 use serde::Deserialize;
 
@@ -30,6 +30,9 @@ pub enum RemoteError {
         /// What is wrong with it.
         cause: String,
     },
+    /// The key has characters that no key has.
+    #[error("the API key has characters that no key has")]
+    Key,
     /// Nothing answers, or something else does.
     #[error("no service answers at {server}: {cause}")]
     NoService {
@@ -60,7 +63,7 @@ struct Info {
 }
 
 impl Client {
-    pub fn new(server: &str) -> Result<Self, RemoteError> {
+    pub fn new(server: &str, key: Option<&str>) -> Result<Self, RemoteError> {
         let wrong = |cause: String| RemoteError::Address {
             server: server.to_owned(),
             cause,
@@ -75,6 +78,7 @@ impl Client {
         let _ = rustls::crypto::ring::default_provider().install_default();
         let http = reqwest::Client::builder()
             .read_timeout(SILENCE)
+            .default_headers(authorization(key)?)
             .build()
             .map_err(|error| wrong(text(&error)))?;
         Ok(Self {
@@ -137,6 +141,18 @@ impl Client {
             pause = LONGEST_PAUSE.min(2 * pause);
         }
     }
+}
+
+/// The header with which every call says who calls.
+fn authorization(key: Option<&str>) -> Result<HeaderMap, RemoteError> {
+    let mut headers = HeaderMap::new();
+    if let Some(key) = key {
+        let value = HeaderValue::from_str(&format!("Bearer {key}"));
+        let mut value = value.map_err(|_| RemoteError::Key)?;
+        value.set_sensitive(true);
+        headers.insert(AUTHORIZATION, value);
+    }
+    Ok(headers)
 }
 
 /// The content of an answer, asked for again if it breaks off.

@@ -39,16 +39,16 @@ pub struct Remote {
 }
 
 impl Remote {
-    /// Looks whether a service answers at an address, which may have a path.
+    /// Looks whether a service answers at an address, which may have a path, to be called with a key.
     ///
     /// # Errors
     /// If the address is none, or nothing of this kind answers there.
     pub async fn connect(
-        server: &str,
+        (server, key): (&str, Option<&str>),
         options: &serde_json::Value,
         extras: Vec<Extra>,
     ) -> Result<Self, RemoteError> {
-        let client = Client::new(server)?;
+        let client = Client::new(server, key)?;
         let version = client.version().await?;
         Ok(Self {
             client,

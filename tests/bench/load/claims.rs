@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use futures_util::future;
+use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Capacity, Ending, Enqueued, Happening, Job, JobId, JobStore, Kind, Progress, Rules, Saying,
     Verdict, WorkerId,
@@ -80,7 +81,10 @@ async fn work(store: Arc<RecordStore>) -> usize {
         };
         let ending = Ending::Succeeded(Vec::new(), Verdict::default());
         let ended = Happening::Ended(job.token, saying, ending);
-        store.change(job.id, &ended).await.expect("an answer");
+        store
+            .change(&Reach::All, job.id, &ended)
+            .await
+            .expect("an answer");
         done += 1;
     }
     done

@@ -10,6 +10,7 @@ use std::time::Duration;
 use futures_util::FutureExt;
 use futures_util::future::{BoxFuture, pending};
 use tokio::sync::Notify;
+use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Beat, Blobs, Capacity, Changed, Content, Enqueued, Event, Happening, IdempotencyKey, Job,
     JobId, JobStore, Listing, Reason, State, StoreError, StoreResult, Sweep, WorkerId,
@@ -117,20 +118,24 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.fault.call("enqueue", call)
     }
 
-    fn get(&self, id: JobId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
-        self.inner.get(id)
+    fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>> {
+        self.inner.get(reach, id)
     }
 
-    fn list(&self, listing: Listing) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
-        self.inner.list(listing)
+    fn list<'a>(
+        &'a self,
+        reach: &'a Reach,
+        listing: Listing,
+    ) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
+        self.inner.list(reach, listing)
     }
 
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>> {
         self.inner.events(ids)
     }
 
-    fn equal<'a>(&'a self, digest: &'a str) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
-        self.inner.equal(digest)
+    fn equal<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
+        self.inner.equal(job)
     }
 
     fn hint(&self) -> BoxFuture<'_, ()> {
@@ -143,10 +148,12 @@ impl<S: JobStore> JobStore for Faulty<S> {
 
     fn change<'a>(
         &'a self,
+        reach: &'a Reach,
         id: JobId,
         happening: &'a Happening,
     ) -> BoxFuture<'a, StoreResult<Changed>> {
-        self.fault.call("change", self.inner.change(id, happening))
+        let call = self.inner.change(reach, id, happening);
+        self.fault.call("change", call)
     }
 
     fn beat<'a>(&'a self, beats: &'a [Beat]) -> BoxFuture<'a, StoreResult<Vec<Changed>>> {
@@ -157,12 +164,18 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.inner.sweep(sweep)
     }
 
-    fn delete(&self, id: JobId, reason: Reason) -> BoxFuture<'_, StoreResult<bool>> {
-        self.fault.call("delete", self.inner.delete(id, reason))
+    fn delete<'a>(
+        &'a self,
+        reach: &'a Reach,
+        id: JobId,
+        reason: Reason,
+    ) -> BoxFuture<'a, StoreResult<bool>> {
+        let call = self.inner.delete(reach, id, reason);
+        self.fault.call("delete", call)
     }
 
-    fn has_expired(&self, id: JobId) -> BoxFuture<'_, StoreResult<bool>> {
-        self.inner.has_expired(id)
+    fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>> {
+        self.inner.has_expired(reach, id)
     }
 
     fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {

@@ -9,6 +9,7 @@ mod transitions;
 
 use std::time::Duration;
 
+use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Capacity, Changed, Enqueued, Happening, IdempotencyKey, InputFile, Job, JobId, JobStore, Kind,
     Progress, Rules, Saying, WorkerId,
@@ -83,7 +84,10 @@ pub async fn claim_soon(store: &RecordStore) -> Job {
 }
 
 pub async fn change(store: &RecordStore, id: JobId, happening: Happening) -> Changed {
-    store.change(id, &happening).await.expect("an answer")
+    store
+        .change(&Reach::All, id, &happening)
+        .await
+        .expect("an answer")
 }
 
 /// The record after a change that must take place.

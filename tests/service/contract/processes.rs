@@ -5,6 +5,7 @@ use std::sync::Arc;
 use futures_util::TryStreamExt;
 use tempfile::TempDir;
 use tokio::runtime::Runtime;
+use unwrapd::jobs::access::{Owner, Reach};
 use unwrapd::jobs::{
     Blobs, Ended, InputFile, Job, JobId, Jobs, Kind, Listing, State, Submission, SubmitError,
     Submitted, Work,
@@ -60,6 +61,7 @@ impl Process {
         };
         let options = Work::new(Kind::Unwrap, serde_json::json!({ "cut": "disk" }));
         Submission {
+            owner: Owner::anonymous(),
             kind: Kind::Unwrap,
             options: options.expect("options").into_options(),
             files: vec![file("mesh.glb", &meshes::hills(2)), file("more.bin", b"x")],
@@ -110,7 +112,7 @@ impl Process {
 
     /// The only job, after its end.
     pub fn ended(&self, id: JobId) -> Job {
-        let ended = self.does(self.jobs().wait(id, SOON));
+        let ended = self.does(self.jobs().wait(&Reach::All, id, SOON));
         match ended.expect("an answer") {
             Some(Ended::Yes(job)) => job,
             other => panic!("it does not end: {other:?}"),
@@ -140,7 +142,7 @@ impl Process {
             before: None,
             limit: 10,
         };
-        let list = self.does(self.jobs().list(listing));
+        let list = self.does(self.jobs().list(&Reach::All, listing));
         let list = list.expect("an answer");
         list.iter().map(|job| job.id).collect()
     }

@@ -12,6 +12,7 @@ mod full_disk;
 mod idle_options;
 mod inputs;
 mod jobs;
+pub mod keys;
 mod origins;
 pub mod progress;
 mod requests;

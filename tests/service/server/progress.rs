@@ -5,6 +5,7 @@ use nix::sys::signal::Signal;
 use serde_json::Value;
 use tokio::net::TcpStream;
 use tokio_tungstenite::tungstenite::Message;
+use tokio_tungstenite::tungstenite::client::IntoClientRequest;
 use tokio_tungstenite::{MaybeTlsStream, WebSocketStream, connect_async};
 
 use crate::meshes;
@@ -18,8 +19,8 @@ pub struct Socket {
 }
 
 impl Socket {
-    pub async fn connect(url: &str) -> Self {
-        let (stream, _) = connect_async(url).await.expect("a WebSocket");
+    pub async fn connect(request: impl IntoClientRequest + Unpin) -> Self {
+        let (stream, _) = connect_async(request).await.expect("a WebSocket");
         Self {
             stream,
             closed: None,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Changed, Ending, Enqueued, Failure, Happening, IdempotencyKey, JobId, JobStore, Reason,
     Refusal, State, Wish,
@@ -76,7 +77,7 @@ pub async fn only_ended_jobs_are_deleted(store: Arc<RecordStore>) {
     };
     let delete = async || {
         store
-            .delete(job.id, Reason::Deleted)
+            .delete(&Reach::All, job.id, Reason::Deleted)
             .await
             .expect("an answer")
     };
@@ -86,7 +87,12 @@ pub async fn only_ended_jobs_are_deleted(store: Arc<RecordStore>) {
     succeed(&store, &running).await;
     assert!(delete().await);
     assert!(!delete().await);
-    assert!(!store.has_expired(job.id).await.expect("an answer"));
+    assert!(
+        !store
+            .has_expired(&Reach::All, job.id)
+            .await
+            .expect("an answer")
+    );
     assert!(matches!(one().await, Enqueued::New(_)));
 }
 
@@ -99,10 +105,21 @@ pub async fn what_expired_is_remembered(store: Arc<RecordStore>) {
     while ended(Duration::ZERO).await != [running.id] {}
     assert!(
         store
-            .delete(running.id, Reason::Expired)
+            .delete(&Reach::All, running.id, Reason::Expired)
             .await
             .expect("an answer")
     );
-    assert!(store.has_expired(running.id).await.expect("an answer"));
-    assert!(store.get(running.id).await.expect("an answer").is_none());
+    assert!(
+        store
+            .has_expired(&Reach::All, running.id)
+            .await
+            .expect("an answer")
+    );
+    assert!(
+        store
+            .get(&Reach::All, running.id)
+            .await
+            .expect("an answer")
+            .is_none()
+    );
 }

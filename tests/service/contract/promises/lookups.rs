@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{Job, JobId, JobStore, Listing, State, Timestamp};
 use unwrapd::store::RecordStore;
 
@@ -15,7 +16,7 @@ pub async fn what_is_stored_is_found(store: Arc<RecordStore>) {
     assert_eq!(format!("{found:?}"), format!("{new:?}"));
     assert!(
         store
-            .get(JobId::fresh())
+            .get(&Reach::All, JobId::fresh())
             .await
             .expect("an answer")
             .is_none()
@@ -59,7 +60,7 @@ pub async fn the_list_has_pages_and_no_guests(store: Arc<RecordStore>) {
             before,
             limit,
         };
-        let page = store.list(listing).await.expect("an answer");
+        let page = store.list(&Reach::All, listing).await.expect("an answer");
         page.iter().map(|job| job.id).collect::<Vec<_>>()
     };
     assert_eq!(page(None, None, 2).await, [ids[3], ids[2]]);
@@ -70,8 +71,12 @@ pub async fn the_list_has_pages_and_no_guests(store: Arc<RecordStore>) {
 }
 
 pub async fn equal_jobs_are_those_that_succeeded(store: Arc<RecordStore>) {
-    let equal = async |digest| {
-        let equal = store.equal(digest).await.expect("an answer");
+    let equal = async |digest: &str| {
+        let wanted = Job {
+            digest: digest.to_owned(),
+            ..job()
+        };
+        let equal = store.equal(&wanted).await.expect("an answer");
         equal.into_iter().map(|job| job.id).collect::<Vec<_>>()
     };
     let first = claimed(&store).await;

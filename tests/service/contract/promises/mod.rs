@@ -2,14 +2,17 @@
 
 mod claims;
 mod ends;
+mod keys;
 mod leases;
 mod lookups;
+mod owners;
 mod submissions;
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use futures_util::future::{BoxFuture, FutureExt};
+use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Ending, Happening, IdempotencyKey, Job, JobId, JobStore, Listing, OutputFile, Reason, Sweep,
     Verdict,
@@ -54,6 +57,13 @@ promises!(
     lookups::the_list_has_pages_and_no_guests,
     lookups::equal_jobs_are_those_that_succeeded,
     submissions::an_ended_job_is_stored_however_many_wait,
+    owners::each_owner_finds_their_own,
+    owners::nobody_changes_what_is_anothers,
+    owners::owners_share_no_results_and_no_keys,
+    keys::a_key_is_good_until_it_is_revoked,
+    keys::keys_that_ended_are_still_there,
+    keys::a_page_is_signed_in_no_longer_than_its_key,
+    keys::use_is_noted_from_time_to_time,
 );
 
 #[tokio::test]
@@ -105,13 +115,13 @@ async fn postgres_serves_who_has_used_an_older_schema() {
             before: None,
             limit: 9,
         };
-        store.list(listing).await.expect("an answer");
-        store.equal("cd").await.expect("an answer");
+        store.list(&Reach::All, listing).await.expect("an answer");
+        store.equal(&job()).await.expect("an answer");
         store.events(&[claimed.id]).await.expect("an answer");
         claim(&store).await.expect("it waits");
         store.sweep(Sweep::Abandoned).await.expect("an answer");
         claim_soon(&store).await;
-        let deleted = store.delete(claimed.id, Reason::Expired).await;
+        let deleted = store.delete(&Reach::All, claimed.id, Reason::Expired).await;
         assert!(deleted.expect("an answer"));
     };
     use_all("a key").await;
@@ -123,7 +133,11 @@ async fn postgres_serves_who_has_used_an_older_schema() {
 }
 
 async fn get(store: &RecordStore, id: JobId) -> Job {
-    store.get(id).await.expect("an answer").expect("a job")
+    store
+        .get(&Reach::All, id)
+        .await
+        .expect("an answer")
+        .expect("a job")
 }
 
 fn success() -> Ending {

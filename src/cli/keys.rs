@@ -1,0 +1,202 @@
+//! `unwrapd keys`: keys of the API, made, listed and revoked.
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::console::{print, print_json, warn_of};
+use super::failure::Failure;
+use super::store_args::StoreArgs;
+use crate::jobs::access::{Key, KeyId, KeyStore, KeyText, NewKey, Owner, Scopes};
+use crate::jobs::{Rules, Timestamp};
+use crate::store::RecordStore;
+
+/// Characters of a note at most.
+const MOST_OF_NAME: usize = 100;
+/// How long a key may be good: a hundred years.
+const LONGEST: Duration = Duration::from_hours(100 * 365 * 24);
+
+/// The arguments of `keys`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(clap::Subcommand)]
+enum Action {
+    /// Make a key and print it. It is not shown again: only a digest of it is kept
+    Create(Create),
+    /// List all keys that were ever made, without their secrets
+    List(List),
+    /// Revoke a key. Services refuse it after two seconds at the latest
+    Revoke(Revoke),
+}
+
+#[derive(clap::Args)]
+struct Create {
+    /// Owner of what is made with the key: other owners do not see it. An owner may have several keys
+    #[arg(long, value_name = "NAME")]
+    owner: Owner,
+    /// What the key is good for: read, write or both. With admin, that is so for all owners, and for
+    /// /metrics and /v1/drain; admin alone includes both
+    #[arg(long, value_name = "SCOPES", default_value = "read,write")]
+    scope: Scopes,
+    /// How long the key is valid, such as 90d or 12h [default: until it is revoked]
+    #[arg(long, value_name = "TIME", value_parser = life)]
+    expires: Option<Duration>,
+    /// Note for those who list keys
+    #[arg(long, value_name = "TEXT", default_value = "", value_parser = name)]
+    name: String,
+    #[command(flatten)]
+    store: StoreArgs,
+}
+
+#[derive(clap::Args)]
+struct List {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    store: StoreArgs,
+}
+
+#[derive(clap::Args)]
+struct Revoke {
+    /// Id of the key: what `list` shows, the part between the underscores
+    id: KeyId,
+    #[command(flatten)]
+    store: StoreArgs,
+}
+
+fn life(text: &str) -> Result<Duration, String> {
+    match humantime::parse_duration(text) {
+        Ok(life) if Duration::ZERO < life && life <= LONGEST => Ok(life),
+        Ok(_) => Err("expected a time between 1ms and 36500d".to_owned()),
+        Err(error) => Err(format!("expected a time such as 90d or 12h: {error}")),
+    }
+}
+
+fn name(text: &str) -> Result<String, String> {
+    if text.chars().count() <= MOST_OF_NAME && !text.chars().any(char::is_control) {
+        Ok(text.to_owned())
+    } else {
+        Err(format!("expected one line of {MOST_OF_NAME} characters"))
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let runtime = super::batch::runtime()?;
+    runtime.block_on(async {
+        match &args.action {
+            Action::Create(args) => create(args).await,
+            Action::List(args) => list(args).await,
+            Action::Revoke(args) => revoke(args).await,
+        }
+    })
+}
+
+async fn opened(args: &StoreArgs) -> Result<RecordStore, Failure> {
+    args.make_folder().map_err(Failure::other)?;
+    let url = args.database_url().map_err(Failure::other)?;
+    let store = RecordStore::open(&url, Rules::default()).await;
+    store.map_err(|error| Failure::other(format!("cannot use the database: {error}")))
+}
+
+async fn create(args: &Create) -> Result<(), Failure> {
+    let failed = |error| Failure::other(format!("the key was not made: {error}"));
+    let text = KeyText::fresh().map_err(failed)?;
+    let new = NewKey {
+        id: text.id().clone(),
+        digest: text.digest(),
+        owner: args.owner.clone(),
+        scopes: args.scope.clone(),
+        name: args.name.clone(),
+        life: args.expires,
+        parent: None,
+    };
+    let store = opened(&args.store).await?;
+    store.add_key(&new).await.map_err(failed)?;
+    warn_of("this is the only time that the key is shown");
+    print(text.reveal());
+    Ok(())
+}
+
+async fn list(args: &List) -> Result<(), Failure> {
+    let keys = opened(&args.store).await?.keys().await;
+    let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
+    let rows: Vec<Row> = keys.iter().map(Row::of).collect();
+    if args.json {
+        return print_json(&rows);
+    }
+    print(HEAD.map(str::to_owned).join("\t"));
+    for row in &rows {
+        print(row.line());
+    }
+    Ok(())
+}
+
+async fn revoke(args: &Revoke) -> Result<(), Failure> {
+    let revoked = opened(&args.store).await?.revoke(&args.id).await;
+    match revoked {
+        Ok(true) => Ok(()),
+        Ok(false) => Err(Failure::other(format!(
+            "no key {} that is not revoked",
+            args.id
+        ))),
+        Err(error) => Err(Failure::other(format!("the key was not revoked: {error}"))),
+    }
+}
+
+const HEAD: [&str; 8] = [
+    "id", "state", "owner", "scopes", "created", "expires", "used", "name",
+];
+
+/// A key as it is listed.
+#[derive(Serialize)]
+struct Row {
+    id: String,
+    state: &'static str,
+    owner: String,
+    scopes: String,
+    created: Timestamp,
+    expires: Option<Timestamp>,
+    used: Option<Timestamp>,
+    name: String,
+}
+
+impl Row {
+    fn of(key: &Key) -> Self {
+        let is_over = key.expires.is_some_and(|end| end <= Timestamp::now());
+        Self {
+            id: key.id.to_string(),
+            state: match key.revoked {
+                Some(_) => "revoked",
+                None if is_over => "expired",
+                None => "valid",
+            },
+            owner: key.owner.as_str().to_owned(),
+            scopes: key.scopes.to_string(),
+            created: key.created,
+            expires: key.expires,
+            used: key.used,
+            name: key.name.clone(),
+        }
+    }
+
+    fn line(&self) -> String {
+        let time = |time: Option<Timestamp>| time.map_or("-".to_owned(), |it| it.to_string());
+        let Self {
+            id,
+            state,
+            owner,
+            scopes,
+            name,
+            ..
+        } = self;
+        let times = [Some(self.created), self.expires, self.used].map(time);
+        let times = times.join("\t");
+        format!("{id}\t{state}\t{owner}\t{scopes}\t{times}\t{name}")
+    }
+}

@@ -1,0 +1,58 @@
+//! Where records are.
+
+use std::path::{Path, PathBuf};
+
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
+
+/// Where records are.
+#[derive(clap::Args)]
+pub(super) struct StoreArgs {
+    /// Folder for what this process keeps; created if missing. Without `database`, that is
+    /// everything
+    #[arg(
+        long,
+        value_name = "DIR",
+        env = "UNWRAPD_DATA",
+        default_value = "./data"
+    )]
+    pub data: PathBuf,
+    /// PostgreSQL database for job records and keys, shared with other processes:
+    /// postgres://USER:PASSWORD@HOST/NAME
+    #[arg(
+        long,
+        value_name = "URL",
+        env = "UNWRAPD_DATABASE_URL",
+        hide_env_values = true
+    )]
+    pub database: Option<String>,
+}
+
+impl StoreArgs {
+    /// The URL of the database.
+    pub fn database_url(&self) -> Result<String, String> {
+        if let Some(database) = &self.database {
+            return Ok(database.clone());
+        }
+        Ok(format!(
+            "sqlite://{}?mode=rwc",
+            url_path(&self.data.join("unwrapd.sqlite"))?
+        ))
+    }
+
+    /// Makes the folder.
+    pub fn make_folder(&self) -> Result<(), String> {
+        std::fs::create_dir_all(&self.data)
+            .map_err(|error| format!("cannot create {}: {error}", self.data.display()))
+    }
+}
+
+/// A path as a URL has it.
+pub(super) fn url_path(path: &Path) -> Result<String, String> {
+    let path = std::path::absolute(path).map_err(|error| error.to_string())?;
+    let path = path.to_string_lossy();
+    let parts = path.split('/');
+    let parts: Vec<_> = parts
+        .map(|part| utf8_percent_encode(part, NON_ALPHANUMERIC).to_string())
+        .collect();
+    Ok(parts.join("/"))
+}

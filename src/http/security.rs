@@ -1,0 +1,63 @@
+//! Keys in the OpenAPI document: how they are sent, and what each operation asks of them.
+
+use axum::http::Method;
+use serde_json::{Value, json};
+
+use super::admission::COOKIE;
+use super::answers::problems;
+use super::code::Code;
+use super::scopes::needed;
+
+/// What says how keys are sent.
+const BEARER: &str = "key";
+const OF_PAGE: &str = "page";
+
+/// Says of all operations what they ask of a key, but for those at open paths.
+pub(super) fn describe(document: &mut Value, open: &[String]) {
+    document["components"]["securitySchemes"] = json!({
+        BEARER: {
+            "type": "http",
+            "scheme": "bearer",
+            "description": "A key that `unwrapd keys create` made. Without any key, a service asks for none.",
+        },
+        OF_PAGE: {
+            "type": "apiKey",
+            "in": "cookie",
+            "name": COOKIE,
+            "description": "The cookie of a page that signed in",
+        },
+    });
+    let paths = document["paths"].as_object_mut();
+    for (path, operations) in paths.into_iter().flatten() {
+        let operations = operations.as_object_mut();
+        for (method, operation) in operations.into_iter().flatten() {
+            if open.contains(path) {
+                operation["security"] = json!([]);
+            } else {
+                ask(operation, method, path);
+            }
+        }
+    }
+}
+
+fn ask(operation: &mut Value, method: &str, path: &str) {
+    let method = method.to_ascii_uppercase();
+    let method = Method::from_bytes(method.as_bytes()).unwrap_or_default();
+    let scopes: Vec<&str> = needed(&method, path)
+        .into_iter()
+        .map(|scope| scope.word())
+        .collect();
+    operation["security"] = json!([{ BEARER: scopes }, { OF_PAGE: scopes }, {}]);
+    let mut codes = vec![Code::KeyRequired, Code::KeyRefused, Code::MissingScope];
+    if method != Method::GET {
+        codes.push(Code::ForeignOrigin);
+    }
+    let mut refusals = json!(problems(&codes));
+    let challenge = json!({ "description": "How to send a key", "schema": { "type": "string" } });
+    refusals["401"]["headers"] = json!({ "WWW-Authenticate": challenge });
+    let answers = operation["responses"].as_object_mut();
+    for (answers, refusals) in answers.into_iter().zip(refusals.as_object()) {
+        answers.extend(refusals.clone());
+        answers.sort_keys();
+    }
+}

@@ -1,0 +1,78 @@
+//! What a key is good for.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::str::FromStr;
+
+use serde::Serialize;
+
+/// What a call may do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Scope {
+    /// Look at jobs and sessions, and fetch files.
+    Read,
+    /// Make, change and remove them.
+    Write,
+    /// Do so with those of all owners, and with the service itself.
+    Admin,
+}
+
+impl Scope {
+    const ALL: [Self; 3] = [Self::Read, Self::Write, Self::Admin];
+
+    /// The word that people use.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Read => "read",
+            Self::Write => "write",
+            Self::Admin => "admin",
+        }
+    }
+}
+
+/// Several scopes. As text they are words with commas between; `admin` alone stands for all.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Scopes(BTreeSet<Scope>);
+
+/// What are no scopes.
+#[derive(Debug, thiserror::Error)]
+#[error("expected some of read, write and admin, with commas between")]
+pub struct InvalidScopes;
+
+impl Scopes {
+    /// All of them.
+    pub fn all() -> Self {
+        Self(Scope::ALL.into())
+    }
+
+    /// Whether this one is among them.
+    pub fn have(&self, scope: Scope) -> bool {
+        self.0.contains(&scope)
+    }
+}
+
+impl FromStr for Scopes {
+    type Err = InvalidScopes;
+
+    fn from_str(text: &str) -> Result<Self, InvalidScopes> {
+        let scope = |word: &str| {
+            let mut all = Scope::ALL.into_iter();
+            all.find(|scope| scope.word() == word.trim())
+                .ok_or(InvalidScopes)
+        };
+        let scopes: BTreeSet<Scope> = text.split(',').map(scope).collect::<Result<_, _>>()?;
+        // Alone it would allow nothing: it says whose, the others say what.
+        if scopes == BTreeSet::from([Scope::Admin]) {
+            return Ok(Self::all());
+        }
+        Ok(Self(scopes))
+    }
+}
+
+impl fmt::Display for Scopes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words: Vec<&str> = self.0.iter().map(|scope| scope.word()).collect();
+        f.write_str(&words.join(","))
+    }
+}
