@@ -9,7 +9,7 @@ use crate::cli::{assert_status, unwrapd};
 use crate::meshes::PLATE;
 use crate::places;
 use crate::server::sessions::sheet;
-use crate::server::{Server, ended, form};
+use crate::server::{Server, ended, form, keys};
 
 /// Runs a scenario at an address with arguments; what it returns.
 async fn scenario(name: &str, url: String, arguments: &[String]) -> Value {
@@ -108,6 +108,14 @@ async fn without_webgl_there_are_pictures_and_the_report() {
 async fn a_path_prefix_works() {
     let server = Server::start();
     scenario("prefix", server.url("/"), &[asset("MultiUVTest.glb")]).await;
+}
+
+#[tokio::test]
+async fn a_key_is_asked_for_and_kept_nowhere() {
+    let server = keys::closed();
+    let key = keys::key(&server, "alice", &[]);
+    let arguments = [key, asset("Box.glb")];
+    scenario("sign_in", server.url("/"), &arguments).await;
 }
 
 #[tokio::test]

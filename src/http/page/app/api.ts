@@ -1,5 +1,6 @@
 // The service as the page uses it. All addresses are relative to the page, so that it may lie below any prefix.
 
+import { signIn } from "./sign_in";
 import { extension } from "../viewer/loading";
 
 /** A job, as the service describes it. */
@@ -69,6 +70,10 @@ async function reach(path: string, request: RequestInit = {}): Promise<Response>
     throw new Error("The service does not answer. Check that it runs, then try again.");
   }
   if (answer.ok) return answer;
+  if (answer.status === 401) {
+    await signIn();
+    return reach(path, request);
+  }
   const problem = (await answer.json().catch(() => null)) as Problem | null;
   throw problem ? new Refused(problem) : new Error(`The service answered with status ${answer.status}.`);
 }

@@ -1,5 +1,7 @@
 // A job as others would make it: with curl, and with the command line.
 
+import { needsKey } from "./sign_in";
+
 /** A word for a shell. */
 function quoted(word: string): string {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
@@ -17,7 +19,9 @@ export function curl(kind: string, filename: string, options: Record<string, unk
   const url = new URL("v1/jobs", document.baseURI).href;
   const parts = [["-F", `kind=${kind}`], ["-F", `${PART[kind] ?? "mesh"}=@${filename}`]];
   if (Object.keys(options).length) parts.push(["-F", `options=${JSON.stringify(options)}`]);
-  return ["curl", "-s", url, ...parts.flat()].map(quoted).join(" ");
+  // The shell puts the key in: it is not on the page.
+  const key = needsKey() ? ['-H "Authorization: Bearer $UNWRAPD_KEY"'] : [];
+  return ["curl -s", quoted(url), ...key, ...parts.flat().map(quoted)].join(" ");
 }
 
 /** The command that does the same without the service; null where handles or islands would come in a file. */

@@ -7,7 +7,7 @@ import type { Analysis } from "../analysis/analysis";
 import { analyzed } from "./analyst";
 import { ArrangeView } from "../arrange/arrange_view";
 import { arrangeKeys } from "../arrange/keys";
-import { address, download, fileOf, type Job } from "./api";
+import { address, call, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
 import { short, whole } from "./format";
 import { JobList } from "./job_list";
@@ -15,10 +15,12 @@ import { JobView, note, showFallback } from "./job_view";
 import { type Key, listen, showKeys } from "./keys";
 import { load } from "../viewer/loading";
 import { showReport } from "./report_page";
+import { type Caller, showCaller } from "./sign_in";
 import { type Chosen, Setup } from "./setup";
 import { soupOf } from "../viewer/soups";
 import { showLegend, showPointed } from "./status";
 import { startTheme } from "./theme";
+import { forgetThumbnails } from "./thumbnails";
 import { PullView } from "../pull/pull_view";
 import { Toolbar } from "./toolbar";
 import { Viewer } from "./viewer";
@@ -267,8 +269,17 @@ function followStage(): void {
   });
 }
 
+/** Nothing of the caller is left in this browser. */
+async function signOut(): Promise<void> {
+  await call("v1/sign-in", { method: "DELETE" });
+  forgetThumbnails();
+  location.hash = "";
+  location.reload();
+}
+
 wire();
 followStage();
+void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
 // For scripts that drive the page.
 Object.assign(window, { unwrapd: { viewer, address } });
 const first = readPlace();

@@ -44,8 +44,17 @@ async function small(url: string): Promise<string> {
   return canvas.toDataURL("image/webp", 0.8);
 }
 
+/** Removes all pictures that are kept. */
+export function forgetThumbnails(): void {
+  for (const key of kept()) localStorage.removeItem(key);
+}
+
+function kept(): string[] {
+  return Object.keys(localStorage).filter((key) => key.startsWith(PREFIX));
+}
+
 function keep(id: string, data: string): void {
-  const keys = Object.keys(localStorage).filter((key) => key.startsWith(PREFIX)).sort();
+  const keys = kept().sort();
   for (const key of keys.slice(0, Math.max(0, keys.length - KEPT))) localStorage.removeItem(key);
   try {
     localStorage.setItem(PREFIX + id, data);

@@ -60,7 +60,7 @@ const api: Document = await (await fetch("openapi.json")).json();
 byId("version").textContent = `version ${api.info.version}`;
 byId("description").replaceChildren(...paragraphs(api.info.description));
 const operations = Object.entries(api.paths).flatMap(([path, methods]) => Object.entries(methods).map(([method, described]) => ({ path, method, described })));
-for (const tag of ["synchronous", "jobs", "results", "service"]) {
+for (const tag of ["synchronous", "jobs", "results", "sessions", "access", "service"]) {
   byId("operations").append(element("h2", { textContent: tag }));
   for (const { path, method, described } of operations.filter((one) => one.described.tags.includes(tag))) {
     byId("operations").append(operation(method, path, described));
