@@ -11,9 +11,10 @@ container=
 work=$(mktemp -d)
 trap 'docker rm -f "$container" >/dev/null 2>&1; docker volume rm "$volume" >/dev/null 2>&1; rm -rf "$work"' EXIT
 
+unprivileged="--read-only --cap-drop ALL --security-opt no-new-privileges -v $volume:/data"
 start() {
-    container=$(docker run -d --read-only --cap-drop ALL --security-opt no-new-privileges \
-        -p 127.0.0.1::8080 -v "$volume:/data" "$image")
+    # shellcheck disable=SC2086
+    container=$(docker run -d $unprivileged -p 127.0.0.1::8080 "$image")
     address=http://$(docker port "$container" 8080/tcp)
     curl -s --retry 50 --retry-delay 1 --retry-all-errors "$address/readyz" >/dev/null
     echo "$address is ready"
@@ -23,7 +24,18 @@ stop() {
     echo "stopped with $(docker inspect -f '{{.State.ExitCode}}' "$container")"
     docker rm "$container" >/dev/null
 }
+curl() { command curl -H "authorization: Bearer $key" "$@"; }
 member() { sed -n "s/.*\"$1\":\"\([^\"]*\)\".*/\1/p"; }
+
+# Others reach the service, so it does not start before there is a key.
+# shellcheck disable=SC2086
+if docker run --rm $unprivileged "$image" 2>"$work/refused"; then
+    echo "it started without keys" >&2
+    exit 1
+fi
+grep -q allow-anonymous "$work/refused"
+# shellcheck disable=SC2086
+key=$(docker run --rm $unprivileged "$image" keys create --owner tests)
 
 start
 docker exec "$container" id
