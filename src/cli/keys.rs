@@ -46,8 +46,8 @@ struct Create {
     #[arg(long, value_name = "TIME", value_parser = life)]
     expires: Option<Duration>,
     /// Note for those who list keys
-    #[arg(long, value_name = "TEXT", default_value = "", value_parser = name)]
-    name: String,
+    #[arg(long, value_name = "TEXT", value_parser = name)]
+    name: Option<String>,
     #[command(flatten)]
     store: StoreArgs,
 }
@@ -112,7 +112,7 @@ async fn create(args: &Create) -> Result<(), Failure> {
         digest: text.digest(),
         owner: args.owner.clone(),
         scopes: args.scope.clone(),
-        name: args.name.clone(),
+        name: args.name.clone().unwrap_or_default(),
         life: args.expires,
         parent: None,
     };

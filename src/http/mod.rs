@@ -74,6 +74,9 @@ use crate::sessions::Sessions;
 const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; \
     img-src 'self' blob: data:; connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+/// What answers to callers say to caches: others must not get them, and nor must whoever signed out.
+const NOT_SHARED: &str = "private, no-cache";
+
 /// What every handler may use.
 struct App {
     jobs: Arc<Jobs>,
@@ -179,6 +182,7 @@ fn router(app: Arc<App>) -> Result<Router, ConfigError> {
     let admitted = from_fn_with_state(Arc::clone(&app), admission::admit);
     let answering = Router::from(routes())
         .route_layer(admitted)
+        .route_layer(header(header::CACHE_CONTROL, NOT_SHARED))
         .merge(Router::from(open_routes()))
         .merge(pages())
         .fallback(async || Problem::new(Code::NotFound, "there is nothing at this path"))

@@ -15,7 +15,8 @@ use crate::jobs::Kind;
 const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
     distortion report out. Also deforms meshes, pictures and UVs by handles without inverting an element. Errors are \
     RFC 9457 problems with a stable `code`; `x-problems` lists all codes. Errors caused by the input have status 422. A \
-    failed job reports the same codes in `error`, and so does the command line.";
+    failed job reports the same codes in `error`, and so does the command line. Once a service has an API key, calls need \
+    one: `security` of an operation names its scopes. What belongs to another owner does not exist for a caller.";
 
 /// The paths of uploads whose kind the upload says.
 const OF_ANY_KIND: [&str; 2] = ["/v1/jobs", "/v1/sessions"];

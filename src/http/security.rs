@@ -7,6 +7,7 @@ use super::admission::COOKIE;
 use super::answers::problems;
 use super::code::Code;
 use super::scopes::needed;
+use crate::jobs::access::Scope;
 
 /// What says how keys are sent.
 const BEARER: &str = "key";
@@ -43,13 +44,11 @@ pub(super) fn describe(document: &mut Value, open: &[String]) {
 fn ask(operation: &mut Value, method: &str, path: &str) {
     let method = method.to_ascii_uppercase();
     let method = Method::from_bytes(method.as_bytes()).unwrap_or_default();
-    let scopes: Vec<&str> = needed(&method, path)
-        .into_iter()
-        .map(|scope| scope.word())
-        .collect();
+    let scopes: Vec<&str> = needed(&method, path).into_iter().map(Scope::word).collect();
     operation["security"] = json!([{ BEARER: scopes }, { OF_PAGE: scopes }, {}]);
     let mut codes = vec![Code::KeyRequired, Code::KeyRefused, Code::MissingScope];
-    if method != Method::GET {
+    // What a page of another site must not do: change something, or open a WebSocket.
+    if method != Method::GET || !operation["responses"]["101"].is_null() {
         codes.push(Code::ForeignOrigin);
     }
     let mut refusals = json!(problems(&codes));

@@ -31,6 +31,8 @@
 //! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its
 //! files.
 //!
+//! Every job belongs to an owner, and whoever asks for one says how far they see ([`access`]).
+//!
 //! Where records and files live is not decided here: [`JobStore`] and [`Blobs`] are traits.
 
 pub mod access;

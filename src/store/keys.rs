@@ -92,23 +92,7 @@ async fn add(database: &Database, new: &NewKey) -> StoreResult<Key> {
         .fetch_one(&mut *transaction)
         .await?;
     let now = rows::now(&row)?;
-    let parent = new.parent.as_ref();
-    let ends = [
-        new.life.map(|life| now.later(life)),
-        parent.and_then(|parent| parent.expires),
-    ];
-    let key = Key {
-        id: new.id.clone(),
-        digest: new.digest.clone(),
-        owner: new.owner.clone(),
-        scopes: new.scopes.clone(),
-        name: new.name.clone(),
-        parent: parent.map(|parent| parent.id.clone()),
-        created: now,
-        expires: ends.into_iter().flatten().min(),
-        revoked: None,
-        used: None,
-    };
+    let key = new.recorded(now);
     let useless = "DELETE FROM api_key
          WHERE parent IS NOT NULL AND (expires <= $1 OR revoked IS NOT NULL)";
     sqlx::query(useless)

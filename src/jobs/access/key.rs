@@ -66,6 +66,29 @@ pub struct NewKey {
     pub parent: Option<Key>,
 }
 
+impl NewKey {
+    /// The key as it is recorded at a time.
+    pub fn recorded(&self, now: Timestamp) -> Key {
+        let parent = self.parent.as_ref();
+        let ends = [
+            self.life.map(|life| now.later(life)),
+            parent.and_then(|parent| parent.expires),
+        ];
+        Key {
+            id: self.id.clone(),
+            digest: self.digest.clone(),
+            owner: self.owner.clone(),
+            scopes: self.scopes.clone(),
+            name: self.name.clone(),
+            parent: parent.map(|parent| parent.id.clone()),
+            created: now,
+            expires: ends.into_iter().flatten().min(),
+            revoked: None,
+            used: None,
+        }
+    }
+}
+
 /// A key as it is recorded.
 #[derive(Clone, Debug)]
 pub struct Key {

@@ -5,6 +5,7 @@ mod cuts;
 mod faults;
 mod holders;
 mod judged;
+mod keys;
 mod s3;
 mod sharing;
 mod update;

@@ -1,13 +1,17 @@
 //! Who is let in.
 
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use serde_json::Value;
 
-use super::{closed, id, key, keys, refused_start};
-use crate::cli::last_error;
+use super::{closed, id, key, keys};
+use crate::cli::{assert_status, last_error, unwrapd};
+use crate::harness::program;
 use crate::meshes;
-use crate::server::{SOON, Server, assert_problem, json};
+use crate::server::{SOON, Server, assert_problem, client, json};
 
 /// The status of a look at the jobs.
 async fn status(server: &Server, key: Option<&str>) -> u16 {
@@ -94,6 +98,14 @@ async fn keys_that_are_none_are_refused() {
     }
 }
 
+/// Who is still sending when the answer comes reads it all the same.
+#[tokio::test]
+async fn a_large_upload_without_a_key_is_answered() {
+    let server = closed();
+    let upload = server.post("/v1/jobs").body(vec![0; 16 << 20]).send().await;
+    assert_problem(upload.expect("an answer"), 401, "key_required").await;
+}
+
 #[tokio::test]
 async fn a_key_ends_at_its_time() {
     let server = closed();
@@ -144,10 +156,74 @@ async fn scopes_say_what_a_key_may_do() {
     }
 }
 
+/// Serves on all interfaces for a moment: how a call without a key is answered, and the log.
+async fn exposed(data: &Path, more: &[&str]) -> (u16, String) {
+    let mut command = serve(data);
+    let pipes = command.args(more).stdout(Stdio::piped());
+    let mut server = pipes.stderr(Stdio::piped()).spawn().expect("it starts");
+    let mut stdout = BufReader::new(server.stdout.take().expect("piped"));
+    let mut line = String::new();
+    stdout.read_line(&mut line).expect("its address");
+    let (_, port) = line.trim().rsplit_once(':').expect("its address");
+    let url = format!("http://127.0.0.1:{port}/v1/jobs");
+    let answer = client().get(url).send().await.expect("an answer");
+    server.kill().expect("it is ours");
+    let output = server.wait_with_output().expect("it is ours");
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    (answer.status().as_u16(), log)
+}
+
+fn serve(data: &Path) -> Command {
+    let mut command = Command::new(program());
+    command.args(["serve", "--listen", "0.0.0.0:0", "--data"]);
+    command.arg(data);
+    command
+}
+
 #[tokio::test]
 async fn what_others_reach_needs_keys_or_a_word() {
-    let refused = refused_start("0.0.0.0:0", &[]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let refused = serve(folder.path()).output().expect("it runs");
     assert_eq!(refused.status.code(), Some(1));
     let said = last_error(&refused);
     assert!(said.contains("--allow-anonymous") && said.contains("keys create"));
+
+    let (status, log) = exposed(folder.path(), &["--allow-anonymous"]).await;
+    assert_eq!(status, 200);
+    assert!(log.contains("NO API KEYS"), "{log}");
+    let (status, log) = exposed(folder.path(), &["--require-keys"]).await;
+    assert_eq!(status, 401);
+    assert!(log.contains("keys create"), "{log}");
+
+    let data = folder.path().to_string_lossy().into_owned();
+    assert_status(
+        &unwrapd(&["keys", "create", "--owner", "alice", "--data", &data]),
+        0,
+    );
+    for more in [&[][..], &["--allow-anonymous"]] {
+        let (status, log) = exposed(folder.path(), more).await;
+        assert_eq!(status, 401);
+        assert!(!log.contains("NO API KEYS"), "{log}");
+    }
+}
+
+#[test]
+fn keys_that_cannot_be_made_or_revoked_are_usage_errors_or_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let data = folder.path().to_string_lossy().into_owned();
+    for arguments in [
+        &["create"][..],
+        &["create", "--owner", "a b"],
+        &["create", "--owner", "alice", "--scope", "all"],
+        &["create", "--owner", "alice", "--expires", "soon"],
+        &["create", "--owner", "alice", "--expires", "0s"],
+        &["create", "--owner", "alice", "--name", "a\nb"],
+        &["revoke", "no-id"],
+    ] {
+        let output = unwrapd(&[&["keys"], arguments, &["--data", &data]].concat());
+        assert_status(&output, 2);
+    }
+    let unknown = unwrapd(&["keys", "revoke", "0123456789abcdef", "--data", &data]);
+    assert_status(&unknown, 1);
+    assert!(last_error(&unknown).contains("0123456789abcdef"));
 }

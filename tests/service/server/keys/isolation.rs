@@ -151,6 +151,9 @@ async fn what_is_anothers_is_as_if_it_were_not() {
             };
             let answer = ask(&server, &method, &filled(&path, id), Some(&alice)).await;
             assert_ne!(answer.status(), 404, "{method} {path}");
+            // No cache gives it to others, or to whoever signed out.
+            let kept = answer.headers()["cache-control"].to_str().expect("text");
+            assert!(kept.contains("no-cache"), "{method} {path}: {kept}");
         }
     }
 }

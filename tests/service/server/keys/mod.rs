@@ -5,7 +5,7 @@ mod isolation;
 mod pages;
 mod secrets;
 
-use std::process::{Command, Output};
+use std::process::Output;
 
 use crate::cli::{assert_status, unwrapd};
 use crate::server::Server;
@@ -34,13 +34,4 @@ pub fn key(server: &Server, owner: &str, more: &[&str]) -> String {
 /// The id in a key.
 pub fn id(key: &str) -> &str {
     key.split('_').nth(1).expect("an id")
-}
-
-/// Runs `unwrapd serve` at an address until it has ended; what it says.
-pub fn refused_start(listen: &str, settings: &[(&str, &str)]) -> Output {
-    let data = tempfile::tempdir().expect("a folder");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_unwrapd"));
-    command.args(["serve", "--listen", listen, "--data"]);
-    command.arg(data.path()).envs(settings.iter().copied());
-    command.output().expect("it runs")
 }
