@@ -30,8 +30,8 @@ use crate::jobs::{Ended, Job, SubmitError, Submitted};
 /// cancelled, even if the service crashes. Unknown formats, malformed JSON and unknown options are
 /// refused immediately. Any other defect of the input fails the job with a code of `x-problems`.
 ///
-/// A job whose kind, options and input equal those of an earlier one of its owner gets a copy of its result and
-/// is marked `cached`. `Cache-Control: no-cache` asks for a new computation.
+/// A job whose kind, options and input equal those of an earlier one of its owner gets a copy of
+/// its result and is marked `cached`. `Cache-Control: no-cache` asks for a new computation.
 ///
 /// With `Idempotency-Key`, a repetition within a day returns the same job. With `Prefer: wait=N`,
 /// the answer waits up to N seconds, at most 60. It is 200 if the job has ended by then. Progress

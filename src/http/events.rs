@@ -37,10 +37,11 @@ pub(super) struct EventsQuery {
 /// Watch a job.
 ///
 /// A WebSocket receives one JSON object per text message. It is closed with 1000 after the final
-/// state, with 1001 when the service stops, or with 1008 when the key is refused from now on. With `Accept: text/event-stream`, the same objects
-/// arrive as server-sent events named `progress`, with `seq` as their id. Events are snapshots:
-/// `seq` rises and `fraction` never falls, but a slow client misses events in between. The final
-/// event is always sent, even if the job has already ended.
+/// state, with 1001 when the service stops, or with 1008 when the key is refused from now on. With
+/// `Accept: text/event-stream`, the same objects arrive as server-sent events named `progress`,
+/// with `seq` as their id. Events are snapshots: `seq` rises and `fraction` never falls, but a slow
+/// client misses events in between. The final event is always sent, even if the job has already
+/// ended.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/events", operation_id = "watchJob", tag = "jobs",
     params(

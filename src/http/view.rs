@@ -14,7 +14,7 @@ pub(super) struct JobView {
     /// Identifies the job.
     #[schema(format = "uuid")]
     id: String,
-    /// Owner of the job, which is that of the key it was made with; null if it was made without one.
+    /// Owner of the key that made the job; null if it was made without one.
     owner: Option<String>,
     /// Kind of job.
     kind: Kind,
