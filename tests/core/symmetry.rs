@@ -91,3 +91,17 @@ fn what_is_not_symmetric_is_cut_as_without() {
     let [auto, off] = [Symmetry::Auto, Symmetry::Off].map(|symmetry| unwrapped(&mesh, symmetry));
     assert_eq!(auto.grid, off.grid);
 }
+
+mod shared {
+    use super::{Symmetry, unwrapped, zoo};
+    use crate::places;
+
+    /// Its slits share edges.
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn a_plate_with_holes_is_opened_along_slits_that_meet() {
+        let path = places::shared("data/closed/plane_holes.obj");
+        let mesh = zoo::read_mesh(&path).expect("a readable mesh");
+        assert!(!unwrapped(&mesh, Symmetry::Auto).charts.is_empty());
+    }
+}

@@ -189,7 +189,10 @@ impl Slits {
         let mut twin = self.chart.disk.twins();
         for &h in &self.edges {
             let t = std::mem::replace(&mut twin[h as usize], CUT);
-            twin[t as usize] = CUT;
+            // Slits may share edges.
+            if t != CUT {
+                twin[t as usize] = CUT;
+            }
         }
         let parts = parts(&self.chart, &twin);
         parts.into_iter().map(|(part, _)| part).collect()
