@@ -40,17 +40,19 @@ mod sheet;
 mod snap;
 mod spot;
 mod squeeze;
+mod stay;
 mod stays;
 mod texture;
 mod tight;
 mod turned;
 mod upright;
 
-pub use around::{AroundError, Stay, pack_around};
+pub use around::pack_around;
 pub use clear::cleared;
 pub use draft::{Draft, Look};
 pub use enough::{Enough, enough};
 pub use pack::{fits, pack, pack_draft};
+pub use stay::{AroundError, Stay};
 pub use texture::Texture;
 
 /// Is told how many words a search has read since it was told last, from several threads at once.

@@ -1,9 +1,9 @@
 //! Charts that stay where they are.
-use super::around::{AroundError, Stay};
 use super::bitmap::Run;
 use super::mask::{Distances, Mask, Rounding};
 use super::outline::{Outline, outlines};
 use super::snap::{Snapped, snapped};
+use super::stay::{AroundError, Stay};
 use super::texture::Texture;
 use super::{AtlasError, ChartMap, Placed};
 use crate::numerics::bounds::{Bounds, bounds_of, touch, widened};

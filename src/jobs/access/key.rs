@@ -1,51 +1,13 @@
 //! Keys as they are recorded.
 
-use std::fmt;
-use std::str::FromStr;
 use std::time::Duration;
 
 use futures_util::future::BoxFuture;
 
-use super::key_text::is_id;
+use super::key_id::KeyId;
 use super::owner::Owner;
 use super::scope::Scopes;
 use crate::jobs::{StoreResult, Timestamp};
-
-/// Names a key. It is no secret.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct KeyId(String);
-
-/// What is no id of a key.
-#[derive(Debug, thiserror::Error)]
-#[error("the id of a key has 16 hexadecimal digits")]
-pub struct InvalidKeyId;
-
-impl KeyId {
-    /// The id that a record has.
-    pub fn recorded(text: String) -> Self {
-        Self(text)
-    }
-
-    /// The id as records have it.
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-}
-
-impl FromStr for KeyId {
-    type Err = InvalidKeyId;
-
-    fn from_str(text: &str) -> Result<Self, InvalidKeyId> {
-        let id = Some(text).filter(|text| is_id(text));
-        id.map(|id| Self(id.to_owned())).ok_or(InvalidKeyId)
-    }
-}
-
-impl fmt::Display for KeyId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
 
 /// A key that is to be recorded.
 #[derive(Clone, Debug)]

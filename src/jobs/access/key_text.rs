@@ -5,13 +5,12 @@ use std::fmt::Write as _;
 
 use subtle::ConstantTimeEq;
 
-use super::key::KeyId;
+use super::key_id::{ID_BYTES, KeyId};
 use crate::jobs::{StoreError, StoreResult, sha256};
 
 /// What a key begins with, so that people and scanners for leaked secrets know it.
 const PREFIX: &str = "uw_";
-/// Random bytes of an id, and of a secret.
-const ID_BYTES: usize = 8;
+/// Random bytes of a secret.
 const SECRET_BYTES: usize = 32;
 
 /// The text of a key: `uw_ID_SECRET`, both parts in hexadecimal digits.
@@ -74,10 +73,4 @@ fn random_hex<const N: usize>() -> StoreResult<String> {
         let _ = write!(text, "{byte:02x}");
         text
     }))
-}
-
-/// Whether a text is the id of a key.
-pub(super) fn is_id(text: &str) -> bool {
-    let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
-    text.len() == 2 * ID_BYTES && text.bytes().all(is_digit)
 }

@@ -15,13 +15,15 @@
 
 mod caller;
 mod key;
+mod key_id;
 mod key_text;
 mod owner;
 mod ring;
 mod scope;
 
 pub use caller::{Caller, Reach};
-pub use key::{Key, KeyId, KeyStore, NewKey};
+pub use key::{Key, KeyStore, NewKey};
+pub use key_id::KeyId;
 pub use key_text::KeyText;
 pub use owner::Owner;
 pub use ring::{Denied, KeyRing, Signed};

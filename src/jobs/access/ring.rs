@@ -7,7 +7,8 @@ use std::time::Duration;
 use tokio::time::{Instant, sleep};
 
 use super::caller::Caller;
-use super::key::{Key, KeyId, KeyStore, NewKey};
+use super::key::{Key, KeyStore, NewKey};
+use super::key_id::KeyId;
 use super::key_text::KeyText;
 use crate::jobs::{StoreError, StoreResult, Timestamp};
 

@@ -2,7 +2,8 @@
 
 use super::chart_maps::chart_maps;
 use super::packing::atlas_options;
-use super::placement::{PlacedFaces, Placement};
+use super::placed_faces::PlacedFaces;
+use super::placement::Placement;
 use super::plan::Plan;
 use super::settings::Settings;
 use super::soup::Soup;

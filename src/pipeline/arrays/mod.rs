@@ -10,6 +10,7 @@ mod divided;
 mod map;
 mod packed;
 mod packing;
+mod placed_faces;
 pub(super) mod placement;
 pub(super) mod plan;
 mod position_key;

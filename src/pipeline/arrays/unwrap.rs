@@ -6,7 +6,7 @@ use super::arranged::arranged;
 use super::divided::Divided;
 use super::packed::packed;
 use super::packing::{atlas_options, expected_words, likely_words};
-use super::placement::PlacedFaces;
+use super::placed_faces::PlacedFaces;
 use super::plan::{Plan, Start};
 use super::repeated::{self, GridCorners};
 use super::seams::Seams;
