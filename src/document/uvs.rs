@@ -54,7 +54,7 @@ impl NewUvs {
     }
 
     /// The UVs of a primitive with v pointing as asked; 1 − v is exact for multiples of 2⁻²³ in the unit square.
-    pub(super) fn toward(&self, primitive: usize, v_axis: VAxis) -> Option<Vec<Corners>> {
+    pub fn toward(&self, primitive: usize, v_axis: VAxis) -> Option<Vec<Corners>> {
         let corners = self.corners[primitive].as_ref()?;
         let turned = |[u, v]: [f32; 2]| {
             // No −0, so that equal UVs have equal bits.

@@ -2,6 +2,7 @@
 
 use crate::document::gltf::{GltfDocument, tangents};
 use crate::document::{CornerTangents, DocumentError, NewUvs};
+use crate::mesh::VAxis;
 
 /// A primitive with its new UVs.
 pub(super) struct Surface {
@@ -25,10 +26,10 @@ impl Surface {
         uvs: &NewUvs,
         is_normal_mapped: bool,
     ) -> Result<Self, DocumentError> {
-        let upward = uvs.corners[index].as_deref().unwrap_or_default();
+        let upward = uvs.toward(index, VAxis::Up).unwrap_or_default();
         let downward = |[u, v]: [f32; 2]| [f64::from(u), 1.0 - f64::from(v)];
         let directions = if is_normal_mapped {
-            Some(Directions::new(document, index, upward)?)
+            Some(Directions::new(document, index, &upward)?)
         } else {
             None
         };
