@@ -25,7 +25,7 @@ const MOST_MESSAGE_BYTES: usize = 64 << 10;
 /// A WebSocket. The client sends messages as JSON texts. The server sends the mesh once, then
 /// frames, both binary, and a reply to each message. Frames that a slow client has not received are
 /// dropped in favor of the latest. The close code is 1000 if the session was ended or expired, 1001
-/// if the service stops, 1008 if the key is refused from now on, and 1011 if the computation
+/// if the service stops, and 1008 if the key is refused from now on. It is 1011 if the computation
 /// failed, with the code of the failure as the reason. `live.md` beside this document describes
 /// messages, replies, meshes and frames.
 #[utoipa::path(
