@@ -1,6 +1,7 @@
 //! Charts turned so that up in space is up in the plane.
 
 use super::MappedChart;
+use crate::embed::is_positive;
 use crate::numerics::vec2::doubled_area;
 
 /// The height whose direction charts agree in: up, and for those that lie flat away from the viewer, as on a map.
@@ -9,7 +10,8 @@ const UP: [f64; 3] = [0.0, 1.0, -0.05];
 const LEAST_SLOPE: f64 = 1e-3;
 
 impl MappedChart {
-    /// Turns the map so that the height rises upward on average; a chart without such a direction stays.
+    /// Turns the map so that the height rises upward on average; a chart without such a direction stays, and so does one with
+    /// a triangle so thin that rounding the turned map would flip it.
     pub fn turn_up(&mut self) {
         let height = |v: u32| {
             let p = self.chart.positions[v as usize];
@@ -27,8 +29,11 @@ impl MappedChart {
         let length = slope[0].hypot(slope[1]);
         if length.is_normal() && length > LEAST_SLOPE * area {
             let [s, c] = slope.map(|x| x / length);
-            for p in &mut self.embedding.uv {
-                *p = [c * p[0] - s * p[1], s * p[0] + c * p[1]];
+            let turned = |p: &[f64; 2]| [c * p[0] - s * p[1], s * p[0] + c * p[1]];
+            let turned: Vec<[f64; 2]> = self.embedding.uv.iter().map(turned).collect();
+            let triangles = &self.chart.disk.triangles;
+            if is_positive(triangles, &turned) || !is_positive(triangles, &self.embedding.uv) {
+                self.embedding.uv = turned;
             }
         }
     }

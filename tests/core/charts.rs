@@ -8,7 +8,9 @@ use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6};
 use std::path::Path;
 use unwrapd::charts::{Chart, Cut, MappedChart, charts, halves, min_cut, seam_length};
+use unwrapd::embed;
 use unwrapd::mesh::{CUT, Disk, Surface};
+use unwrapd::numerics::predicates::orient2d_sign;
 use unwrapd::numerics::vec3::{area_vector, dot, norm};
 use unwrapd::solver::Control;
 
@@ -441,6 +443,50 @@ fn the_top_of_what_stands_is_up() {
         // Nearly parallel: what lies away from the viewer counts a twentieth.
         assert!(upward / square > 0.99, "{angle}: {}", upward / square);
     }
+}
+
+/// A fan with a needle under each blade, a rounding step high in the map.
+fn fan_on_needles(n_needles: u32) -> MappedChart {
+    let top = 2 * n_needles + 1;
+    let mut positions: Vec<[f32; 3]> = (0..top).map(|i| [i as f32, 0.0, (i % 2) as f32]).collect();
+    positions.push([0.0, 9.0, 0.0]);
+    let needle = |i: u32| {
+        [
+            [2 * i, 2 * i + 2, 2 * i + 1],
+            [2 * i, 2 * i + 1, top],
+            [2 * i + 1, 2 * i + 2, top],
+        ]
+    };
+    let triangles: Vec<[u32; 3]> = (0..n_needles).flat_map(needle).collect();
+    let surface = Surface::new(&positions, &triangles).expect("a usable mesh");
+    let chart = charts(&surface, Cut::Disk).swap_remove(0);
+    let on_line = |x: f64| [x, x / 3.0];
+    let place = |p: &[f64; 3]| {
+        let mut place = if p[1] > 0.0 {
+            [0.0, 9.0]
+        } else {
+            on_line(p[0])
+        };
+        while p[2] > 0.0 && orient2d_sign(on_line(p[0] - 1.0), on_line(p[0] + 1.0), place) <= 0 {
+            place[1] = place[1].next_up();
+        }
+        place
+    };
+    let uv = chart.positions.iter().map(place).collect();
+    MappedChart::given(chart, uv)
+}
+
+#[test]
+fn a_needle_is_not_flipped_by_turning_its_chart() {
+    let mut chart = fan_on_needles(40);
+    let is_positive =
+        |c: &MappedChart| embed::is_positive(&c.chart.disk.triangles, &c.embedding.uv);
+    assert!(is_positive(&chart));
+    let turned = |p: &[f64; 2]| [0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1]];
+    let turned: Vec<[f64; 2]> = chart.embedding.uv.iter().map(turned).collect();
+    assert!(!embed::is_positive(&chart.chart.disk.triangles, &turned));
+    chart.turn_up();
+    assert!(is_positive(&chart));
 }
 
 #[test]
