@@ -142,6 +142,9 @@
 //! - What consists of planes is put together instead: each plane is laid into the page as it is, and they are joined along straight
 //!   borders, first where a seam would cost most, as long as none covers another. So no plane is bent, stretched or cut,
 //!   and only what is round between them is mapped.
+//! - A surface of noise has no unfolding: a chart of it is cut where the smoothed surface needs it, and mapped as it is. The bound
+//!   is one on the smoothed surface then, and the report gives both distortions; a bound that a caller gives stays one on the
+//!   surface itself, however many charts that takes.
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as a draft of the
 //!   atlas gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
 //! - A surface that is its own mirror image, exactly or nearly, is cut alike on both sides. It is not halved: seams are planned on the

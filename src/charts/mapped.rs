@@ -261,7 +261,7 @@ impl MappedChart {
     }
 
     /// Optimized from its present map, if the result does not overlap itself or can be pushed apart.
-    fn relaxed(mut self, options: &embed::Options, watch: &dyn Watch) -> Self {
+    pub(super) fn relaxed(mut self, options: &embed::Options, watch: &dyn Watch) -> Self {
         let Chart {
             disk, positions, ..
         } = &self.chart;

@@ -13,6 +13,8 @@
 //! Before that [`Cut::Auto`] looks for components that consist mostly of planes, such as machine parts and sheet metal (`facets`):
 //! each plane is laid into the page as it is, and they are joined where a seam would cost most (`creases`).
 //!
+//! Rough surfaces, such as noisy scans, are cut as what they are samples of (`rough`): smoothed; then the true surface is mapped.
+//!
 //! With [`Symmetry::Auto`] it looks for the plane in which a surface is its own mirror image, exactly or nearly, and cuts both
 //! sides alike (`symmetry`): openings run in the plane, slits come in pairs, and what is parted or given back on one side is on
 //! the other.
@@ -43,12 +45,13 @@ mod motion;
 mod observer;
 mod parts;
 mod regions;
+mod rough;
 mod symmetry;
 mod unfold;
 mod up;
 
 pub use bound::few_charts::{Symmetry, charts_under_bound};
-pub use bound::quality::{Bound, Quality};
+pub use bound::quality::{Bound, Bounded, Quality};
 pub use chart::{Chart, Cut, charts};
 pub use compact::split::{Split, parted_alike, seam_length};
 pub use give_back::given_back::given_back;
@@ -56,6 +59,7 @@ pub use halves::halves;
 pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
 pub use min_cut::min_cut;
 pub use observer::{Observer, Unobserved};
+pub use rough::smoothed_where_rough;
 
 #[cfg(doc)]
 use crate::mesh::Disk;

@@ -21,6 +21,7 @@ mod planar;
 #[cfg(feature = "files")]
 pub mod polygon;
 mod resolution;
+mod smoothed;
 mod spread;
 mod surface;
 mod tets;

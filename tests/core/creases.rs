@@ -3,7 +3,7 @@
 use crate::zoo::{self, Mesh};
 use std::collections::BTreeMap;
 use unwrapd::certificate::{Claims, certify};
-use unwrapd::charts::{Bound, MappedChart, Symmetry, Unobserved, charts_under_bound};
+use unwrapd::charts::{Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound};
 use unwrapd::embed::Options;
 use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::Surface;
@@ -26,6 +26,7 @@ fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
     let bound = Bound {
         mean: 4.1,
         stretch: None,
+        of: Bounded::Surface,
     };
     charts_under_bound(&surface, &bound, 1.0, &options, Symmetry::Auto, &Unobserved)
 }

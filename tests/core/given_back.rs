@@ -3,7 +3,7 @@
 use crate::zoo::{self, Mesh};
 use unwrapd::certificate::{Claims, certify};
 use unwrapd::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Unobserved, charts, given_back, map_chart,
+    Bound, Bounded, Chart, Cut, Folds, MappedChart, Unobserved, charts, given_back, map_chart,
 };
 use unwrapd::embed::Options;
 use unwrapd::mesh::Surface;
@@ -41,6 +41,7 @@ fn balanced() -> Bound {
     Bound {
         mean: 4.1,
         stretch: None,
+        of: Bounded::Surface,
     }
 }
 
@@ -143,7 +144,7 @@ fn what_would_be_flipped_beside_its_neighbor_is_not_glued_so() {
     };
     let anything = Bound {
         mean: 1e9,
-        stretch: None,
+        ..balanced()
     };
     checked(&surface, charts.into_iter().map(lies).collect(), &anything);
 }
@@ -216,7 +217,11 @@ fn the_bound_decides_what_is_given_back() {
         let charts = regions(&surface, |[_, _, z]| usize::from(z > 0.0));
         checked(&surface, charts.into_iter().map(mapped).collect(), bound).len()
     };
-    let bound = |mean, stretch| Bound { mean, stretch };
+    let bound = |mean, stretch| Bound {
+        mean,
+        stretch,
+        ..balanced()
+    };
     assert_eq!(given(&bound(4.1, None)), 1, "the flap is squeezed");
     assert_eq!(given(&bound(4.000_01, None)), 2);
     assert_eq!(given(&bound(4.1, Some(1.001))), 2);

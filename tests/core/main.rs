@@ -71,6 +71,7 @@ mod problem_files;
 mod progress;
 mod pulled;
 mod random;
+mod rough;
 mod searched;
 mod separation;
 mod session;

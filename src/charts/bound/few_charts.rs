@@ -1,7 +1,7 @@
 //! Few charts under a bound on their distortion.
 
 use super::pending_chart::Piece;
-use super::quality::Bound;
+use super::quality::{Bound, Bounded};
 use super::rounds::{mean_excess, rounds};
 use super::simplified::Simplified;
 use super::slits::Slits;
@@ -10,6 +10,7 @@ use crate::charts::creases::hard_components::Divided;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
 use crate::charts::observer::Observer;
+use crate::charts::rough::smoothed_where_rough;
 use crate::charts::symmetry::exact::exact_mirror_planes;
 use crate::charts::symmetry::search::mirror_plane;
 use crate::embed::{self, is_needle};
@@ -48,8 +49,31 @@ pub enum Symmetry {
 /// [`Cut::Fast`] if that does better. At last small charts are [given back](given_back). A surface of needles, of which no map keeps the
 /// shape, is not slit.
 ///
-/// `seam_price` is what a seam costs, over its usual price: planes are joined along shorter borders where it is higher.
+/// `seam_price` is what a seam costs, over its usual price: planes are joined along shorter borders where it is higher. With
+/// [`Bounded::Smoothed`] the charts of a rough component are those of the smoothed one, mapped on to the true one.
 pub fn charts_under_bound(
+    surface: &Surface,
+    bound: &Bound,
+    seam_price: f64,
+    options: &embed::Options,
+    symmetry: Symmetry,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let smooth = match bound.of {
+        Bounded::Smoothed => smoothed_where_rough(surface),
+        Bounded::Surface => None,
+    };
+    let under_bound =
+        |surface| charts_of_surface(surface, bound, seam_price, options, symmetry, observer);
+    let Some(smooth) = smooth else {
+        return under_bound(surface);
+    };
+    (under_bound(&smooth).into_par_iter().with_max_len(1))
+        .map(|map| map.on(surface, options, observer))
+        .collect()
+}
+
+fn charts_of_surface(
     surface: &Surface,
     bound: &Bound,
     seam_price: f64,

@@ -56,6 +56,19 @@ pub struct Bound {
     pub mean: f64,
     /// The largest stretch max(σ₁, 1/σ₂) of all but a hundredth of the area; its minimum is 1.
     pub stretch: Option<f64>,
+    /// What is bounded.
+    pub of: Bounded,
+}
+
+/// The surface whose distortion is bounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub enum Bounded {
+    /// The surface as it is.
+    Surface,
+    /// The surface [smoothed where it is rough](crate::charts::smoothed_where_rough).
+    Smoothed,
 }
 
 impl Bound {

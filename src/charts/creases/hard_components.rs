@@ -3,7 +3,7 @@
 use super::flat::seen_straight_on;
 use super::joined::Joining;
 use crate::charts::bound::pending_chart::Piece;
-use crate::charts::bound::quality::Bound;
+use crate::charts::bound::quality::{Bound, Bounded};
 use crate::charts::bound::rounds::rounds;
 use crate::charts::chart::{Chart, charts_of_regions};
 use crate::charts::facets::faces::Faces;
@@ -35,6 +35,7 @@ const SMALL: f64 = 0.01;
 const GIVEN_BACK: Bound = Bound {
     mean: 4.01,
     stretch: None,
+    of: Bounded::Surface,
 };
 
 /// A surface with its hard components known.

@@ -75,6 +75,7 @@ fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<M
                 bound = Bound {
                     mean,
                     stretch: None,
+                    ..bound
                 };
                 under(&bound)
             }

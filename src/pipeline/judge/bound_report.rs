@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::group_uvs::GroupUvs;
+use super::mean_energy::MeanEnergy;
+use super::smoothed_distortion::smoothed_distortion;
 use crate::certificate::chart_ids;
-use crate::charts::Bound;
-use crate::measure::{Distortion, FaceDistortion, face_distortion};
+use crate::charts::{Bound, Bounded};
+use crate::measure::{Distortion, face_distortion};
 use crate::mesh::CornerUvs;
-use crate::numerics::vec3::{area_vector, norm};
 
 /// A bound on the distortion of an atlas, and what was reached.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -22,7 +23,12 @@ pub struct BoundReport {
     pub distortion: Option<f64>,
     /// The stretch of the written bytes, `stretch_p99`.
     pub stretch: Option<f64>,
-    /// Whether both keep their bounds.
+    /// The mean symmetric Dirichlet energy of the written map and its surface, both smoothed; absent unless that is bounded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smoothed_distortion: Option<f64>,
+    /// What is bounded: the surface, or, where it is rough and neither bound was asked for, the smoothed one.
+    pub of: Bounded,
+    /// Whether what is bounded keeps both bounds.
     pub kept: bool,
     /// The most distorted chart, where a bound is missed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,9 +64,20 @@ impl BoundReport {
             most.zip(measured)
                 .is_none_or(|(most, measured)| measured <= most)
         };
-        let kept = keeps(Some(bound.mean), measured.sym_dirichlet_mean)
+        let surface_keeps = keeps(Some(bound.mean), measured.sym_dirichlet_mean)
             && keeps(bound.stretch, measured.stretch_p99);
+        let smoothed_distortion = match bound.of {
+            Bounded::Smoothed if !surface_keeps => smoothed_distortion(uvs, aspect),
+            _ => None,
+        };
+        let kept =
+            surface_keeps || smoothed_distortion.is_some_and(|smoothed| smoothed <= bound.mean);
         Self {
+            of: match smoothed_distortion {
+                Some(_) => Bounded::Smoothed,
+                None => Bounded::Surface,
+            },
+            smoothed_distortion,
             max_distortion: bound.mean,
             max_stretch: bound.stretch,
             distortion: measured.sym_dirichlet_mean,
@@ -77,13 +94,16 @@ impl BoundReport {
     /// By how much which bound is missed, and where it is worst.
     pub(in crate::pipeline) fn shortfall(&self) -> String {
         let mut parts = Vec::new();
-        if let Some(reached) = self
-            .distortion
+        if let Some(reached) = (self.smoothed_distortion.or(self.distortion))
             .filter(|&reached| reached > self.max_distortion)
         {
             let [percent, most] = [reached, self.max_distortion].map(stretch_percent);
+            let of = match self.of {
+                Bounded::Surface => "",
+                Bounded::Smoothed => " of the smoothed surface",
+            };
             parts.push(format!(
-                "mean stretch {percent:.1} % exceeds the bound of {most:.1} % (symmetric Dirichlet {reached:.4}, bound {})",
+                "mean stretch {percent:.1} %{of} exceeds the bound of {most:.1} % (symmetric Dirichlet {reached:.4}, bound {})",
                 self.max_distortion
             ));
         }
@@ -106,40 +126,41 @@ impl BoundReport {
     }
 }
 
+impl BoundReport {
+    /// What a reader must know of a bound that only the smoothed surface keeps.
+    pub(in crate::pipeline) fn caveat(&self) -> Option<String> {
+        let smoothed = self.smoothed_distortion.filter(|_| self.kept)?;
+        let [own, smoothed] = [self.distortion?, smoothed].map(stretch_percent);
+        Some(format!(
+            "the surface is rough: its mean stretch is {own:.1} %, that of the smoothed surface {smoothed:.1} %, which keeps the bound; \
+             `max_distortion` bounds the surface itself"
+        ))
+    }
+}
+
 impl WorstChart {
     fn of(group: &GroupUvs, aspect: f64) -> Option<Self> {
         let (positions, triangles) = (&group.positions, &group.triangles);
         let scaled = |face: &CornerUvs| face.map(|[u, v]| [u * aspect, v]);
         let uvs: Vec<CornerUvs> = group.uvs.iter().map(scaled).collect();
         let faces = face_distortion(positions, triangles, &uvs, group.weights.as_deref());
-        let mut charts: Vec<(f64, f64, f64)> = Vec::new();
+        let mut charts: Vec<MeanEnergy> = Vec::new();
         for ((triangle, face), chart) in triangles
             .iter()
             .zip(&faces)
             .zip(chart_ids(positions, triangles, &group.uvs))
         {
-            let FaceDistortion {
-                symmetric_dirichlet,
-                stretch,
-                degenerate,
-                ..
-            } = *face;
-            charts.resize(charts.len().max(chart as usize + 1), (0.0, 0.0, 0.0));
-            if !degenerate {
-                let [a, b, c] = triangle.map(|v| positions[v as usize]);
-                let area = norm(area_vector(a, b, c));
-                let (total, sum, greatest) = &mut charts[chart as usize];
-                *total += area;
-                *sum += area * symmetric_dirichlet;
-                *greatest = greatest.max(stretch);
-            }
+            charts.resize(charts.len().max(chart as usize + 1), MeanEnergy::default());
+            charts[chart as usize].add(triangle.map(|v| positions[v as usize]), face);
         }
-        let means = (0..).zip(&charts).filter(|(_, (area, ..))| *area > 0.0);
-        let means = means.map(|(chart, &(area, sum, stretch))| Self {
-            chart,
-            distortion: sum / area,
-            stretch,
-        });
-        means.max_by(|a, b| a.distortion.total_cmp(&b.distortion))
+        let of_chart = |(chart, sum): (u32, &MeanEnergy)| {
+            Some(Self {
+                chart,
+                distortion: sum.mean()?,
+                stretch: sum.greatest_stretch,
+            })
+        };
+        let charts = (0..).zip(&charts).filter_map(of_chart);
+        charts.max_by(|a, b| a.distortion.total_cmp(&b.distortion))
     }
 }

@@ -3,8 +3,10 @@
 pub(super) mod bound_report;
 pub(super) mod group_uvs;
 pub(super) mod groups;
+mod mean_energy;
 pub(super) mod proven;
 pub(super) mod question;
 pub(super) mod report;
 pub(super) mod shortfalls;
+mod smoothed_distortion;
 pub(super) mod verify;

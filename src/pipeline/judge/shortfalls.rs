@@ -21,10 +21,14 @@ pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
         let distorted = bound
             .filter(|bound| !bound.kept)
             .map(|bound| Warning::new("too_distorted", format!("{name}: {}", bound.shortfall())));
+        let rough = bound
+            .and_then(|bound| bound.caveat())
+            .map(|caveat| Warning::new("rough_surface", format!("{name}: {caveat}")));
         let all = faces.into_iter().chain(overlapping).chain(whole);
         let all: Vec<Warning> = all
             .chain(distances.into_iter().flatten())
             .chain(distorted)
+            .chain(rough)
             .collect();
         all
     });

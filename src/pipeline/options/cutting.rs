@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::charts::{Bound, Cut, Quality, Symmetry};
+use crate::charts::{Bound, Bounded, Cut, Quality, Symmetry};
 use crate::options::options;
 
 /// What happens to the maps of islands that are kept.
@@ -26,6 +26,9 @@ options! {
         pub cut: Cut = Cut::Auto, arg(help_heading = None::<&'static str>);
         /// Distortion bound of `cut` auto: a mean symmetric Dirichlet energy of at most 4.05, 4.1
         /// or 4.5. An isometry has 4.
+        ///
+        /// Where a surface is rough, as a noisy scan is, the bound is one on the smoothed surface,
+        /// unless `max_distortion` or `max_stretch` is given. The report says so.
         pub quality: Quality = Quality::Balanced, arg(help_heading = None::<&'static str>);
         /// What `cut` keep does with the map of each island.
         pub kept_maps: KeptMaps = KeptMaps::Optimized;
@@ -57,6 +60,10 @@ impl Cutting {
         Bound {
             mean: self.max_distortion.unwrap_or(self.quality.bound()),
             stretch: self.max_stretch,
+            of: match (self.max_distortion, self.max_stretch) {
+                (None, None) => Bounded::Smoothed,
+                _ => Bounded::Surface,
+            },
         }
     }
 
