@@ -26,7 +26,7 @@ const MOST_PUSHED: usize = 4;
 const APART: f64 = 1e-6;
 
 /// Faces that are glued at most, as a multiple of all: gluing costs as much as looking at both charts.
-const MOST_GLUED: usize = 100;
+const MOST_GLUED: usize = 25;
 
 /// The part of a chart's faces, about, that an iteration around a seam takes as long as.
 const AROUND_SEAM: usize = 8;
