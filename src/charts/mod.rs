@@ -55,7 +55,7 @@ pub use give_back::given_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
 pub use min_cut::min_cut;
-pub use observer::{Observer, Unobserved};
+pub use observer::{MapUnderway, Observer, Unobserved};
 
 #[cfg(doc)]
 use crate::mesh::Disk;
