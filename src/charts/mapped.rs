@@ -1,7 +1,7 @@
 //! Charts with their maps.
 
 use super::chart::connected_faces;
-use super::observer::Observer;
+use super::observer::{Observer, Watching};
 use super::parts::{parted, parts};
 use super::symmetry::image::cut_alike;
 use super::unfold::overlaps::{lengths, one_side, overlaps};
@@ -11,7 +11,7 @@ use crate::barrier::BarrierKind;
 use crate::embed::{self, Embedding};
 use crate::numerics::vec2::doubled_area;
 use crate::numerics::vec3::{area_vector, norm};
-use crate::solver::{Control, Iterate, Summary, Watch};
+use crate::solver::{Control, Iterate, Summary};
 
 /// A chart, its map and how long the map took.
 #[derive(Clone, Debug)]
@@ -48,9 +48,11 @@ pub fn map_chart(
     while let Some(chart) = pending.pop() {
         let begin = observer.elapsed();
         let faces = chart.disk.triangles.len();
-        let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
-        let control = || asked(observer, faces);
-        let embedding = embed::parameterize(&chart.disk, &chart.positions, options, &watch);
+        let watching = Watching {
+            chart: &chart,
+            observer,
+        };
+        let embedding = embed::parameterize(&chart.disk, &chart.positions, options, &watching);
         let is_valid = embed::is_positive(&chart.disk.triangles, &embedding.uv);
         if is_promised && !is_valid && faces > 1 {
             pending.extend(halves(&chart));
@@ -62,7 +64,7 @@ pub fn map_chart(
             seconds: 0.0,
         };
         let unfolded = match folds {
-            Folds::Cut => whole.free_of_overlaps(options, &watch, &control),
+            Folds::Cut => whole.free_of_overlaps(options, observer),
             Folds::Keep => vec![whole],
         };
         let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
@@ -89,9 +91,11 @@ pub fn map_chart_from(
             p[0] = -p[0];
         }
     }
-    let faces = chart.disk.triangles.len();
-    let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
-    let from = embed::optimize(&chart.disk, &chart.positions, &uv, options, &watch);
+    let watching = Watching {
+        chart: &chart,
+        observer,
+    };
+    let from = embed::optimize(&chart.disk, &chart.positions, &uv, options, &watching);
     match from {
         Ok(embedding)
             if overlaps(&chart.disk, &uv).is_empty()
@@ -103,10 +107,7 @@ pub fn map_chart_from(
                 seconds: 0.0,
             };
             let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
-            let parts = whole
-                .free_of_overlaps(options, &watch, &|| asked(observer, faces))
-                .into_iter();
-            parts
+            (whole.free_of_overlaps(options, observer).into_iter())
                 .map(|part| MappedChart {
                     seconds,
                     ..part.facing_front()
@@ -140,23 +141,22 @@ impl MappedChart {
 
     /// The chart pushed apart where it overlaps itself, or else the parts into which the cheapest seams divide it, each optimized
     /// again from where it lies, which counts if it does not fold over itself anew.
-    fn free_of_overlaps(
-        mut self,
-        options: &embed::Options,
-        watch: &dyn Watch,
-        control: &dyn Fn() -> Control,
-    ) -> Vec<Self> {
+    fn free_of_overlaps(mut self, options: &embed::Options, observer: &dyn Observer) -> Vec<Self> {
         let pairs = overlaps(&self.chart.disk, &self.embedding.uv);
         if pairs.is_empty() {
             return vec![self];
         }
-        let (uv, pairs) = pushed_apart(&self.chart, &self.embedding.uv, pairs, options, watch);
+        let faces = self.chart.disk.triangles.len();
+        // What is pushed is a part of the chart: it is counted, but it is no map of it.
+        let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
+        let (uv, pairs) = pushed_apart(&self.chart, &self.embedding.uv, pairs, options, &watch);
         self.embedding.uv = uv;
         if pairs.is_empty() {
             return vec![self];
         }
-        (self.parted_until_free(pairs, control).into_iter())
-            .map(|part| part.relaxed(options, watch))
+        (self.parted_until_free(pairs, &|| asked(observer, faces)))
+            .into_iter()
+            .map(|part| part.relaxed(options, observer))
             .collect()
     }
 
@@ -261,14 +261,19 @@ impl MappedChart {
     }
 
     /// Optimized from its present map, if the result does not overlap itself or can be pushed apart.
-    pub(super) fn relaxed(mut self, options: &embed::Options, watch: &dyn Watch) -> Self {
+    pub(super) fn relaxed(mut self, options: &embed::Options, observer: &dyn Observer) -> Self {
+        let chart = &self.chart;
         let Chart {
             disk, positions, ..
-        } = &self.chart;
-        if let Ok(embedding) = embed::optimize(disk, positions, &self.embedding.uv, options, watch)
+        } = chart;
+        let faces = disk.triangles.len();
+        let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
+        let watching = Watching { chart, observer };
+        let from = &self.embedding.uv;
+        if let Ok(embedding) = embed::optimize(disk, positions, from, options, &watching)
             && embed::is_positive(&disk.triangles, &embedding.uv)
             && let pairs = overlaps(disk, &embedding.uv)
-            && let (uv, left) = pushed_apart(&self.chart, &embedding.uv, pairs, options, watch)
+            && let (uv, left) = pushed_apart(chart, &embedding.uv, pairs, options, &watch)
             && left.is_empty()
         {
             self.embedding = Embedding {

@@ -58,7 +58,7 @@ pub use give_back::given_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
 pub use min_cut::min_cut;
-pub use observer::{Observer, Unobserved};
+pub use observer::{MapUnderway, Observer, Unobserved};
 pub use rough::smoothed_where_rough;
 
 #[cfg(doc)]

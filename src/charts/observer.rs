@@ -1,10 +1,35 @@
 //! What a caller sees while charts are mapped, and how it ends the work early.
 
-use crate::solver::{Control, Iterate};
+use super::chart::Chart;
+use crate::numerics::vec3::{area_vector, norm};
+use crate::solver::{Control, Iterate, Watch};
 use std::time::Duration;
+
+/// A map of a whole chart between two steps of the solver.
+pub struct MapUnderway<'a> {
+    /// What is mapped.
+    pub chart: &'a Chart,
+    /// Where the solver stands.
+    pub iterate: &'a Iterate,
+    /// Both coordinates of each vertex, where the mean area of a face at rest is 1.
+    pub x: &'a [f64],
+}
+
+impl MapUnderway<'_> {
+    /// The mesh's length of the map's unit.
+    pub fn unit(&self) -> f64 {
+        let corners = |t: &[u32; 3]| t.map(|v| self.chart.positions[v as usize]);
+        let area = |[a, b, c]: [[f64; 3]; 3]| norm(area_vector(a, b, c)) / 2.0;
+        let triangles = &self.chart.disk.triangles;
+        let sum: f64 = triangles.iter().map(corners).map(area).sum();
+        (sum / triangles.len() as f64).sqrt()
+    }
+}
 
 /// Sees charts being mapped, tells the time, and may end the work early.
 pub trait Observer: Sync {
+    /// The map of a chart of the surface at an iterate, which [`Self::iterate`] follows.
+    fn map(&self, _map: &MapUnderway) {}
     /// An iterate of a chart of so many faces.
     fn iterate(&self, faces: usize, iterate: &Iterate) -> Control;
     /// Work that no iterate shows, as long as one iteration of so many faces takes.
@@ -29,5 +54,47 @@ impl Observer for Unobserved {
     }
     fn elapsed(&self) -> Duration {
         Duration::ZERO
+    }
+}
+
+/// Shows an observer the maps of a chart.
+pub(super) struct Watching<'a> {
+    pub chart: &'a Chart,
+    pub observer: &'a dyn Observer,
+}
+
+impl Watch for Watching<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        let faces = self.chart.disk.triangles.len();
+        self.observer.iterate(faces, iterate)
+    }
+
+    fn positions(&self, iterate: &Iterate, x: &[f64]) {
+        self.observer.map(&MapUnderway {
+            chart: self.chart,
+            iterate,
+            x,
+        });
+    }
+}
+
+/// Sees no maps, since they are not those of the surface.
+pub(super) struct Unseen<'a>(pub &'a dyn Observer);
+
+impl Observer for Unseen<'_> {
+    fn iterate(&self, faces: usize, iterate: &Iterate) -> Control {
+        self.0.iterate(faces, iterate)
+    }
+    fn worked(&self, faces: usize) {
+        self.0.worked(faces);
+    }
+    fn charted(&self, mapped: isize, known: isize) {
+        self.0.charted(mapped, known);
+    }
+    fn control(&self) -> Control {
+        self.0.control()
+    }
+    fn elapsed(&self) -> Duration {
+        self.0.elapsed()
     }
 }

@@ -11,7 +11,6 @@ use super::observer::Observer;
 use crate::embed;
 use crate::mesh::Surface;
 use crate::numerics::vec3::{cross, dot, norm, sub};
-use crate::solver::Iterate;
 
 /// The mean angle defect, in radians, from which on the vertices of a component may be noise.
 const ROUGH: f64 = 0.2;
@@ -111,8 +110,6 @@ impl MappedChart {
         if !is_moved {
             return self;
         }
-        let faces = chart.disk.triangles.len();
-        let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
-        self.relaxed(options, &watch)
+        self.relaxed(options, observer)
     }
 }

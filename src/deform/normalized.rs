@@ -142,18 +142,24 @@ impl<'a> Restored<'a> {
     }
 }
 
-impl Watch for Restored<'_> {
-    fn iterate(&self, iterate: &Iterate) -> Control {
-        self.watch.iterate(&Iterate {
+impl Restored<'_> {
+    fn restored(&self, iterate: &Iterate) -> Iterate {
+        Iterate {
             residual: self.frame.squared(iterate.residual),
             ..*iterate
-        })
+        }
+    }
+}
+
+impl Watch for Restored<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        self.watch.iterate(&self.restored(iterate))
     }
 
-    fn positions(&self, x: &[f64]) {
+    fn positions(&self, iterate: &Iterate, x: &[f64]) {
         let mut restored = self.x.borrow_mut();
         restored.clear();
         restored.extend(self.frame.places(x));
-        self.watch.positions(&restored);
+        self.watch.positions(&self.restored(iterate), &restored);
     }
 }

@@ -22,6 +22,7 @@ pub(super) enum Code {
     NoResult,
     NotFailed,
     NoKeys,
+    ComputedElsewhere,
     Conflict,
     JobExpired,
     UploadTooLarge,
@@ -49,7 +50,7 @@ pub(super) enum Code {
 }
 
 impl Code {
-    pub const ALL: [Self; 43] = [
+    pub const ALL: [Self; 44] = [
         Self::InvalidRequest,
         Self::InvalidOptions,
         Self::MissingMesh,
@@ -69,6 +70,7 @@ impl Code {
         Self::NoResult,
         Self::NotFailed,
         Self::NoKeys,
+        Self::ComputedElsewhere,
         Self::Conflict,
         Self::JobExpired,
         Self::UploadTooLarge,
@@ -134,6 +136,11 @@ impl Code {
             Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
             Self::NotFailed => ("not_failed", 409, "Only failed jobs can be tried again"),
             Self::NoKeys => ("no_keys", 409, "The service does not ask for keys"),
+            Self::ComputedElsewhere => (
+                "computed_elsewhere",
+                409,
+                "Another process computes the job",
+            ),
             Self::JobExpired => ("job_expired", 410, "The job was removed after its time"),
             Self::Conflict => ("conflict", 409, "Another request changed it meanwhile"),
             Self::UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),

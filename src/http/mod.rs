@@ -20,6 +20,7 @@ mod held;
 mod inputs;
 mod jobs;
 mod live;
+mod maps;
 mod missing;
 mod openapi;
 mod options;
@@ -99,6 +100,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(jobs::finish_job))
         .routes(routes!(jobs::retry_job))
         .routes(routes!(events::watch_job))
+        .routes(routes!(maps::watch_maps))
         .routes(routes!(inputs::get_input))
         .routes(routes!(results::get_result))
         .routes(routes!(results::get_report))

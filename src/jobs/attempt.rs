@@ -113,7 +113,7 @@ async fn compute(
 ) -> StoreResult<Option<Ending>> {
     let kills = Kills::so_far();
     let mut child = Child::start(&jobs.settings.program, folder)?;
-    let watched = watch(jobs, job, attempt, &mut child, leave).await;
+    let watched = watch(jobs, job, attempt, (&mut child, folder), leave).await;
     if !matches!(watched, Watched::Silent) {
         child.terminate().await?;
     }

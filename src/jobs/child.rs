@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
-use tokio::io::{AsyncBufReadExt, AsyncReadExt, BufReader, Lines};
+use tokio::io::{AsyncBufReadExt, AsyncReadExt, AsyncWriteExt, BufReader, Lines};
 use tokio::process::{ChildStdin, ChildStdout, Command};
 use tokio::task::JoinHandle;
 
@@ -27,7 +27,7 @@ pub(super) struct Child {
     messages: Lines<BufReader<ChildStdout>>,
     stderr: JoinHandle<String>,
     /// Kept open: the child ends when it closes, that is also when this process is lost.
-    _stdin: Option<ChildStdin>,
+    stdin: Option<ChildStdin>,
 }
 
 /// How a child ended by itself.
@@ -61,7 +61,7 @@ impl Child {
         let stdout = process.stdout.take().ok_or_else(gone)?;
         let stderr = process.stderr.take().ok_or_else(gone)?;
         Ok(Self {
-            _stdin: process.stdin.take(),
+            stdin: process.stdin.take(),
             messages: BufReader::new(stdout).lines(),
             stderr: tokio::spawn(read_stderr(stderr)),
             process,
@@ -81,6 +81,14 @@ impl Child {
     /// Asks to finish early with the present valid map.
     pub fn interrupt(&self) {
         self.signal(Signal::SIGINT);
+    }
+
+    /// Asks for the maps under way.
+    pub async fn ask_for_maps(&mut self) {
+        if let Some(stdin) = &mut self.stdin {
+            // It may be gone already: then there are none.
+            let _ = stdin.write_all(&[0]).await;
+        }
     }
 
     /// Ends it: by request, then by force.

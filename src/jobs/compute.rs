@@ -1,8 +1,8 @@
 //! The compute child: one attempt at one job, in its own process.
 //!
 //! It reads the attempt's folder, limits its own memory, tells its progress on standard output and leaves its results
-//! in the folder. SIGTERM ends it as it ends any process; SIGINT has it finish early with the present valid map; when
-//! its standard input closes, the server is gone, and so is it.
+//! in the folder. SIGTERM ends it as it ends any process; SIGINT has it finish early with the present valid map; a
+//! byte on its standard input asks for the maps under way; when that closes, the server is gone, and so is it.
 
 use std::io::Read;
 use std::path::Path;
@@ -17,6 +17,7 @@ use super::checksum::sha256;
 use super::frames::Frames;
 use super::input_output::OutputFile;
 use super::job::Failure;
+use super::maps::Maps;
 use super::reporter::Reporter;
 use super::store_error::StoreError;
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
@@ -41,10 +42,11 @@ type Attempt<T> = Result<T, (u8, Failure)>;
 
 fn attempt(folder: &Path) -> Attempt<()> {
     let finish = Arc::new(AtomicBool::new(false));
-    listen(&finish).map_err(internal)?;
+    let maps = Arc::new(Maps::new(folder));
+    listen(&finish, &maps).map_err(internal)?;
     let task: Task = task::read_json(folder, TASK).map_err(internal)?;
     contain(task.memory).map_err(internal)?;
-    let reporter = Reporter::start(finish, Frames::new(folder)).map_err(internal)?;
+    let reporter = Reporter::start(finish, Frames::new(folder), maps).map_err(internal)?;
     let upload = task::read_upload(folder, &task.input).map_err(internal)?;
     let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
     let mut made = work
@@ -76,9 +78,9 @@ pub fn contain(memory: u64) -> std::io::Result<()> {
     Ok(setrlimit(Resource::RLIMIT_CORE, 0, 0)?)
 }
 
-/// Starts the threads that hear the end of standard input and SIGINT. Called before any other thread exists, since a
+/// Starts the threads that hear standard input, where a byte asks for maps, its end, and SIGINT. Called before any other thread exists, since a
 /// thread inherits which signals are blocked.
-fn listen(finish: &Arc<AtomicBool>) -> std::io::Result<()> {
+fn listen(finish: &Arc<AtomicBool>, maps: &Arc<Maps>) -> std::io::Result<()> {
     let mut signals = SigSet::empty();
     signals.add(Signal::SIGINT);
     signals.thread_block()?;
@@ -88,9 +90,12 @@ fn listen(finish: &Arc<AtomicBool>) -> std::io::Result<()> {
             finish.store(true, Ordering::Relaxed);
         }
     })?;
-    std::thread::Builder::new().spawn(|| {
+    let maps = Arc::clone(maps);
+    std::thread::Builder::new().spawn(move || {
         let mut byte = [0];
-        while matches!(std::io::stdin().read(&mut byte), Ok(1..)) {}
+        while matches!(std::io::stdin().read(&mut byte), Ok(1..)) {
+            maps.ask();
+        }
         std::process::exit(1);
     })?;
     Ok(())

@@ -1,14 +1,15 @@
 //! What the compute child tells the server.
 
-use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::frames::Frames;
+use super::maps::Maps;
 use super::pace::Pace;
 use super::progress::Progress;
 use super::task::Message;
+use crate::charts::MapUnderway;
 use crate::pipeline::{self, Observer};
 use crate::solver::Control;
 
@@ -24,6 +25,7 @@ pub(super) struct Reporter {
     finish: Arc<AtomicBool>,
     told: Arc<Mutex<Told>>,
     frames: Mutex<Frames>,
+    maps: Arc<Maps>,
 }
 
 /// What was told last, and when the share moved.
@@ -36,19 +38,26 @@ struct Told {
 
 impl Reporter {
     /// Says that the child is ready, and starts the thread that tells estimates.
-    pub(super) fn start(finish: Arc<AtomicBool>, frames: Frames) -> std::io::Result<Self> {
-        tell(&Message::Ready);
+    pub(super) fn start(
+        finish: Arc<AtomicBool>,
+        frames: Frames,
+        maps: Arc<Maps>,
+    ) -> std::io::Result<Self> {
+        Message::Ready.tell();
         let reporter = Self {
             start: Instant::now(),
             finish,
             told: Arc::default(),
             frames: Mutex::new(frames),
+            maps,
         };
         let (start, told) = (reporter.start, Arc::clone(&reporter.told));
+        let maps = Arc::clone(&reporter.maps);
         std::thread::Builder::new().spawn(move || {
             loop {
                 std::thread::sleep(SILENCE);
                 lock(&told).estimate(start.elapsed());
+                maps.flush();
             }
         })?;
         Ok(reporter)
@@ -90,7 +99,7 @@ impl Told {
 
     fn tell(&mut self, fraction: f64, now: Duration) {
         (self.progress.fraction, self.at) = (fraction, now);
-        tell(&Message::Progress(self.progress));
+        Message::Progress(self.progress).tell();
     }
 }
 
@@ -117,6 +126,10 @@ impl Observer for Reporter {
         self.start.elapsed()
     }
 
+    fn map(&self, surface: usize, map: &MapUnderway) {
+        self.maps.take(surface, map);
+    }
+
     fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
         lock(&self.frames).add(number, file);
     }
@@ -124,14 +137,4 @@ impl Observer for Reporter {
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Writes one line to the server. Nobody listens any more if this fails: there is no reason to go on.
-fn tell(message: &Message) {
-    let mut line = serde_json::to_vec(message).unwrap_or_default();
-    line.push(b'\n');
-    let mut out = std::io::stdout().lock();
-    if out.write_all(&line).and_then(|()| out.flush()).is_err() {
-        std::process::exit(1);
-    }
 }

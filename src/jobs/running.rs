@@ -9,6 +9,7 @@ use tokio_util::sync::CancellationToken;
 use super::access::{Owner, Reach};
 use super::job::{Job, JobId};
 use super::lease::Token;
+use super::map_feed::MapFeed;
 use super::progress::{Event, Saying};
 use super::storage::{Beat, Changed};
 use super::transition::Wish;
@@ -23,6 +24,8 @@ pub(super) struct Attempt {
     pub finish: CancellationToken,
     /// The job is somebody else's now.
     pub outdated: CancellationToken,
+    /// Maps under way.
+    pub maps: MapFeed,
     state: Mutex<Present>,
 }
 
@@ -79,6 +82,7 @@ impl Running {
             cancel: CancellationToken::new(),
             finish: CancellationToken::new(),
             outdated: CancellationToken::new(),
+            maps: MapFeed::new(job.seq),
             state: Mutex::new(Present {
                 event: job.event(),
                 lease_end,

@@ -1,5 +1,6 @@
 //! A compute child under way: its progress is passed on, and it ends when it must.
 
+use std::path::Path;
 use std::time::Duration;
 
 use tokio::time::{Instant, MissedTickBehavior};
@@ -34,7 +35,7 @@ pub(super) async fn watch(
     jobs: &Jobs,
     job: &Job,
     attempt: &Attempt,
-    child: &mut Child,
+    (child, folder): (&mut Child, &Path),
     leave: &CancellationToken,
 ) -> Watched {
     let limits = &jobs.settings;
@@ -42,7 +43,7 @@ pub(super) async fn watch(
     let mut interval = tokio::time::interval(WATCH_INTERVAL);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
     let mut event = attempt.event();
-    let (mut is_ready, mut is_told) = (false, false);
+    let (mut is_ready, mut is_told, mut is_asked) = (false, false, false);
     loop {
         tokio::select! {
             message = child.next_message() => match message {
@@ -53,6 +54,10 @@ pub(super) async fn watch(
                     event = Event { seq: event.seq + 1, ..job_event(job, event) };
                     attempt.set_event(event);
                     jobs.live.publish(job.id, event);
+                }
+                Some(Message::Maps) => {
+                    attempt.maps.take(folder).await;
+                    is_asked = false;
                 }
             },
             () = attempt.outdated.cancelled() => return Watched::Outdated,
@@ -66,6 +71,10 @@ pub(super) async fn watch(
             () = attempt.finish.cancelled(), if is_ready && !is_told => {
                 child.interrupt();
                 is_told = true;
+            }
+            () = attempt.maps.asked.notified(), if is_ready && !is_asked => {
+                child.ask_for_maps().await;
+                is_asked = true;
             }
             _ = interval.tick() => {
                 if attempt.has_lapsed() {

@@ -5,6 +5,7 @@
 //! renamed into place, with the files that it lists, or `error.json` ([`super::Failure`]).
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -67,6 +68,20 @@ pub(super) enum Message {
     Ready,
     /// How far it is.
     Progress(Progress),
+    /// A frame of maps that was asked for is in the folder, see `map_frame.rs`.
+    Maps,
+}
+
+impl Message {
+    /// Writes one line to the server. Nobody listens any more if this fails: there is no reason to go on.
+    pub fn tell(&self) {
+        let mut line = serde_json::to_vec(self).unwrap_or_default();
+        line.push(b'\n');
+        let mut out = std::io::stdout().lock();
+        if out.write_all(&line).and_then(|()| out.flush()).is_err() {
+            std::process::exit(1);
+        }
+    }
 }
 
 /// What a child made; the n-th file lies in [`output_file`]`(n)`.

@@ -1,15 +1,33 @@
 //! Jobs that are watched, wherever they run.
 
 use std::collections::HashMap;
+use std::time::Duration;
 
 use tokio::time::MissedTickBehavior;
+use tokio_util::bytes::Bytes;
 use tokio_util::sync::CancellationToken;
 
 use super::access::Reach;
 use super::job::JobId;
+use super::map_feed::MapListener;
 use super::queue::Jobs;
+use super::settings::Deployment;
 use super::store_error::StoreResult;
 use super::subscription::Subscription;
+
+/// How often the attempt at a job that was just claimed is looked for.
+const LOOKS: usize = 5;
+const LOOK_INTERVAL: Duration = Duration::from_millis(50);
+
+/// What whoever asks for the maps of a job that runs gets.
+pub enum NextMaps {
+    /// The bytes of a frame.
+    Frame(Bytes),
+    /// The attempt has ended.
+    Over,
+    /// Another process computes the job.
+    Elsewhere,
+}
 
 impl Jobs {
     /// Watches a job; `None` if there is none.
@@ -22,6 +40,28 @@ impl Jobs {
         };
         self.live.publish(id, job.event());
         Ok(Some(subscription))
+    }
+
+    /// The next frame of maps after this one; waits until the compute child tells it. Frames stay in
+    /// the process that computes.
+    pub async fn next_maps(&self, id: JobId, after: u64) -> NextMaps {
+        let Some(listener) = self.map_listener(id).await else {
+            return match self.settings.deployment {
+                Deployment::Embedded => NextMaps::Over,
+                Deployment::Shared => NextMaps::Elsewhere,
+            };
+        };
+        (listener.next(after).await).map_or(NextMaps::Over, NextMaps::Frame)
+    }
+
+    async fn map_listener(&self, id: JobId) -> Option<MapListener> {
+        for _ in 0..LOOKS {
+            if let Some(attempt) = self.running.attempt(id) {
+                return Some(attempt.maps.listener());
+            }
+            tokio::time::sleep(LOOK_INTERVAL).await;
+        }
+        None
     }
 
     /// Reads the records of watched jobs from time to time until told to stop.

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::charts::MapUnderway;
 use crate::solver::Control;
 
 /// The stages of a job, in order.
@@ -64,6 +65,9 @@ pub trait Observer: Sync {
     fn progress(&self, progress: &Progress) -> Control;
     /// Time since the work began.
     fn elapsed(&self) -> Duration;
+    /// Shows the map of a chart at an iterate, that of the start first, before progress tells of it. The chart is a part of the
+    /// surface of this number.
+    fn map(&self, _surface: usize, _map: &MapUnderway) {}
     /// Shows the map of an iteration while handles are pulled, that of the start as number 0. `file` writes it as the result will be.
     fn frame(&self, _number: usize, _file: &dyn Fn() -> Vec<u8>) {}
 }

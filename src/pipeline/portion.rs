@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use super::tracker::Tracker;
-use crate::charts;
+use crate::charts::{self, MapUnderway};
 use crate::solver::{Control, Iterate};
 
 /// A part of the work of a stage, of which it is known about how much it takes.
@@ -13,6 +13,8 @@ use crate::solver::{Control, Iterate};
 /// be at its end before it is. When the portion is dropped its work is done.
 pub(super) struct Portion<'a> {
     tracker: &'a Tracker<'a>,
+    /// Of which surface it is.
+    surface: usize,
     /// What it counts for, in the unit of the stage.
     weight: f64,
     /// Work that it is expected to take, in a unit of its own.
@@ -32,22 +34,25 @@ const STEADY: f64 = 0.7;
 impl<'a> Portion<'a> {
     /// An atlas that counts for so many words, of which some are expected to be read.
     pub fn of_atlas(tracker: &'a Tracker, words: u64, expected: u64) -> Self {
-        Self::of(tracker, words as f64, expected as f64)
+        Self::of(tracker, 0, [words as f64, expected as f64])
     }
 
     /// A surface of so many faces that is cut and mapped until it keeps a bound.
-    pub fn of_surface(tracker: &'a Tracker, faces: usize) -> Self {
-        Self::of(tracker, faces as f64, STEPS_OF_SURFACE * faces as f64)
+    pub fn of_surface(tracker: &'a Tracker, surface: usize, faces: usize) -> Self {
+        let faces = faces as f64;
+        Self::of(tracker, surface, [faces, STEPS_OF_SURFACE * faces])
     }
 
-    /// A chart of so many faces that is mapped once.
-    pub fn of_chart(tracker: &'a Tracker, faces: usize) -> Self {
-        Self::of(tracker, faces as f64, STEPS_OF_CHART * faces as f64)
+    /// A chart of so many faces of a surface that is mapped once.
+    pub fn of_chart(tracker: &'a Tracker, surface: usize, faces: usize) -> Self {
+        let faces = faces as f64;
+        Self::of(tracker, surface, [faces, STEPS_OF_CHART * faces])
     }
 
-    fn of(tracker: &'a Tracker, weight: f64, expected: f64) -> Self {
+    fn of(tracker: &'a Tracker, surface: usize, [weight, expected]: [f64; 2]) -> Self {
         Self {
             tracker,
+            surface,
             weight,
             expected: expected.max(f64::MIN_POSITIVE),
             done: Mutex::new(0.0),
@@ -102,6 +107,10 @@ impl charts::Observer for Portion<'_> {
     fn iterate(&self, faces: usize, iterate: &Iterate) -> Control {
         let gained = self.weight * self.gained(faces as f64);
         self.tracker.iterated(gained, iterate)
+    }
+
+    fn map(&self, map: &MapUnderway) {
+        self.tracker.map(self.surface, map);
     }
 
     fn worked(&self, faces: usize) {

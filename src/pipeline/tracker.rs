@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use super::observer::{Observer, Progress, Stage};
 use super::options::Budget;
+use crate::charts::MapUnderway;
 #[cfg(feature = "files")]
 use crate::document::Warning;
 use crate::solver::{Control, Iterate, Watch};
@@ -156,6 +157,11 @@ impl<'a> Tracker<'a> {
     /// Whether to go on.
     pub(super) fn control(&self) -> Control {
         self.update(|_| ())
+    }
+
+    /// Shows the map of a chart of a surface.
+    pub(super) fn map(&self, surface: usize, map: &MapUnderway) {
+        self.observer.map(surface, map);
     }
 
     /// Shows the map of an iteration.

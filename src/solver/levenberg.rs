@@ -101,7 +101,7 @@ pub fn levenberg(
         if settings.alpha_update {
             run.alpha = updated_alpha(run.alpha, run.summary.energy_last, gap, settings);
         }
-        watch.positions(x);
+        watch.positions(&iterate, x);
         if watch.iterate(&iterate) == Control::Finish {
             return run.summary.ended(Status::Stopped);
         }

@@ -188,8 +188,9 @@ impl Objective {
         taken: Taken,
         watch: &dyn Watch,
     ) -> Control {
-        watch.positions(x);
-        watch.iterate(&self.iterate(x, summary, taken))
+        let iterate = self.iterate(x, summary, taken);
+        watch.positions(&iterate, x);
+        watch.iterate(&iterate)
     }
 
     /// What a change of energy is compared with: the energy, unless that is negligible.

@@ -47,7 +47,7 @@ pub trait Watch {
     fn iterate(&self, iterate: &Iterate) -> Control;
 
     /// Called before it with the positions of the same iterate, coordinates one after another.
-    fn positions(&self, _x: &[f64]) {}
+    fn positions(&self, _iterate: &Iterate, _x: &[f64]) {}
 }
 
 impl<F: Fn(&Iterate) -> Control> Watch for F {
@@ -64,15 +64,21 @@ pub struct Continued<'a> {
     pub before: usize,
 }
 
-impl Watch for Continued<'_> {
-    fn iterate(&self, iterate: &Iterate) -> Control {
-        self.watch.iterate(&Iterate {
+impl Continued<'_> {
+    fn continued(&self, iterate: &Iterate) -> Iterate {
+        Iterate {
             iteration: self.before + iterate.iteration,
             ..*iterate
-        })
+        }
+    }
+}
+
+impl Watch for Continued<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        self.watch.iterate(&self.continued(iterate))
     }
 
-    fn positions(&self, x: &[f64]) {
-        self.watch.positions(x);
+    fn positions(&self, iterate: &Iterate, x: &[f64]) {
+        self.watch.positions(&self.continued(iterate), x);
     }
 }

@@ -168,7 +168,7 @@ impl Watch for Uncrossed<'_> {
         Control::Continue
     }
 
-    fn positions(&self, x: &[f64]) {
+    fn positions(&self, _: &Iterate, x: &[f64]) {
         let crossings = boundary_crossings(x.as_chunks().0, self.mesh.triangles());
         assert_eq!(crossings, 0, "iterate {}", self.seen.get());
         self.seen.set(self.seen.get() + 1);

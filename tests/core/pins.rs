@@ -21,7 +21,7 @@ impl Watch for Memory {
         Control::Continue
     }
 
-    fn positions(&self, x: &[f64]) {
+    fn positions(&self, _: &Iterate, x: &[f64]) {
         self.0.borrow_mut().push(x.to_vec());
     }
 }

@@ -25,10 +25,9 @@ pub fn mapped_charts(
 ) -> Vec<Vec<MappedChart>> {
     if plan.refinement == Refinement::UnderBound {
         tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
-        let charts = surfaces
-            .par_iter()
-            .map(|surface| {
-                let portion = Portion::of_surface(tracker, surface.triangles.len());
+        let charts = (surfaces.par_iter().enumerate())
+            .map(|(index, surface)| {
+                let portion = Portion::of_surface(tracker, index, surface.triangles.len());
                 let charts = under_bound(surface, plan, &portion);
                 portion.all_mapped(charts.len());
                 charts
@@ -49,9 +48,9 @@ pub fn mapped_charts(
     if plan.refinement != Refinement::GivenBack {
         return maps;
     }
-    (surfaces.par_iter().zip(maps))
-        .map(|(surface, maps)| {
-            let portion = Portion::of_chart(tracker, surface.triangles.len());
+    (surfaces.par_iter().zip(maps).enumerate())
+        .map(|(index, (surface, maps))| {
+            let portion = Portion::of_chart(tracker, index, surface.triangles.len());
             given_back(surface, maps, &plan.bound, &plan.embedding, &portion)
         })
         .collect()
@@ -135,7 +134,7 @@ fn map_charts(
         .into_par_iter()
         .with_max_len(1)
         .map(|(id, chart)| {
-            let portion = Portion::of_chart(tracker, chart.disk.triangles.len());
+            let portion = Portion::of_chart(tracker, id.0, chart.disk.triangles.len());
             let parts = match kept(id.0, &chart) {
                 Some(uv) if plan.start == Start::Final => {
                     vec![MappedChart::given(chart, uv)]

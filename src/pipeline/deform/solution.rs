@@ -193,7 +193,7 @@ impl Watch for Trace<'_> {
         Watch::iterate(self.tracker, iterate)
     }
 
-    fn positions(&self, x: &[f64]) {
+    fn positions(&self, _: &Iterate, x: &[f64]) {
         if self.file.is_some() {
             self.x.replace(x.to_vec());
         }

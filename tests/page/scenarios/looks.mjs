@@ -1,6 +1,6 @@
 // Fills, seams and heat maps change the pixels that they must.
 import assert from "node:assert/strict";
-import { assertDiffers, assertSame, colors, project, settled, shown } from "../look.mjs";
+import { assertDiffers, assertSame, colors, colorsOf, difference, project, settled, shown } from "../look.mjs";
 
 export async function run(page, url) {
   await page.goto(url);
@@ -13,7 +13,10 @@ export async function run(page, url) {
   });
   await heat(page, facts);
   await checker(page);
+  await coarser(page);
   await seams(page);
+  await isolated(page);
+  await located(page, facts);
 }
 
 async function heat(page, { best, worst }) {
@@ -74,4 +77,46 @@ async function seams(page) {
   const [off] = await colors(page, [place]);
   assertDiffers(on, off, "a seam");
   await settled(page);
+}
+
+/** Larger cells are another checkerboard, and the address says so. */
+async function coarser(page) {
+  await page.click("button[data-shade=checker]");
+  const fine = await colorsOf(page, "#plane");
+  await page.selectOption("#cells", "8");
+  const coarse = await colorsOf(page, "#plane");
+  assert.ok(20 < fine.filter((color, k) => 16 < difference(color, coarse[k])).length, "the cells changed");
+  assert.match(page.url(), /cells=8/);
+  await page.selectOption("#cells", "32");
+}
+
+/** The selected chart alone is seen. */
+async function isolated(page) {
+  await page.click("button[data-shade=charts]");
+  const [one, other] = await page.evaluate(() => {
+    const { chart } = window.unwrapd.viewer.analysis;
+    return [chart.indexOf(0), chart.findIndex((number) => number !== 0)];
+  });
+  assert.ok(0 <= other, "there are several charts");
+  const places = [await project(page, "plane", one), await project(page, "plane", other)];
+  await page.mouse.click(...places[0]);
+  const all = await colors(page, places);
+  await page.click("button[data-switch=only]");
+  const alone = await colors(page, places);
+  assertDiffers(all[1], alone[1], "another chart");
+  await page.click("button[data-switch=only]");
+  assertSame((await colors(page, places))[1], all[1], "the chart is back");
+}
+
+/** The line below the views has the coordinates of the pointer. */
+async function located(page, { best }) {
+  const [u, v] = await page.evaluate((face) => {
+    const { place, aspect } = ((model) => ({ place: model.place(face), aspect: model.aspect }))(window.unwrapd.viewer.model);
+    return [place.u / aspect, place.v];
+  }, best);
+  await page.mouse.move(...(await project(page, "plane", best)));
+  await settled(page);
+  await page.waitForFunction(() => document.getElementById("pointed").textContent.startsWith("u "));
+  const [, right, up] = /^u (\S+), v (\S+) · texel \d+, \d+/.exec(await page.textContent("#pointed"));
+  assert.ok(Math.hypot(right - u, up - v) < 0.01, `${right}, ${up} is not ${u}, ${v}`);
 }

@@ -6,7 +6,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use crate::cli::{assert_status, unwrapd};
-use crate::meshes::PLATE;
+use crate::meshes::{self, PLATE};
 use crate::places;
 use crate::server::sessions::sheet;
 use crate::server::{Server, ended, form, keys};
@@ -58,6 +58,17 @@ async fn a_mesh_is_uploaded_watched_seen_and_downloaded() {
     let verified =
         tokio::task::spawn_blocking(move || unwrapd(&["verify", &output, "--bijective"]));
     assert_status(&verified.await.expect("no panic"), 0);
+}
+
+#[tokio::test]
+async fn charts_relax_in_the_uv_view() {
+    let server = Server::with(&[("UNWRAPD_WORKERS", "1")]);
+    let before = server.submit(meshes::large(), "").await;
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = folder.path().join("hills.glb");
+    std::fs::write(&mesh, meshes::hills(170)).expect("written");
+    let before = before["links"]["self"].as_str().expect("a link").to_owned();
+    scenario("relaxing", server.url("/"), &[text(&mesh), before]).await;
 }
 
 #[tokio::test]

@@ -46,6 +46,18 @@ async fn two_services_share_three_workers() {
 }
 
 #[tokio::test]
+async fn maps_under_way_stay_with_the_worker() {
+    let cluster = Cluster::with_lease("60");
+    let service = cluster.api();
+    let _worker = cluster.worker();
+    let job = service.submit(meshes::hills(150), "").await;
+    let path = job["links"]["self"].as_str().expect("a link");
+    let maps = service.get(&format!("{path}/maps")).send().await;
+    assert_problem(maps.expect("an answer"), 409, "computed_elsewhere").await;
+    assert_whole(&service, &job).await;
+}
+
+#[tokio::test]
 async fn any_service_shows_cancels_and_finishes_any_job() {
     let cluster = Cluster::start();
     let (one, other) = (cluster.api(), cluster.api());

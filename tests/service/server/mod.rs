@@ -13,6 +13,7 @@ mod idle_options;
 mod inputs;
 mod jobs;
 pub mod keys;
+mod maps;
 mod origins;
 pub mod progress;
 mod requests;

@@ -12,6 +12,10 @@ export interface Place {
   seams: boolean;
   wire: boolean;
   problems: boolean;
+  /** Whether only the selected chart is shown. */
+  only: boolean;
+  /** Cells of the checkerboard along u. */
+  cells: number;
   /** The name of an atlas. */
   atlas: string | null;
   aim: Aim;
@@ -26,8 +30,11 @@ export interface Place {
 /** What is pointed at and selected. */
 export type Aim = "face" | "chart" | "seam";
 
+/** How many cells a checkerboard may have along u. */
+export const CELLS = [8, 16, 32, 64, 128] as const;
+
 export const START: Place = {
-  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", seams: true, wire: false, problems: true, atlas: null,
+  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", seams: true, wire: false, problems: true, only: false, cells: 32, atlas: null,
   aim: "chart", face: null, chart: null, seam: null, camera: null, plane: null,
 };
 
@@ -38,6 +45,7 @@ export function readPlace(): Place {
   for (const [name, text] of given) {
     if (!(name in START)) continue;
     if (name === "camera" || name === "plane") place[name] = numbers(text, name === "camera" ? 6 : 3);
+    else if (name === "cells") place[name] = CELLS.find((cells) => String(cells) === text) ?? START.cells;
     else if (["face", "chart", "seam"].includes(name)) place[name] = /^\d+$/.test(text) ? Number(text) : null;
     else if (typeof START[name as keyof Place] === "boolean") place[name] = text === "1";
     else place[name] = text;

@@ -78,6 +78,16 @@ async function reach(path: string, request: RequestInit = {}): Promise<Response>
   throw problem ? new Refused(problem) : new Error(`The service answered with status ${answer.status}.`);
 }
 
+/** The next frame of charts that relax, or why there is none. */
+export async function maps(job: Job, after: string, signal: AbortSignal): Promise<ArrayBuffer | "none" | "elsewhere"> {
+  const answer = await reach(`${job.links.self}/maps?after=${after}`, { signal }).catch((error: unknown) => {
+    if (error instanceof Refused && error.problem.code === "computed_elsewhere") return null;
+    throw error;
+  });
+  if (!answer) return "elsewhere";
+  return answer.status === 204 ? "none" : answer.arrayBuffer();
+}
+
 export const jobPath = (id: string) => `v1/jobs/${encodeURIComponent(id)}`;
 
 /** Makes a job of a file with those that it references. */

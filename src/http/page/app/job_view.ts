@@ -8,6 +8,7 @@ import type { JobList } from "./job_list";
 import type { Report } from "./reports";
 import type { Chosen, Setup } from "./setup";
 import type { Source, Viewer } from "./viewer";
+import { watchCharts } from "./watching";
 
 /** What a job view works with. */
 export interface Parts {
@@ -29,6 +30,8 @@ export class JobView {
   #stop: () => void = () => {};
   /** Inputs that were uploaded from here. */
   readonly #inputs = new Map<string, Chosen>();
+  /** Jobs as they were when they were made here, until they are opened. */
+  readonly #made = new Map<string, Job>();
 
   constructor(parts: Parts) {
     this.#parts = parts;
@@ -36,6 +39,7 @@ export class JobView {
 
   remember(job: Job, input: Chosen): void {
     this.#inputs.set(job.id, input);
+    this.#made.set(job.id, job);
   }
 
   /** Shows nothing any more. */
@@ -46,19 +50,29 @@ export class JobView {
   }
 
   async open(id: string): Promise<void> {
+    const isOther = this.job?.id !== id;
     this.leave();
-    const job = await call<Job>(jobPath(id));
+    if (isOther) this.#parts.viewer.calm();
+    // Charts relax at once: what is known of a new job is enough to watch them.
+    const made = this.#made.get(id);
+    this.#made.delete(id);
+    const job = made ?? (await call<Job>(jobPath(id)));
     this.job = job;
     this.#title(job);
     if (isFinal(job.state)) return this.#ended(job);
     const panel = new ProgressPanel(job, this.#actions(job));
-    note(job.state === "queued" ? "The job waits for its turn." : "UVs appear here when the job ends.");
+    note(job.state === "queued" ? "The job waits for its turn." : waiting(job));
     void this.#showInput(job);
-    this.#stop = watch(job, (event) => {
+    const stopCharts = watchCharts(job, this.#parts.viewer, () => note("Another machine computes this job: its UVs appear here when it ends."));
+    const stopEvents = watch(job, (event) => {
       if (this.job?.id !== id) return;
       panel.show(event);
       if (isFinal(event.state)) void this.open(id).then(() => this.#parts.list.refresh()).catch(this.#parts.failed);
     });
+    this.#stop = () => {
+      stopCharts();
+      stopEvents();
+    };
   }
 
   #title(job: Job): void {
@@ -74,7 +88,7 @@ export class JobView {
     const input = await this.#inputFor(job);
     if (this.job?.id !== job.id || !input) return;
     this.input = input;
-    await this.#parts.viewer.show({ ...input, isTurning: true }).catch(() => {});
+    await this.#parts.viewer.show({ ...input, isTurning: true, isInput: true }).catch(() => {});
   }
 
   async #ended(job: Job): Promise<void> {
@@ -136,6 +150,11 @@ export class JobView {
       position: () => list.position(job.id),
     };
   }
+}
+
+/** What stands where UVs will be. */
+function waiting({ kind }: Job): string {
+  return kind === "unwrap" ? "Charts appear here as soon as the first one is mapped." : "The result appears here when the job ends.";
 }
 
 /** Says something where the UVs would be. */

@@ -1,7 +1,5 @@
 // The page: what stands where and who tells whom.
 
-import { MEASURES } from "../analysis/distortion";
-import { SHADES } from "../viewer/look";
 import { type Place, readPlace, START, writePlace } from "./address";
 import type { Analysis } from "../analysis/analysis";
 import { analyzed } from "./analyst";
@@ -12,7 +10,7 @@ import { byId, element, pairs } from "./dom";
 import { short, whole } from "./format";
 import { JobList } from "./job_list";
 import { JobView, note, showFallback } from "./job_view";
-import { type Key, listen, showKeys } from "./keys";
+import { listen, showKeys } from "./keys";
 import { load } from "../viewer/loading";
 import { showReport } from "./report_page";
 import { type Caller, showCaller } from "./sign_in";
@@ -21,8 +19,10 @@ import { soupOf } from "../viewer/soups";
 import { showLegend, showPointed } from "./status";
 import { startTheme } from "./theme";
 import { forgetThumbnails } from "./thumbnails";
+import { pullKeys } from "../pull/keys";
 import { PullView } from "../pull/pull_view";
 import { Toolbar } from "./toolbar";
+import { viewKeys } from "./view_keys";
 import { Viewer } from "./viewer";
 
 const viewer = new Viewer();
@@ -49,7 +49,7 @@ function change(changes: Partial<Place>): void {
 function refresh(): void {
   const { place } = viewer;
   toolbar.refresh(isBefore, jobs.report !== null && jobs.input !== null);
-  showLegend(viewer, (measure) => change({ measure }));
+  showLegend(viewer, change);
   arrange.offer(isBefore ? null : jobs.job, jobs.report);
   if (!arrange.isOn) showPointed(viewer);
   for (const tab of TABS) {
@@ -182,44 +182,9 @@ async function compare(): Promise<void> {
 
 // ---- keys and events
 
-const cycle = <T>(all: readonly T[], at: T, step = 1) => all[(all.indexOf(at) + step + all.length) % all.length]!;
-const shades = () => SHADES.filter((shade) => shade !== "image" || viewer.hasImage);
-
-const KEYS: Key[] = [
-  { key: "o", does: "Choose files", act: () => setup.ask() },
-  { key: "u", does: "Unwrap", act: () => void setup.submit() },
-  { key: "c", does: "Next fill: charts, checker, heat map …", act: () => change({ shade: cycle(shades(), viewer.place.shade) }) },
-  { key: "h", does: "Heat map, and its next measure", act: () => change(viewer.place.shade === "heat" ? { measure: cycle(MEASURES, viewer.place.measure) } : { shade: "heat" }) },
-  { key: "e", does: "Seams", act: () => change({ seams: !viewer.place.seams }) },
-  { key: "w", does: "Wire", act: () => change({ wire: !viewer.place.wire }) },
-  { key: "x", does: "Problems in red", act: () => change({ problems: !viewer.place.problems }) },
-  { key: "1", does: "Point at faces", act: () => change({ aim: "face" }) },
-  { key: "2", does: "Point at charts", act: () => change({ aim: "chart" }) },
-  { key: "3", does: "Point at seams", act: () => change({ aim: "seam" }) },
-  { key: "Escape", does: "Select nothing", act: () => viewer.pointing.select(null) },
-  { key: "f", does: "Show everything", act: () => viewer.frame() },
-  { key: "v", does: "Fly to the selected face", act: () => viewer.place.face !== null && viewer.flyTo(viewer.place.face) },
-  { key: "b", does: "Before and after", act: () => void compare() },
-  { key: " ", does: "Turn, or stop", act: () => { viewer.stage?.solid.turn(!viewer.stage.solid.isTurning); viewer.stage?.redraw(); } },
-  { key: "r", does: "View and report", act: () => change({ tab: viewer.place.tab === "view" ? "report" : "view" }) },
-  { key: "Tab", does: "Arrange islands", act: () => arrange.does("toggle"), shift: false, inPane: true, byPointer: true },
-  { key: "?", does: "These keys", act: () => showKeys(KEYS) },
-];
-
-const pulls = (key: string, does: string, wish: string, more: Partial<Key> = {}): Key => ({ key, does, act: () => pull.does(wish), ...more });
-const PULL_KEYS: Key[] = [
-  pulls("g", "Grab the selected handles: they follow the pointer until you click", "grab"), pulls("r", "Rotate them", "rotate"),
-  pulls("s", "Scale them", "scale"), pulls("Enter", "Leave them there", "confirm", { inPane: true }), pulls("Escape", "Put them back; select nothing", "cancel"),
-  pulls("p", "Pin what is below the pointer", "pin"), pulls("l", "Lock: stay when others are moved together", "lock"),
-  pulls("Tab", "Next handle", "next", { shift: false, inPane: true }), pulls("a", "Select all handles", "all"), pulls("x", "Let go", "let_go"), pulls("Delete", "Let go", "let_go"),
-  pulls("z", "Undo", "undo", { ctrl: true, shift: false }), pulls("z", "Redo", "redo", { ctrl: true, shift: true }),
-  pulls("f", "Show everything", "frame"), pulls("b", "Bake: make a job of what is shown", "bake"),
-  { key: "?", does: "These keys", act: () => showKeys(PULL_KEYS) },
-];
-
 function wire(): void {
-  const arranges = arrangeKeys(arrange);
-  const keys = () => (viewer.place.tab === "pull" ? PULL_KEYS : viewer.place.tab === "view" && arrange.isOn ? arranges : KEYS);
+  const [views, pulls, arranges] = [viewKeys({ viewer, setup, arrange, change, compare }), pullKeys(pull), arrangeKeys(arrange)];
+  const keys = () => (viewer.place.tab === "pull" ? pulls : viewer.place.tab === "view" && arrange.isOn ? arranges : views);
   listen(keys);
   byId("keys-button").addEventListener("click", () => showKeys(keys()));
   for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));

@@ -12,6 +12,8 @@ interface Shown {
   readonly model: Model | null;
   readonly place: Place;
   readonly atlas: number;
+  /** Whether the plane shows charts that relax, which cannot be pointed at. */
+  readonly isRelaxing: boolean;
 }
 
 /** Something pointed at: a face, and with it its chart or a seam. */
@@ -31,7 +33,9 @@ export class Pointing {
   readonly #root: HTMLElement;
   #next: { view: View; x: number; y: number } | null = null;
   #isAsked = false;
-  /** Called when something else is hovered, and when something is selected. */
+  /** Where the pointer is in the plane: u, v. */
+  at: [number, number] | null = null;
+  /** Called when something else is hovered or the pointer moved in the plane, and when something is selected. */
   onHover: () => void = () => {};
   onSelect: () => void = () => {};
   /** Who takes clicks instead, and whether more is added to what is selected. */
@@ -52,8 +56,9 @@ export class Pointing {
       this.#ask(view, event.clientX - box.left, event.clientY - box.top);
     });
     element.addEventListener("pointerleave", () => {
-      this.#next = null;
+      this.#next = this.at = null;
       this.#hover(null);
+      this.onHover();
     });
     element.addEventListener("pointerdown", (event) => (down = event.button === 0 ? [event.clientX, event.clientY] : null));
     element.addEventListener("pointerup", (event) => {
@@ -73,13 +78,26 @@ export class Pointing {
     requestAnimationFrame(() => {
       this.#isAsked = false;
       const at = this.#next;
-      if (at) this.#hover(this.#at(at.view, at.x, at.y));
+      if (!at) return;
+      this.#locate(at);
+      this.#hover(this.#at(at.view, at.x, at.y));
     });
+  }
+
+  #locate({ view, x, y }: { view: View; x: number; y: number }): void {
+    const { stage, model, isRelaxing } = this.#viewer;
+    this.at = null;
+    if (view === "plane" && stage && model && !isRelaxing) {
+      const box = stage.plane.element.getBoundingClientRect();
+      const [right, up] = stage.plane.at(box.left + x, box.top + y);
+      this.at = [right / model.aspect, up];
+    }
+    this.onHover();
   }
 
   #at(view: View, x: number, y: number): Target | null {
     const { stage, model, place } = this.#viewer;
-    if (!stage || !model) return null;
+    if (!stage || !model || (view === "plane" && this.#viewer.isRelaxing)) return null;
     const hit: Hit | null = stage.pick(model, view, x, y, place.aim === "seam");
     if (!hit || (place.aim === "seam" && hit.border < 0)) return null;
     return { view, face: hit.face, seam: place.aim === "seam" ? (model.analysis.borders.seam[hit.border] ?? -1) : -1 };

@@ -3,14 +3,25 @@
 import type { Analysis } from "../analysis/analysis";
 import { type Measure, MEASURES } from "../analysis/distortion";
 import { gradient } from "../viewer/colors";
+import { CELLS, type Place } from "./address";
 import { byId, element } from "./dom";
 import { counted, short, whole } from "./format";
 import { MEASURE_NAMES } from "./toolbar";
 import type { Viewer } from "./viewer";
 
 /** Says what is pointed at, or selected. */
-export function showPointed({ pointing, place, analysis, model }: Viewer): void {
-  byId("pointed").textContent = analysis ? words(analysis, pointing.hovered?.face ?? place.face, place.chart) || summary(analysis, model !== null) : "";
+export function showPointed(viewer: Viewer): void {
+  const { pointing, place, analysis, model } = viewer;
+  const said = analysis ? words(analysis, pointing.hovered?.face ?? place.face, place.chart) || summary(analysis, model !== null) : "";
+  byId("pointed").textContent = [where(viewer), said].filter(Boolean).join(" · ");
+}
+
+/** Where in the UV view the pointer is, and on which texel, counted from the corner where pictures begin. */
+function where({ pointing: { at }, facts }: Viewer): string {
+  if (!at || !facts) return "";
+  const [u, v] = at;
+  const { width, height } = facts.texture;
+  return `u ${u.toFixed(4)}, v ${v.toFixed(4)} · texel ${Math.floor(u * width)}, ${Math.floor((1 - v) * height)}`;
 }
 
 function words({ chart, group, atlases, values }: Analysis, face: number | null, picked: number | null): string {
@@ -29,11 +40,13 @@ function summary({ faces, charts, drawn, atlases }: Analysis, isDrawn: boolean):
   return parts.join(" · ");
 }
 
-/** Says what the colors mean; `changed` is told of another measure. */
-export function showLegend(viewer: Viewer, changed: (measure: Measure) => void): void {
+/** Says what the colors mean; `changed` is told of another measure, or of other cells. */
+export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) => void): void {
   const { analysis, place, atlas } = viewer;
   const shown = analysis?.atlases[atlas];
-  const parts: (Node | null)[] = shown && place.shade === "heat" ? [choice(place.measure, changed), scale(viewer)] : [];
+  const parts: (Node | null)[] = [];
+  if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), scale(viewer));
+  if (shown && place.shade === "checker") parts.push(cells(place.cells, changed));
   if (shown && place.problems) {
     const found = [[shown.overlapping, "overlap", "overlaps"], [shown.flipped, "flipped face", "flipped faces"], [shown.near, "face near another island", "faces near another island"]] as const;
     const wrong = found.filter(([count]) => count).map(([count, one, several]) => counted(count, one, several));
@@ -46,6 +59,12 @@ export function showLegend(viewer: Viewer, changed: (measure: Measure) => void):
 function choice(measure: Measure, changed: (measure: Measure) => void): HTMLElement {
   const select = element("select", { id: "measure", aria: { label: "Measure of the heat map" } }, ...MEASURES.map((value) => element("option", { value, textContent: MEASURE_NAMES[value], selected: value === measure })));
   select.addEventListener("change", () => changed(select.value as Measure));
+  return select;
+}
+
+function cells(now: number, changed: (changes: Partial<Place>) => void): HTMLElement {
+  const select = element("select", { id: "cells", aria: { label: "Cells of the checkerboard" } }, ...CELLS.map((count) => element("option", { value: String(count), textContent: `${count} cells across`, selected: count === now })));
+  select.addEventListener("change", () => changed({ cells: Number(select.value) }));
   return select;
 }
 

@@ -9,7 +9,7 @@ import type { Viewer } from "./viewer";
 export const SHADE_NAMES: Record<Shade, string> = { plain: "Plain", charts: "Charts", checker: "Checker", heat: "Heat map", image: "Image", material: "Material" };
 export const MEASURE_NAMES = { "sym-dirichlet": "Symmetric Dirichlet", angle: "Angle", area: "Area", density: "Texel density" } as const;
 const AIMS: Record<Aim, string> = { face: "Face", chart: "Chart", seam: "Seam" };
-const SWITCHES = { seams: "Seams", wire: "Wire", problems: "Problems" } as const;
+const SWITCHES = { seams: "Seams", wire: "Wire", problems: "Problems", only: "Isolate" } as const;
 type Switch = keyof typeof SWITCHES;
 
 /** The tools; each changes the state and says so. */

@@ -7,6 +7,7 @@ import type { Texture } from "../analysis/soup";
 import { load, type Bundle, type Loaded, type UvRecord } from "../viewer/loading";
 import { SHADES } from "../viewer/look";
 import { Model } from "../viewer/model";
+import type { Relaxing } from "../viewer/relaxing";
 import { type Origin, originsOf, soupOf } from "../viewer/soups";
 import { pictureOf, sheetOf } from "../viewer/sheet";
 import { Stage } from "../viewer/stage";
@@ -24,6 +25,8 @@ export interface Source extends Bundle {
   texcoord?: (mesh: number, primitive: number) => number;
   /** Whether it turns until a person takes over. */
   isTurning?: boolean;
+  /** Whether charts that relax stay until another file is shown. */
+  isInput?: boolean;
   /** From where it is seen first. */
   from?: readonly [number, number, number];
 }
@@ -42,6 +45,7 @@ export class Viewer {
   /** What the file is, as far as it is shown. */
   facts: Facts | null = null;
   #shown = 0;
+  #relaxing: Relaxing | null = null;
   #image: Image | null = null;
   /** Called when another file is there or what is pointed at changes. */
   changed: () => void = () => {};
@@ -75,12 +79,41 @@ export class Viewer {
   /** Shows nothing. */
   clear(): void {
     this.#shown += 1;
+    this.calm();
     this.model?.dispose();
     this.model = this.analysis = this.facts = null;
     this.stage?.solid.show([], null);
     this.stage?.plane.show([]);
     this.stage?.redraw();
     this.changed();
+  }
+
+  /** Shows charts that relax in place of UVs, until another file is shown. */
+  relax(relaxing: Relaxing, described: string): void {
+    const { stage } = this;
+    if (!stage) return;
+    if (this.#relaxing !== relaxing) {
+      this.calm();
+      stage.plane.frame([0, 0, 1, 1]);
+    }
+    this.#relaxing = relaxing;
+    byId("plane-note").textContent = "";
+    byId("relaxing").textContent = described;
+    stage.plane.show(relaxing.meshes);
+    stage.redraw();
+  }
+
+  get isRelaxing(): boolean {
+    return this.#relaxing !== null;
+  }
+
+  /** Nothing relaxes any more. */
+  calm(): void {
+    if (!this.#relaxing) return;
+    this.stage?.plane.show([]);
+    this.#relaxing.dispose();
+    this.#relaxing = null;
+    byId("relaxing").textContent = "";
   }
 
   /** The scene alone, while its analysis is made. */
@@ -92,8 +125,9 @@ export class Viewer {
     stage.redraw();
   }
 
-  #take({ name, from }: Source, loaded: Loaded, analysis: Analysis, aspect: number): void {
+  #take({ name, from, isInput }: Source, loaded: Loaded, analysis: Analysis, aspect: number): void {
     const isFirst = !this.model;
+    if (!isInput) this.calm();
     this.model?.dispose();
     this.analysis = analysis;
     byId("panes").dataset.shown = name;
@@ -105,6 +139,7 @@ export class Viewer {
     if (isFirst || !camera) this.frame(from);
     if (camera) this.stage.solid.place = camera;
     if (plane) this.stage.plane.place = plane;
+    if (this.#relaxing) this.stage.plane.frame([0, 0, 1, 1]);
     this.changed();
   }
 
@@ -141,6 +176,8 @@ export class Viewer {
     uniforms.uAspect.value = model.aspect;
     uniforms.uWire.value = Number(place.wire);
     uniforms.uProblems.value = Number(place.problems);
+    uniforms.uOnly.value.set(...(place.only && place.chart !== null ? [place.chart, this.atlas] as const : [-1, -1] as const));
+    uniforms.uChecker.value.set(place.cells, place.cells / model.aspect);
     uniforms.uRange.value.set(...this.range());
     if (this.#image) uniforms.uImage.value = this.#image;
     this.pointing.apply();
@@ -152,7 +189,7 @@ export class Viewer {
   #arrange(stage: Stage, model: Model, place: Place): void {
     const { solid, plane } = model.surface.layers;
     const lines = (view: typeof solid) => (place.seams ? [view.borders] : []);
-    const isOwn = place.shade === "material";
+    const isOwn = place.shade === "material" && !(place.only && place.chart !== null);
     const own = isOwn ? [model.loaded.scene, ...stage.lights, solid.overlay] : [solid.surface];
     stage.solid.show([...own, ...lines(solid)], model.sphere);
     const atlas = model.analysis.atlases[this.atlas];
@@ -160,7 +197,7 @@ export class Viewer {
     const sheet: Object3D[] = sheetOf(pages, model.aspect, { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") });
     const picture = isOwn ? model.picture() : null;
     if (picture) sheet.push(pictureOf(picture, model.aspect));
-    stage.plane.show([...sheet, picture ? plane.overlay : plane.surface, ...lines(plane)]);
+    stage.plane.show(this.#relaxing?.meshes ?? [...sheet, picture ? plane.overlay : plane.surface, ...lines(plane)]);
   }
 
   /** What the ends of the heat map's scale stand for. */

@@ -22,6 +22,8 @@ export function uniforms() {
     /** The hovered and the selected face, chart with its group, and seam, -1 for none. */
     uHover: { value: new Vector4(-1, -1, -1, -1) },
     uSelected: { value: new Vector4(-1, -1, -1, -1) },
+    /** The chart with its group that alone is shown, -1 for all. */
+    uOnly: { value: new Vector2(-1, -1) },
     uAtlas: { value: 0 },
     uAspect: { value: 1 },
     uWire: { value: 0 },

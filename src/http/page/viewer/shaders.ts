@@ -20,6 +20,10 @@ ivec2 texelOf(uint face) { return ivec2(int(face) % ${ROW}, int(face) / ${ROW});
 /** Where islands of the shown atlas are put, two texels per chart: a, b, s, t of a similarity, and its marks: 1 selected,
  * 2 locked, 4 wrong. */
 const PLACED = /* glsl */ `
+uniform vec2 uOnly;
+bool isLeftOut(uint chart, uint group) {
+  return 0.0 <= uOnly.x && (float(chart) != uOnly.x || float(group) != uOnly.y);
+}
 uniform int uArranging;
 uniform highp sampler2D uPlaced;
 vec4 placedTexel(uint chart, int part) {
@@ -62,6 +66,7 @@ void main() {
 #else
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 #endif
+  if (isLeftOut(ids.y, group)) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
 }`;
 
 export const SURFACE_FRAGMENT = /* glsl */ `${FACES}${PLACED}${COLORS}
@@ -221,6 +226,7 @@ void main() {
   // Both sides of a seam lie at one place: what is pointed at covers the other.
   gl_Position.z -= (isHovered || isPicked ? 0.0012 : 0.0006) * gl_Position.w;
 #endif
+  if (isLeftOut(facts.x, ofGroup)) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
 }`;
 
 export const BORDER_FRAGMENT = /* glsl */ `

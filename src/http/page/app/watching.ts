@@ -1,0 +1,42 @@
+// Charts are watched while a job relaxes them.
+
+import { decodeMaps } from "../live/maps";
+import { Relaxing } from "../viewer/relaxing";
+import { type Job, maps } from "./api";
+import { percent, whole } from "./format";
+import type { Viewer } from "./viewer";
+
+/** After an answer without a frame. */
+const PAUSE_MS = 500;
+
+/** Shows the charts of a job that runs until the result takes their place; returns how to stop. `elsewhere` is called where another
+ * machine computes the job: only that has its maps. */
+export function watchCharts(job: Job, viewer: Viewer, elsewhere: () => void): () => void {
+  const abort = new AbortController();
+  // What goes wrong ends the watching: events say how the job fares.
+  if (job.kind === "unwrap" && viewer.stage) void follow(job, viewer, elsewhere, abort.signal).catch(() => {});
+  return () => abort.abort();
+}
+
+async function follow(job: Job, viewer: Viewer, elsewhere: () => void, signal: AbortSignal): Promise<void> {
+  const relaxing = new Relaxing();
+  for (let after = "0"; !signal.aborted;) {
+    const answer = await maps(job, after, signal);
+    if (signal.aborted) return;
+    if (answer === "elsewhere") return elsewhere();
+    if (answer === "none") {
+      await new Promise((over) => setTimeout(over, PAUSE_MS));
+      continue;
+    }
+    const frame = decodeMaps(answer);
+    after = frame.number;
+    frame.maps.forEach((map) => relaxing.take(map));
+    relaxing.arrange();
+    viewer.relax(relaxing, described(relaxing));
+  }
+}
+
+function described({ count, flips, share }: Relaxing): string {
+  const drawn = share < 1 ? `, ${percent(share)} of the faces drawn` : "";
+  return `${whole(count)} ${count === 1 ? "chart" : "charts"}, as the solver has them · ${whole(flips)} flips${drawn}`;
+}

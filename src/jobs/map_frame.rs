@@ -1,0 +1,108 @@
+//! Maps of charts under way as bytes, little-endian: what whoever watches a job sees of them.
+//!
+//! ```text
+//! frame   0  u8   3                          map   0  u32  surface          28  u32  0
+//!         1  7 zeros                               4  u32  first face       32  f64  unit
+//!         8  u64  number                           8  u32  iteration        40  f64  energy
+//!        16  maps                                 12  u32  faces            48  f64  smallest face
+//!                                                 16  u32  faces that follow
+//!                                                 20  u32  flips
+//!                                                 24  u32  bytes of a coordinate: 4, 8
+//!                                                 56  faces u32; u and v of three corners each, f32 or f64
+//! ```
+//!
+//! Faces are those of the welded surface. Where there are too many to be drawn, every 2ⁿ-th follows.
+
+use crate::charts::MapUnderway;
+use crate::numerics::predicates::orient2d_sign;
+
+/// Bytes before the maps of a frame.
+pub(super) const HEADER: usize = 16;
+/// The first byte of a frame.
+const FRAME: u8 = 3;
+/// Where its number is.
+const NUMBER: std::ops::Range<usize> = 8..HEADER;
+
+/// Faces of a map that are drawn at most.
+const MOST_FACES: usize = 100_000;
+
+/// Which chart a map is one of: the surface, and the first face. Later maps of the chart have the same.
+pub(super) type ChartKey = [u32; 2];
+
+/// The header of a frame that has no number yet.
+pub(super) fn header() -> Vec<u8> {
+    let mut bytes = vec![0; HEADER];
+    bytes[0] = FRAME;
+    bytes
+}
+
+/// Numbers a frame. Whether it is one.
+pub(super) fn number(frame: &mut [u8], number: u64) -> bool {
+    let is_frame = HEADER <= frame.len() && frame[0] == FRAME;
+    if is_frame {
+        frame[NUMBER].copy_from_slice(&number.to_le_bytes());
+    }
+    is_frame
+}
+
+/// The chart of a map.
+pub(super) fn key(surface: usize, map: &MapUnderway) -> ChartKey {
+    let first = map.chart.corners.first();
+    [surface as u32, first.map_or(0, |corners| corners[0] / 3)]
+}
+
+/// A map. Coordinates are rounded to f32 unless that would flip a face; flips are those of the
+/// numbers in it.
+pub(super) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> {
+    let points: &[[f64; 2]] = map.x.as_chunks().0;
+    let rounded: Vec<[f64; 2]> = points
+        .iter()
+        .map(|p| p.map(|x| f64::from(x as f32)))
+        .collect();
+    let triangles = &map.chart.disk.triangles;
+    let is_exact = flips(triangles, &rounded) > 0;
+    let (points, width) = if is_exact {
+        (points, 8)
+    } else {
+        (&*rounded, 4)
+    };
+    let step = triangles.len().div_ceil(MOST_FACES).next_power_of_two() as u32;
+    let face = |corners: &[u32; 3]| corners[0] / 3;
+    let drawn: Vec<(u32, &[u32; 3])> = (map.chart.corners.iter().map(face))
+        .zip(triangles)
+        .filter(|(face, _)| face % step == 0)
+        .collect();
+
+    let mut bytes = Vec::with_capacity(56 + drawn.len() * (4 + 6 * width));
+    let counts = [
+        surface,
+        first,
+        map.iterate.iteration as u32,
+        triangles.len() as u32,
+        drawn.len() as u32,
+        flips(triangles, points),
+        width as u32,
+        0,
+    ];
+    bytes.extend(counts.iter().flat_map(|x| x.to_le_bytes()));
+    let numbers = [map.unit(), map.iterate.energy, map.iterate.smallest];
+    bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(drawn.iter().flat_map(|(face, _)| face.to_le_bytes()));
+    let corners = drawn.iter().flat_map(|(_, triangle)| *triangle);
+    let coordinates = corners.flat_map(|&v| points[v as usize]);
+    if is_exact {
+        bytes.extend(coordinates.flat_map(f64::to_le_bytes));
+    } else {
+        bytes.extend(coordinates.flat_map(|x| (x as f32).to_le_bytes()));
+    }
+    bytes
+}
+
+/// How many triangles are not positive, exactly.
+fn flips(triangles: &[[u32; 3]], points: &[[f64; 2]]) -> u32 {
+    let is_flipped = |t: &&[u32; 3]| {
+        let [a, b, c] = t.map(|v| points[v as usize]);
+        orient2d_sign(a, b, c) <= 0
+    };
+    triangles.iter().filter(is_flipped).count() as u32
+}
