@@ -5,10 +5,8 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::net::TcpListener;
-
 use super::exposure_args::ExposureArgs;
-use super::listen::{ADDRESS_FILE, Listen};
+use super::listen::{ADDRESS_FILE, Listen, listener};
 use super::process;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
@@ -88,6 +86,18 @@ fn days(text: &str) -> Result<f64, String> {
 const DAY_SECONDS: f64 = 86_400.0;
 
 impl Args {
+    /// What is in force where nothing was said and the machine decides.
+    pub fn derived(&self) -> Result<Vec<(&'static str, String)>, String> {
+        let jobs = self.job_settings().map_err(|error| error.to_string())?;
+        let connections = self.exposure.connections().most;
+        Ok(vec![
+            ("workers", jobs.workers.to_string()),
+            ("job_memory_mib", (jobs.memory >> 20).to_string()),
+            ("max_connections", connections.to_string()),
+            ("owner_sessions", self.sessions.to_string()),
+        ])
+    }
+
     fn job_settings(&self) -> std::io::Result<jobs::Settings> {
         Ok(jobs::Settings {
             queue_depth: self.queue_depth,
@@ -127,14 +137,15 @@ async fn serve(args: &Args) -> Result<(), String> {
     let text = |error: &dyn std::fmt::Display| error.to_string();
     let settings = args.job_settings().map_err(|e| text(&e))?;
     let grace = settings.grace;
-    let sessions = Sessions::new(args.session_settings(), settings.clone());
+    let sessions = Arc::new(Sessions::new(args.session_settings(), settings.clone()));
+    let stop = process::stop_on_signals()?;
     let wished = args.listen.address;
     let (jobs, store) = process::queue(&args.work, settings).await?;
+    let (watch, shown) = (&args.work.watch, Some(Arc::clone(&sessions)));
+    let exposition = watch.exposition(Arc::clone(&jobs), shown, &stop).await?;
     let keys = args.exposure.keys(wished, store).await?;
 
-    let listener = TcpListener::bind(wished)
-        .await
-        .map_err(|error| format!("cannot listen on {wished}: {error}"))?;
+    let listener = listener(wished).await?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
     if let Err(error) = std::fs::write(args.work.store.data.join(ADDRESS_FILE), address.to_string())
     {
@@ -143,11 +154,11 @@ async fn serve(args: &Args) -> Result<(), String> {
     // A reader may have closed the pipe.
     let _ = writeln!(std::io::stdout(), "listening on http://{address}");
 
-    let stop = process::stop_on_signals()?;
     let queue = tokio::spawn(Arc::clone(&jobs).run(stop.clone()));
     let server = tokio::spawn(http::serve(
         listener,
-        (jobs, Arc::new(sessions), Arc::new(keys)),
+        (jobs, sessions, Arc::new(keys)),
+        exposition,
         args.http_settings(address),
         stop.clone(),
     ));

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::store_args::StoreArgs;
+use super::watch_args::WatchArgs;
 use crate::jobs::{self, Deployment, Rules};
 
 /// Default memory of a job, in bytes.
@@ -14,6 +15,8 @@ pub(super) const JOB_MEMORY: u64 = 8 << 30;
 pub(super) struct WorkArgs {
     #[command(flatten)]
     pub store: StoreArgs,
+    #[command(flatten)]
+    pub watch: WatchArgs,
     /// Place for files, shared with other processes: s3://BUCKET/PREFIX, or a mounted folder as
     /// file:///DIR. S3 is set up by the usual AWS_ environment variables
     #[arg(

@@ -14,6 +14,7 @@ mod create;
 mod download;
 mod drain;
 mod events;
+mod exposition;
 mod extract;
 mod framing;
 mod held;
@@ -21,6 +22,7 @@ mod inputs;
 mod jobs;
 mod live;
 mod missing;
+mod observation;
 mod openapi;
 mod options;
 mod origins;
@@ -49,7 +51,7 @@ use std::sync::Arc;
 
 use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, StatusCode, header};
-use axum::middleware::from_fn_with_state;
+use axum::middleware::{from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::{Router, routing::get};
 use tokio::net::TcpListener;
@@ -58,10 +60,10 @@ use tokio_util::task::TaskTracker;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::csrf::ConfigError;
 use tower_http::set_header::SetResponseHeaderLayer;
-use tower_http::trace::TraceLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+pub use self::exposition::{Exposition, measure};
 pub use self::origins::origin;
 use self::problem::{Code, Problem};
 pub use self::settings::{Connections, Settings};
@@ -82,6 +84,7 @@ struct App {
     jobs: Arc<Jobs>,
     sessions: Arc<Sessions>,
     keys: Arc<KeyRing>,
+    exposition: Exposition,
     settings: Settings,
     stop: CancellationToken,
     sockets: TaskTracker,
@@ -151,6 +154,7 @@ pub fn openapi() -> String {
 pub async fn serve(
     listener: TcpListener,
     (jobs, sessions, keys): (Arc<Jobs>, Arc<Sessions>, Arc<KeyRing>),
+    exposition: Exposition,
     settings: Settings,
     stop: CancellationToken,
 ) -> std::io::Result<()> {
@@ -158,6 +162,7 @@ pub async fn serve(
         jobs,
         sessions,
         keys,
+        exposition,
         settings,
         stop: stop.clone(),
         sockets: TaskTracker::new(),
@@ -200,7 +205,7 @@ fn router(app: Arc<App>) -> Result<Router, ConfigError> {
         ))
         .layer(header(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
         .layer(header(header::REFERRER_POLICY, "no-referrer"))
-        .layer(TraceLayer::new_for_http()))
+        .layer(from_fn(observation::observe)))
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "the layer hands it over")]

@@ -16,15 +16,17 @@ use axum::response::{IntoResponse, Response};
 use tower_http::cors::{AllowHeaders, AllowMethods, AllowOrigin, CorsLayer};
 use tower_http::csrf::{ConfigError, CsrfLayer, ProtectionError};
 
+use super::observation::REQUEST_ID;
 use super::problem::{Code, Problem};
 use super::settings::Settings;
 
 /// What scripts of other origins may read of an answer.
-const EXPOSED: [HeaderName; 4] = [
+const EXPOSED: [HeaderName; 5] = [
     header::CONTENT_DISPOSITION,
     header::ETAG,
     header::LOCATION,
     header::RETRY_AFTER,
+    REQUEST_ID,
 ];
 
 /// A router that answers only what may be asked, as the settings say.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::causes;
 pub(super) use super::code::Code;
-use crate::jobs::{Failure, StoreError};
+use crate::jobs::{Failure, StoreError, meters};
 
 /// How to ask again where a key is needed (RFC 6750).
 const CHALLENGE: &str = "Bearer realm=\"unwrapd\"";
@@ -80,6 +80,7 @@ impl Problem {
 
 impl From<StoreError> for Problem {
     fn from(error: StoreError) -> Self {
+        meters::store_failed();
         tracing::error!(%error, "store");
         match error {
             StoreError::Full(why) => Self::new(

@@ -21,6 +21,16 @@ pub struct Settings {
     pub base_path: String,
 }
 
+impl Connections {
+    /// Of what collects measurements.
+    pub(super) const OF_COLLECTORS: Self = Self {
+        most: 16,
+        most_of_address: None,
+        header_time: Duration::from_mins(2),
+        silence: Duration::from_secs(30),
+    };
+}
+
 /// How many connections there may be, and how long they may be silent.
 #[derive(Clone, Debug)]
 pub struct Connections {

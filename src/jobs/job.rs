@@ -173,6 +173,8 @@ pub struct Job {
     pub digest: String,
     /// Waiting jobs of higher priority start first.
     pub priority: i32,
+    /// The `traceparent` that the client sent (W3C Trace Context), which logs repeat.
+    pub trace: Option<String>,
     /// Names its present or last holder; fences off what former ones report.
     pub token: Token,
     /// Who has it.
@@ -218,6 +220,7 @@ impl Job {
             attempt: 0,
             digest: String::new(),
             priority: 0,
+            trace: None,
             token: 0,
             worker: None,
             lease: None,

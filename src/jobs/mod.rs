@@ -55,6 +55,7 @@ mod keys;
 mod lease;
 mod live;
 mod memory_failure;
+pub mod meters;
 mod output;
 mod pace;
 mod progress;
@@ -97,8 +98,8 @@ pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
 pub use storage::{
-    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing, Reason,
-    Sweep,
+    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing, Queue,
+    Reason, Sweep,
 };
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};

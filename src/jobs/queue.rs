@@ -12,10 +12,11 @@ use super::job::{Job, JobId};
 use super::keys::output_folder;
 use super::lease::WorkerId;
 use super::live::Live;
+use super::meters;
 use super::running::Running;
 use super::settings::Settings;
 use super::state::State;
-use super::storage::{Blobs, Changed, JobStore, Listing, Reason};
+use super::storage::{Blobs, Changed, JobStore, Listing, Queue, Reason};
 use super::store_error::StoreResult;
 use super::transition::{Happening, Wish};
 
@@ -91,9 +92,9 @@ impl Jobs {
         self.store.list(reach, listing).await
     }
 
-    /// How many jobs there are in each state.
-    pub async fn counts(&self) -> StoreResult<Vec<(State, u64)>> {
-        self.store.counts().await
+    /// How many jobs there are in each state, and how long the oldest of those that wait does so.
+    pub async fn queue(&self) -> StoreResult<Queue> {
+        self.store.queue().await
     }
 
     /// Waits for the end of a job, but not longer than this.
@@ -158,6 +159,7 @@ impl Jobs {
     /// Tells those who watch, and those who wait for work, of a record that changed. The files that
     /// it does not need are removed.
     pub(super) async fn tell(&self, job: &Job) {
+        meters::finished(job);
         if let Err(error) = self.remove_unneeded(job).await {
             tracing::error!(job = %job.id, %error, "files that no job needs not removed");
         }

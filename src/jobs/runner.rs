@@ -10,6 +10,7 @@ use tokio_util::task::TaskTracker;
 
 use super::attempt;
 use super::job::Job;
+use super::meters;
 use super::queue::Jobs;
 use super::running::Attempt;
 
@@ -54,7 +55,7 @@ impl Jobs {
             let (jobs, leave, stop) = (Arc::clone(&self), leave.clone(), stop.clone());
             attempts.spawn(async move {
                 let Claimed { slot, job, attempt } = claimed;
-                let rest = attempt::run(&jobs, job, &attempt, &leave).await;
+                let rest = attempt::run_logged(&jobs, job, &attempt, &leave).await;
                 tokio::select! {
                     () = tokio::time::sleep(rest) => {}
                     () = stop.cancelled() => {}
@@ -105,6 +106,7 @@ impl Jobs {
                 }
                 Ok(None) => self.settings.deployment.look_interval(),
                 Err(error) => {
+                    meters::store_failed();
                     tracing::error!(%error, "no job claimed");
                     STORE_RETRY
                 }

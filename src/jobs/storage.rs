@@ -60,6 +60,15 @@ pub struct Listing {
     pub limit: u32,
 }
 
+/// All jobs at a glance.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Queue {
+    /// How many there are in each state.
+    pub counts: Vec<(State, u64)>,
+    /// For how long the oldest of those that wait has been there.
+    pub oldest_wait: Duration,
+}
+
 /// What became of a record.
 #[derive(Clone, Debug)]
 pub enum Changed {
@@ -160,8 +169,8 @@ pub trait JobStore: Send + Sync {
     /// The jobs that belong to calls.
     fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
-    /// How many jobs there are in each state.
-    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>>;
+    /// How many jobs there are in each state, and how long the oldest of those that wait does so.
+    fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>>;
 
     /// Bytes of the files of all jobs.
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>>;

@@ -6,6 +6,7 @@ use super::access::Owner;
 use super::input_output::InputFile;
 use super::job::{Job, JobId, Kind};
 use super::keys::input_key;
+use super::meters;
 use super::queue::Jobs;
 use super::storage::{Enqueued, IdempotencyKey};
 use super::store_error::StoreError;
@@ -26,6 +27,8 @@ pub struct Submission {
     pub priority: i32,
     /// Whether the result of an equal job will do.
     pub reuse: bool,
+    /// The trace that it is a part of; see [`Job::trace`].
+    pub trace: Option<String>,
     /// The client's word that makes a repetition harmless.
     pub key: Option<String>,
     /// Whether it is of no use without the call that waits for it.
@@ -86,6 +89,7 @@ impl Jobs {
             input: submission.files.into_iter().map(|(file, _)| file).collect(),
             digest: submission.digest,
             priority: submission.priority,
+            trace: submission.trace,
             ephemeral: submission.ephemeral,
             ..Job::queued(id, submission.kind, submission.options)
         };
@@ -99,6 +103,9 @@ impl Jobs {
         let capacity = self.capacity();
         match self.store.enqueue(&job, key.as_ref(), capacity).await? {
             Enqueued::New(job) => {
+                meters::enqueued(&job);
+                let (kind, trace) = (job.kind.word(), job.trace.as_deref());
+                tracing::info!(job = %job.id, kind, trace, "accepted");
                 self.wake.notify_one();
                 Ok(Submitted::New(*job))
             }

@@ -9,6 +9,7 @@ use super::child::Child;
 use super::deadline::{given_up_after, timed_out};
 use super::job::Job;
 use super::memory_failure::out_of_memory;
+use super::meters::StageClock;
 use super::progress::Event;
 use super::queue::Jobs;
 use super::running::Attempt;
@@ -42,6 +43,7 @@ pub(super) async fn watch(
     let mut interval = tokio::time::interval(WATCH_INTERVAL);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
     let mut event = attempt.event();
+    let mut stages = StageClock::of(job.kind);
     let (mut is_ready, mut is_told) = (false, false);
     loop {
         tokio::select! {
@@ -50,6 +52,7 @@ pub(super) async fn watch(
                 Some(Message::Ready) => is_ready = true,
                 Some(Message::Progress(progress)) => {
                     event.progress.advance(progress);
+                    stages.show(progress.stage);
                     event = Event { seq: event.seq + 1, ..job_event(job, event) };
                     attempt.set_event(event);
                     jobs.live.publish(job.id, event);

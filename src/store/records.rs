@@ -11,7 +11,7 @@ use super::{reading, reserve, submissions, transitions};
 use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Capacity, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId, JobStore,
-    Listing, Reason, Rules, State, StoreError, StoreResult, Sweep, WorkerId,
+    Listing, Queue, Reason, Rules, StoreError, StoreResult, Sweep, WorkerId,
 };
 
 /// How long a call may take, a lost connection included.
@@ -150,8 +150,8 @@ impl JobStore for RecordStore {
         ))
     }
 
-    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>> {
-        bounded(reading::counts(&self.database))
+    fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>> {
+        bounded(reading::queue(&self.database))
     }
 
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>> {

@@ -13,7 +13,7 @@ use tokio::sync::Notify;
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Beat, Blobs, Capacity, Changed, Content, Enqueued, Event, Happening, IdempotencyKey, Job,
-    JobId, JobStore, Listing, Reason, State, StoreError, StoreResult, Sweep, WorkerId,
+    JobId, JobStore, Listing, Queue, Reason, StoreError, StoreResult, Sweep, WorkerId,
 };
 
 /// What becomes of a call.
@@ -186,8 +186,8 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.inner.ephemeral()
     }
 
-    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>> {
-        self.inner.counts()
+    fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>> {
+        self.inner.queue()
     }
 
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>> {

@@ -24,6 +24,7 @@ mod sessions_end;
 mod submitted;
 mod synchronous;
 mod verdicts;
+mod watchable;
 
 use std::path::Path;
 
