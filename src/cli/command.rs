@@ -4,8 +4,8 @@ use clap::builder::StyledStr;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    batch, completions, config, deform, edit_uv, health, keys, man, measure, repack, serve, solve,
-    submit, unwrap_args, verify, warp, worker,
+    batch, completions, config, deform, edit_uv, health, keys, man, measure, queue, repack, serve,
+    solve, submit, unwrap_args, verify, warp, worker,
 };
 use crate::options::as_typed;
 
@@ -91,6 +91,10 @@ pub(super) enum Command {
     /// Keys are in the database of the service and hold for all processes that share it. Once one
     /// was made, they refuse calls without a key. It can be done while they run.
     Keys(keys::Args),
+    /// Look at the queue, pause it and resume it
+    ///
+    /// It works on the database of the service, for all processes that share it, while they run.
+    Queue(queue::Args),
     /// Print what is in force for `serve`, and where each value comes from
     ///
     /// It takes the options of `serve`, on the command line and in the environment. The source of a

@@ -27,8 +27,10 @@ mod listen;
 mod man;
 mod measure;
 mod output;
+mod owner_args;
 mod process;
 mod progress;
+mod queue;
 mod records;
 mod repack;
 mod serve;
@@ -87,6 +89,7 @@ fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Worker(args) => worker::run(&args).map_err(Failure::other),
         Command::Keys(args) => keys::run(&args),
+        Command::Queue(args) => queue::run(&args),
         Command::Config(args) => config::run(&args, &command::command(), typed),
         Command::Openapi => {
             console::print(crate::http::openapi());

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use super::exposure_args::ExposureArgs;
 use super::listen::{ADDRESS_FILE, Listen, listener};
+use super::owner_args::OwnerArgs;
 use super::process;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
@@ -60,9 +61,6 @@ pub(super) struct Args {
     /// Maximum number of live sessions, each with a process of its own
     #[arg(long, value_name = "N", env = "UNWRAPD_SESSIONS", default_value_t = 16)]
     sessions: u16,
-    /// Maximum number of live sessions of one owner [default: no limit but `sessions`]
-    #[arg(long, value_name = "N", env = "UNWRAPD_OWNER_SESSIONS")]
-    owner_sessions: Option<u16>,
     /// Seconds without a message after which a live session ends
     #[arg(
         long,
@@ -72,6 +70,8 @@ pub(super) struct Args {
         value_parser = seconds
     )]
     session_seconds: f64,
+    #[command(flatten)]
+    owner: OwnerArgs,
     #[command(flatten)]
     exposure: ExposureArgs,
 }
@@ -102,6 +102,7 @@ impl Args {
         Ok(jobs::Settings {
             queue_depth: self.queue_depth,
             quota: self.quota_mib.map(|mib| mib.saturating_mul(1 << 20)),
+            of_owner: self.owner.quotas(),
             retention: Some(Duration::from_secs_f64(self.retain_days * DAY_SECONDS)),
             ..self.work.settings()?
         })
@@ -110,7 +111,7 @@ impl Args {
     fn session_settings(&self) -> sessions::Settings {
         sessions::Settings {
             most: usize::from(self.sessions),
-            most_of_owner: usize::from(self.owner_sessions.unwrap_or(self.sessions)),
+            most_of_owner: usize::from(self.owner.owner_sessions.unwrap_or(self.sessions)),
             idle: Duration::from_secs_f64(self.session_seconds),
         }
     }
@@ -121,6 +122,8 @@ impl Args {
             synchronous_time: Duration::from_secs_f64(self.synchronous_seconds),
             connections: self.exposure.connections(),
             upload_time: self.exposure.upload_time(),
+            owner_requests: self.owner.owner_requests,
+            wrong_keys: self.exposure.wrong_keys,
             origins: self.exposure.origins.clone(),
             hosts: self.exposure.hosts(address),
             base_path: self.exposure.base_path.clone(),

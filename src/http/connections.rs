@@ -11,7 +11,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use axum::Router;
+use hyper::Request;
+use hyper::body::Incoming;
 use hyper::server::conn::http1::Builder;
+use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use metrics::{counter, describe_counter, gauge};
@@ -20,6 +23,7 @@ use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
+use super::admission::Peer;
 use super::held::Held;
 use super::problem::{Code, Problem};
 use super::settings::Connections;
@@ -75,6 +79,10 @@ pub(super) async fn serve(
         }
         let stream = Held::new(stream, limits.silence, (seat, place, Counted::new()));
         let service = TowerToHyperService::new(service);
+        let service = service_fn(move |mut request: Request<Incoming>| {
+            request.extensions_mut().insert(Peer(peer.ip()));
+            service.call(request)
+        });
         let connection = http1.serve_connection(TokioIo::new(stream), service);
         let stop = stop.clone();
         open.spawn(async move {

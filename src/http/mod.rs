@@ -27,6 +27,7 @@ mod openapi;
 mod options;
 mod origins;
 mod page;
+mod pause;
 mod probes;
 mod problem;
 mod received;
@@ -44,9 +45,11 @@ mod steady;
 mod synchronous;
 mod upload;
 mod view;
+mod windows;
 mod wishes;
 
 use std::any::Any;
+use std::net::IpAddr;
 use std::sync::Arc;
 
 use axum::extract::DefaultBodyLimit;
@@ -67,8 +70,9 @@ pub use self::exposition::{Exposition, measure};
 pub use self::origins::origin;
 use self::problem::{Code, Problem};
 pub use self::settings::{Connections, Settings};
+use self::windows::Windows;
 use crate::jobs::Jobs;
-use crate::jobs::access::KeyRing;
+use crate::jobs::access::{KeyRing, Owner};
 use crate::sessions::Sessions;
 
 /// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
@@ -85,6 +89,10 @@ struct App {
     sessions: Arc<Sessions>,
     keys: Arc<KeyRing>,
     exposition: Exposition,
+    /// Requests of each owner.
+    requests: Option<Windows<Owner>>,
+    /// Wrong keys from each address.
+    wrong_keys: Windows<IpAddr>,
     settings: Settings,
     stop: CancellationToken,
     sockets: TaskTracker,
@@ -123,6 +131,11 @@ fn routes() -> OpenApiRouter<Arc<App>> {
             drain::start_drain,
             drain::end_drain,
             drain::get_drain
+        ))
+        .routes(routes!(
+            pause::pause_queue,
+            pause::resume_queue,
+            pause::get_pause
         ))
         .routes(routes!(probes::metrics))
 }
@@ -163,6 +176,8 @@ pub async fn serve(
         sessions,
         keys,
         exposition,
+        requests: settings.owner_requests.map(Windows::of),
+        wrong_keys: Windows::of(settings.wrong_keys),
         settings,
         stop: stop.clone(),
         sockets: TaskTracker::new(),

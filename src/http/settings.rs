@@ -13,6 +13,10 @@ pub struct Settings {
     pub connections: Connections,
     /// How long an upload may take in all.
     pub upload_time: Duration,
+    /// Requests that each owner may send in a minute.
+    pub owner_requests: Option<u32>,
+    /// Wrong keys that an address may send in a minute before it is told to wait.
+    pub wrong_keys: u32,
     /// Origins, such as `https://example.org`, whose pages may use the service.
     pub origins: Vec<String>,
     /// Names under which the service is reached, beside addresses and `localhost`; none: any name.

@@ -171,7 +171,7 @@ pub struct Job {
     pub attempt: u32,
     /// Names what was asked for: jobs with the same digest have equal inputs, kinds and options.
     pub digest: String,
-    /// Waiting jobs of higher priority start first.
+    /// Of the waiting jobs of one owner, those of higher priority start first.
     pub priority: i32,
     /// The `traceparent` that the client sent (W3C Trace Context), which logs repeat.
     pub trace: Option<String>,

@@ -31,6 +31,9 @@
 //! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its
 //! files.
 //!
+//! Owners take turns, and priorities order what each of them has waiting ([`JobStore::claim`]).
+//! A process keeps one slot in reserve for small jobs, which do not wait for large ones.
+//!
 //! Every job belongs to an owner, and whoever asks for one says how far they see ([`access`]).
 //!
 //! Where records and files live is not decided here: [`JobStore`] and [`Blobs`] are traits.
@@ -52,6 +55,7 @@ mod frames;
 mod input_output;
 mod job;
 mod keys;
+mod lane;
 mod lease;
 mod live;
 mod memory_failure;
@@ -98,8 +102,8 @@ pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
 pub use storage::{
-    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing, Queue,
-    Reason, Sweep,
+    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing,
+    OwnerQuota, OwnerQuotas, Queue, Reason, Share, Sweep,
 };
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};

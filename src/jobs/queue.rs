@@ -32,6 +32,7 @@ pub struct Jobs {
     pub(super) live: Live,
     pub(super) running: Running,
     pub(super) wake: Notify,
+    pub(super) wake_reserve: Notify,
     pub(super) tasks: TaskTracker,
     pub(super) engine: OnceCell<String>,
     pub(super) draining: AtomicBool,
@@ -57,6 +58,7 @@ impl Jobs {
             live: Live::default(),
             running: Running::default(),
             wake: Notify::new(),
+            wake_reserve: Notify::new(),
             tasks: TaskTracker::new(),
             engine: OnceCell::new(),
             draining: AtomicBool::new(false),
@@ -165,8 +167,14 @@ impl Jobs {
         }
         self.live.publish(job.id, job.event());
         if job.state == State::Queued {
-            self.wake.notify_one();
+            self.look();
         }
+    }
+
+    /// Has this process look for jobs that can be started.
+    pub(super) fn look(&self) {
+        self.wake.notify_one();
+        self.wake_reserve.notify_one();
     }
 
     /// Nothing but the record is kept of a cancelled job, and nothing of lost attempts.

@@ -1,6 +1,7 @@
 //! From received files to a queued job.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use super::access::Owner;
 use super::input_output::InputFile;
@@ -8,8 +9,12 @@ use super::job::{Job, JobId, Kind};
 use super::keys::input_key;
 use super::meters;
 use super::queue::Jobs;
-use super::storage::{Enqueued, IdempotencyKey};
+use super::storage::{Enqueued, IdempotencyKey, OwnerQuota};
 use super::store_error::StoreError;
+use super::timestamp::Timestamp;
+
+/// For an owner to delete jobs.
+const DELETION_TIME: Duration = Duration::from_mins(1);
 
 /// A wish for a job, checked as far as that is possible without computing.
 pub struct Submission {
@@ -23,7 +28,7 @@ pub struct Submission {
     pub files: Vec<(InputFile, PathBuf)>,
     /// Names what is asked for; see [`Job::digest`].
     pub digest: String,
-    /// Waiting jobs of higher priority start first.
+    /// Of the waiting jobs of one owner, those of higher priority start first.
     pub priority: i32,
     /// Whether the result of an equal job will do.
     pub reuse: bool,
@@ -47,9 +52,12 @@ pub enum Submitted {
 /// Why a submission was not accepted.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmitError {
-    /// As many jobs wait as may wait.
+    /// As many jobs wait as may wait. At the present pace there is a place after this time.
     #[error("the queue is full")]
-    QueueFull,
+    QueueFull(Duration),
+    /// Its owner has as much as one may have. It may be less after this time.
+    #[error("the owner has used up a quota")]
+    OwnerQuota(OwnerQuota, Duration),
     /// The key belongs to another submission.
     #[error("the Idempotency-Key belongs to a different submission")]
     KeyReused,
@@ -106,12 +114,20 @@ impl Jobs {
                 meters::enqueued(&job);
                 let (kind, trace) = (job.kind.word(), job.trace.as_deref());
                 tracing::info!(job = %job.id, kind, trace, "accepted");
-                self.wake.notify_one();
+                self.look();
                 Ok(Submitted::New(*job))
             }
             Enqueued::Replay(earlier) => Ok(Submitted::Replay(*earlier)),
             Enqueued::KeyReused => Err(SubmitError::KeyReused),
-            Enqueued::Full => Err(SubmitError::QueueFull),
+            Enqueued::Full => Err(SubmitError::QueueFull(self.next_place().await)),
+            Enqueued::OwnerOverQuota(quota) => {
+                let after = match quota {
+                    OwnerQuota::Jobs => self.next_place().await,
+                    OwnerQuota::Bytes => DELETION_TIME,
+                    OwnerQuota::Cpu => Timestamp::now().until_next_day(),
+                };
+                Err(SubmitError::OwnerQuota(quota, after))
+            }
             Enqueued::OverQuota => {
                 let detail = "the files of all jobs would take more than they may".to_owned();
                 Err(StoreError::Full(detail).into())

@@ -50,6 +50,7 @@ pub(super) async fn watch(
             message = child.next_message() => match message {
                 None => return Watched::Silent,
                 Some(Message::Ready) => is_ready = true,
+                Some(Message::Cpu(ms)) => attempt.set_cpu_ms(ms),
                 Some(Message::Progress(progress)) => {
                     event.progress.advance(progress);
                     stages.show(progress.stage);
@@ -71,6 +72,7 @@ pub(super) async fn watch(
                 is_told = true;
             }
             _ = interval.tick() => {
+                attempt.set_cpu_ms(child.cpu_ms());
                 if attempt.has_lapsed() {
                     return lapsed(jobs);
                 }

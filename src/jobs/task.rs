@@ -67,6 +67,8 @@ pub(super) enum Message {
     Ready,
     /// How far it is.
     Progress(Progress),
+    /// Milliseconds of processor time that it took in all.
+    Cpu(u64),
 }
 
 /// What a child made; the n-th file lies in [`output_file`]`(n)`.

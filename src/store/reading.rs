@@ -113,6 +113,17 @@ pub(super) async fn queue(database: &Database) -> StoreResult<Queue> {
     })
 }
 
+/// How many jobs were computed and ended within this time before now.
+pub(super) async fn ended_within(database: &Database, time: Duration) -> StoreResult<u64> {
+    let ended = "SELECT count(*) AS jobs FROM job
+         WHERE {now} - $1 < finished AND started IS NOT NULL";
+    let row = sqlx::query(database.sql(ended))
+        .bind(time.as_millis() as i64)
+        .fetch_one(&database.readers)
+        .await?;
+    Ok(row.try_get::<i64, _>("jobs")? as u64)
+}
+
 async fn counts(database: &Database) -> StoreResult<Vec<(State, u64)>> {
     let found = sqlx::query("SELECT state, count(*) AS jobs FROM job GROUP BY state")
         .fetch_all(&database.readers)

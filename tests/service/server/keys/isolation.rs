@@ -11,11 +11,12 @@ use crate::server::sessions::sheet;
 use crate::server::{Server, form, json as read};
 
 /// Whoever needs none of what others made: operations without an id in their path.
-const WITHOUT_ID: [&str; 7] = [
+const WITHOUT_ID: [&str; 8] = [
     "/metrics",
     "/v1/drain",
     "/v1/jobs",
     "/v1/measure",
+    "/v1/pause",
     "/v1/sessions",
     "/v1/sign-in",
     "/v1/unwrap",
