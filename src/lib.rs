@@ -190,6 +190,9 @@
 //!   has to be counted before one is removed. Equal are input, kind, options and the checksum of the
 //!   program that computed; what was cut short is computed again.
 //!
+//! - Owners take turns, by how many of their jobs run, then by when one was last started. Priorities
+//!   order the jobs of one owner only: among owners they would be a way to starve others.
+//!
 //! - A density is three functions of the signed singular values, and the smallest of these is found from the determinant:
 //!   one definition serves plane and space, and loses nothing where areas span thirty orders of magnitude.
 //! - Handles are held exactly, by elimination, where the paper has soft constraints; points inside elements are soft and harden

@@ -1,11 +1,11 @@
 //! The commands as clap knows them.
 
 use clap::builder::StyledStr;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    batch, completions, deform, edit_uv, health, keys, man, measure, repack, serve, solve, submit,
-    unwrap_args, verify, warp, worker,
+    batch, completions, config, deform, edit_uv, health, keys, man, measure, queue, repack, serve,
+    solve, submit, unwrap_args, verify, warp, worker,
 };
 use crate::options::as_typed;
 
@@ -78,7 +78,7 @@ pub(super) enum Command {
     /// Run the HTTP service
     ///
     /// It ends on SIGTERM or SIGINT. Every option can also be set by the environment variable that
-    /// its help names. RUST_LOG sets the log level, for example `warn` or `unwrapd=debug`.
+    /// its help names. `unwrapd config` prints what is in force.
     Serve(Box<serve::Args>),
     /// Compute jobs that services on other machines accept
     ///
@@ -91,6 +91,16 @@ pub(super) enum Command {
     /// Keys are in the database of the service and hold for all processes that share it. Once one
     /// was made, they refuse calls without a key. It can be done while they run.
     Keys(keys::Args),
+    /// Look at the queue, pause it and resume it
+    ///
+    /// It works on the database of the service, for all processes that share it, while they run.
+    Queue(queue::Args),
+    /// Print what is in force for `serve`, and where each value comes from
+    ///
+    /// It takes the options of `serve`, on the command line and in the environment. The source of a
+    /// value is flag, the name of the variable, or default. Passwords are hidden. Variables that
+    /// begin with UNWRAPD_ and that no option reads are named in warnings.
+    Config(Box<config::Args>),
     /// Print the OpenAPI document of the service
     Openapi,
     /// Check whether a running service is ready: exit 0 if so, 1 if not
@@ -101,11 +111,15 @@ pub(super) enum Command {
     Man(man::Args),
 }
 
-/// The command that was typed. Ends the process on a usage error, or after printing help.
-pub(super) fn typed() -> Command {
+/// The command that was typed, and how it was. Ends the process on a usage error, or after printing
+/// help.
+pub(super) fn typed() -> (Command, ArgMatches) {
     let short = command().mut_subcommands(|command| command.mut_args(hidden_if_special));
-    let cli = Cli::from_arg_matches(&short.get_matches());
-    cli.unwrap_or_else(|error| error.exit()).command
+    let mut matches = short.get_matches();
+    let cli = Cli::from_arg_matches(&matches);
+    let command = cli.unwrap_or_else(|error| error.exit()).command;
+    let typed = matches.remove_subcommand();
+    (command, typed.map(|(_, typed)| typed).unwrap_or_default())
 }
 
 /// The program. Options accept negative numbers, so that the range check can name the option. Help

@@ -28,6 +28,15 @@ pub(super) struct ExposureArgs {
     /// On loopback, and once a key was made, this changes nothing
     #[arg(long, env = "UNWRAPD_ALLOW_ANONYMOUS", value_parser = BoolishValueParser::new())]
     allow_anonymous: bool,
+    /// Wrong API keys that an address may send in a minute before it is told to wait. Good keys from
+    /// there are accepted all the same
+    #[arg(
+        long,
+        value_name = "N",
+        env = "UNWRAPD_WRONG_KEYS",
+        default_value_t = 30
+    )]
+    pub wrong_keys: u32,
     /// Origin whose pages may use the service, such as `https://example.org`; can be repeated
     #[arg(
         long = "allow-origin",

@@ -7,9 +7,8 @@ use serde::Serialize;
 use super::console::{print, print_json, warn_of};
 use super::failure::Failure;
 use super::store_args::StoreArgs;
+use crate::jobs::Timestamp;
 use crate::jobs::access::{Key, KeyId, KeyStore, KeyText, NewKey, Owner, Scopes};
-use crate::jobs::{Rules, Timestamp};
-use crate::store::RecordStore;
 
 /// Characters of a note at most.
 const MOST_OF_NAME: usize = 100;
@@ -39,7 +38,7 @@ struct Create {
     #[arg(long, value_name = "NAME")]
     owner: Owner,
     /// What the key is good for: read, write or both. With admin, that is so for all owners, and for
-    /// /metrics and /v1/drain; admin alone includes both
+    /// /metrics, /v1/drain and /v1/pause; admin alone includes both
     #[arg(long, value_name = "SCOPES", default_value = "read,write")]
     scope: Scopes,
     /// How long the key is valid, such as 90d or 12h [default: until it is revoked]
@@ -97,13 +96,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     })
 }
 
-async fn opened(args: &StoreArgs) -> Result<RecordStore, Failure> {
-    args.make_folder().map_err(Failure::other)?;
-    let url = args.database_url().map_err(Failure::other)?;
-    let store = RecordStore::open(&url, Rules::default()).await;
-    store.map_err(|error| Failure::other(format!("cannot use the database: {error}")))
-}
-
 async fn create(args: &Create) -> Result<(), Failure> {
     let failed = |error| Failure::other(format!("the key was not made: {error}"));
     let text = KeyText::fresh().map_err(failed)?;
@@ -116,7 +108,7 @@ async fn create(args: &Create) -> Result<(), Failure> {
         life: args.expires,
         parent: None,
     };
-    let store = opened(&args.store).await?;
+    let store = args.store.opened().await?;
     store.add_key(&new).await.map_err(failed)?;
     warn_of("this is the only time that the key is shown");
     print(text.reveal());
@@ -124,7 +116,7 @@ async fn create(args: &Create) -> Result<(), Failure> {
 }
 
 async fn list(args: &List) -> Result<(), Failure> {
-    let keys = opened(&args.store).await?.keys().await;
+    let keys = args.store.opened().await?.keys().await;
     let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
     let rows: Vec<Row> = keys.iter().map(Row::of).collect();
     if args.json {
@@ -138,7 +130,7 @@ async fn list(args: &List) -> Result<(), Failure> {
 }
 
 async fn revoke(args: &Revoke) -> Result<(), Failure> {
-    let revoked = opened(&args.store).await?.revoke(&args.id).await;
+    let revoked = args.store.opened().await?.revoke(&args.id).await;
     match revoked {
         Ok(true) => Ok(()),
         Ok(false) => Err(Failure::other(format!(

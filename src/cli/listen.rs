@@ -2,8 +2,16 @@
 
 use std::net::SocketAddr;
 
+use tokio::net::TcpListener;
+
 /// The file of the data folder that has the address in it.
 pub(super) const ADDRESS_FILE: &str = "address";
+
+/// Listens there.
+pub(super) async fn listener(address: SocketAddr) -> Result<TcpListener, String> {
+    let listener = TcpListener::bind(address).await;
+    listener.map_err(|error| format!("cannot listen on {address}: {error}"))
+}
 
 /// The address of the service.
 #[derive(clap::Args)]

@@ -13,6 +13,7 @@ mod bulk_args;
 mod bulk_display;
 mod command;
 mod completions;
+mod config;
 mod console;
 mod deform;
 mod edit_uv;
@@ -26,8 +27,10 @@ mod listen;
 mod man;
 mod measure;
 mod output;
+mod owner_args;
 mod process;
 mod progress;
+mod queue;
 mod records;
 mod repack;
 mod serve;
@@ -39,12 +42,14 @@ mod unwrap;
 mod unwrap_args;
 mod verify;
 mod warp;
+mod watch_args;
 mod work_args;
 mod worker;
 
 use std::path::Path;
 use std::process::ExitCode;
 
+use clap::ArgMatches;
 use command::Command;
 use failure::Failure;
 
@@ -61,13 +66,14 @@ pub fn run() -> ExitCode {
             return crate::sessions::run(Path::new(&folder));
         }
     }
-    match run_typed(command::typed()) {
+    let (command, typed) = command::typed();
+    match run_typed(command, &typed) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
 }
 
-fn run_typed(command: Command) -> Result<(), Failure> {
+fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
     match command {
         Command::Unwrap(args) => unwrap::run(&args),
         Command::Measure(args) => measure::run(&args),
@@ -83,6 +89,8 @@ fn run_typed(command: Command) -> Result<(), Failure> {
         Command::Serve(args) => serve::run(&args).map_err(Failure::other),
         Command::Worker(args) => worker::run(&args).map_err(Failure::other),
         Command::Keys(args) => keys::run(&args),
+        Command::Queue(args) => queue::run(&args),
+        Command::Config(args) => config::run(&args, &command::command(), typed),
         Command::Openapi => {
             console::print(crate::http::openapi());
             Ok(())

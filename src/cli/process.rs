@@ -1,7 +1,6 @@
 //! A process that works on jobs: its log, its folder, its stores, its end.
 
 use std::fs::File;
-use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -22,15 +21,7 @@ pub(super) fn run(
     args: &WorkArgs,
     process: impl Future<Output = Result<(), String>>,
 ) -> Result<(), String> {
-    tracing_subscriber::fmt()
-        .with_env_filter(
-            tracing_subscriber::EnvFilter::builder()
-                .with_default_directive(tracing::Level::INFO.into())
-                .from_env_lossy(),
-        )
-        .with_writer(std::io::stderr)
-        .with_ansi(std::io::stderr().is_terminal())
-        .init();
+    args.watch.start_log();
     args.store.make_folder()?;
     let _lock = lock(&args.store.data)?;
     tokio::runtime::Runtime::new()

@@ -5,10 +5,9 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::net::TcpListener;
-
 use super::exposure_args::ExposureArgs;
-use super::listen::{ADDRESS_FILE, Listen};
+use super::listen::{ADDRESS_FILE, Listen, listener};
+use super::owner_args::OwnerArgs;
 use super::process;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
@@ -62,9 +61,6 @@ pub(super) struct Args {
     /// Maximum number of live sessions, each with a process of its own
     #[arg(long, value_name = "N", env = "UNWRAPD_SESSIONS", default_value_t = 16)]
     sessions: u16,
-    /// Maximum number of live sessions of one owner [default: no limit but `sessions`]
-    #[arg(long, value_name = "N", env = "UNWRAPD_OWNER_SESSIONS")]
-    owner_sessions: Option<u16>,
     /// Seconds without a message after which a live session ends
     #[arg(
         long,
@@ -74,6 +70,8 @@ pub(super) struct Args {
         value_parser = seconds
     )]
     session_seconds: f64,
+    #[command(flatten)]
+    owner: OwnerArgs,
     #[command(flatten)]
     exposure: ExposureArgs,
 }
@@ -88,10 +86,23 @@ fn days(text: &str) -> Result<f64, String> {
 const DAY_SECONDS: f64 = 86_400.0;
 
 impl Args {
+    /// What is in force where nothing was said and the machine decides.
+    pub fn derived(&self) -> Result<Vec<(&'static str, String)>, String> {
+        let jobs = self.job_settings().map_err(|error| error.to_string())?;
+        let connections = self.exposure.connections().most;
+        Ok(vec![
+            ("workers", jobs.workers.to_string()),
+            ("job_memory_mib", (jobs.memory >> 20).to_string()),
+            ("max_connections", connections.to_string()),
+            ("owner_sessions", self.sessions.to_string()),
+        ])
+    }
+
     fn job_settings(&self) -> std::io::Result<jobs::Settings> {
         Ok(jobs::Settings {
             queue_depth: self.queue_depth,
             quota: self.quota_mib.map(|mib| mib.saturating_mul(1 << 20)),
+            of_owner: self.owner.quotas(),
             retention: Some(Duration::from_secs_f64(self.retain_days * DAY_SECONDS)),
             ..self.work.settings()?
         })
@@ -100,7 +111,7 @@ impl Args {
     fn session_settings(&self) -> sessions::Settings {
         sessions::Settings {
             most: usize::from(self.sessions),
-            most_of_owner: usize::from(self.owner_sessions.unwrap_or(self.sessions)),
+            most_of_owner: usize::from(self.owner.owner_sessions.unwrap_or(self.sessions)),
             idle: Duration::from_secs_f64(self.session_seconds),
         }
     }
@@ -111,6 +122,8 @@ impl Args {
             synchronous_time: Duration::from_secs_f64(self.synchronous_seconds),
             connections: self.exposure.connections(),
             upload_time: self.exposure.upload_time(),
+            owner_requests: self.owner.owner_requests,
+            wrong_keys: self.exposure.wrong_keys,
             origins: self.exposure.origins.clone(),
             hosts: self.exposure.hosts(address),
             base_path: self.exposure.base_path.clone(),
@@ -127,14 +140,15 @@ async fn serve(args: &Args) -> Result<(), String> {
     let text = |error: &dyn std::fmt::Display| error.to_string();
     let settings = args.job_settings().map_err(|e| text(&e))?;
     let grace = settings.grace;
-    let sessions = Sessions::new(args.session_settings(), settings.clone());
+    let sessions = Arc::new(Sessions::new(args.session_settings(), settings.clone()));
+    let stop = process::stop_on_signals()?;
     let wished = args.listen.address;
     let (jobs, store) = process::queue(&args.work, settings).await?;
+    let (watch, shown) = (&args.work.watch, Some(Arc::clone(&sessions)));
+    let exposition = watch.exposition(Arc::clone(&jobs), shown, &stop).await?;
     let keys = args.exposure.keys(wished, store).await?;
 
-    let listener = TcpListener::bind(wished)
-        .await
-        .map_err(|error| format!("cannot listen on {wished}: {error}"))?;
+    let listener = listener(wished).await?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
     if let Err(error) = std::fs::write(args.work.store.data.join(ADDRESS_FILE), address.to_string())
     {
@@ -143,11 +157,11 @@ async fn serve(args: &Args) -> Result<(), String> {
     // A reader may have closed the pipe.
     let _ = writeln!(std::io::stdout(), "listening on http://{address}");
 
-    let stop = process::stop_on_signals()?;
     let queue = tokio::spawn(Arc::clone(&jobs).run(stop.clone()));
     let server = tokio::spawn(http::serve(
         listener,
-        (jobs, Arc::new(sessions), Arc::new(keys)),
+        (jobs, sessions, Arc::new(keys)),
+        exposition,
         args.http_settings(address),
         stop.clone(),
     ));

@@ -4,6 +4,10 @@ use std::path::{Path, PathBuf};
 
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 
+use super::failure::Failure;
+use crate::jobs::Rules;
+use crate::store::RecordStore;
+
 /// Where records are.
 #[derive(clap::Args)]
 pub(super) struct StoreArgs {
@@ -37,6 +41,14 @@ impl StoreArgs {
             "sqlite://{}?mode=rwc",
             url_path(&self.data.join("unwrapd.sqlite"))?
         ))
+    }
+
+    /// The records that are there, or new ones.
+    pub async fn opened(&self) -> Result<RecordStore, Failure> {
+        self.make_folder().map_err(Failure::other)?;
+        let url = self.database_url().map_err(Failure::other)?;
+        let store = RecordStore::open(&url, Rules::default()).await;
+        store.map_err(|error| Failure::other(format!("cannot use the database: {error}")))
     }
 
     /// Makes the folder.

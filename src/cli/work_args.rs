@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::store_args::StoreArgs;
+use super::watch_args::WatchArgs;
 use crate::jobs::{self, Deployment, Rules};
 
 /// Default memory of a job, in bytes.
@@ -14,6 +15,8 @@ pub(super) const JOB_MEMORY: u64 = 8 << 30;
 pub(super) struct WorkArgs {
     #[command(flatten)]
     pub store: StoreArgs,
+    #[command(flatten)]
+    pub watch: WatchArgs,
     /// Place for files, shared with other processes: s3://BUCKET/PREFIX, or a mounted folder as
     /// file:///DIR. S3 is set up by the usual AWS_ environment variables
     #[arg(
@@ -27,6 +30,19 @@ pub(super) struct WorkArgs {
     /// that begins while no other runs uses all cores
     #[arg(long, value_name = "N", env = "UNWRAPD_WORKERS")]
     pub workers: Option<u16>,
+    /// Maximum number of jobs of one owner computed at the same time, by all processes together, which
+    /// must have the same [default: no limit]
+    #[arg(long, value_name = "N", env = "UNWRAPD_OWNER_RUNNING")]
+    owner_running: Option<u32>,
+    /// Size of small jobs, in KiB of all their files. One of them at a time starts even while all of
+    /// `workers` are taken, so that it does not wait for large ones. 0: none does
+    #[arg(
+        long,
+        value_name = "KIB",
+        env = "UNWRAPD_SMALL_KIB",
+        default_value_t = 256
+    )]
+    small_kib: u32,
     /// Maximum number of triangles of a mesh
     #[arg(
         long,
@@ -111,11 +127,14 @@ impl WorkArgs {
             program: std::env::current_exe()?,
             workers,
             cores,
+            owner_running: self.owner_running,
+            small: (0 < self.small_kib).then(|| u64::from(self.small_kib) << 10),
             queue_depth: 0,
             time: Duration::from_secs_f64(self.job_seconds),
             memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory())),
             triangles: self.max_triangles,
             quota: None,
+            of_owner: jobs::OwnerQuotas::default(),
             min_free: self.min_free_mib.saturating_mul(1 << 20),
             retention: None,
             grace: Duration::from_secs_f64(self.grace_seconds),

@@ -1,5 +1,7 @@
 //! `unwrapd worker`: computes jobs that services on other machines accept.
 
+use std::sync::Arc;
+
 use super::process;
 use super::work_args::WorkArgs;
 
@@ -27,6 +29,8 @@ async fn work(args: &Args) -> Result<(), String> {
     let grace = settings.grace;
     let (jobs, _) = process::queue(&args.work, settings).await?;
     let stop = process::stop_on_signals()?;
+    let shown = Arc::clone(&jobs);
+    args.work.watch.exposition(shown, None, &stop).await?;
     tracing::info!("waiting for jobs");
     let queue = tokio::spawn(jobs.run(stop.clone()));
     stop.cancelled().await;

@@ -17,6 +17,7 @@ use crate::solver::{Handles, LevenbergSettings};
 
 /// A problem as its file says it; every path is relative to the file.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct ProblemFile {
     /// The mesh.
     pub mesh: String,
@@ -77,6 +78,7 @@ fn one() -> f64 {
 
 /// What an element is without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Rest {
     /// Its x, y or x, y, z.

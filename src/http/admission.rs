@@ -1,23 +1,30 @@
 //! Who calls: the key that a request carries, in a header or in the cookie of a page that signed in.
 
+use std::net::IpAddr;
 use std::sync::Arc;
 
 use axum::extract::{FromRequestParts, MatchedPath, Request, State};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
 use axum::middleware::Next;
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
 
 use super::problem::{Code, Problem};
 use super::scopes::needed;
 use super::upload::drain_refused;
+use super::windows::Standing;
 use super::{App, Shared};
 use crate::jobs::access::{Caller, Denied, Scope};
 
 /// The cookie of pages that signed in.
 pub(super) const COOKIE: &str = "unwrapd-key";
 
-/// Lets a request pass if its key is good for it, and says who calls.
+/// The address that a request comes from; that of a proxy, if there is one.
+#[derive(Clone, Copy)]
+pub(super) struct Peer(pub IpAddr);
+
+/// Lets a request pass if its key is good for it and its owner has not sent too many, and says who
+/// calls.
 pub(super) async fn admit(
     State(app): Shared,
     path: MatchedPath,
@@ -25,27 +32,59 @@ pub(super) async fn admit(
     next: Next,
 ) -> Result<Response, Problem> {
     let needed = needed(request.method(), path.as_str());
-    match caller(&app, request.headers(), &needed).await {
-        Ok(caller) => {
-            request.extensions_mut().insert(caller);
-            Ok(next.run(request).await)
-        }
+    let peer = request.extensions().get().copied();
+    let caller = match caller(&app, request.headers(), peer, &needed).await {
+        Ok(caller) => caller,
         Err(problem) => {
             drain_refused(request).await;
-            Err(problem)
+            return Err(problem);
         }
+    };
+    let taken = app.requests.as_ref();
+    let taken = taken.map(|requests| requests.take(caller.owner().clone()));
+    let mut response = if let Some(Err(standing)) = taken {
+        drain_refused(request).await;
+        let detail = "the owner of the key has sent too many requests";
+        too_many(standing, detail).into_response()
+    } else {
+        request.extensions_mut().insert(caller);
+        next.run(request).await
+    };
+    if let Some(Ok(standing) | Err(standing)) = taken {
+        standing.tell(response.headers_mut());
     }
+    Ok(response)
+}
+
+fn too_many(standing: Standing, detail: &str) -> Problem {
+    Problem::new(Code::RateLimited, detail).retried_after(standing.reset)
 }
 
 /// Who calls, if they may do what needs these scopes.
-async fn caller(app: &App, headers: &HeaderMap, needed: &[Scope]) -> Result<Caller, Problem> {
-    let caller = app.keys.caller(key(headers)).await?;
+async fn caller(
+    app: &App,
+    headers: &HeaderMap,
+    peer: Option<Peer>,
+    needed: &[Scope],
+) -> Result<Caller, Problem> {
+    let caller = match app.keys.caller(key(headers)).await {
+        Err(Denied::BadKey) => return Err(wrong_key(app, peer)),
+        caller => caller?,
+    };
     match needed.iter().find(|&&it| !caller.scopes().have(it)) {
         None => Ok(caller),
         Some(scope) => {
             let detail = format!("the key does not have the scope `{}`", scope.word());
             Err(Problem::new(Code::MissingScope, detail))
         }
+    }
+}
+
+/// How a wrong key is refused. Good keys from the same address are not: it may be that of a proxy.
+fn wrong_key(app: &App, peer: Option<Peer>) -> Problem {
+    match peer.map(|Peer(address)| app.wrong_keys.take(address)) {
+        Some(Err(standing)) => too_many(standing, "too many wrong keys came from this address"),
+        _ => Denied::BadKey.into(),
     }
 }
 

@@ -1,218 +1,86 @@
 //! Codes of what goes wrong in the service itself.
 
-/// Codes of the service itself. Those of inputs that cannot be used are [`super::causes`], and have status 422.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Code {
-    InvalidRequest,
-    InvalidOptions,
-    MissingMesh,
-    NeedsJob,
-    KeyRequired,
-    KeyRefused,
-    MissingScope,
-    ForeignOrigin,
-    NotFound,
-    JobNotFound,
-    NoSuchFile,
-    SessionNotFound,
-    MethodNotAllowed,
-    RequestTimeout,
-    NotFinished,
-    AlreadyFinished,
-    NoResult,
-    NotFailed,
-    NoKeys,
-    ComputedElsewhere,
-    Conflict,
-    JobExpired,
-    UploadTooLarge,
-    UnsupportedMediaType,
-    RangeNotSatisfiable,
-    UnknownHost,
-    UnknownFormat,
-    InvalidGltf,
-    IdempotencyKeyReused,
-    UpgradeRequired,
-    TooManyConnections,
-    OutOfMemory,
-    InternalError,
-    Crashed,
-    DamagedFile,
-    QueueFull,
-    SessionsTaken,
-    Stopping,
-    Draining,
-    NotReady,
-    StoreUnavailable,
-    WorkerLost,
-    TimedOut,
-    StorageFull,
+/// Declares the codes, each once: its name here, its word, its status, and what it says.
+macro_rules! codes {
+    ($($name:ident => ($word:literal, $status:literal, $title:literal $(,)?),)*) => {
+        /// Codes of the service itself. Those of inputs that cannot be used are [`super::causes`],
+        /// and have status 422.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Code {
+            $($name),*
+        }
+
+        impl Code {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+
+            /// Its word, its status, and what it says.
+            pub fn row(self) -> (&'static str, u16, &'static str) {
+                match self {
+                    $(Self::$name => ($word, $status, $title)),*
+                }
+            }
+        }
+    };
 }
 
-impl Code {
-    pub const ALL: [Self; 44] = [
-        Self::InvalidRequest,
-        Self::InvalidOptions,
-        Self::MissingMesh,
-        Self::NeedsJob,
-        Self::KeyRequired,
-        Self::KeyRefused,
-        Self::MissingScope,
-        Self::ForeignOrigin,
-        Self::NotFound,
-        Self::JobNotFound,
-        Self::NoSuchFile,
-        Self::SessionNotFound,
-        Self::MethodNotAllowed,
-        Self::RequestTimeout,
-        Self::NotFinished,
-        Self::AlreadyFinished,
-        Self::NoResult,
-        Self::NotFailed,
-        Self::NoKeys,
-        Self::ComputedElsewhere,
-        Self::Conflict,
-        Self::JobExpired,
-        Self::UploadTooLarge,
-        Self::UnsupportedMediaType,
-        Self::RangeNotSatisfiable,
-        Self::UnknownHost,
-        Self::UnknownFormat,
-        Self::InvalidGltf,
-        Self::IdempotencyKeyReused,
-        Self::UpgradeRequired,
-        Self::TooManyConnections,
-        Self::OutOfMemory,
-        Self::InternalError,
-        Self::Crashed,
-        Self::DamagedFile,
-        Self::QueueFull,
-        Self::SessionsTaken,
-        Self::Stopping,
-        Self::Draining,
-        Self::NotReady,
-        Self::StoreUnavailable,
-        Self::WorkerLost,
-        Self::TimedOut,
-        Self::StorageFull,
-    ];
-
-    /// Its word, its status, and what it says.
-    #[expect(clippy::too_many_lines, reason = "a table")]
-    pub fn row(self) -> (&'static str, u16, &'static str) {
-        match self {
-            Self::InvalidRequest => (
-                "invalid_request",
-                400,
-                "A parameter, header or body is malformed",
-            ),
-            Self::InvalidOptions => (
-                "invalid_options",
-                400,
-                "An option is unknown or has an invalid value",
-            ),
-            Self::MissingMesh => ("missing_mesh", 400, "The upload has no input"),
-            Self::NeedsJob => ("needs_job", 400, "This result is only available from a job"),
-            Self::KeyRequired => ("key_required", 401, "The call needs an API key"),
-            Self::KeyRefused => ("key_refused", 401, "The API key is not valid"),
-            Self::MissingScope => ("missing_scope", 403, "The API key may not do this"),
-            Self::ForeignOrigin => (
-                "foreign_origin",
-                403,
-                "Pages of this origin may not use the service",
-            ),
-            Self::NotFound => ("not_found", 404, "The path does not exist"),
-            Self::JobNotFound => ("job_not_found", 404, "The job does not exist"),
-            Self::NoSuchFile => ("no_such_file", 404, "The job does not produce this file"),
-            Self::SessionNotFound => ("session_not_found", 404, "The session does not exist"),
-            Self::MethodNotAllowed => (
-                "method_not_allowed",
-                405,
-                "The path does not support this method",
-            ),
-            Self::RequestTimeout => ("request_timeout", 408, "The body did not arrive in time"),
-            Self::NotFinished => ("not_finished", 409, "The job is not finished"),
-            Self::AlreadyFinished => ("already_finished", 409, "The job has already ended"),
-            Self::NoResult => ("no_result", 409, "The job failed or was cancelled"),
-            Self::NotFailed => ("not_failed", 409, "Only failed jobs can be tried again"),
-            Self::NoKeys => ("no_keys", 409, "The service does not ask for keys"),
-            Self::ComputedElsewhere => (
-                "computed_elsewhere",
-                409,
-                "Another process computes the job",
-            ),
-            Self::JobExpired => ("job_expired", 410, "The job was removed after its time"),
-            Self::Conflict => ("conflict", 409, "Another request changed it meanwhile"),
-            Self::UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),
-            Self::UnsupportedMediaType => (
-                "unsupported_media_type",
-                415,
-                "The content type is not supported",
-            ),
-            Self::RangeNotSatisfiable => (
-                "range_not_satisfiable",
-                416,
-                "The range lies outside the file",
-            ),
-            Self::UnknownHost => (
-                "unknown_host",
-                421,
-                "The service is not reached under this name",
-            ),
-            Self::UnknownFormat => (
-                "unknown_format",
-                422,
-                "The job kind does not read this file format",
-            ),
-            Self::InvalidGltf => ("invalid_gltf", 422, "The file is not valid glTF 2.0"),
-            Self::IdempotencyKeyReused => (
-                "idempotency_key_reused",
-                422,
-                "The Idempotency-Key belongs to a different submission",
-            ),
-            Self::UpgradeRequired => (
-                "upgrade_required",
-                426,
-                "The path requires a WebSocket; events can also be had as text/event-stream",
-            ),
-            Self::TooManyConnections => (
-                "too_many_connections",
-                429,
-                "The client has too many connections",
-            ),
-            Self::OutOfMemory => (
-                "out_of_memory",
-                422,
-                "The input needs more memory than a job may use",
-            ),
-            Self::InternalError => ("internal_error", 500, "The service failed"),
-            Self::Crashed => ("crashed", 500, "A bug in the service ended the computation"),
-            Self::DamagedFile => ("damaged_file", 500, "A stored file is damaged"),
-            Self::QueueFull => ("queue_full", 503, "The queue is full"),
-            Self::SessionsTaken => ("sessions_taken", 503, "All live sessions are taken"),
-            Self::Stopping => ("stopping", 503, "The service is shutting down"),
-            Self::Draining => ("draining", 503, "The process takes in no more jobs"),
-            Self::NotReady => ("not_ready", 503, "The service would not accept a job now"),
-            Self::StoreUnavailable => (
-                "store_unavailable",
-                503,
-                "The job database or the files cannot be reached",
-            ),
-            Self::WorkerLost => (
-                "worker_lost",
-                503,
-                "The computation was terminated from outside",
-            ),
-            Self::TimedOut => (
-                "timed_out",
-                504,
-                "The computation was not done within its time limit",
-            ),
-            Self::StorageFull => (
-                "storage_full",
-                507,
-                "The disk is full, or the quota is used up",
-            ),
-        }
-    }
+codes! {
+    InvalidRequest => ("invalid_request", 400, "A parameter, header or body is malformed"),
+    InvalidOptions => ("invalid_options", 400, "An option is unknown or has an invalid value"),
+    MissingMesh => ("missing_mesh", 400, "The upload has no input"),
+    NeedsJob => ("needs_job", 400, "This result is only available from a job"),
+    KeyRequired => ("key_required", 401, "The call needs an API key"),
+    KeyRefused => ("key_refused", 401, "The API key is not valid"),
+    MissingScope => ("missing_scope", 403, "The API key may not do this"),
+    ForeignOrigin => ("foreign_origin", 403, "Pages of this origin may not use the service"),
+    NotFound => ("not_found", 404, "The path does not exist"),
+    JobNotFound => ("job_not_found", 404, "The job does not exist"),
+    NoSuchFile => ("no_such_file", 404, "The job does not produce this file"),
+    SessionNotFound => ("session_not_found", 404, "The session does not exist"),
+    MethodNotAllowed => ("method_not_allowed", 405, "The path does not support this method"),
+    RequestTimeout => ("request_timeout", 408, "The body did not arrive in time"),
+    NotFinished => ("not_finished", 409, "The job is not finished"),
+    AlreadyFinished => ("already_finished", 409, "The job has already ended"),
+    NoResult => ("no_result", 409, "The job failed or was cancelled"),
+    NotFailed => ("not_failed", 409, "Only failed jobs can be tried again"),
+    NoKeys => ("no_keys", 409, "The service does not ask for keys"),
+    ComputedElsewhere => ("computed_elsewhere", 409, "Another process computes the job"),
+    JobExpired => ("job_expired", 410, "The job was removed after its time"),
+    Conflict => ("conflict", 409, "Another request changed it meanwhile"),
+    UploadTooLarge => ("upload_too_large", 413, "The upload is too large"),
+    UnsupportedMediaType => ("unsupported_media_type", 415, "The content type is not supported"),
+    RangeNotSatisfiable => ("range_not_satisfiable", 416, "The range lies outside the file"),
+    UnknownHost => ("unknown_host", 421, "The service is not reached under this name"),
+    UnknownFormat => ("unknown_format", 422, "The job kind does not read this file format"),
+    InvalidGltf => ("invalid_gltf", 422, "The file is not valid glTF 2.0"),
+    IdempotencyKeyReused => (
+        "idempotency_key_reused",
+        422,
+        "The Idempotency-Key belongs to a different submission",
+    ),
+    UpgradeRequired => (
+        "upgrade_required",
+        426,
+        "The path requires a WebSocket; events can also be had as text/event-stream",
+    ),
+    TooManyConnections => ("too_many_connections", 429, "The client has too many connections"),
+    RateLimited => ("rate_limited", 429, "Too many requests; Retry-After says when to go on"),
+    OwnerQuotaUsed => ("owner_quota_used", 429, "The owner of the key has used up a quota"),
+    OutOfMemory => ("out_of_memory", 422, "The input needs more memory than a job may use"),
+    InternalError => ("internal_error", 500, "The service failed"),
+    Crashed => ("crashed", 500, "A bug in the service ended the computation"),
+    DamagedFile => ("damaged_file", 500, "A stored file is damaged"),
+    QueueFull => ("queue_full", 503, "The queue is full"),
+    SessionsTaken => ("sessions_taken", 503, "All live sessions are taken"),
+    Stopping => ("stopping", 503, "The service is shutting down"),
+    Draining => ("draining", 503, "The process takes in no more jobs"),
+    NotReady => ("not_ready", 503, "The service would not accept a job now"),
+    StoreUnavailable => (
+        "store_unavailable",
+        503,
+        "The job database or the files cannot be reached",
+    ),
+    WorkerLost => ("worker_lost", 503, "The computation was terminated from outside"),
+    TimedOut => ("timed_out", 504, "The computation was not done within its time limit"),
+    StorageFull => ("storage_full", 507, "The disk is full, or the quota is used up"),
 }

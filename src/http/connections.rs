@@ -11,17 +11,33 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use axum::Router;
+use hyper::Request;
+use hyper::body::Incoming;
 use hyper::server::conn::http1::Builder;
+use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use metrics::{counter, describe_counter, gauge};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
+use super::admission::Peer;
 use super::held::Held;
 use super::problem::{Code, Problem};
 use super::settings::Connections;
+
+/// Connections now, and how many were refused.
+pub(super) const OPEN: &str = "unwrapd_connections";
+const REFUSED: &str = "unwrapd_connections_refused_total";
+
+/// Says what is counted here, and starts at zero.
+pub(super) fn describe() {
+    let meaning = "Connections refused because their address had too many";
+    describe_counter!(REFUSED, meaning);
+    counter!(REFUSED).absolute(0);
+}
 
 /// After an error that may pass, such as too many open files.
 const PAUSE: Duration = Duration::from_millis(200);
@@ -58,8 +74,15 @@ pub(super) async fn serve(
             http1.header_read_timeout(REFUSAL_TIME).keep_alive(false);
             refusal(limits)
         };
-        let stream = Held::new(stream, limits.silence, (seat, place));
+        if seat.is_none() {
+            counter!(REFUSED).increment(1);
+        }
+        let stream = Held::new(stream, limits.silence, (seat, place, Counted::new()));
         let service = TowerToHyperService::new(service);
+        let service = service_fn(move |mut request: Request<Incoming>| {
+            request.extensions_mut().insert(Peer(peer.ip()));
+            service.call(request)
+        });
         let connection = http1.serve_connection(TokioIo::new(stream), service);
         let stop = stop.clone();
         open.spawn(async move {
@@ -113,6 +136,22 @@ fn refusal(limits: &Connections) -> Router {
         let detail = format!("an address may have {most} connections at a time");
         Problem::new(Code::TooManyConnections, detail).with_limit(most as u64)
     })
+}
+
+/// One more connection, until it is dropped.
+struct Counted;
+
+impl Counted {
+    fn new() -> Self {
+        gauge!(OPEN).increment(1.0);
+        Self
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        gauge!(OPEN).decrement(1.0);
+    }
 }
 
 /// How many connections each address has.

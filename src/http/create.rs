@@ -1,5 +1,7 @@
 //! Jobs: made, from an upload to the answer.
 
+use std::time::Duration;
+
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::Response;
@@ -12,7 +14,7 @@ use super::view::{JobView, job_path};
 use super::wishes::Wishes;
 use super::{App, Shared, json};
 use crate::jobs::access::Caller;
-use crate::jobs::{Ended, Job, SubmitError, Submitted};
+use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
 
 /// Create a job of any kind.
 ///
@@ -45,7 +47,7 @@ use crate::jobs::{Ended, Job, SubmitError, Submitted};
         ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but after N seconds at the latest"),
         ("kind" = Option<crate::jobs::Kind>, Query, description = "Kind of job; the default is `unwrap`"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
-        ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Waiting jobs of higher priority start first; the default is 0"),
+        ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Of the waiting jobs of one owner, those of higher priority start first; the default is 0"),
     ),
     responses(
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
@@ -55,6 +57,7 @@ use crate::jobs::{Ended, Job, SubmitError, Submitted};
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "`unknown_format`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "`owner_quota_used`: jobs, bytes or processor time of the owner", body = Problem, content_type = "application/problem+json"),
         (status = 503, description = "`queue_full`, `store_unavailable`: try again later; `draining`: try again elsewhere", body = Problem, content_type = "application/problem+json"),
         (status = 507, description = "`storage_full`: delete jobs, or try again later", body = Problem, content_type = "application/problem+json"),
     )
@@ -88,7 +91,17 @@ pub(super) async fn create_job(
 impl From<SubmitError> for Problem {
     fn from(error: SubmitError) -> Self {
         match error {
-            SubmitError::QueueFull => Self::new(Code::QueueFull, "try again later"),
+            SubmitError::QueueFull(after) => {
+                Self::new(Code::QueueFull, "try again later").retried_after(whole_seconds(after))
+            }
+            SubmitError::OwnerQuota(quota, after) => {
+                let detail = match quota {
+                    OwnerQuota::Jobs => "too many of its jobs wait or run",
+                    OwnerQuota::Bytes => "its jobs would take too many bytes: delete some",
+                    OwnerQuota::Cpu => "its processor time of this day is used up",
+                };
+                Self::new(Code::OwnerQuotaUsed, detail).retried_after(whole_seconds(after))
+            }
             SubmitError::KeyReused => Self::new(
                 Code::IdempotencyKeyReused,
                 "the mesh, kind or options differ from the first submission",
@@ -96,6 +109,10 @@ impl From<SubmitError> for Problem {
             SubmitError::Store(error) => error.into(),
         }
     }
+}
+
+fn whole_seconds(time: Duration) -> u64 {
+    time.as_millis().div_ceil(1000) as u64
 }
 
 pub(super) fn located(app: &App, status: StatusCode, job: &Job) -> Response {

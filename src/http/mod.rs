@@ -14,6 +14,7 @@ mod create;
 mod download;
 mod drain;
 mod events;
+mod exposition;
 mod extract;
 mod framing;
 mod held;
@@ -22,10 +23,12 @@ mod jobs;
 mod live;
 mod maps;
 mod missing;
+mod observation;
 mod openapi;
 mod options;
 mod origins;
 mod page;
+mod pause;
 mod probes;
 mod problem;
 mod received;
@@ -43,14 +46,16 @@ mod steady;
 mod synchronous;
 mod upload;
 mod view;
+mod windows;
 mod wishes;
 
 use std::any::Any;
+use std::net::IpAddr;
 use std::sync::Arc;
 
 use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, StatusCode, header};
-use axum::middleware::from_fn_with_state;
+use axum::middleware::{from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::{Router, routing::get};
 use tokio::net::TcpListener;
@@ -59,15 +64,16 @@ use tokio_util::task::TaskTracker;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::csrf::ConfigError;
 use tower_http::set_header::SetResponseHeaderLayer;
-use tower_http::trace::TraceLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+pub use self::exposition::{Exposition, measure};
 pub use self::origins::origin;
 use self::problem::{Code, Problem};
 pub use self::settings::{Connections, Settings};
+use self::windows::Windows;
 use crate::jobs::Jobs;
-use crate::jobs::access::KeyRing;
+use crate::jobs::access::{KeyRing, Owner};
 use crate::sessions::Sessions;
 
 /// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
@@ -83,6 +89,11 @@ struct App {
     jobs: Arc<Jobs>,
     sessions: Arc<Sessions>,
     keys: Arc<KeyRing>,
+    exposition: Exposition,
+    /// Requests of each owner.
+    requests: Option<Windows<Owner>>,
+    /// Wrong keys from each address.
+    wrong_keys: Windows<IpAddr>,
     settings: Settings,
     stop: CancellationToken,
     sockets: TaskTracker,
@@ -123,6 +134,11 @@ fn routes() -> OpenApiRouter<Arc<App>> {
             drain::end_drain,
             drain::get_drain
         ))
+        .routes(routes!(
+            pause::pause_queue,
+            pause::resume_queue,
+            pause::get_pause
+        ))
         .routes(routes!(probes::metrics))
 }
 
@@ -153,6 +169,7 @@ pub fn openapi() -> String {
 pub async fn serve(
     listener: TcpListener,
     (jobs, sessions, keys): (Arc<Jobs>, Arc<Sessions>, Arc<KeyRing>),
+    exposition: Exposition,
     settings: Settings,
     stop: CancellationToken,
 ) -> std::io::Result<()> {
@@ -160,6 +177,9 @@ pub async fn serve(
         jobs,
         sessions,
         keys,
+        exposition,
+        requests: settings.owner_requests.map(Windows::of),
+        wrong_keys: Windows::of(settings.wrong_keys),
         settings,
         stop: stop.clone(),
         sockets: TaskTracker::new(),
@@ -202,7 +222,7 @@ fn router(app: Arc<App>) -> Result<Router, ConfigError> {
         ))
         .layer(header(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
         .layer(header(header::REFERRER_POLICY, "no-referrer"))
-        .layer(TraceLayer::new_for_http()))
+        .layer(from_fn(observation::observe)))
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "the layer hands it over")]

@@ -141,13 +141,13 @@ fn links() -> Value {
 
 /// The table of codes.
 fn problems() -> Value {
-    let row = |code: Code| {
+    let row = |code: &Code| {
         let (word, status, title) = code.row();
         json!({ "code": word, "status": status, "title": title })
     };
     let cause =
         |&(word, title): &(&str, &str)| json!({ "code": word, "status": 422, "title": title });
-    let own = Code::ALL.into_iter().map(row);
+    let own = Code::ALL.iter().map(row);
     own.chain(CAUSES.iter().map(cause)).collect()
 }
 
@@ -175,8 +175,13 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
         },
     });
     if is_job {
-        schema["properties"]["image"] = input.clone();
-        schema["properties"]["problem"] = input;
+        schema["properties"]["image"] = input;
+        schema["properties"]["problem"] = json!({
+            "type": "string",
+            "contentMediaType": "application/json",
+            "contentSchema": reference("ProblemFile"),
+            "description": "A problem file of `solve`, with its file name",
+        });
         schema["oneOf"] = json!([{ "required": ["mesh"] }, { "required": ["image"] }, { "required": ["problem"] }]);
     } else {
         schema["required"] = json!(["mesh"]);

@@ -16,15 +16,20 @@ use axum::response::{IntoResponse, Response};
 use tower_http::cors::{AllowHeaders, AllowMethods, AllowOrigin, CorsLayer};
 use tower_http::csrf::{ConfigError, CsrfLayer, ProtectionError};
 
+use super::observation::REQUEST_ID;
 use super::problem::{Code, Problem};
 use super::settings::Settings;
+use super::windows;
 
 /// What scripts of other origins may read of an answer.
-const EXPOSED: [HeaderName; 4] = [
+const EXPOSED: [HeaderName; 7] = [
     header::CONTENT_DISPOSITION,
     header::ETAG,
     header::LOCATION,
     header::RETRY_AFTER,
+    REQUEST_ID,
+    windows::LEFT,
+    windows::POLICY,
 ];
 
 /// A router that answers only what may be asked, as the settings say.

@@ -1,7 +1,5 @@
 //! For those who run the service.
 
-use std::fmt::Write;
-
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
@@ -46,41 +44,18 @@ pub(super) async fn readyz(State(app): Shared) -> Result<&'static str, Problem> 
 }
 
 /// Get metrics in the Prometheus text format.
+///
+/// They are those of this process, and the state of the store, which is the same for all. While the
+/// job database does not answer, `unwrapd_store_up` is 0. `serve` and `worker` can also show them
+/// without a key, at an address of its own (`--metrics-listen`).
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "service",
     responses(
-        (status = 200, description = "Jobs by state, bytes stored and free", body = String, content_type = "text/plain"),
-        (status = 500, description = "`internal_error`: the job database failed", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "What is measured", body = String, content_type = "text/plain"),
     )
 )]
-pub(super) async fn metrics(State(app): Shared) -> Result<Response, Problem> {
-    let mut text = String::from(
-        "# HELP unwrapd_jobs Jobs in the store by state.\n# TYPE unwrapd_jobs gauge\n",
-    );
-    for (state, count) in app.jobs.counts().await? {
-        let _ = writeln!(text, "unwrapd_jobs{{state=\"{}\"}} {count}", state.word());
-    }
-    let usage = app.jobs.usage().await?;
-    let gauges = [
-        ("stored", "of the files of all jobs", Some(usage.stored)),
-        ("quota", "that they may take together", usage.quota),
-        ("free", "free where files of jobs lie", usage.free),
-        (
-            "scratch_free",
-            "free where uploads and attempts lie",
-            Some(usage.scratch_free),
-        ),
-    ];
-    for (name, meaning, bytes) in gauges {
-        let Some(bytes) = bytes else { continue };
-        let name = format!("unwrapd_{name}_bytes");
-        let _ = writeln!(
-            text,
-            "# HELP {name} Bytes {meaning}.\n# TYPE {name} gauge\n{name} {bytes}"
-        );
-    }
-    let content_type = [(header::CONTENT_TYPE, "text/plain; version=0.0.4")];
-    Ok((content_type, text).into_response())
+pub(super) async fn metrics(State(app): Shared) -> Response {
+    app.exposition.answer().await
 }
 
 /// Get this document.

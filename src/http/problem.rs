@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::causes;
 pub(super) use super::code::Code;
-use crate::jobs::{Failure, StoreError};
+use crate::jobs::{Failure, StoreError, meters};
 
 /// How to ask again where a key is needed (RFC 6750).
 const CHALLENGE: &str = "Bearer realm=\"unwrapd\"";
@@ -29,7 +29,13 @@ pub(super) struct Problem {
     /// The limit that was exceeded, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<u64>,
+    /// Seconds after which it may be tried again; those that are usual if nothing else is known.
+    #[serde(skip)]
+    retry_after: u32,
 }
+
+/// Seconds after which something that is busy may be tried again.
+const USUAL_PAUSE: u32 = 5;
 
 impl Problem {
     /// A problem of the service.
@@ -42,12 +48,19 @@ impl Problem {
             detail: detail.into(),
             code: word.to_owned(),
             limit: None,
+            retry_after: USUAL_PAUSE,
         }
     }
 
     /// Names the limit that was exceeded.
     pub fn with_limit(mut self, limit: u64) -> Self {
         self.limit = Some(limit);
+        self
+    }
+
+    /// Says after how many seconds it may be tried again.
+    pub fn retried_after(mut self, seconds: u64) -> Self {
+        self.retry_after = seconds as u32;
         self
     }
 
@@ -59,7 +72,7 @@ impl Problem {
 
     /// Why a job failed. A code that is not in the table belongs to the input.
     pub fn of_failure(failure: &Failure) -> Self {
-        let known = Code::ALL.into_iter().find(|c| c.row().0 == failure.code);
+        let known = Code::ALL.iter().find(|c| c.row().0 == failure.code);
         let (status, title) = known.map_or_else(
             || {
                 let meaning = causes::meaning(&failure.code);
@@ -74,12 +87,14 @@ impl Problem {
             detail: failure.detail.clone(),
             code: failure.code.clone(),
             limit: None,
+            retry_after: USUAL_PAUSE,
         }
     }
 }
 
 impl From<StoreError> for Problem {
     fn from(error: StoreError) -> Self {
+        meters::store_failed();
         tracing::error!(%error, "store");
         match error {
             StoreError::Full(why) => Self::new(
@@ -111,7 +126,7 @@ impl IntoResponse for Problem {
         set(header::CONTENT_TYPE, "application/problem+json");
         match status {
             StatusCode::SERVICE_UNAVAILABLE | StatusCode::TOO_MANY_REQUESTS => {
-                set(header::RETRY_AFTER, "5");
+                headers.insert(header::RETRY_AFTER, self.retry_after.into());
             }
             StatusCode::UNAUTHORIZED => {
                 set(header::WWW_AUTHENTICATE, CHALLENGE);

@@ -33,6 +33,7 @@ impl Received {
             options: self.options,
             files: self.files,
             priority: self.priority,
+            trace: wishes.trace,
             reuse: wishes.reuse,
             key: wishes.key,
             ephemeral,

@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 use utoipa::ToSchema;
 use utoipa::openapi::{RefOr, Schema};
 
+use crate::deform::ProblemFile;
 use crate::jobs::{Event, Kind};
 use crate::pipeline::{
     DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, RepackOptions,
@@ -27,6 +28,7 @@ pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {
     add::<WarpReport>(&mut schemas);
     add::<EditReport>(&mut schemas);
     add::<Event>(&mut schemas);
+    add::<ProblemFile>(&mut schemas);
     schemas
 }
 

@@ -9,7 +9,7 @@ const OF_ANY_KEY: &str = "/v1/sign-in";
 /// Operations that look like looking, and change something.
 const WRITTEN: &str = "/v1/sessions/{id}/live";
 /// Operations on what belongs to no owner.
-const OF_ALL: [&str; 2] = ["/v1/drain", "/metrics"];
+const OF_ALL: [&str; 3] = ["/v1/drain", "/v1/pause", "/metrics"];
 
 /// What a key must be good for.
 pub(super) fn needed(method: &Method, path: &str) -> Vec<Scope> {

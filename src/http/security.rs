@@ -46,7 +46,12 @@ fn ask(operation: &mut Value, method: &str, path: &str) {
     let method = Method::from_bytes(method.as_bytes()).unwrap_or_default();
     let scopes: Vec<&str> = needed(&method, path).into_iter().map(Scope::word).collect();
     operation["security"] = json!([{ BEARER: scopes }, { OF_PAGE: scopes }, {}]);
-    let mut codes = vec![Code::KeyRequired, Code::KeyRefused, Code::MissingScope];
+    let mut codes = vec![
+        Code::KeyRequired,
+        Code::KeyRefused,
+        Code::MissingScope,
+        Code::RateLimited,
+    ];
     // What a page of another site must not do: change something, or open a WebSocket.
     if method != Method::GET || !operation["responses"]["101"].is_null() {
         codes.push(Code::ForeignOrigin);

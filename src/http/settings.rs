@@ -13,12 +13,26 @@ pub struct Settings {
     pub connections: Connections,
     /// How long an upload may take in all.
     pub upload_time: Duration,
+    /// Requests that each owner may send in a minute.
+    pub owner_requests: Option<u32>,
+    /// Wrong keys that an address may send in a minute before it is told to wait.
+    pub wrong_keys: u32,
     /// Origins, such as `https://example.org`, whose pages may use the service.
     pub origins: Vec<String>,
     /// Names under which the service is reached, beside addresses and `localhost`; none: any name.
     pub hosts: Option<Vec<String>>,
     /// What a proxy puts in front of all paths; empty without one.
     pub base_path: String,
+}
+
+impl Connections {
+    /// Of what collects measurements.
+    pub(super) const OF_COLLECTORS: Self = Self {
+        most: 16,
+        most_of_address: None,
+        header_time: Duration::from_mins(2),
+        silence: Duration::from_secs(30),
+    };
 }
 
 /// How many connections there may be, and how long they may be silent.

@@ -27,7 +27,7 @@ pub(super) struct JobView {
     /// All options, with defaults filled in.
     #[schema(value_type = Object)]
     options: Value,
-    /// Waiting jobs of higher priority start first.
+    /// Of the waiting jobs of one owner, those of higher priority start first.
     priority: i32,
     /// Number of times the job was started.
     attempt: u32,

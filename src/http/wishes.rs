@@ -2,6 +2,7 @@
 
 use axum::http::{HeaderMap, header};
 
+use super::observation::traceparent;
 use super::problem::{Code, Problem};
 
 /// Longest Idempotency-Key.
@@ -13,10 +14,12 @@ pub(super) struct Wishes {
     pub key: Option<String>,
     /// Whether the result of an equal job will do.
     pub reuse: bool,
+    /// The trace that the client says it is a part of.
+    pub trace: Option<String>,
 }
 
 impl Wishes {
-    /// Reads `Idempotency-Key` and `Cache-Control`.
+    /// Reads `Idempotency-Key`, `Cache-Control` and `traceparent`.
     pub fn read(headers: &HeaderMap) -> Result<Self, Problem> {
         let directives = headers.get_all(header::CACHE_CONTROL).iter();
         let mut directives = directives
@@ -26,6 +29,7 @@ impl Wishes {
         Ok(Self {
             key: idempotency_key(headers)?,
             reuse: !directives.any(is_refusal),
+            trace: traceparent(headers),
         })
     }
 }

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
+use tracing::Instrument;
 
 use super::cgroup::Kills;
 use super::checksum;
@@ -29,15 +30,22 @@ const PAUSE: Duration = Duration::from_secs(1);
 /// After which a job of a newer program is offered again.
 const PAUSE_FOR_NEWER: Duration = Duration::from_secs(3);
 
-/// Runs a claimed job to its end and records it. `leave` asks to hand it back. Returns how long this
-/// worker should rest: where files or space are wanting, the next job would fare no better, and
-/// another worker may.
-pub(super) async fn run(
+/// Runs a claimed job, as [`run`] says, with its name in all lines of the log.
+pub(super) async fn run_logged(
     jobs: &Jobs,
     job: Job,
     attempt: &Attempt,
     leave: &CancellationToken,
 ) -> Duration {
+    let trace = job.trace.as_deref();
+    let span = tracing::info_span!("attempt", job = %job.id, trace);
+    run(jobs, job, attempt, leave).instrument(span).await
+}
+
+/// Runs a claimed job to its end and records it. `leave` asks to hand it back. Returns how long this
+/// worker should rest: where files or space are wanting, the next job would fare no better, and
+/// another worker may.
+async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) -> Duration {
     let name = format!("attempt-{}-{}", job.id, job.token);
     let folder = jobs.settings.scratch.join(name);
     tracing::info!(job = %job.id, attempt = job.attempt, worker = %jobs.worker, "started");

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use tokio::time::{Instant, MissedTickBehavior};
 
+use super::meters;
 use super::queue::Jobs;
 
 impl Jobs {
@@ -25,7 +26,10 @@ impl Jobs {
                         self.running.answered(beat, changed, lease_end);
                     }
                 }
-                Err(error) => tracing::warn!(%error, "no sign of life given"),
+                Err(error) => {
+                    meters::store_failed();
+                    tracing::warn!(%error, "no sign of life given");
+                }
             }
         }
     }

@@ -1,9 +1,16 @@
 //! Whether there is room for more jobs.
 
+use std::time::Duration;
+
 use super::queue::Jobs;
 use super::space::free_bytes;
 use super::storage::Capacity;
 use super::store_error::{StoreError, StoreResult};
+
+/// Over which the pace of the queue is taken.
+const PACE_TIME: Duration = Duration::from_mins(5);
+/// For a place in a queue that has no pace.
+const WITHOUT_PACE: Duration = Duration::from_mins(1);
 
 /// How much is stored, and how much more may be.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +31,15 @@ impl Jobs {
         Capacity {
             depth: self.settings.queue_depth,
             bytes: self.settings.quota,
+            of_owner: self.settings.of_owner,
+        }
+    }
+
+    /// After which time a place in the queue will be free, at its pace of the last minutes.
+    pub(super) async fn next_place(&self) -> Duration {
+        match self.store.ended_within(PACE_TIME).await {
+            Ok(ended @ 1..) => (PACE_TIME / ended.min(1000) as u32).max(Duration::from_secs(1)),
+            _ => WITHOUT_PACE,
         }
     }
 

@@ -18,6 +18,8 @@ use super::task::Message;
 const GRACE: Duration = Duration::from_millis(100);
 /// For a child that has said all to be gone.
 const LAST_WORDS: Duration = Duration::from_secs(5);
+/// Unit of processor times in `/proc`, the same on all of Linux.
+const TICK_MS: u64 = 10;
 /// How much of a child's standard error is kept.
 const STDERR_BYTES: u64 = 64 << 10;
 
@@ -128,6 +130,18 @@ impl Child {
         let resident = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
         let kib = resident.and_then(|text| text.trim().strip_suffix(" kB")?.parse::<u64>().ok());
         kib.unwrap_or(0) << 10
+    }
+
+    /// Milliseconds of processor time that it has used.
+    pub fn cpu_ms(&self) -> u64 {
+        let Some(pid) = self.process.id() else {
+            return 0;
+        };
+        let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        // The name, which is in brackets, may have spaces in it.
+        let fields = stat.rsplit_once(") ").map_or("", |(_, fields)| fields);
+        let ticks = fields.split(' ').skip(11).take(2);
+        ticks.filter_map(|it| it.parse::<u64>().ok()).sum::<u64>() * TICK_MS
     }
 
     fn signal(&self, signal: Signal) {

@@ -65,6 +65,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
             sha256: Some(sha256(&bytes)),
         });
     }
+    Reporter::tell_cpu();
     let frames = reporter.into_frames();
     frames.into_output(&mut output).map_err(unwritten)?;
     let verdict = made.verdict;

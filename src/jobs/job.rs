@@ -171,8 +171,10 @@ pub struct Job {
     pub attempt: u32,
     /// Names what was asked for: jobs with the same digest have equal inputs, kinds and options.
     pub digest: String,
-    /// Waiting jobs of higher priority start first.
+    /// Of the waiting jobs of one owner, those of higher priority start first.
     pub priority: i32,
+    /// The `traceparent` that the client sent (W3C Trace Context), which logs repeat.
+    pub trace: Option<String>,
     /// Names its present or last holder; fences off what former ones report.
     pub token: Token,
     /// Who has it.
@@ -218,6 +220,7 @@ impl Job {
             attempt: 0,
             digest: String::new(),
             priority: 0,
+            trace: None,
             token: 0,
             worker: None,
             lease: None,

@@ -31,6 +31,9 @@
 //! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its
 //! files.
 //!
+//! Owners take turns, and priorities order what each of them has waiting ([`JobStore::claim`]).
+//! A process keeps one slot in reserve for small jobs, which do not wait for large ones.
+//!
 //! Every job belongs to an owner, and whoever asks for one says how far they see ([`access`]).
 //!
 //! Where records and files live is not decided here: [`JobStore`] and [`Blobs`] are traits.
@@ -52,12 +55,14 @@ mod frames;
 mod input_output;
 mod job;
 mod keys;
+mod lane;
 mod lease;
 mod live;
 mod map_feed;
 mod map_frame;
 mod maps;
 mod memory_failure;
+pub mod meters;
 mod output;
 mod pace;
 mod progress;
@@ -100,8 +105,8 @@ pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
 pub use storage::{
-    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing, Reason,
-    Sweep,
+    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing,
+    OwnerQuota, OwnerQuotas, Queue, Reason, Share, Sweep,
 };
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};

@@ -41,6 +41,8 @@ pub struct Saying {
     pub seq: u64,
     /// How far it is.
     pub progress: Progress,
+    /// Processor time that it has used.
+    pub cpu_ms: u64,
 }
 
 /// One state of a job in its sequence. Events are snapshots: one that was missed is not needed.

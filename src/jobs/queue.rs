@@ -12,10 +12,11 @@ use super::job::{Job, JobId};
 use super::keys::output_folder;
 use super::lease::WorkerId;
 use super::live::Live;
+use super::meters;
 use super::running::Running;
 use super::settings::Settings;
 use super::state::State;
-use super::storage::{Blobs, Changed, JobStore, Listing, Reason};
+use super::storage::{Blobs, Changed, JobStore, Listing, Queue, Reason};
 use super::store_error::StoreResult;
 use super::transition::{Happening, Wish};
 
@@ -31,6 +32,7 @@ pub struct Jobs {
     pub(super) live: Live,
     pub(super) running: Running,
     pub(super) wake: Notify,
+    pub(super) wake_reserve: Notify,
     pub(super) tasks: TaskTracker,
     pub(super) engine: OnceCell<String>,
     pub(super) draining: AtomicBool,
@@ -56,6 +58,7 @@ impl Jobs {
             live: Live::default(),
             running: Running::default(),
             wake: Notify::new(),
+            wake_reserve: Notify::new(),
             tasks: TaskTracker::new(),
             engine: OnceCell::new(),
             draining: AtomicBool::new(false),
@@ -91,9 +94,9 @@ impl Jobs {
         self.store.list(reach, listing).await
     }
 
-    /// How many jobs there are in each state.
-    pub async fn counts(&self) -> StoreResult<Vec<(State, u64)>> {
-        self.store.counts().await
+    /// How many jobs there are in each state, and how long the oldest of those that wait does so.
+    pub async fn queue(&self) -> StoreResult<Queue> {
+        self.store.queue().await
     }
 
     /// Waits for the end of a job, but not longer than this.
@@ -158,13 +161,20 @@ impl Jobs {
     /// Tells those who watch, and those who wait for work, of a record that changed. The files that
     /// it does not need are removed.
     pub(super) async fn tell(&self, job: &Job) {
+        meters::finished(job);
         if let Err(error) = self.remove_unneeded(job).await {
             tracing::error!(job = %job.id, %error, "files that no job needs not removed");
         }
         self.live.publish(job.id, job.event());
         if job.state == State::Queued {
-            self.wake.notify_one();
+            self.look();
         }
+    }
+
+    /// Has this process look for jobs that can be started.
+    pub(super) fn look(&self) {
+        self.wake.notify_one();
+        self.wake_reserve.notify_one();
     }
 
     /// Nothing but the record is kept of a cancelled job, and nothing of lost attempts.

@@ -4,6 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use nix::sys::resource::{UsageWho, getrusage};
+use nix::sys::time::TimeValLike;
+
 use super::frames::Frames;
 use super::maps::Maps;
 use super::pace::Pace;
@@ -61,6 +64,15 @@ impl Reporter {
             }
         })?;
         Ok(reporter)
+    }
+
+    /// Tells how much processor time was used.
+    pub(super) fn tell_cpu() {
+        if let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) {
+            let times = [usage.user_time(), usage.system_time()];
+            let ms = times.map(|time| time.num_milliseconds());
+            Message::Cpu(ms.iter().sum::<i64>().max(0) as u64).tell();
+        }
     }
 
     /// The frames that were shown.

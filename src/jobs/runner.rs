@@ -3,13 +3,16 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use futures_util::future::join_all;
+use tokio::sync::OwnedSemaphorePermit;
 use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
 use super::attempt;
 use super::job::Job;
+use super::lane::Lane;
+use super::meters;
 use super::queue::Jobs;
 use super::running::Attempt;
 
@@ -49,19 +52,10 @@ impl Jobs {
         let beats = tokio::spawn(async move { beater.beat(pace).await });
 
         let (leave, attempts) = (CancellationToken::new(), TaskTracker::new());
-        let slots = Arc::new(Semaphore::new(self.settings.workers));
-        while let Some(claimed) = self.next(&slots, &stop).await {
-            let (jobs, leave, stop) = (Arc::clone(&self), leave.clone(), stop.clone());
-            attempts.spawn(async move {
-                let Claimed { slot, job, attempt } = claimed;
-                let rest = attempt::run(&jobs, job, &attempt, &leave).await;
-                tokio::select! {
-                    () = tokio::time::sleep(rest) => {}
-                    () = stop.cancelled() => {}
-                }
-                drop(slot);
-            });
-        }
+        let lanes = Lane::all(&self.settings);
+        let started = lanes.iter();
+        let started = started.map(|lane| self.start_in(lane, &leave, &attempts, &stop));
+        join_all(started).await;
         attempts.close();
         if tokio::time::timeout(self.settings.grace, attempts.wait())
             .await
@@ -75,42 +69,70 @@ impl Jobs {
         self.tasks.wait().await;
     }
 
+    /// Starts attempts as jobs come and slots of a lane are free, until told to stop.
+    async fn start_in(
+        self: &Arc<Self>,
+        lane: &Lane,
+        leave: &CancellationToken,
+        attempts: &TaskTracker,
+        stop: &CancellationToken,
+    ) {
+        while let Some(claimed) = self.next(lane, stop).await {
+            let (jobs, leave, stop) = (Arc::clone(self), leave.clone(), stop.clone());
+            attempts.spawn(async move {
+                let Claimed { slot, job, attempt } = claimed;
+                let rest = attempt::run_logged(&jobs, job, &attempt, &leave).await;
+                tokio::select! {
+                    () = tokio::time::sleep(rest) => {}
+                    () = stop.cancelled() => {}
+                }
+                drop(slot);
+            });
+        }
+    }
+
     /// Looks for jobs when the store hints at one, until told to stop.
     async fn wake_until(&self, stop: &CancellationToken) {
         loop {
             tokio::select! {
-                () = self.store.hint() => self.wake.notify_one(),
+                () = self.store.hint() => self.look(),
                 () = stop.cancelled() => return,
             }
         }
     }
 
     /// The next job, when there are a slot, space and a job; `None` after a stop.
-    async fn next(&self, slots: &Arc<Semaphore>, stop: &CancellationToken) -> Option<Claimed> {
+    async fn next(&self, lane: &Lane, stop: &CancellationToken) -> Option<Claimed> {
+        let bell = lane.bell(&self.wake, &self.wake_reserve);
         let slot = tokio::select! {
-            slot = Arc::clone(slots).acquire_owned() => slot.ok()?,
+            slot = Arc::clone(&lane.slots).acquire_owned() => slot.ok()?,
             () = stop.cancelled() => return None,
         };
+        lane.set_free(true);
         while !stop.is_cancelled() {
             let sent = Instant::now();
             let claimed = match self.has_room() {
-                Ok(()) if self.is_draining() => Ok(None),
-                Ok(()) => self.store.claim(self.worker).await,
+                Ok(()) if self.is_draining() || !lane.is_open() => Ok(None),
+                Ok(()) => self.store.claim(self.worker, lane.share).await,
                 Err(error) => Err(error),
             };
             let pause = match claimed {
                 Ok(Some(job)) => {
                     let attempt = attempt::started(self, &job, sent);
+                    // If no slot is left, the reserve is open.
+                    lane.set_free(false);
+                    self.wake_reserve.notify_one();
                     return Some(Claimed { slot, job, attempt });
                 }
                 Ok(None) => self.settings.deployment.look_interval(),
                 Err(error) => {
+                    meters::store_failed();
                     tracing::error!(%error, "no job claimed");
                     STORE_RETRY
                 }
             };
             tokio::select! {
-                () = self.wake.notified() => {}
+                () = bell.notified() => {}
                 () = tokio::time::sleep(pause) => {}
                 () = stop.cancelled() => return None,
             }

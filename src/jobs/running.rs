@@ -33,6 +33,7 @@ pub(super) struct Attempt {
 struct Present {
     event: Event,
     lease_end: Instant,
+    cpu_ms: u64,
 }
 
 impl Attempt {
@@ -50,10 +51,20 @@ impl Attempt {
         self.state().event = event;
     }
 
+    /// Says how much processor time it has used.
+    pub fn set_cpu_ms(&self, cpu_ms: u64) {
+        let mut state = self.state();
+        state.cpu_ms = state.cpu_ms.max(cpu_ms);
+    }
+
     /// What it says of itself.
     pub fn saying(&self) -> Saying {
-        let Event { seq, progress, .. } = self.event();
-        Saying { seq, progress }
+        let state = self.state();
+        Saying {
+            seq: state.event.seq,
+            progress: state.event.progress,
+            cpu_ms: state.cpu_ms,
+        }
     }
 
     /// Whether another worker may have the job by now. The time counts from when the last renewal
@@ -86,6 +97,7 @@ impl Running {
             state: Mutex::new(Present {
                 event: job.event(),
                 lease_end,
+                cpu_ms: 0,
             }),
         });
         if job.finish_early {

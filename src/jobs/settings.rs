@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::lease::Rules;
+use super::storage::OwnerQuotas;
 
 /// Whether there are other processes on the same records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,11 @@ pub struct Settings {
     pub workers: usize,
     /// Cores that they share.
     pub cores: usize,
+    /// Jobs of one owner that are computed at the same time, in all processes.
+    pub owner_running: Option<u32>,
+    /// Jobs with files of at most so many bytes may also start while all of `workers` are taken, one
+    /// at a time: they do not wait for large ones. `None`: they wait like all others.
+    pub small: Option<u64>,
     /// Jobs that may wait.
     pub queue_depth: u32,
     /// Wall-clock time after which an attempt ends with the map it has.
@@ -60,6 +66,8 @@ pub struct Settings {
     pub triangles: u64,
     /// Bytes that the files of all jobs may take together.
     pub quota: Option<u64>,
+    /// What one owner may have.
+    pub of_owner: OwnerQuotas,
     /// Bytes that must be free for a job to be accepted or started.
     pub min_free: u64,
     /// How long a job is kept after its end, with its files. `None`: another process sees to that.

@@ -36,6 +36,8 @@ pub enum Enqueued {
     KeyReused,
     /// As many jobs wait as may wait.
     Full,
+    /// Its owner would have more than one may have, or has used it up.
+    OwnerOverQuota(OwnerQuota),
     /// The files of all jobs together would take more than they may.
     OverQuota,
 }
@@ -47,6 +49,39 @@ pub struct Capacity {
     pub depth: u32,
     /// Bytes that the files of all jobs may take when one more is accepted.
     pub bytes: Option<u64>,
+    /// What one owner may have.
+    pub of_owner: OwnerQuotas,
+}
+
+/// What one owner may have.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OwnerQuotas {
+    /// Jobs that wait or run.
+    pub jobs: Option<u32>,
+    /// Bytes of the files of all their jobs.
+    pub bytes: Option<u64>,
+    /// Processor time of a day in UTC.
+    pub cpu_of_day: Option<Duration>,
+}
+
+/// A quota of an owner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OwnerQuota {
+    /// [`OwnerQuotas::jobs`].
+    Jobs,
+    /// [`OwnerQuotas::bytes`].
+    Bytes,
+    /// [`OwnerQuotas::cpu_of_day`].
+    Cpu,
+}
+
+/// Which jobs a worker takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Share {
+    /// Only those whose files have at most so many bytes.
+    pub largest: Option<u64>,
+    /// Only those of owners of whom fewer than so many run, in all processes.
+    pub of_owner: Option<u32>,
 }
 
 /// Which jobs to list, the newest first.
@@ -58,6 +93,15 @@ pub struct Listing {
     pub before: Option<JobId>,
     /// At most so many.
     pub limit: u32,
+}
+
+/// All jobs at a glance.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Queue {
+    /// How many there are in each state.
+    pub counts: Vec<(State, u64)>,
+    /// For how long the oldest of those that wait has been there.
+    pub oldest_wait: Duration,
 }
 
 /// What became of a record.
@@ -121,9 +165,19 @@ pub trait JobStore: Send + Sync {
     /// The latest jobs with the digest and the owner of this one that succeeded and are kept.
     fn equal<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
-    /// Gives a queued job that may be started to a worker: one of the highest priority, and of those
-    /// the oldest.
-    fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>>;
+    /// Gives a queued job that may be started to a worker. It belongs to the owner who has the fewest
+    /// running, and among those to the one whose last start was longest ago. Of this owner's jobs it
+    /// is one of the highest priority, and of those the oldest.
+    fn claim(&self, worker: WorkerId, share: Share) -> BoxFuture<'_, StoreResult<Option<Job>>>;
+
+    /// Has no job claimed by anybody from now on, or again.
+    fn set_paused(&self, paused: bool) -> BoxFuture<'_, StoreResult<()>>;
+
+    /// Whether no job is claimed.
+    fn is_paused(&self) -> BoxFuture<'_, StoreResult<bool>>;
+
+    /// How many jobs were computed and ended within this time before now.
+    fn ended_within(&self, time: Duration) -> BoxFuture<'_, StoreResult<u64>>;
 
     /// Waits for a hint that a job can be claimed. A hint may be lost, and some stores give none.
     fn hint(&self) -> BoxFuture<'_, ()>;
@@ -160,8 +214,8 @@ pub trait JobStore: Send + Sync {
     /// The jobs that belong to calls.
     fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
-    /// How many jobs there are in each state.
-    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>>;
+    /// How many jobs there are in each state, and how long the oldest of those that wait does so.
+    fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>>;
 
     /// Bytes of the files of all jobs.
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>>;

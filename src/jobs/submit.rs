@@ -1,14 +1,20 @@
 //! From received files to a queued job.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use super::access::Owner;
 use super::input_output::InputFile;
 use super::job::{Job, JobId, Kind};
 use super::keys::input_key;
+use super::meters;
 use super::queue::Jobs;
-use super::storage::{Enqueued, IdempotencyKey};
+use super::storage::{Enqueued, IdempotencyKey, OwnerQuota};
 use super::store_error::StoreError;
+use super::timestamp::Timestamp;
+
+/// For an owner to delete jobs.
+const DELETION_TIME: Duration = Duration::from_mins(1);
 
 /// A wish for a job, checked as far as that is possible without computing.
 pub struct Submission {
@@ -22,10 +28,12 @@ pub struct Submission {
     pub files: Vec<(InputFile, PathBuf)>,
     /// Names what is asked for; see [`Job::digest`].
     pub digest: String,
-    /// Waiting jobs of higher priority start first.
+    /// Of the waiting jobs of one owner, those of higher priority start first.
     pub priority: i32,
     /// Whether the result of an equal job will do.
     pub reuse: bool,
+    /// The trace that it is a part of; see [`Job::trace`].
+    pub trace: Option<String>,
     /// The client's word that makes a repetition harmless.
     pub key: Option<String>,
     /// Whether it is of no use without the call that waits for it.
@@ -44,9 +52,12 @@ pub enum Submitted {
 /// Why a submission was not accepted.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmitError {
-    /// As many jobs wait as may wait.
+    /// As many jobs wait as may wait. At the present pace there is a place after this time.
     #[error("the queue is full")]
-    QueueFull,
+    QueueFull(Duration),
+    /// Its owner has as much as one may have. It may be less after this time.
+    #[error("the owner has used up a quota")]
+    OwnerQuota(OwnerQuota, Duration),
     /// The key belongs to another submission.
     #[error("the Idempotency-Key belongs to a different submission")]
     KeyReused,
@@ -86,6 +97,7 @@ impl Jobs {
             input: submission.files.into_iter().map(|(file, _)| file).collect(),
             digest: submission.digest,
             priority: submission.priority,
+            trace: submission.trace,
             ephemeral: submission.ephemeral,
             ..Job::queued(id, submission.kind, submission.options)
         };
@@ -99,12 +111,23 @@ impl Jobs {
         let capacity = self.capacity();
         match self.store.enqueue(&job, key.as_ref(), capacity).await? {
             Enqueued::New(job) => {
-                self.wake.notify_one();
+                meters::enqueued(&job);
+                let (kind, trace) = (job.kind.word(), job.trace.as_deref());
+                tracing::info!(job = %job.id, kind, trace, "accepted");
+                self.look();
                 Ok(Submitted::New(*job))
             }
             Enqueued::Replay(earlier) => Ok(Submitted::Replay(*earlier)),
             Enqueued::KeyReused => Err(SubmitError::KeyReused),
-            Enqueued::Full => Err(SubmitError::QueueFull),
+            Enqueued::Full => Err(SubmitError::QueueFull(self.next_place().await)),
+            Enqueued::OwnerOverQuota(quota) => {
+                let after = match quota {
+                    OwnerQuota::Jobs => self.next_place().await,
+                    OwnerQuota::Bytes => DELETION_TIME,
+                    OwnerQuota::Cpu => Timestamp::now().until_next_day(),
+                };
+                Err(SubmitError::OwnerQuota(quota, after))
+            }
             Enqueued::OverQuota => {
                 let detail = "the files of all jobs would take more than they may".to_owned();
                 Err(StoreError::Full(detail).into())

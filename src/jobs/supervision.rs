@@ -10,6 +10,7 @@ use super::child::Child;
 use super::deadline::{given_up_after, timed_out};
 use super::job::Job;
 use super::memory_failure::out_of_memory;
+use super::meters::StageClock;
 use super::progress::Event;
 use super::queue::Jobs;
 use super::running::Attempt;
@@ -43,14 +44,17 @@ pub(super) async fn watch(
     let mut interval = tokio::time::interval(WATCH_INTERVAL);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
     let mut event = attempt.event();
+    let mut stages = StageClock::of(job.kind);
     let (mut is_ready, mut is_told, mut is_asked) = (false, false, false);
     loop {
         tokio::select! {
             message = child.next_message() => match message {
                 None => return Watched::Silent,
                 Some(Message::Ready) => is_ready = true,
+                Some(Message::Cpu(ms)) => attempt.set_cpu_ms(ms),
                 Some(Message::Progress(progress)) => {
                     event.progress.advance(progress);
+                    stages.show(progress.stage);
                     event = Event { seq: event.seq + 1, ..job_event(job, event) };
                     attempt.set_event(event);
                     jobs.live.publish(job.id, event);
@@ -77,6 +81,7 @@ pub(super) async fn watch(
                 is_asked = true;
             }
             _ = interval.tick() => {
+                attempt.set_cpu_ms(child.cpu_ms());
                 if attempt.has_lapsed() {
                     return lapsed(jobs);
                 }

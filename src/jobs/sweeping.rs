@@ -3,6 +3,7 @@
 use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 
+use super::meters;
 use super::queue::Jobs;
 use super::state::State;
 use super::storage::Sweep;
@@ -31,6 +32,7 @@ impl Jobs {
                 self.sweep(Sweep::Overdue).await
             };
             if let Err(error) = answer {
+                meters::store_failed();
                 tracing::error!(%error, "jobs of silent workers not looked for");
                 unknown = Instant::now();
             }
@@ -41,6 +43,7 @@ impl Jobs {
     pub(super) async fn sweep(&self, sweep: Sweep) -> StoreResult<()> {
         for job in self.store.sweep(sweep).await? {
             if job.state != State::Running {
+                meters::taken();
                 let (state, lost) = (job.state.word(), job.lost);
                 tracing::warn!(job = %job.id, state, lost, "taken from its worker");
             }

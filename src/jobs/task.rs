@@ -68,6 +68,8 @@ pub(super) enum Message {
     Ready,
     /// How far it is.
     Progress(Progress),
+    /// Milliseconds of processor time that it took in all.
+    Cpu(u64),
     /// A frame of maps that was asked for is in the folder, see `map_frame.rs`.
     Maps,
 }

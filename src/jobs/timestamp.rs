@@ -26,6 +26,11 @@ impl Timestamp {
         Self(self.0.saturating_add(by.as_millis() as i64))
     }
 
+    /// How long its day still lasts.
+    pub(super) fn until_next_day(self) -> Duration {
+        Duration::from_millis((DAY_MS - self.0.rem_euclid(DAY_MS)) as u64)
+    }
+
     /// Milliseconds from an earlier moment to this one; 0 from a later one.
     pub fn since(self, earlier: Self) -> u64 {
         (self.0 - earlier.0).max(0) as u64

@@ -31,6 +31,20 @@ pub enum Stage {
 }
 
 impl Stage {
+    /// The word used in JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Read => "read",
+            Self::Cut => "cut",
+            Self::Map => "map",
+            Self::Deform => "deform",
+            Self::Pack => "pack",
+            Self::Bake => "bake",
+            Self::Write => "write",
+            Self::Judge => "judge",
+        }
+    }
+
     /// Whether an early end shortens it.
     pub(super) fn can_end_early(self) -> bool {
         matches!(self, Self::Cut | Self::Map | Self::Deform | Self::Pack)

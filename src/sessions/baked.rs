@@ -68,6 +68,7 @@ impl Session {
             options,
             files,
             priority: 0,
+            trace: None,
             reuse: false,
             key: None,
             ephemeral: false,

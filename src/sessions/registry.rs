@@ -91,6 +91,11 @@ impl Sessions {
         &self.settings
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        lock(&self.open).len()
+    }
+
     /// Opens a session. When this returns, its child has read the input and is ready.
     pub async fn open(self: &Arc<Self>, opened: Opened) -> Result<Arc<Session>, Unopened> {
         let slots = self.slots(&opened.owner)?;

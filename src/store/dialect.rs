@@ -37,12 +37,20 @@ impl Dialect {
         }
     }
 
+    /// Lets one claim at a time count the running jobs of an owner.
+    pub fn lock_claims(self) -> Option<&'static str> {
+        match self {
+            Self::Sqlite => None,
+            Self::Postgres => Some("SELECT pg_advisory_xact_lock(7521199)"),
+        }
+    }
+
     /// A statement with `{columns}` of a job, and with what differs filled in: `{now}`, the clock; `{locked}`, keeping rows after
-    /// waiting for others; `{free}`, keeping the rows that no other transaction keeps.
+    /// waiting for others; `{free}`, keeping the rows of jobs that no other transaction keeps.
     pub fn sql(self, text: &str) -> String {
         let (locked, free) = match self {
             Self::Sqlite => ("", ""),
-            Self::Postgres => ("FOR UPDATE", "FOR UPDATE SKIP LOCKED"),
+            Self::Postgres => ("FOR UPDATE", "FOR UPDATE OF job SKIP LOCKED"),
         };
         text.replace("{columns}", COLUMNS)
             .replace("{now}", self.now())

@@ -14,6 +14,7 @@
 //! ```
 
 mod address;
+mod claims;
 mod database;
 mod dialect;
 mod errors;
@@ -22,6 +23,7 @@ mod hints;
 mod idempotency;
 mod keys;
 mod objects;
+mod quotas;
 mod reading;
 mod records;
 mod reserve;

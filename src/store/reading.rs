@@ -1,5 +1,7 @@
 //! Records that are only looked at.
 
+use std::time::Duration;
+
 use sqlx::any::AnyRow;
 use sqlx::{AnyConnection, AssertSqlSafe, Row};
 
@@ -7,7 +9,7 @@ use super::database::Database;
 use super::rows;
 use super::within::within;
 use crate::jobs::access::Reach;
-use crate::jobs::{Event, Job, JobId, Listing, State, StoreResult};
+use crate::jobs::{Event, Job, JobId, Listing, Queue, State, StoreResult};
 
 /// Jobs that are looked at together.
 const BATCH: usize = 64;
@@ -97,8 +99,32 @@ pub(super) async fn events(database: &Database, ids: &[JobId]) -> StoreResult<Ve
     Ok(events)
 }
 
-/// How many jobs there are in each state.
-pub(super) async fn counts(database: &Database) -> StoreResult<Vec<(State, u64)>> {
+/// How many jobs there are in each state, and how long the oldest of those that wait does so.
+pub(super) async fn queue(database: &Database) -> StoreResult<Queue> {
+    let oldest = "SELECT coalesce({now} - min(created), 0) AS waits
+         FROM job WHERE state = 'queued'";
+    let row = sqlx::query(database.sql(oldest))
+        .fetch_one(&database.readers)
+        .await?;
+    let waits: i64 = row.try_get("waits")?;
+    Ok(Queue {
+        counts: counts(database).await?,
+        oldest_wait: Duration::from_millis(waits.max(0) as u64),
+    })
+}
+
+/// How many jobs were computed and ended within this time before now.
+pub(super) async fn ended_within(database: &Database, time: Duration) -> StoreResult<u64> {
+    let ended = "SELECT count(*) AS jobs FROM job
+         WHERE {now} - $1 < finished AND started IS NOT NULL";
+    let row = sqlx::query(database.sql(ended))
+        .bind(time.as_millis() as i64)
+        .fetch_one(&database.readers)
+        .await?;
+    Ok(row.try_get::<i64, _>("jobs")? as u64)
+}
+
+async fn counts(database: &Database) -> StoreResult<Vec<(State, u64)>> {
     let found = sqlx::query("SELECT state, count(*) AS jobs FROM job GROUP BY state")
         .fetch_all(&database.readers)
         .await?;

@@ -7,11 +7,11 @@ use futures_util::future::BoxFuture;
 
 use super::database::Database;
 use super::hints::Hints;
-use super::{reading, reserve, submissions, transitions};
+use super::{claims, reading, reserve, submissions, transitions};
 use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Capacity, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId, JobStore,
-    Listing, Reason, Rules, State, StoreError, StoreResult, Sweep, WorkerId,
+    Listing, Queue, Reason, Rules, Share, StoreError, StoreResult, Sweep, WorkerId,
 };
 
 /// How long a call may take, a lost connection included.
@@ -89,8 +89,21 @@ impl JobStore for RecordStore {
         bounded(reading::equal(&self.database, job))
     }
 
-    fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
-        bounded(transitions::claim(&self.database, worker, &self.rules))
+    fn claim(&self, worker: WorkerId, share: Share) -> BoxFuture<'_, StoreResult<Option<Job>>> {
+        let claim = claims::claim(&self.database, worker, share, &self.rules);
+        bounded(claim)
+    }
+
+    fn set_paused(&self, paused: bool) -> BoxFuture<'_, StoreResult<()>> {
+        bounded(claims::set_paused(&self.database, paused))
+    }
+
+    fn is_paused(&self) -> BoxFuture<'_, StoreResult<bool>> {
+        bounded(claims::is_paused(&self.database))
+    }
+
+    fn ended_within(&self, time: Duration) -> BoxFuture<'_, StoreResult<u64>> {
+        bounded(reading::ended_within(&self.database, time))
     }
 
     fn hint(&self) -> BoxFuture<'_, ()> {
@@ -150,8 +163,8 @@ impl JobStore for RecordStore {
         ))
     }
 
-    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>> {
-        bounded(reading::counts(&self.database))
+    fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>> {
+        bounded(reading::queue(&self.database))
     }
 
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>> {

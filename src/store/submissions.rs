@@ -5,7 +5,7 @@ use sqlx::{Any, Row, Transaction};
 use super::database::Database;
 use super::hints::Hints;
 use super::reading::stored_bytes;
-use super::{idempotency, rows};
+use super::{idempotency, quotas, rows};
 use crate::jobs::{
     Capacity, Enqueued, IdempotencyKey, Job, State, StoreError, StoreResult, Timestamp,
 };
@@ -34,6 +34,10 @@ pub(super) async fn enqueue(
     }
     if job.state == State::Queued && i64::from(capacity.depth) <= queued {
         return Ok(Enqueued::Full);
+    }
+    let quotas = capacity.of_owner;
+    if let Some(quota) = quotas::exceeded(&job, quotas, now, &mut transaction).await? {
+        return Ok(Enqueued::OwnerOverQuota(quota));
     }
     if let Some(bytes) = capacity.bytes
         && bytes < stored_bytes(&mut transaction).await? + job.stored_bytes()

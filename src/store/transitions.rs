@@ -1,4 +1,4 @@
-//! Records that change: claimed, beaten for, swept, ended, wished for, removed.
+//! Records that change: beaten for, swept, ended, wished for, removed.
 //!
 //! Each is one transaction: a row is read and kept, [`after`] says what becomes of it, and it is
 //! written with the token that it had in the WHERE clause.
@@ -7,11 +7,11 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
-use super::rows;
 use super::within::within;
+use super::{quotas, rows};
 use crate::jobs::access::Reach;
 use crate::jobs::{
-    Beat, Changed, Happening, Job, JobId, Reason, Rules, StoreError, StoreResult, Sweep, WorkerId,
+    Beat, Changed, Happening, Job, JobId, Reason, Rules, State, StoreError, StoreResult, Sweep,
     after,
 };
 
@@ -20,46 +20,12 @@ const SWEPT: i64 = 100;
 /// How long it is remembered that there was a job: a year.
 const REMEMBERED_MS: i64 = 365 * 86_400_000;
 
-/// Which queued jobs may be started. No pause is longer than the longest: one that is was made
-/// before the clock was set back.
-const DUE: &str = "state = 'queued' AND (due <= {now} OR {now} + $1 < due)";
 /// Whose workers have been silent for too long, or seem to have leases longer than any that is
 /// given.
 const OVERDUE: &str =
     "state = 'running' AND (lease IS NULL OR lease < {now} OR {now} + $1 < lease)";
 /// All that run; the lease, which is bound to every sweep, makes no difference.
 const ANY_RUNNING: &str = "state = 'running' AND $1 = $1";
-
-pub(super) async fn claim(
-    database: &Database,
-    worker: WorkerId,
-    rules: &Rules,
-) -> StoreResult<Option<Job>> {
-    let longest_pause = rules.longest_pause().as_millis() as i64;
-    // Most of the time there is none, and nothing has to be locked to know that.
-    let is_any = database.sql(&format!("SELECT id FROM job WHERE {DUE} LIMIT 1"));
-    let query = sqlx::query(is_any).bind(longest_pause);
-    if query.fetch_optional(&database.readers).await?.is_none() {
-        return Ok(None);
-    }
-    let first = database.sql(&format!(
-        "SELECT {{columns}}, {{now}} AS now FROM job WHERE {DUE} ORDER BY priority DESC, id LIMIT 1 {{free}}"
-    ));
-    let mut transaction = database.begin().await?;
-    let row = sqlx::query(first)
-        .bind(longest_pause)
-        .fetch_optional(&mut *transaction)
-        .await?;
-    let Some(row) = row else {
-        return Ok(None);
-    };
-    let happening = Happening::Claimed(worker);
-    let Changed::Yes(job) = written(&row, &happening, rules, &mut transaction).await? else {
-        return Ok(None);
-    };
-    transaction.commit().await?;
-    Ok(Some(*job))
-}
 
 pub(super) async fn change(
     database: &Database,
@@ -198,7 +164,7 @@ async fn changed(
 }
 
 /// Writes what becomes of a job whose row is kept by this transaction.
-async fn written(
+pub(super) async fn written(
     row: &AnyRow,
     happening: &Happening,
     rules: &Rules,
@@ -207,6 +173,11 @@ async fn written(
     let (job, now) = (rows::job(row)?, rows::now(row)?);
     match after(&job, happening, rules, now) {
         Ok(next) => {
+            if let Happening::Ended(_, saying, _) = happening
+                && job.state == State::Running
+            {
+                quotas::spend(&job.owner, saying.cpu_ms, now, transaction).await?;
+            }
             if !rows::update(&next, job.token, transaction).await? {
                 return Err(StoreError::Conflict(format!("job {}", job.id)));
             }

@@ -145,6 +145,8 @@ fn command(program: &Path, role: Role, folder: &Path, settings: &[(String, Strin
     command
         .arg("--data")
         .arg(folder)
+        // Tests that count slots mean all of them.
+        .env("UNWRAPD_SMALL_KIB", "0")
         .envs(settings.iter().cloned());
     command
 }

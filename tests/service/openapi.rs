@@ -85,11 +85,16 @@ fn produced_codes() -> BTreeSet<String> {
 fn own_codes() -> BTreeMap<String, String> {
     let path = places::repository("src/http/code.rs");
     let text = std::fs::read_to_string(path).expect("text");
-    let rows = text.split("pub fn row(self)").nth(1).expect("a table");
-    let rows = rows.split("\n    }\n").next().unwrap_or_default();
-    let rows = rows.split("Self::").skip(1);
-    let word = |row: &str| row.split('"').nth(1).expect("a word").to_owned();
-    rows.map(|row| (identifier(row).to_owned(), word(row)))
+    let rows = text.split("\ncodes! {\n").nth(1).expect("a table");
+    let rows = rows.lines().filter(|line| line.contains(" => ("));
+    let word = |name: &str| {
+        let row = text.split(&format!("    {name} => (")).nth(1);
+        row.and_then(|row| row.split('"').nth(1))
+            .expect("a word")
+            .to_owned()
+    };
+    rows.map(|row| identifier(row.trim_start()))
+        .map(|name| (name.to_owned(), word(name)))
         .collect()
 }
 

@@ -27,7 +27,7 @@ impl Service {
         let data = tempfile::tempdir().expect("a folder");
         let settings = [
             ("UNWRAPD_SESSIONS", most.to_string()),
-            ("RUST_LOG", "error".to_owned()),
+            ("UNWRAPD_LOG", "error".to_owned()),
         ];
         let settings = settings.map(|(name, value)| (name.to_owned(), value));
         Self {

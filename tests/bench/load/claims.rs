@@ -6,8 +6,8 @@ use std::time::Instant;
 use futures_util::future;
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
-    Capacity, Ending, Enqueued, Happening, Job, JobId, JobStore, Kind, Progress, Rules, Saying,
-    Verdict, WorkerId,
+    Capacity, Ending, Enqueued, Happening, Job, JobId, JobStore, Kind, OwnerQuotas, Rules, Saying,
+    Share, Verdict, WorkerId,
 };
 use unwrapd::store::RecordStore;
 
@@ -17,6 +17,11 @@ const WORKERS: usize = 8;
 const ROOM: Capacity = Capacity {
     depth: u32::MAX,
     bytes: None,
+    of_owner: OwnerQuotas {
+        jobs: None,
+        bytes: None,
+        cpu_of_day: None,
+    },
 };
 
 pub async fn run() {
@@ -74,10 +79,14 @@ async fn measure(engine: &str, url: &str) {
 /// Claims and ends jobs until there is none; how many.
 async fn work(store: Arc<RecordStore>) -> usize {
     let mut done = 0;
-    while let Some(job) = store.claim(WorkerId::fresh()).await.expect("an answer") {
+    while let Some(job) = store
+        .claim(WorkerId::fresh(), Share::default())
+        .await
+        .expect("an answer")
+    {
         let saying = Saying {
             seq: job.seq,
-            progress: Progress::default(),
+            ..Saying::default()
         };
         let ending = Ending::Succeeded(Vec::new(), Verdict::default());
         let ended = Happening::Ended(job.token, saying, ending);

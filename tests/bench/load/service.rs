@@ -35,7 +35,7 @@ impl Service {
             ])
             .arg("--data")
             .arg(data.path())
-            .env("RUST_LOG", "error")
+            .env("UNWRAPD_LOG", "error")
             .stdout(Stdio::piped())
             .spawn()
             .expect("the service starts");

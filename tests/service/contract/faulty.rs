@@ -13,7 +13,7 @@ use tokio::sync::Notify;
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Beat, Blobs, Capacity, Changed, Content, Enqueued, Event, Happening, IdempotencyKey, Job,
-    JobId, JobStore, Listing, Reason, State, StoreError, StoreResult, Sweep, WorkerId,
+    JobId, JobStore, Listing, Queue, Reason, Share, StoreError, StoreResult, Sweep, WorkerId,
 };
 
 /// What becomes of a call.
@@ -142,8 +142,20 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.inner.hint()
     }
 
-    fn claim(&self, worker: WorkerId) -> BoxFuture<'_, StoreResult<Option<Job>>> {
-        self.fault.call("claim", self.inner.claim(worker))
+    fn claim(&self, worker: WorkerId, share: Share) -> BoxFuture<'_, StoreResult<Option<Job>>> {
+        self.fault.call("claim", self.inner.claim(worker, share))
+    }
+
+    fn set_paused(&self, paused: bool) -> BoxFuture<'_, StoreResult<()>> {
+        self.inner.set_paused(paused)
+    }
+
+    fn is_paused(&self) -> BoxFuture<'_, StoreResult<bool>> {
+        self.inner.is_paused()
+    }
+
+    fn ended_within(&self, time: Duration) -> BoxFuture<'_, StoreResult<u64>> {
+        self.inner.ended_within(time)
     }
 
     fn change<'a>(
@@ -186,8 +198,8 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.inner.ephemeral()
     }
 
-    fn counts(&self) -> BoxFuture<'_, StoreResult<Vec<(State, u64)>>> {
-        self.inner.counts()
+    fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>> {
+        self.inner.queue()
     }
 
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>> {

@@ -12,7 +12,7 @@ use std::time::Duration;
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
     Capacity, Changed, Enqueued, Happening, IdempotencyKey, InputFile, Job, JobId, JobStore, Kind,
-    Progress, Rules, Saying, WorkerId,
+    OwnerQuotas, Progress, Rules, Saying, Share, WorkerId,
 };
 use unwrapd::store::RecordStore;
 
@@ -27,6 +27,11 @@ pub const RULES: Rules = Rules {
 pub const ROOM: Capacity = Capacity {
     depth: 1000,
     bytes: None,
+    of_owner: OwnerQuotas {
+        jobs: None,
+        bytes: None,
+        cpu_of_day: None,
+    },
 };
 
 /// A job that nobody has started.
@@ -48,7 +53,11 @@ pub fn saying(seq: u64, fraction: f64) -> Saying {
         fraction,
         ..Progress::default()
     };
-    Saying { seq, progress }
+    Saying {
+        seq,
+        progress,
+        cpu_ms: 0,
+    }
 }
 
 /// Puts a job into a store.
@@ -69,7 +78,7 @@ pub async fn claimed(store: &RecordStore) -> Job {
 }
 
 pub async fn claim(store: &RecordStore) -> Option<Job> {
-    let claimed = store.claim(WorkerId::fresh()).await;
+    let claimed = store.claim(WorkerId::fresh(), Share::default()).await;
     claimed.expect("an answer")
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 use tempfile::TempDir;
 use tokio::runtime::Runtime;
 use tokio_util::sync::CancellationToken;
-use unwrapd::jobs::{Blobs, Deployment, Jobs, Rules, Settings};
+use unwrapd::jobs::{Blobs, Deployment, Jobs, OwnerQuotas, Rules, Settings};
 use unwrapd::store::{FileBlobs, ObjectBlobs, RecordStore};
 
 use super::faulty::{Fault, Faulty};
@@ -121,6 +121,9 @@ fn settings(deployment: Deployment, scratch: PathBuf, workers: usize) -> Setting
         program: program(),
         workers,
         cores: 1,
+        owner_running: None,
+        small: None,
+        of_owner: OwnerQuotas::default(),
         queue_depth: 100,
         time: SOON,
         memory: 1 << 30,

@@ -67,6 +67,7 @@ impl Process {
             files: vec![file("mesh.glb", &meshes::hills(2)), file("more.bin", b"x")],
             digest: "always the same".to_owned(),
             priority: 0,
+            trace: None,
             reuse: false,
             key: Some("night-run".to_owned()),
             ephemeral: false,

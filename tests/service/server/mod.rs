@@ -8,11 +8,13 @@ mod connections;
 mod drain;
 mod equal;
 mod failures;
+mod fair;
 mod full_disk;
 mod idle_options;
 mod inputs;
 mod jobs;
 pub mod keys;
+mod limited;
 mod maps;
 mod origins;
 pub mod progress;
@@ -25,6 +27,7 @@ mod sessions_end;
 mod submitted;
 mod synchronous;
 mod verdicts;
+mod watchable;
 
 use std::path::Path;
 

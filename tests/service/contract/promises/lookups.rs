@@ -21,7 +21,7 @@ pub async fn what_is_stored_is_found(store: Arc<RecordStore>) {
             .expect("an answer")
             .is_none()
     );
-    let counts = store.counts().await.expect("an answer");
+    let counts = store.queue().await.expect("an answer").counts;
     assert_eq!(counts[0], (State::Queued, 1));
     assert_eq!(store.stored_bytes().await.expect("an answer"), 100);
     store.check().await.expect("it can be written to");

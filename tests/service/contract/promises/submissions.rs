@@ -2,13 +2,17 @@
 
 use std::collections::HashSet;
 use std::sync::Arc;
+use std::time::Duration;
 
 use futures_util::future::join_all;
-use unwrapd::jobs::{Capacity, Enqueued, IdempotencyKey, Job, JobId, JobStore, State, Timestamp};
+use unwrapd::jobs::{
+    Capacity, Ending, Enqueued, Happening, IdempotencyKey, Job, JobId, JobStore, OwnerQuota,
+    OwnerQuotas, Saying, State, Timestamp, Verdict,
+};
 use unwrapd::store::RecordStore;
 
 use super::get;
-use crate::contract::{ROOM, claim, job};
+use crate::contract::{ROOM, change, claim, job, saying, yes};
 
 pub async fn the_depth_holds_under_contention(store: Arc<RecordStore>) {
     let few = Capacity { depth: 5, ..ROOM };
@@ -16,7 +20,7 @@ pub async fn the_depth_holds_under_contention(store: Arc<RecordStore>) {
     let answers = join_all((0..20).map(|_| one())).await;
     let new = answers.iter().filter(|it| matches!(it, Enqueued::New(_)));
     assert_eq!(new.count(), 5);
-    assert_eq!(store.counts().await.expect("an answer")[0].1, 5);
+    assert_eq!(store.queue().await.expect("an answer").counts[0].1, 5);
 }
 
 pub async fn the_quota_holds_under_contention(store: Arc<RecordStore>) {
@@ -36,6 +40,66 @@ pub async fn the_quota_holds_under_contention(store: Arc<RecordStore>) {
         .filter(|it| matches!(it, Enqueued::OverQuota));
     assert_eq!(refused.count(), 17);
     assert_eq!(store.stored_bytes().await.expect("an answer"), 300);
+}
+
+/// Which quota refused a job of an owner, if one did.
+async fn refused(store: &RecordStore, owner: &str, quotas: OwnerQuotas) -> Option<OwnerQuota> {
+    let capacity = Capacity {
+        of_owner: quotas,
+        ..ROOM
+    };
+    let owner = owner.parse().expect("a name");
+    let job = Job { owner, ..job() };
+    match store.enqueue(&job, None, capacity).await {
+        Ok(Enqueued::New(_)) => None,
+        Ok(Enqueued::OwnerOverQuota(quota)) => Some(quota),
+        other => panic!("{other:?}"),
+    }
+}
+
+pub async fn an_owner_has_no_more_jobs_and_bytes_than_allowed(store: Arc<RecordStore>) {
+    let none = OwnerQuotas::default();
+    let jobs = OwnerQuotas {
+        jobs: Some(2),
+        ..none
+    };
+    assert_eq!(refused(&store, "alice", jobs).await, None);
+    assert_eq!(refused(&store, "alice", jobs).await, None);
+    assert_eq!(refused(&store, "alice", jobs).await, Some(OwnerQuota::Jobs));
+    assert_eq!(refused(&store, "bob", jobs).await, None);
+    let bytes = OwnerQuotas {
+        bytes: Some(299),
+        ..none
+    };
+    assert_eq!(
+        refused(&store, "alice", bytes).await,
+        Some(OwnerQuota::Bytes)
+    );
+    assert_eq!(refused(&store, "bob", bytes).await, None);
+}
+
+pub async fn an_owner_uses_no_more_processor_time_than_allowed(store: Arc<RecordStore>) {
+    let cpu = OwnerQuotas {
+        cpu_of_day: Some(Duration::from_secs(3)),
+        ..OwnerQuotas::default()
+    };
+    for quota in [None, None, Some(OwnerQuota::Cpu)] {
+        assert_eq!(refused(&store, "alice", cpu).await, quota);
+        let Some(job) = claim(&store).await else {
+            continue;
+        };
+        let said = Saying {
+            cpu_ms: 2000,
+            ..saying(job.seq, 1.0)
+        };
+        let ending = Ending::Succeeded(Vec::new(), Verdict::default());
+        let ended = Happening::Ended(job.token, said, ending);
+        // What is said twice is counted once.
+        for _ in 0..2 {
+            yes(change(&store, job.id, ended.clone()).await);
+        }
+    }
+    assert_eq!(refused(&store, "bob", cpu).await, None);
 }
 
 pub async fn a_key_makes_one_job_under_contention(store: Arc<RecordStore>) {
@@ -63,13 +127,14 @@ pub async fn a_key_makes_one_job_under_contention(store: Arc<RecordStore>) {
     assert_eq!(new.count(), 1);
     let reused = store.enqueue(&job(), Some(&other), ROOM).await;
     assert!(matches!(reused.expect("an answer"), Enqueued::KeyReused));
-    assert_eq!(store.counts().await.expect("an answer")[0].1, 1);
+    assert_eq!(store.queue().await.expect("an answer").counts[0].1, 1);
 }
 
 pub async fn an_ended_job_is_stored_however_many_wait(store: Arc<RecordStore>) {
     let none = Capacity {
         depth: 0,
         bytes: None,
+        ..ROOM
     };
     let ended = Job {
         state: State::Succeeded,

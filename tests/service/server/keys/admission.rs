@@ -141,6 +141,7 @@ async fn scopes_say_what_a_key_may_do() {
         ("POST", "/v1/measure", &[&writer, &admin]),
         ("GET", "/v1/sessions", &[&reader, &watcher, &admin]),
         ("GET", "/metrics", &[&watcher, &admin]),
+        ("PUT", "/v1/pause", &[&admin]),
         ("GET", "/v1/drain", &[&watcher, &admin]),
         ("DELETE", "/v1/drain", &[&admin]),
         ("GET", "/v1/sign-in", &[&reader, &writer, &watcher, &admin]),

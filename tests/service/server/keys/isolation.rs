@@ -11,11 +11,12 @@ use crate::server::sessions::sheet;
 use crate::server::{Server, form, json as read};
 
 /// Whoever needs none of what others made: operations without an id in their path.
-const WITHOUT_ID: [&str; 7] = [
+const WITHOUT_ID: [&str; 8] = [
     "/metrics",
     "/v1/drain",
     "/v1/jobs",
     "/v1/measure",
+    "/v1/pause",
     "/v1/sessions",
     "/v1/sign-in",
     "/v1/unwrap",
@@ -55,11 +56,12 @@ async fn ask(server: &Server, method: &str, path: &str, key: Option<&str>) -> Re
     request.send().await.expect("an answer")
 }
 
-/// All of an answer that a client sees, but for the time.
+/// All of an answer that a client sees, but for the time and the name of the request.
 async fn seen(answer: Response) -> (u16, String, Vec<u8>) {
     let status = answer.status().as_u16();
     let mut headers = answer.headers().clone();
     headers.remove("date");
+    headers.remove("x-request-id");
     let headers = format!("{headers:?}");
     let body = answer.bytes().await.expect("a body").to_vec();
     (status, headers, body)

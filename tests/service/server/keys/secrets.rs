@@ -13,7 +13,7 @@ use crate::server::{Server, client, owned};
 async fn no_key_is_logged_or_stored() {
     let log = tempfile::NamedTempFile::new().expect("a file");
     let folder = tempfile::tempdir().expect("a folder");
-    let settings = owned(&[("UNWRAPD_REQUIRE_KEYS", "1"), ("RUST_LOG", "trace")]);
+    let settings = owned(&[("UNWRAPD_REQUIRE_KEYS", "1"), ("UNWRAPD_LOG", "trace")]);
     let said = File::create(log.path()).expect("a file");
     let process = Process::of(&program(), Role::Serve, folder, &settings, Some(said));
     let data = process.folder().to_string_lossy().into_owned();

@@ -1,0 +1,127 @@
+//! `unwrapd config`: what is in force for a service, and where each value comes from.
+
+use std::collections::BTreeSet;
+
+use clap::parser::ValueSource;
+use clap::{Arg, ArgMatches};
+use serde::Serialize;
+
+use super::console::{print, print_json, warn_of};
+use super::failure::Failure;
+use super::serve;
+
+/// What all variables of the program begin with.
+const PREFIX: &str = "UNWRAPD_";
+/// What stands for a secret.
+const HIDDEN: &str = "***";
+
+/// The arguments of `config`.
+#[derive(clap::Args)]
+#[group(id = "config")]
+pub(super) struct Args {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    serve: serve::Args,
+}
+
+/// An option of the service as it is in force.
+#[derive(Serialize)]
+struct Row {
+    option: String,
+    value: Option<String>,
+    /// `flag`, `environment` or `default`.
+    source: &'static str,
+    variable: Option<String>,
+}
+
+/// Runs the command, whose arguments were typed as these matches.
+pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> Result<(), Failure> {
+    let serve = program.find_subcommand("serve");
+    let derived = args.serve.derived().map_err(Failure::other)?;
+    let options = serve.into_iter().flat_map(clap::Command::get_arguments);
+    let rows: Vec<Row> = options
+        .filter(|option| option.get_env().is_some())
+        .map(|option| Row::of(option, typed, &derived))
+        .collect();
+    for variable in unknown(program) {
+        warn_of(format!("no option reads {variable}"));
+    }
+    if args.json {
+        return print_json(&rows);
+    }
+    print("option\tvalue\tsource".to_owned());
+    for row in rows {
+        let source = match (&row.variable, row.source) {
+            (Some(variable), "environment") => variable,
+            _ => row.source,
+        };
+        let value = row.value.as_deref().unwrap_or("-");
+        print(format!("{}\t{value}\t{source}", row.option));
+    }
+    Ok(())
+}
+
+impl Row {
+    fn of(option: &Arg, typed: &ArgMatches, derived: &[(&str, String)]) -> Self {
+        let id = option.get_id().as_str();
+        let raw = typed.get_raw(id).into_iter().flatten();
+        let raw: Vec<String> = raw
+            .map(|value| shown(&value.to_string_lossy(), option.is_hide_env_values_set()))
+            .collect();
+        let value = (!raw.is_empty()).then(|| raw.join(","));
+        let otherwise = derived.iter().find(|(name, _)| *name == id);
+        Self {
+            option: format!("--{}", option.get_long().unwrap_or(id)),
+            value: value.or_else(|| otherwise.map(|(_, value)| value.clone())),
+            source: match typed.value_source(id) {
+                Some(ValueSource::CommandLine) => "flag",
+                Some(ValueSource::EnvVariable) => "environment",
+                _ => "default",
+            },
+            variable: option.get_env().map(|it| it.to_string_lossy().into_owned()),
+        }
+    }
+}
+
+/// A value without the secrets in it: the password of a URL, its parameters, and what is nothing but
+/// a secret.
+fn shown(value: &str, is_secret: bool) -> String {
+    let Some((scheme, rest)) = value.split_once("://") else {
+        return if is_secret { HIDDEN } else { value }.to_owned();
+    };
+    let (rest, parameters) = match rest.split_once('?') {
+        Some((rest, _)) => (rest, format!("?{HIDDEN}")),
+        None => (rest, String::new()),
+    };
+    let (authority, path) = rest.split_at(rest.find('/').unwrap_or(rest.len()));
+    let authority = match authority.rsplit_once('@') {
+        Some((user, host)) => {
+            let name = user.split_once(':').map(|(name, _)| name);
+            name.map_or(authority.to_owned(), |name| {
+                format!("{name}:{HIDDEN}@{host}")
+            })
+        }
+        None => authority.to_owned(),
+    };
+    format!("{scheme}://{authority}{path}{parameters}")
+}
+
+/// Variables of the environment that look like settings and are none, such as misspelled ones.
+fn unknown(program: &clap::Command) -> BTreeSet<String> {
+    let options = program.get_subcommands().flat_map(every_option);
+    let known: BTreeSet<String> = options
+        .filter_map(|option| Some(option.get_env()?.to_string_lossy().into_owned()))
+        .collect();
+    let names = std::env::vars_os().map(|(name, _)| name.to_string_lossy().into_owned());
+    names
+        .filter(|name| name.starts_with(PREFIX) && !known.contains(name))
+        .collect()
+}
+
+/// The options of a command and of all below it.
+fn every_option(command: &clap::Command) -> Vec<&Arg> {
+    let below = command.get_subcommands().flat_map(every_option);
+    command.get_arguments().chain(below).collect()
+}

@@ -1,0 +1,86 @@
+//! `unwrapd queue`: the queue looked at, paused and resumed.
+
+use serde::Serialize;
+
+use super::console::{print, print_json};
+use super::failure::Failure;
+use super::store_args::StoreArgs;
+use crate::jobs::{JobStore, State, StoreError};
+use crate::store::RecordStore;
+
+/// The arguments of `queue`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(clap::Subcommand)]
+enum Action {
+    /// Print how many jobs there are in each state, and whether waiting ones are started
+    Status(Status),
+    /// Start no waiting job from now on, in any process. Jobs are accepted, and running ones end
+    Pause(StoreArgs),
+    /// Start waiting jobs again
+    Resume(StoreArgs),
+}
+
+#[derive(clap::Args)]
+struct Status {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    store: StoreArgs,
+}
+
+/// The queue as it is printed.
+#[derive(Serialize)]
+struct Printed {
+    paused: bool,
+    oldest_queued_seconds: f64,
+    jobs: serde_json::Map<String, serde_json::Value>,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let runtime = super::batch::runtime()?;
+    runtime.block_on(async {
+        match &args.action {
+            Action::Status(args) => status(args).await,
+            Action::Pause(args) => set_paused(args, true).await,
+            Action::Resume(args) => set_paused(args, false).await,
+        }
+    })
+}
+
+async fn set_paused(args: &StoreArgs, paused: bool) -> Result<(), Failure> {
+    let set = args.opened().await?.set_paused(paused).await;
+    set.map_err(|error| Failure::other(format!("nothing was changed: {error}")))
+}
+
+async fn status(args: &Status) -> Result<(), Failure> {
+    let store = args.store.opened().await?;
+    let printed = printed(&store).await;
+    let printed = printed.map_err(|error| Failure::other(format!("no jobs read: {error}")))?;
+    if args.json {
+        return print_json(&printed);
+    }
+    print(if printed.paused { "paused" } else { "running" }.to_owned());
+    for (state, count) in &printed.jobs {
+        print(format!("{state}\t{count}"));
+    }
+    let waits = printed.oldest_queued_seconds;
+    print(format!("oldest queued\t{waits:.0} s"));
+    Ok(())
+}
+
+async fn printed(store: &RecordStore) -> Result<Printed, StoreError> {
+    let queue = store.queue().await?;
+    let count = |(state, count): (State, u64)| (state.word().to_owned(), count.into());
+    Ok(Printed {
+        paused: store.is_paused().await?,
+        oldest_queued_seconds: queue.oldest_wait.as_secs_f64(),
+        jobs: queue.counts.into_iter().map(count).collect(),
+    })
+}

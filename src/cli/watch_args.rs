@@ -1,0 +1,88 @@
+//! What a process tells those who run it: its log, and what it measures.
+
+use std::io::IsTerminal;
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+use clap::ValueEnum;
+use tokio_util::sync::CancellationToken;
+use tracing_subscriber::EnvFilter;
+
+use super::listen::listener;
+use crate::http::{Exposition, measure};
+use crate::jobs::Jobs;
+use crate::sessions::Sessions;
+
+/// What a process tells those who run it.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Log and metrics")]
+pub(super) struct WatchArgs {
+    /// What the log has: a level such as `warn`, or levels by part such as
+    /// `info,unwrapd::jobs=debug`
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        env = "UNWRAPD_LOG",
+        default_value = "info",
+        value_parser = levels
+    )]
+    log: String,
+    /// Format of the log, which goes to standard error
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        env = "UNWRAPD_LOG_FORMAT",
+        default_value = "text"
+    )]
+    log_format: Format,
+    /// Address at which anybody may get /metrics without a key [default: none; `serve` has them at
+    /// its own address, for keys with the scope admin]
+    #[arg(long, value_name = "ADDRESS", env = "UNWRAPD_METRICS_LISTEN")]
+    metrics_listen: Option<SocketAddr>,
+}
+
+/// How lines of the log look.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    /// For people.
+    Text,
+    /// An object per line.
+    Json,
+}
+
+fn levels(text: &str) -> Result<String, String> {
+    let read = EnvFilter::builder().parse(text);
+    read.map(|_| text.to_owned())
+        .map_err(|error| format!("expected levels such as warn or unwrapd=debug: {error}"))
+}
+
+impl WatchArgs {
+    /// Begins the log.
+    pub fn start_log(&self) {
+        let log = tracing_subscriber::fmt()
+            .with_env_filter(EnvFilter::new(&self.log))
+            .with_writer(std::io::stderr);
+        match self.log_format {
+            Format::Text => log.with_ansi(std::io::stderr().is_terminal()).init(),
+            Format::Json => log.json().flatten_event(true).init(),
+        }
+    }
+
+    /// Measures from now on, and shows it where it is asked for until told to stop.
+    pub async fn exposition(
+        &self,
+        jobs: Arc<Jobs>,
+        sessions: Option<Arc<Sessions>>,
+        stop: &CancellationToken,
+    ) -> Result<Exposition, String> {
+        let measured = measure().map_err(|error| format!("nothing is measured: {error}"))?;
+        let exposition = Exposition::new(measured, jobs, sessions);
+        if let Some(address) = self.metrics_listen {
+            let listener = listener(address).await?;
+            tokio::spawn(exposition.clone().serve(listener, stop.clone()));
+        }
+        let (kept, stop) = (exposition.clone(), stop.clone());
+        tokio::spawn(async move { kept.keep_until(stop).await });
+        Ok(exposition)
+    }
+}

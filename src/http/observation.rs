@@ -1,0 +1,83 @@
+//! Every request gets an id, has its name and its caller's trace in the log, and is counted.
+
+use axum::extract::{MatchedPath, Request};
+use axum::http::{HeaderMap, HeaderName, HeaderValue};
+use axum::middleware::Next;
+use axum::response::Response;
+use metrics::{Unit, counter, describe_counter, describe_histogram, histogram};
+use tokio::time::Instant;
+use tracing::Instrument;
+
+use crate::jobs::JobId;
+
+/// Names a request, in both directions.
+pub(super) const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
+/// Characters of a client's name for a request at most.
+const LONGEST_ID: usize = 64;
+/// The trace that a request is a part of (W3C Trace Context).
+const TRACE: &str = "traceparent";
+
+const REQUESTS: &str = "unwrapd_http_requests_total";
+const SECONDS: &str = "unwrapd_http_request_seconds";
+
+/// Says what is counted here.
+pub(super) fn describe() {
+    describe_counter!(REQUESTS, "Requests answered");
+    let meaning = "Until the head of the answer was there";
+    describe_histogram!(SECONDS, Unit::Seconds, meaning);
+}
+
+/// Answers a request under its id.
+pub(super) async fn observe(request: Request, next: Next) -> Response {
+    let id = request_id(request.headers());
+    let route = request.extensions().get::<MatchedPath>();
+    let route = route.map_or("", MatchedPath::as_str).to_owned();
+    let (method, path) = (request.method().clone(), request.uri().path().to_owned());
+    let trace = traceparent(request.headers());
+    let span = tracing::info_span!("request", id, %method, path, trace = trace.as_deref());
+    let began = Instant::now();
+    let mut response = next.run(request).instrument(span.clone()).await;
+    let (seconds, status) = (began.elapsed().as_secs_f64(), response.status().as_u16());
+    span.in_scope(|| {
+        if status < 500 {
+            tracing::debug!(status, seconds, "answered");
+        } else {
+            tracing::warn!(status, seconds, "answered");
+        }
+    });
+    let (method, status) = (word(method.as_str()), status.to_string());
+    counter!(REQUESTS, "method" => method, "route" => route.clone(), "status" => status)
+        .increment(1);
+    histogram!(SECONDS, "method" => method, "route" => route).record(seconds);
+    if let Ok(id) = HeaderValue::from_str(&id) {
+        response.headers_mut().insert(REQUEST_ID, id);
+    }
+    response
+}
+
+/// The method, if it is one that clients do not make up.
+fn word(method: &str) -> &'static str {
+    let known = ["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"];
+    let mut known = known.into_iter();
+    known.find(|it| *it == method).unwrap_or("other")
+}
+
+/// The client's name for a request, if it is a plain one, or a fresh one.
+fn request_id(headers: &HeaderMap) -> String {
+    let given = headers.get(REQUEST_ID).and_then(|id| id.to_str().ok());
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    let given = given.filter(|id| (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(is_plain));
+    given.map_or_else(|| JobId::fresh().to_string(), str::to_owned)
+}
+
+/// The trace that a client says it is a part of, if it is well-formed.
+pub(super) fn traceparent(headers: &HeaderMap) -> Option<String> {
+    let text = headers.get(TRACE)?.to_str().ok()?;
+    let parts: Vec<&str> = text.split('-').collect();
+    let is_hex = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
+    let is_whole = parts.iter().map(|part| part.len()).eq([2, 32, 16, 2])
+        && parts.iter().all(|part| part.chars().all(is_hex))
+        && parts[0] != "ff"
+        && parts[1..3].iter().all(|id| id.chars().any(|c| c != '0'));
+    is_whole.then(|| text.to_owned())
+}

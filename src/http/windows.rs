@@ -1,0 +1,88 @@
+//! How often each of many does something, counted in windows of time.
+//!
+//! A window is the same for all, so that nothing is kept of those before it. Each process counts
+//! what reaches itself.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use axum::http::{HeaderMap, HeaderName, HeaderValue};
+
+/// How long a window is.
+const LENGTH: Duration = Duration::from_mins(1);
+
+/// What a client may do, and what is left of that (draft-ietf-httpapi-ratelimit-headers-10).
+pub(super) const POLICY: HeaderName = HeaderName::from_static("ratelimit-policy");
+pub(super) const LEFT: HeaderName = HeaderName::from_static("ratelimit");
+
+/// Counts for each key what it does.
+pub(super) struct Windows<K> {
+    most: u32,
+    began: Instant,
+    present: Mutex<Present<K>>,
+}
+
+struct Present<K> {
+    window: u64,
+    counts: HashMap<K, u32>,
+}
+
+/// Where one of them stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Standing {
+    most: u32,
+    left: u32,
+    /// Seconds until the next window, at least one.
+    pub reset: u64,
+}
+
+impl<K: Eq + Hash> Windows<K> {
+    /// Allows each so much in a window.
+    pub fn of(most: u32) -> Self {
+        let (window, counts) = (0, HashMap::new());
+        Self {
+            most,
+            began: Instant::now(),
+            present: Present { window, counts }.into(),
+        }
+    }
+
+    /// Counts once more; an error if that is more than allowed.
+    pub fn take(&self, key: K) -> Result<Standing, Standing> {
+        let elapsed = self.began.elapsed();
+        let mut present = (self.present.lock()).unwrap_or_else(PoisonError::into_inner);
+        let window = elapsed.as_secs() / LENGTH.as_secs();
+        if present.window != window {
+            present.window = window;
+            present.counts.clear();
+        }
+        let count = present.counts.entry(key).or_default();
+        let is_allowed = *count < self.most;
+        *count += u32::from(is_allowed);
+        let standing = Standing {
+            most: self.most,
+            left: self.most - *count,
+            reset: LENGTH.as_secs() - elapsed.as_secs() % LENGTH.as_secs(),
+        };
+        if is_allowed {
+            Ok(standing)
+        } else {
+            Err(standing)
+        }
+    }
+}
+
+impl Standing {
+    /// Tells a client.
+    pub fn tell(self, headers: &mut HeaderMap) {
+        let Self { most, left, reset } = self;
+        let window = LENGTH.as_secs();
+        let policy = format!("\"requests\";q={most};w={window}");
+        let left = format!("\"requests\";r={left};t={reset}");
+        for (name, text) in [(POLICY, policy), (LEFT, left)] {
+            headers.extend(HeaderValue::from_str(&text).map(|value| (name, value)));
+        }
+    }
+}
