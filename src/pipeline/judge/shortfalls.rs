@@ -1,5 +1,6 @@
 //! What was asked for and is not proven of a group, in sentences: what, where and by how much.
 
+use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
 use super::report::GroupReport;
 use crate::certificate::{Certificate, PaddingVerdict, chart_ids};
@@ -22,7 +23,7 @@ pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
             .filter(|bound| !bound.kept)
             .map(|bound| Warning::new("too_distorted", format!("{name}: {}", bound.shortfall())));
         let rough = bound
-            .and_then(|bound| bound.caveat())
+            .and_then(BoundReport::caveat)
             .map(|caveat| Warning::new("rough_surface", format!("{name}: {caveat}")));
         let all = faces.into_iter().chain(overlapping).chain(whole);
         let all: Vec<Warning> = all
