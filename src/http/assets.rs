@@ -1,4 +1,4 @@
-//! Files of the binary as answers: compressed, and kept by clients as long as they are the same.
+//! What the same binary always answers: compressed, and kept by clients as long as it is the same.
 
 use std::io::Write as _;
 use std::sync::OnceLock;
@@ -16,7 +16,7 @@ const FOR_GOOD: &str = "public, max-age=31536000, immutable";
 /// What a client asks about each time.
 const ASK: &str = "no-cache";
 
-/// A file of the binary.
+/// A file of the binary, or what is made of it.
 pub(super) struct Asset {
     content_type: &'static str,
     content: &'static [u8],

@@ -1,10 +1,13 @@
 //! For those who run the service.
 
+use std::sync::LazyLock;
+
 use axum::extract::State;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::http::HeaderMap;
+use axum::response::Response;
 
 use super::Shared;
+use super::assets::{self, Asset};
 use super::problem::{Code, Problem};
 
 /// Check whether the process responds.
@@ -61,9 +64,13 @@ pub(super) async fn metrics(State(app): Shared) -> Response {
 /// Get this document.
 #[utoipa::path(
     get, path = "/openapi.json", operation_id = "openapi", tag = "service",
-    responses((status = 200, description = "OpenAPI 3.1", body = Object, content_type = "application/json"))
+    responses(
+        (status = 200, description = "OpenAPI 3.1", body = Object, content_type = "application/json"),
+        (status = 304, description = "The document is unchanged"),
+    )
 )]
-pub(super) async fn openapi_document() -> Response {
-    let content_type = [(header::CONTENT_TYPE, "application/json")];
-    (content_type, super::openapi()).into_response()
+pub(super) async fn openapi_document(headers: HeaderMap) -> Response {
+    static DOCUMENT: LazyLock<Asset> =
+        LazyLock::new(|| Asset::new("application/json", super::openapi().leak().as_bytes()));
+    assets::answer(&DOCUMENT, None, &headers)
 }

@@ -348,4 +348,16 @@ async fn the_stored_document_is_handed_out() {
     let server = Server::start();
     let served = json(server.get("/openapi.json").send().await.expect("an answer")).await;
     assert_eq!(served, crate::openapi::stored());
+    let request = server.get("/openapi.json");
+    let compressed = request.header("Accept-Encoding", "gzip").send().await;
+    let compressed = compressed.expect("an answer");
+    assert_eq!(compressed.headers()["content-encoding"], "gzip");
+    let tag = compressed.headers()["etag"].clone();
+    let length = compressed.bytes().await.expect("a body").len();
+    assert!(length < 100_000, "{length}");
+    let again = server
+        .get("/openapi.json")
+        .header("Accept-Encoding", "gzip");
+    let again = again.header("If-None-Match", tag).send().await;
+    assert_eq!(again.expect("an answer").status(), 304);
 }
