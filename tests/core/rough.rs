@@ -1,13 +1,16 @@
 //! Rough surfaces: cut as what they are samples of.
 
 use crate::zoo::{self, Mesh};
+use std::fmt::Write as _;
 use unwrapd::charts::{
     Bound, Bounded, Symmetry, Unobserved, charts_under_bound, smoothed_where_rough,
 };
+use unwrapd::document::Upload;
 use unwrapd::embed::{self, Options};
 use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::Surface;
-use unwrapd::pipeline::{self, Settings, unwrap};
+use unwrapd::numerics::random::Random;
+use unwrapd::pipeline::{self, Options as DocumentOptions, Settings, unwrap, unwrap_document};
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
@@ -17,12 +20,9 @@ fn surface(mesh: &Mesh) -> Surface {
 fn noisy_sheet(noise: f32) -> Mesh {
     let mut mesh = zoo::grid(24, 24);
     let edge = mesh.positions[1][0] - mesh.positions[0][0];
-    for (i, p) in (0_u32..).zip(&mut mesh.positions) {
-        let hash = i
-            .wrapping_mul(2_654_435_761)
-            .rotate_left(13)
-            .wrapping_mul(0x9e37_79b9);
-        p[2] += noise * edge.abs() * (hash as f32 / u32::MAX as f32 * 2.0 - 1.0);
+    let mut random = Random::new(1);
+    for p in &mut mesh.positions {
+        p[2] += noise * edge.abs() * (2.0 * random.unit() - 1.0) as f32;
     }
     mesh
 }
@@ -99,4 +99,37 @@ fn a_bound_that_is_given_is_one_on_the_surface() {
     };
     let [own, default] = [Some(4.1), None].map(charts);
     assert!(own > 2 * default, "{own} of {default}");
+}
+
+#[test]
+fn the_report_says_which_surface_keeps_the_bound() {
+    let mesh = noisy_sheet(0.95);
+    let mut text = String::new();
+    for [x, y, z] in &mesh.positions {
+        writeln!(text, "v {x} {y} {z}").expect("a string takes it");
+    }
+    for [a, b, c] in mesh.triangles.iter().map(|t| t.map(|v| v + 1)) {
+        writeln!(text, "f {a} {b} {c}").expect("a string takes it");
+    }
+    let upload = Upload::single("sheet.obj", text.into_bytes());
+    let report = |max_distortion| {
+        let mut options = DocumentOptions::default();
+        options.cutting.max_distortion = max_distortion;
+        let outcome = unwrap_document(&upload, &options, &pipeline::Unobserved);
+        let report = outcome.expect("a result").report;
+        let atlas = report.groups[0].atlas.as_ref().expect("an atlas");
+        let is_warned = report.warnings.iter().any(|w| w.code == "rough_surface");
+        (atlas.bound.expect("a bound"), is_warned)
+    };
+    let (bound, is_warned) = report(None);
+    let smoothed = bound.smoothed_distortion.expect("a rough surface");
+    let own = bound.distortion.expect("a distortion");
+    assert!(smoothed < 4.1 && 4.1 < own, "{smoothed}, {own}");
+    assert_eq!(
+        (bound.of, bound.kept, is_warned),
+        (Bounded::Smoothed, true, true)
+    );
+    let (bound, is_warned) = report(Some(4.1));
+    assert_eq!(bound.smoothed_distortion, None);
+    assert_eq!((bound.of, is_warned), (Bounded::Surface, false));
 }
