@@ -29,7 +29,7 @@ async fn the_jobs_of_a_killed_worker_go_to_another() {
     let api = cluster.api();
     let mut worker = cluster.worker();
     let job = api.submit(meshes::hills(250), "cut=disk").await;
-    let small = submitted(&api, 2).await;
+    let small = submitted(&api, 256..258).await;
     api.mapping(&job).await;
     worker.kill();
     soon("an orphan is left", || worker.children().is_empty()).await;
@@ -69,7 +69,7 @@ async fn a_worker_that_wakes_up_late_changes_nothing() {
     soon("its child goes on", || stopped.children().is_empty()).await;
     // It works again, and on what is its own.
     drop(other);
-    let next = submitted(&api, 1).await;
+    let next = submitted(&api, 256..257).await;
     assert_whole(&api, &next[0]).await;
     let statement = format!("SELECT * FROM job WHERE id = '{id}'");
     assert_eq!(cluster.postgres.psql("unwrapd", &statement), row);
@@ -100,7 +100,7 @@ async fn a_killed_database_is_waited_for() {
     cluster.postgres.restart();
     let path = job["links"]["self"].as_str().expect("a link");
     finish(&api, path).await;
-    let next = submitted(&api, 1).await;
+    let next = submitted(&api, 256..257).await;
     assert_whole(&api, &next[0]).await;
     assert_whole(&api, &job).await;
     // It was not the worker that was away.
@@ -114,7 +114,7 @@ async fn a_killed_database_is_waited_for() {
 async fn a_killed_store_of_files_is_waited_for() {
     let mut cluster = Cluster::start();
     let api = cluster.api();
-    let jobs = submitted(&api, 2).await;
+    let jobs = submitted(&api, 256..258).await;
     cluster.s3.kill();
     let refused = api.post("/v1/jobs").body(meshes::small()).send().await;
     assert_problem(refused.expect("an answer"), 503, "store_unavailable").await;

@@ -63,7 +63,7 @@ async fn a_job_that_kills_its_workers_is_parked_and_others_go_on() {
         (&"failed".into(), &"worker_lost".into())
     );
     let _worker = cluster.worker();
-    let next = submitted(&api, 1).await;
+    let next = submitted(&api, 256..257).await;
     assert_whole(&api, &next[0]).await;
     assert_eq!(cluster.attempts()[&id], ("failed".to_owned(), 3, 3));
 }

@@ -11,6 +11,7 @@ mod sharing;
 mod update;
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use serde_json::Value;
 
@@ -77,11 +78,11 @@ impl Cluster {
     }
 }
 
-/// Jobs of different inputs, all accepted by one service.
-pub async fn submitted(api: &Server, count: u32) -> Vec<Value> {
+/// Jobs that one service accepted, one for each resolution: none is equal to another.
+pub async fn submitted(api: &Server, resolutions: Range<u32>) -> Vec<Value> {
     let mut jobs = Vec::new();
-    for n in 0..count {
-        let query = format!("resolution={}", 256 + n);
+    for resolution in resolutions {
+        let query = format!("resolution={resolution}");
         jobs.push(api.submit(meshes::small(), &query).await);
     }
     jobs

@@ -19,8 +19,8 @@ async fn two_services_share_three_workers() {
     let cluster = Cluster::with_lease("60");
     let (one, other) = (cluster.api(), cluster.api());
     let mut workers = [cluster.worker(), cluster.worker(), cluster.worker()];
-    let mut jobs = submitted(&one, 6).await;
-    jobs.extend(submitted(&other, 6).await);
+    let mut jobs = submitted(&one, 256..262).await;
+    jobs.extend(submitted(&other, 262..268).await);
     for job in &jobs {
         assert_whole(&other, job).await;
     }

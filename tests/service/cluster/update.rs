@@ -32,7 +32,7 @@ async fn a_rolling_update_loses_nothing() {
 async fn a_job_of_a_newer_program_waits_for_a_newer_worker() {
     let cluster = Cluster::with_lease("60");
     let api = cluster.api();
-    let job = &submitted(&api, 1).await[0];
+    let job = &submitted(&api, 256..257).await[0];
     let id = job["id"].as_str().expect("an id");
     let options = |change: &str| {
         let options = format!("options = (options::jsonb {change})::text");
