@@ -13,9 +13,17 @@ pub struct MapUnderway<'a> {
     pub iterate: &'a Iterate,
     /// Both coordinates of each vertex, where the mean area of a face at rest is 1.
     pub x: &'a [f64],
+    /// Where the chart is a simplification on which seams are planned: a near face of the surface for each of its own.
+    pub planned_for: Option<&'a [u32]>,
 }
 
 impl MapUnderway<'_> {
+    /// The faces of the surface that the triangles of the chart are, or stand for.
+    pub fn faces(&self) -> impl Iterator<Item = u32> {
+        let own = self.chart.corners.iter().map(|corners| corners[0] / 3);
+        own.map(|face| self.planned_for.map_or(face, |faces| faces[face as usize]))
+    }
+
     /// The mesh's length of the map's unit.
     pub fn unit(&self) -> f64 {
         let corners = |t: &[u32; 3]| t.map(|v| self.chart.positions[v as usize]);
@@ -74,27 +82,38 @@ impl Watch for Watching<'_> {
             chart: self.chart,
             iterate,
             x,
+            planned_for: None,
         });
     }
 }
 
-/// Sees no maps, since they are not those of the surface.
-pub(super) struct Unseen<'a>(pub &'a dyn Observer);
+/// Says of the maps of a simplification that they are plans for the surface.
+pub(super) struct Planning<'a> {
+    pub observer: &'a dyn Observer,
+    /// A face of the surface for each of the simplification.
+    pub faces: Vec<u32>,
+}
 
-impl Observer for Unseen<'_> {
+impl Observer for Planning<'_> {
+    fn map(&self, map: &MapUnderway) {
+        self.observer.map(&MapUnderway {
+            planned_for: Some(&self.faces),
+            ..*map
+        });
+    }
     fn iterate(&self, faces: usize, iterate: &Iterate) -> Control {
-        self.0.iterate(faces, iterate)
+        self.observer.iterate(faces, iterate)
     }
     fn worked(&self, faces: usize) {
-        self.0.worked(faces);
+        self.observer.worked(faces);
     }
     fn charted(&self, mapped: isize, known: isize) {
-        self.0.charted(mapped, known);
+        self.observer.charted(mapped, known);
     }
     fn control(&self) -> Control {
-        self.0.control()
+        self.observer.control()
     }
     fn elapsed(&self) -> Duration {
-        self.0.elapsed()
+        self.observer.elapsed()
     }
 }

@@ -1,7 +1,7 @@
 //! Maps of charts under way as bytes, little-endian: what whoever watches a job sees of them.
 //!
 //! ```text
-//! frame   0  u8   3                          map   0  u32  surface          28  u32  0
+//! frame   0  u8   3                          map   0  u32  surface          28  u32  0; 1 for a plan
 //!         1  7 zeros                               4  u32  first face       32  f64  unit
 //!         8  u64  number                           8  u32  iteration        40  f64  energy
 //!        16  maps                                 12  u32  faces            48  f64  smallest face
@@ -11,7 +11,8 @@
 //!                                                 56  faces u32; u and v of three corners each, f32 or f64
 //! ```
 //!
-//! Faces are those of the welded surface. Where there are too many to be drawn, every 2ⁿ-th follows.
+//! Faces are those of the welded surface. Where there are too many to be drawn, every 2ⁿ-th follows. Seams of large charts are
+//! planned on a simplification: each face of a plan stands for one near it.
 
 use crate::charts::MapUnderway;
 use crate::numerics::predicates::orient2d_sign;
@@ -47,8 +48,7 @@ pub(super) fn number(frame: &mut [u8], number: u64) -> bool {
 
 /// The chart of a map.
 pub(super) fn key(surface: usize, map: &MapUnderway) -> ChartKey {
-    let first = map.chart.corners.first();
-    [surface as u32, first.map_or(0, |corners| corners[0] / 3)]
+    [surface as u32, map.faces().next().unwrap_or(0)]
 }
 
 /// A map. Coordinates are rounded to f32 unless that would flip a face; flips are those of the
@@ -67,9 +67,7 @@ pub(super) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> 
         (&*rounded, 4)
     };
     let step = triangles.len().div_ceil(MOST_FACES).next_power_of_two() as u32;
-    let face = |corners: &[u32; 3]| corners[0] / 3;
-    let drawn: Vec<(u32, &[u32; 3])> = (map.chart.corners.iter().map(face))
-        .zip(triangles)
+    let drawn: Vec<(u32, &[u32; 3])> = (map.faces().zip(triangles))
         .filter(|(face, _)| face % step == 0)
         .collect();
 
@@ -82,7 +80,7 @@ pub(super) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> 
         drawn.len() as u32,
         flips(triangles, points),
         width as u32,
-        0,
+        u32::from(map.planned_for.is_some()),
     ];
     bytes.extend(counts.iter().flat_map(|x| x.to_le_bytes()));
     let numbers = [map.unit(), map.iterate.energy, map.iterate.smallest];

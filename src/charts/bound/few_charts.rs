@@ -9,7 +9,7 @@ use crate::charts::chart::{Chart, Cut, charts, charts_alike};
 use crate::charts::creases::hard_components::Divided;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
-use crate::charts::observer::{Observer, Unseen};
+use crate::charts::observer::{Observer, Planning};
 use crate::charts::rough::smoothed_where_rough;
 use crate::charts::symmetry::exact::exact_mirror_planes;
 use crate::charts::symmetry::search::mirror_plane;
@@ -201,7 +201,11 @@ fn slit_as_simplified(
     };
     let mut tips = Vec::new();
     let pieces = vec![Piece::unmapped(simple.chart.clone())];
-    let mapped = rounds(pieces, bound, options, &Unseen(observer), |slits| {
+    let planning = Planning {
+        observer,
+        faces: simple.faces(&chart),
+    };
+    let mapped = rounds(pieces, bound, options, &planning, |slits| {
         tips.extend(slits.tips().map(|corner| simple.vertex(corner)));
     });
     // Only those of the chart itself count.

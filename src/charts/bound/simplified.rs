@@ -2,6 +2,8 @@
 
 use crate::charts::Chart;
 use crate::embed::simplified;
+use crate::mesh::VertexFaces;
+use std::collections::HashSet;
 
 /// A chart with fewer faces.
 pub struct Simplified {
@@ -28,6 +30,20 @@ impl Simplified {
                 disk,
             },
         })
+    }
+
+    /// For each of its triangles a face of the surface at one of its vertices, another one for each as far as there are.
+    pub fn faces(&self, chart: &Chart) -> Vec<u32> {
+        let around = VertexFaces::new(chart.positions.len(), &chart.disk.triangles);
+        let mut taken = HashSet::new();
+        let mut near = |vertices: &[u32; 3]| {
+            let mut near = vertices.iter().flat_map(|&v| around.of(v));
+            let first = near.clone().next().copied();
+            near.find(|&&face| taken.insert(face)).copied().or(first)
+        };
+        let of_surface = |face: u32| chart.corners[face as usize][0] / 3;
+        let triangles = self.vertex.as_chunks().0.iter();
+        triangles.filter_map(|vertices| near(vertices).map(of_surface)).collect()
     }
 
     /// The vertex of the chart at a corner.

@@ -1,6 +1,6 @@
 // Numbers about many faces.
 
-import { type Distortion, MEASURES } from "./distortion";
+import { type Distortion, type Measure, MEASURES } from "./distortion";
 
 /** How a measure is spread over faces, weighted by their area on the surface. */
 export interface Spread {
@@ -56,4 +56,14 @@ function spread({ values, area }: Distortion, members: Uint32Array, k: number, w
   }
   const ends = worse < 0 ? sorted.slice(0, WORST) : sorted.slice(-WORST).reverse();
   return { least, mean, greatest, p99, from, to: from + BINS * step, bins, worst: [...ends] };
+}
+
+/** What the ends of a heat map's scale stand for: from the ideal on, or as far below the mean as above. */
+export function rangeOf(measure: Measure, { least, mean, greatest, p99 }: Spread): [number, number] {
+  if (measure === "density") {
+    const far = Math.max(greatest / mean, mean / least, 1.02);
+    return [mean / far, mean * far];
+  }
+  const ideal = measure === "sym-dirichlet" ? 4 : 1;
+  return [ideal, Math.max(p99 * 1.02, ideal * 1.02)];
 }

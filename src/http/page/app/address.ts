@@ -16,6 +16,8 @@ export interface Place {
   only: boolean;
   /** Cells of the checkerboard along u. */
   cells: number;
+  /** A UV set other than the one that is shown first. */
+  set: number | null;
   /** The name of an atlas. */
   atlas: string | null;
   aim: Aim;
@@ -34,7 +36,7 @@ export type Aim = "face" | "chart" | "seam";
 export const CELLS = [8, 16, 32, 64, 128] as const;
 
 export const START: Place = {
-  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", seams: true, wire: false, problems: true, only: false, cells: 32, atlas: null,
+  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", seams: true, wire: false, problems: true, only: false, cells: 32, set: null, atlas: null,
   aim: "chart", face: null, chart: null, seam: null, camera: null, plane: null,
 };
 
@@ -46,7 +48,7 @@ export function readPlace(): Place {
     if (!(name in START)) continue;
     if (name === "camera" || name === "plane") place[name] = numbers(text, name === "camera" ? 6 : 3);
     else if (name === "cells") place[name] = CELLS.find((cells) => String(cells) === text) ?? START.cells;
-    else if (["face", "chart", "seam"].includes(name)) place[name] = /^\d+$/.test(text) ? Number(text) : null;
+    else if (["face", "chart", "seam", "set"].includes(name)) place[name] = /^\d+$/.test(text) ? Number(text) : null;
     else if (typeof START[name as keyof Place] === "boolean") place[name] = text === "1";
     else place[name] = text;
   }

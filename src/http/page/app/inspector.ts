@@ -24,6 +24,11 @@ const STAGES: Record<string, string> = {
   bake: "Resampling textures", write: "Writing the result", judge: "Proving the result",
 };
 
+/** What a job is doing, in words. */
+export function doing({ stage }: Progress): string {
+  return STAGES[stage ?? ""] ?? "Starting";
+}
+
 /** Shows a job that waits or runs. */
 export class ProgressPanel {
   readonly #energies: number[] = [];
@@ -43,7 +48,7 @@ export class ProgressPanel {
 
   show(event: Progress): void {
     const position = this.actions.position();
-    this.#stage.textContent = event.state === "queued" ? (position ? `Number ${position} in the queue` : "In the queue") : (STAGES[event.stage ?? ""] ?? "Starting");
+    this.#stage.textContent = event.state === "queued" ? (position ? `Number ${position} in the queue` : "In the queue") : doing(event);
     this.#bar.value = event.fraction;
     const isMapping = event.stage === "map" || event.stage === "deform";
     if (isMapping && event.energy !== null) this.#energies.push(event.energy);

@@ -72,10 +72,8 @@ export class JobList {
   }
 
   #row(job: Job, key: string): HTMLElement {
-    const image = element("img", { width: 36, height: 36, alt: "" });
-    thumbnail(image, job);
     const link = element("a", { href: `#${fragmentOf({ ...START, job: job.id })}`, className: "row-link" },
-      image,
+      thumbnail(job),
       element("span", { className: "name", textContent: job.filename, title: job.filename }),
       element("span", { className: `facts ${outcome(job)}`, textContent: this.#facts(job) }));
     if (job.id === this.current) link.setAttribute("aria-current", "true");

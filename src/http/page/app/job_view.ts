@@ -1,13 +1,15 @@
 // One job in the page: watched while it runs, shown when it has ended.
 
-import { address, call, fileOf, isFinal, type Job, jobPath, watch } from "./api";
+import { address, call, fileOf, isFinal, type Job, jobPath, type Progress, watch } from "./api";
 import { byId, element } from "./dom";
-import { ProgressPanel, showEnded } from "./inspector";
+import { percent } from "./format";
+import { doing, ProgressPanel, showEnded } from "./inspector";
 import { inputOf, type Shape, shapeOf } from "./kinds";
 import type { JobList } from "./job_list";
 import type { Report } from "./reports";
 import type { Chosen, Setup } from "./setup";
-import type { Source, Viewer } from "./viewer";
+import type { Source } from "./source";
+import type { Viewer } from "./viewer";
 import { watchCharts } from "./watching";
 
 /** What a job view works with. */
@@ -61,12 +63,14 @@ export class JobView {
     this.#title(job);
     if (isFinal(job.state)) return this.#ended(job);
     const panel = new ProgressPanel(job, this.#actions(job));
-    note(job.state === "queued" ? "The job waits for its turn." : waiting(job));
+    note(awaited(job, job));
     void this.#showInput(job);
-    const stopCharts = watchCharts(job, this.#parts.viewer, () => note("Another machine computes this job: its UVs appear here when it ends."));
+    let isElsewhere = false;
+    const stopCharts = watchCharts(job, this.#parts.viewer, () => (isElsewhere = true));
     const stopEvents = watch(job, (event) => {
       if (this.job?.id !== id) return;
       panel.show(event);
+      if (!this.#parts.viewer.isRelaxing) note(awaited(job, event, isElsewhere));
       if (isFinal(event.state)) void this.open(id).then(() => this.#parts.list.refresh()).catch(this.#parts.failed);
     });
     this.#stop = () => {
@@ -153,8 +157,11 @@ export class JobView {
 }
 
 /** What stands where UVs will be. */
-function waiting({ kind }: Job): string {
-  return kind === "unwrap" ? "Charts appear here as soon as the first one is mapped." : "The result appears here when the job ends.";
+function awaited({ kind }: Job, now: Progress, isElsewhere = false): string {
+  if (now.state === "queued") return "The job waits for its turn.";
+  const then = isElsewhere ? "Another machine computes this job: its UVs appear here when it ends."
+    : kind === "unwrap" ? "Charts appear here as soon as the first one is planned." : "The result appears here when the job ends.";
+  return `${doing(now)}, ${percent(now.fraction)} done. ${then}`;
 }
 
 /** Says something where the UVs would be. */

@@ -2,7 +2,7 @@
 
 import { address, download, fileOf, type FileLink, type Job } from "./api";
 import type { Chosen } from "./setup";
-import type { Source } from "./viewer";
+import type { Source } from "./source";
 import { extension, SHOWN } from "../viewer/loading";
 import type { Report } from "./reports";
 

@@ -7,9 +7,11 @@ import { ArrangeView } from "../arrange/arrange_view";
 import { arrangeKeys } from "../arrange/keys";
 import { address, call, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
+import { takeDropped } from "./dropped";
+import { followStage } from "./follow_stage";
 import { short, whole } from "./format";
 import { JobList } from "./job_list";
-import { JobView, note, showFallback } from "./job_view";
+import { JobView, note } from "./job_view";
 import { listen, showKeys } from "./keys";
 import { load } from "../viewer/loading";
 import { showReport } from "./report_page";
@@ -18,7 +20,6 @@ import { type Chosen, Setup } from "./setup";
 import { soupOf } from "../viewer/soups";
 import { showLegend, showPointed } from "./status";
 import { startTheme } from "./theme";
-import { forgetThumbnails } from "./thumbnails";
 import { pullKeys } from "../pull/keys";
 import { PullView } from "../pull/pull_view";
 import { Toolbar } from "./toolbar";
@@ -41,7 +42,9 @@ const TABS = ["view", "report", "pull"] as const;
 
 /** Changes the state, and with it all that shows it. */
 function change(changes: Partial<Place>): void {
+  const { set } = viewer.place;
   viewer.apply({ ...viewer.place, ...changes });
+  if (viewer.place.set !== set) void viewer.again().catch(failed);
   refresh();
 }
 
@@ -50,7 +53,7 @@ function refresh(): void {
   const { place } = viewer;
   toolbar.refresh(isBefore, jobs.report !== null && jobs.input !== null);
   showLegend(viewer, change);
-  arrange.offer(isBefore ? null : jobs.job, jobs.report);
+  arrange.offer(isResult() ? jobs.job : null, jobs.report);
   if (!arrange.isOn) showPointed(viewer);
   for (const tab of TABS) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(place.tab === tab));
@@ -60,6 +63,12 @@ function refresh(): void {
   if (place.tab === "report") void report();
   if (place.tab === "pull") offer();
   writePlace(place);
+}
+
+/** Whether what is shown is what the job made: not the input, nor another UV set. */
+function isResult(): boolean {
+  const { facts } = viewer;
+  return !isBefore && facts?.set === facts?.first;
 }
 
 /** What is shown can be pulled. */
@@ -152,7 +161,7 @@ async function report(): Promise<void> {
     byId("report").replaceChildren(element("p", { className: "none", textContent: "The report of a job is shown here. Unwrap a mesh, or choose a job." }));
     return;
   }
-  const show = () => showReport({ job, report: jobs.report, analysis: isBefore ? null : viewer.analysis, before, atlas: viewer.atlas, flyTo: visit });
+  const show = () => showReport({ job, report: jobs.report, analysis: isResult() ? viewer.analysis : null, before, atlas: viewer.atlas, flyTo: visit });
   show();
   const source = jobs.before();
   if (before || !source) return;
@@ -197,53 +206,18 @@ function wire(): void {
     if (place.job !== viewer.place.job) void open(place.job, place);
     else change(place);
   });
-  const drop = document.documentElement;
-  for (const kind of ["dragenter", "dragover"]) {
-    drop.addEventListener(kind, (event) => { event.preventDefault(); byId("drop").classList.add("over"); });
-  }
-  drop.addEventListener("dragleave", (event) => { if (!(event as DragEvent).relatedTarget) byId("drop").classList.remove("over"); });
-  drop.addEventListener("drop", (event) => {
-    event.preventDefault();
-    byId("drop").classList.remove("over");
-    setup.takeFiles([...((event as DragEvent).dataTransfer?.files ?? [])]);
-  });
-}
-
-/** Keeps the cameras in the address, and survives the loss of the GPU. */
-function followStage(): void {
-  const { stage } = viewer;
-  if (!stage) return;
-  let timer = 0;
-  stage.onFrame = () => {
-    clearTimeout(timer);
-    // While a file is read, the cameras are still those of the one before.
-    if (stage.solid.isTurning || !jobs.job || !byId("panes").dataset.shown) return;
-    timer = setTimeout(() => {
-      Object.assign(viewer.place, { camera: stage.solid.place, plane: stage.plane.place });
-      writePlace(viewer.place);
-    }, 400);
-  };
-  const canvas = byId("canvas");
-  canvas.addEventListener("webglcontextlost", (event) => {
-    event.preventDefault();
-    showFallback(jobs.job, "The graphics device was lost. Pictures are shown until it is back; the report is complete.");
-  });
-  canvas.addEventListener("webglcontextrestored", () => {
-    showFallback(null);
-    stage.redraw();
-  });
+  takeDropped((files) => setup.takeFiles(files));
 }
 
 /** Nothing of the caller is left in this browser. */
 async function signOut(): Promise<void> {
   await call("v1/sign-in", { method: "DELETE" });
-  forgetThumbnails();
   location.hash = "";
   location.reload();
 }
 
 wire();
-followStage();
+if (viewer.stage) followStage(viewer, viewer.stage, jobs);
 void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
 // For scripts that drive the page.
 Object.assign(window, { unwrapd: { viewer, address } });

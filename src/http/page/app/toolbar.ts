@@ -18,19 +18,21 @@ export class Toolbar {
   readonly #changed: (changes: Partial<Place>) => void;
   readonly #before: HTMLButtonElement;
   readonly #atlas = element("select", { id: "atlas", aria: { label: "Atlas" } });
+  readonly #set = element("select", { id: "set", title: "UV set of the file (T)", aria: { label: "UV set" } });
   readonly #image = element("input", { type: "file", accept: "image/*", hidden: true, aria: { label: "Image for the faces" } });
 
   constructor(viewer: Viewer, changed: (changes: Partial<Place>) => void, compare: () => void) {
     this.#viewer = viewer;
     this.#changed = changed;
     this.#atlas.addEventListener("change", () => changed({ atlas: this.#atlas.value, face: null, chart: null, seam: null, plane: null }));
+    this.#set.addEventListener("change", () => changed(otherSet(viewer, Number(this.#set.value))));
     this.#image.addEventListener("change", () => void this.#useImage());
     this.#before = button("Before", compare, { title: "The UVs that the input had (B)", aria: { pressed: "false" } });
     byId("toolbar").append(
       group("Fill", ...SHADES.map((shade) => this.#choice("shade", shade, SHADE_NAMES[shade]))),
       group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))),
       group("Point at", ...(Object.keys(AIMS) as Aim[]).map((aim) => this.#choice("aim", aim, AIMS[aim]))),
-      button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#atlas, this.#image,
+      button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#set, this.#atlas, this.#image,
     );
   }
 
@@ -66,7 +68,21 @@ export class Toolbar {
     this.#atlas.replaceChildren(...atlases.map(({ name, label, charts }) => element("option", { value: name, textContent: `${label} · ${counted(charts, "chart")}` })));
     this.#atlas.value = atlases[this.#viewer.atlas]?.name ?? "";
     this.#atlas.hidden = atlases.length < 2;
+    this.#showSets();
   }
+
+  #showSets(): void {
+    const { sets = [], set = 0, first, source } = this.#viewer.facts ?? {};
+    const said = (number: number) => (number === first && source?.texcoord ? " · new" : "");
+    this.#set.replaceChildren(...sets.map((number) => element("option", { value: String(number), textContent: `UV set ${number}${said(number)}` })));
+    this.#set.value = String(set);
+    this.#set.hidden = sets.length < 2;
+  }
+}
+
+/** What shows another UV set of a file, where nothing is selected yet. */
+export function otherSet({ facts }: Viewer, set: number): Partial<Place> {
+  return { set: set === facts?.first ? null : set, atlas: null, face: null, chart: null, seam: null, plane: null };
 }
 
 function group(label: string, ...tools: HTMLElement[]): HTMLElement {

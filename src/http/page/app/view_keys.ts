@@ -6,6 +6,7 @@ import { SHADES } from "../viewer/look";
 import type { Place } from "./address";
 import { type Key, showKeys } from "./keys";
 import type { Setup } from "./setup";
+import { otherSet } from "./toolbar";
 import type { Viewer } from "./viewer";
 
 /** What keys act on. */
@@ -39,6 +40,7 @@ export function viewKeys(page: Page): Key[] {
     { key: "f", does: "Show everything", act: () => viewer.frame() },
     { key: "v", does: "Fly to the selected face", act: () => viewer.place.face !== null && viewer.flyTo(viewer.place.face) },
     { key: "b", does: "Before and after", act: () => void page.compare() },
+    { key: "t", does: "Next UV set of the file", act: () => { const sets = viewer.facts?.sets ?? []; if (1 < sets.length) page.change(otherSet(viewer, cycle(sets, viewer.facts!.set))); } },
     { key: " ", does: "Turn, or stop", act: () => { viewer.stage?.solid.turn(!viewer.stage.solid.isTurning); viewer.stage?.redraw(); } },
     { key: "r", does: "View and report", act: () => page.change({ tab: viewer.place.tab === "view" ? "report" : "view" }) },
     { key: "Tab", does: "Arrange islands", act: () => page.arrange.does("toggle"), shift: false, inPane: true, byPointer: true },

@@ -1,15 +1,16 @@
 // The two views: what they show and what is pointed at in them.
 
-import { Box3, NearestFilter, type Object3D, RepeatWrapping, Sphere, type Texture as Image, TextureLoader } from "three";
+import { Box3, type Object3D, Sphere, type Texture as Image } from "three";
 import type { Analysis } from "../analysis/analysis";
 import { MEASURES } from "../analysis/distortion";
-import type { Texture } from "../analysis/soup";
-import { load, type Bundle, type Loaded, type UvRecord } from "../viewer/loading";
+import { rangeOf } from "../analysis/statistics";
+import { imageOf } from "../viewer/image";
+import { load, type Loaded } from "../viewer/loading";
 import { SHADES } from "../viewer/look";
 import { Model } from "../viewer/model";
 import type { Relaxing } from "../viewer/relaxing";
-import { type Origin, originsOf, soupOf } from "../viewer/soups";
-import { pictureOf, sheetOf } from "../viewer/sheet";
+import { pagesOf, pictureOf, sheetOf } from "../viewer/sheet";
+import { originsOf, soupOf } from "../viewer/soups";
 import { Stage } from "../viewer/stage";
 import { color } from "../viewer/theme_color";
 import type { View } from "../viewer/surface";
@@ -17,22 +18,7 @@ import { type Place, START } from "./address";
 import { analyzed } from "./analyst";
 import { byId } from "./dom";
 import { Pointing } from "./pointing";
-
-/** What of a file is to be shown. */
-export interface Source extends Bundle {
-  /** How its UVs were made, where the file does not say. */
-  record?: UvRecord;
-  texcoord?: (mesh: number, primitive: number) => number;
-  /** Whether it turns until a person takes over. */
-  isTurning?: boolean;
-  /** Whether charts that relax stay until another file is shown. */
-  isInput?: boolean;
-  /** From where it is seen first. */
-  from?: readonly [number, number, number];
-}
-
-/** What is known of a file that is shown. */
-export interface Facts { source: Source; record: UvRecord; texture: Texture; origins: Origin[] }
+import { type Facts, type Source, uvsOf } from "./source";
 
 /** Shows files in both views. */
 export class Viewer {
@@ -64,16 +50,19 @@ export class Viewer {
     const loaded = await load(source);
     if (mine !== this.#shown) return false;
     if (this.stage) this.#preview(this.stage, loaded, source);
-    const record = source.record ?? loaded.record ?? {};
-    const texcoord = source.texcoord ?? (() => record.texcoord ?? 0);
-    const soup = soupOf(loaded, { record, texcoord });
+    const uvs = uvsOf(source, loaded, this.place.set);
+    const soup = soupOf(loaded, uvs);
     if (!soup.parts.length) throw new Error("The file has no triangles to show.");
-    const { width, height } = soup.texture;
     const analysis = await analyzed(soup);
     if (mine !== this.#shown) return false;
-    this.facts = { source, record, texture: soup.texture, origins: originsOf(soup) };
-    this.#take(source, loaded, analysis, width / height);
+    this.facts = { source, ...uvs, texture: soup.texture, origins: originsOf(soup) };
+    this.#take(this.facts, loaded, analysis);
     return true;
+  }
+
+  /** Shows the file again, with the UV set that the state names. */
+  async again(): Promise<void> {
+    if (this.facts) await this.show(this.facts.source);
   }
 
   /** Shows nothing. */
@@ -125,7 +114,7 @@ export class Viewer {
     stage.redraw();
   }
 
-  #take({ name, from, isInput }: Source, loaded: Loaded, analysis: Analysis, aspect: number): void {
+  #take({ source: { name, from, isInput }, set, texture }: Facts, loaded: Loaded, analysis: Analysis): void {
     const isFirst = !this.model;
     if (!isInput) this.calm();
     this.model?.dispose();
@@ -133,10 +122,11 @@ export class Viewer {
     byId("panes").dataset.shown = name;
     performance.mark("first view");
     if (!this.stage) return this.changed();
-    this.model = new Model(loaded, analysis, aspect, this.stage.uniforms);
+    this.model = new Model(loaded, analysis, { set, aspect: texture.width / texture.height }, this.stage.uniforms);
     this.apply(this.place);
     const { camera, plane } = this.place;
     if (isFirst || !camera) this.frame(from);
+    else if (!plane) this.#framePlane();
     if (camera) this.stage.solid.place = camera;
     if (plane) this.stage.plane.place = plane;
     if (this.#relaxing) this.stage.plane.frame([0, 0, 1, 1]);
@@ -151,8 +141,12 @@ export class Viewer {
 
   /** Shows everything. */
   frame(from?: Source["from"]): void {
-    const atlas = this.analysis?.atlases[this.atlas];
     this.stage?.solid.frame(from ?? (this.model?.isFlat ? [0, 0, 1] : undefined));
+    this.#framePlane();
+  }
+
+  #framePlane(): void {
+    const atlas = this.analysis?.atlases[this.atlas];
     if (!atlas || !this.model) return;
     const { aspect } = this.model;
     const pages = pagesOf(atlas.bounds);
@@ -203,26 +197,14 @@ export class Viewer {
   /** What the ends of the heat map's scale stand for. */
   range(): [number, number] {
     const spread = this.analysis?.atlases[this.atlas]?.spreads[MEASURES.indexOf(this.place.measure)];
-    if (!spread) return [1, 2];
-    if (this.place.measure === "density") {
-      const far = Math.max(spread.greatest / spread.mean, spread.mean / spread.least, 1.02);
-      return [spread.mean / far, spread.mean * far];
-    }
-    const ideal = this.place.measure === "sym-dirichlet" ? 4 : 1;
-    return [ideal, Math.max(spread.p99 * 1.02, ideal * 1.02)];
+    return spread ? rangeOf(this.place.measure, spread) : [1, 2];
   }
 
   /** Fills faces with a picture of the user's. */
   async useImage(file: Blob): Promise<void> {
-    const url = URL.createObjectURL(file);
-    const texture = await new TextureLoader().loadAsync(url).finally(() => URL.revokeObjectURL(url));
-    texture.magFilter = NearestFilter;
-    texture.minFilter = NearestFilter;
-    texture.generateMipmaps = false;
-    texture.wrapS = texture.wrapT = RepeatWrapping;
-    texture.colorSpace = "";
+    const image = await imageOf(file);
     this.#image?.dispose();
-    this.#image = texture;
+    this.#image = image;
   }
 
   get hasImage(): boolean {
@@ -256,9 +238,4 @@ function stageOn(places: { canvas: HTMLCanvasElement; solid: HTMLElement; plane:
 
 function boundsOf(scene: Object3D) {
   return new Box3().setFromObject(scene).getBoundingSphere(new Sphere());
-}
-
-/** How many pages side by side UVs reach over, at least one. */
-function pagesOf(bounds: [number, number, number, number]): number {
-  return Number.isFinite(bounds[2]) ? Math.min(Math.max(Math.ceil(bounds[2] - 1e-4), 1), 10) : 1;
 }

@@ -36,7 +36,7 @@ async function follow(job: Job, viewer: Viewer, elsewhere: () => void, signal: A
   }
 }
 
-function described({ count, flips, share }: Relaxing): string {
+function described({ count, flips, share, isPlan }: Relaxing): string {
   const drawn = share < 1 ? `, ${percent(share)} of the faces drawn` : "";
-  return `${whole(count)} ${count === 1 ? "chart" : "charts"}, as the solver has them · ${whole(flips)} flips${drawn}`;
+  return `${whole(count)} ${count === 1 ? "chart" : "charts"}, as the solver has them · ${whole(flips)} flips${drawn}${isPlan ? " · seams of large charts are planned on a simplified copy" : ""}`;
 }

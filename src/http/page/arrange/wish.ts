@@ -1,7 +1,7 @@
 // The job that packs the others around islands that stay.
 
 import type { Analysis } from "../analysis/analysis";
-import type { Facts } from "../app/viewer";
+import type { Facts } from "../app/source";
 import { applied, isStill, scaleOf, type Similarity, turnOf } from "../viewer/similarity";
 import type { UvRecord } from "../viewer/loading";
 import { keyOf, type Placed } from "./arrangement";

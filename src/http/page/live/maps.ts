@@ -9,6 +9,8 @@ export interface ChartMap {
   /** All faces of the chart; not all may follow. */
   total: number;
   flips: number;
+  /** Whether seams are planned on this map of a simplification, each face of which stands for one near it. */
+  isPlan: boolean;
   /** Length of the surface per unit of the map. */
   unit: number;
   faces: Uint32Array;
@@ -27,7 +29,7 @@ export function decodeMaps(buffer: ArrayBuffer): MapFrame {
   const view = new DataView(buffer);
   const maps: ChartMap[] = [];
   for (let at = HEADER; at < buffer.byteLength;) {
-    const [surface, first, iteration, total, n, flips, width] = [0, 4, 8, 12, 16, 20, 24].map((k) => view.getUint32(at + k, true)) as [number, number, number, number, number, number, number];
+    const [surface, first, iteration, total, n, flips, width, plan] = [0, 4, 8, 12, 16, 20, 24, 28].map((k) => view.getUint32(at + k, true)) as [number, number, number, number, number, number, number, number];
     const unit = view.getFloat64(at + 32, true);
     const begin = at + MAP_HEADER;
     const end = begin + 4 * n;
@@ -35,7 +37,7 @@ export function decodeMaps(buffer: ArrayBuffer): MapFrame {
     // Copied: numbers of eight bytes may lie anywhere.
     const bytes = buffer.slice(end, at);
     const corners = width === 4 ? new Float32Array(bytes) : new Float64Array(bytes);
-    maps.push({ surface, first, iteration, total, flips, unit, faces: new Uint32Array(buffer.slice(begin, end)), corners });
+    maps.push({ surface, first, iteration, total, flips, isPlan: plan === 1, unit, faces: new Uint32Array(buffer.slice(begin, end)), corners });
   }
   return { number: view.getBigUint64(8, true).toString(), maps };
 }

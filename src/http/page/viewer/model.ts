@@ -24,9 +24,14 @@ export class Model {
   readonly surface: Surface;
   /** Around all that is drawn. */
   readonly sphere: Sphere;
+  readonly aspect: number;
+  readonly #set: number;
   readonly #firstDrawn = new Map<number, number>();
 
-  constructor(readonly loaded: Loaded, readonly analysis: Analysis, readonly aspect: number, shared: Uniforms) {
+  /** With the UVs of a set, for a texture of this aspect. */
+  constructor(readonly loaded: Loaded, readonly analysis: Analysis, { set, aspect }: { set: number; aspect: number }, shared: Uniforms) {
+    this.aspect = aspect;
+    this.#set = set;
     this.surface = surfaceOf(analysis, shared);
     this.sphere = this.surface.layers.solid.surface.geometry.boundingSphere ?? new Sphere(new Vector3(), 1);
     analysis.drawn.face.forEach((face, k) => {
@@ -66,7 +71,7 @@ export class Model {
     let found: Texture | null = null;
     this.loaded.scene.traverse((object) => {
       const map = ((object as Mesh).material as MeshStandardMaterial | undefined)?.map;
-      if (map && map.channel === (this.loaded.record?.texcoord ?? 0)) found ??= map;
+      if (map && map.channel === this.#set) found ??= map;
     });
     return found;
   }

@@ -117,6 +117,11 @@ export class Relaxing {
     return [...this.#charts.values()].reduce((sum, { map }) => sum + map.flips, 0);
   }
 
+  /** Whether any of them is a simplification on which seams are planned. */
+  get isPlan(): boolean {
+    return [...this.#charts.values()].some(({ map }) => map.isPlan);
+  }
+
   /** Of all faces of charts, which share is drawn: 1, or less where there are too many. */
   get share(): number {
     const charts = [...this.#charts.values()];

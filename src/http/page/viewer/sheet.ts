@@ -30,6 +30,11 @@ export function sheetOf(pages: number, aspect: number, colors: SheetColors): (Me
   return [ordered(paper, -3), ordered(lines(inner, colors.line), -2), ordered(lines(outer, colors.border), -1)];
 }
 
+/** How many pages side by side UVs reach over, at least one. */
+export function pagesOf(bounds: [number, number, number, number]): number {
+  return Number.isFinite(bounds[2]) ? Math.min(Math.max(Math.ceil(bounds[2] - 1e-4), 1), 10) : 1;
+}
+
 /** The picture of a material on the first page. */
 export function pictureOf(texture: Texture, aspect: number): Mesh {
   const geometry = new PlaneGeometry(aspect, 1);

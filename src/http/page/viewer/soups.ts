@@ -3,6 +3,7 @@
 import { type BufferGeometry, type Mesh, type SkinnedMesh, Vector3 } from "three";
 import type { Group, Part, Soup, Texture } from "../analysis/soup";
 import type { Loaded, UvRecord } from "./loading";
+import { attributeOf } from "./uv_sets";
 
 /** Which UVs to show. */
 export interface Shown {
@@ -78,15 +79,10 @@ function groupIndex(groups: Group[], by: NonNullable<UvRecord["group_by"]>, plac
   return 0 <= index ? index : groups.push({ name, label }) - 1;
 }
 
-/** three.js names the sets `uv`, `uv1`, `uv2`, `uv3`, and those beyond as they are in the file. */
-function uvName(texcoord: number): string {
-  return texcoord === 0 ? "uv" : texcoord < 4 ? `uv${texcoord}` : `texcoord_${texcoord}`;
-}
-
 function trianglesOf(mesh: Mesh, texcoord: number, isGltf: boolean): Pick<Part, "positions" | "uvs" | "normals"> {
   const { geometry } = mesh;
   const corners = cornersOf(geometry);
-  const uvs = spread(geometry, uvName(texcoord), corners, 2);
+  const uvs = spread(geometry, attributeOf(texcoord), corners, 2);
   // v points down in glTF, and three.js leaves it so; OBJ has it up.
   if (uvs && isGltf) for (let i = 1; i < uvs.length; i += 2) uvs[i] = 1 - uvs[i]!;
   return { positions: posed(mesh, corners), uvs, normals: isPosed(mesh) ? null : spread(geometry, "normal", corners, 3) };
