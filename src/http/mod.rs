@@ -117,6 +117,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(results::get_report))
         .routes(routes!(results::get_layout))
         .routes(routes!(results::get_heatmap))
+        .routes(routes!(results::get_thumbnail))
         .routes(routes!(results::get_file))
         .routes(routes!(sessions::open_session, sessions::list_sessions))
         .routes(routes!(sessions::get_session, sessions::close_session))

@@ -93,6 +93,26 @@ pub(super) async fn get_heatmap(
     file(&app, &caller, id, "heatmap.png", &headers).await
 }
 
+/// Get a small picture for lists, 72 pixels along its shorter side.
+///
+/// It shows the UV layout, or the warped picture. Jobs of other kinds have none.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/thumbnail.png", operation_id = "getThumbnail", tag = "results",
+    params(("id" = String, Path, format = "uuid", description = "The job")),
+    responses(
+        (status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png"),
+        FileAnswers,
+    )
+)]
+pub(super) async fn get_thumbnail(
+    State(app): Shared,
+    caller: Caller,
+    PathId(id): PathId,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    file(&app, &caller, id, "thumbnail.png", &headers).await
+}
+
 /// Get a file that belongs to the result.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/files/{name}", operation_id = "getFile", tag = "results",

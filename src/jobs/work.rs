@@ -6,6 +6,8 @@ use serde_json::Value;
 
 use super::job::{Kind, Verdict};
 use crate::document::{Upload, Warning};
+use crate::mesh::io::Format;
+use crate::picture::thumbnail_png;
 use crate::pipeline::{
     self, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions,
     Observer, Options, PipelineError, RepackOptions, SolveOptions, WarpOptions,
@@ -158,20 +160,28 @@ impl Made {
         }
     }
 
-    /// Adds the pictures of an atlas. For a small mesh this takes longer than unwrapping it.
+    /// Adds the pictures of an atlas, and a small one of these or of a picture that was warped. For a small mesh this takes longer
+    /// than unwrapping it.
     pub fn draw(&mut self) -> Result<(), PipelineError> {
-        if let Some(pictures) = self.pictures.take() {
-            let drawn = pictures.draw()?;
-            let pictures = [
-                ("layout.png", drawn.layout_png),
-                ("heatmap.png", drawn.heatmap_png),
-            ];
-            let pictures = pictures.map(|(name, png)| (name.to_owned(), name.to_owned(), png));
-            // The report stays last.
-            let place = self.files.iter().position(|(role, ..)| role == "report");
-            let place = place.unwrap_or(self.files.len());
-            self.files.splice(place..place, pictures);
+        let mut pictures = Vec::new();
+        if let Some(drawn) = self.pictures.take() {
+            let drawn = drawn.draw()?;
+            pictures.push(("layout.png", drawn.layout_png));
+            pictures.push(("heatmap.png", drawn.heatmap_png));
         }
+        let shown = pictures.first().map(|(_, layout)| layout);
+        let result = self.files.first();
+        let result = result.filter(|(_, name, _)| Format::of_name(name) == Some(Format::Png));
+        let shown = shown.or(result.map(|(.., bytes)| bytes));
+        if let Some(Ok(small)) = shown.map(|picture| thumbnail_png(picture)) {
+            pictures.push(("thumbnail.png", small));
+        }
+        let pictures = pictures.into_iter();
+        let pictures = pictures.map(|(name, png)| (name.to_owned(), name.to_owned(), png));
+        // The report stays last.
+        let place = self.files.iter().position(|(role, ..)| role == "report");
+        let place = place.unwrap_or(self.files.len());
+        self.files.splice(place..place, pictures);
         Ok(())
     }
 

@@ -18,6 +18,7 @@ mod png;
 mod raster;
 mod scale;
 mod text;
+mod thumbnail;
 mod warp;
 
 pub use heat::heatmap_png;
@@ -26,4 +27,5 @@ pub use layout::layout_png;
 pub use panel::Panel;
 pub(crate) use raster::{spans, steps};
 pub use scale::HeatmapMeasure;
+pub use thumbnail::thumbnail_png;
 pub use warp::{Deformation, Extent, Warped, warped};

@@ -43,7 +43,9 @@ impl Simplified {
         };
         let of_surface = |face: u32| chart.corners[face as usize][0] / 3;
         let triangles = self.vertex.as_chunks().0.iter();
-        triangles.filter_map(|vertices| near(vertices).map(of_surface)).collect()
+        triangles
+            .filter_map(|vertices| near(vertices).map(of_surface))
+            .collect()
     }
 
     /// The vertex of the chart at a corner.

@@ -86,6 +86,13 @@ async fn fills_and_seams_change_what_is_seen() {
 }
 
 #[tokio::test]
+async fn another_uv_set_is_chosen() {
+    let server = Server::start();
+    let url = unwrapped(&server, "MultiUVTest.glb").await;
+    scenario("sets", url, &[]).await;
+}
+
+#[tokio::test]
 async fn an_address_opens_the_same_state() {
     let server = Server::start();
     let url = unwrapped(&server, "cat_head.obj").await;

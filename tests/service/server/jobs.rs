@@ -8,6 +8,26 @@ use serde_json::json as object;
 use crate::meshes;
 use crate::server::{Server, assert_problem, json};
 
+/// A list shows small pictures, and asks for none twice.
+#[tokio::test]
+async fn thumbnails_are_small_and_kept() {
+    let server = Server::start();
+    let job = server.submit(meshes::small(), "").await;
+    server.ended(&job).await;
+    let link = format!(
+        "{}/thumbnail.png",
+        job["links"]["self"].as_str().expect("a link")
+    );
+    let answer = server.get(&link).send().await.expect("an answer");
+    assert_eq!(answer.headers()["content-type"], "image/png");
+    let tag = answer.headers()["etag"].clone();
+    let png = answer.bytes().await.expect("bytes");
+    assert_eq!(png[16..24], [0, 0, 0, 72, 0, 0, 0, 72], "its sides");
+    assert!(png.len() < 15_000, "{} bytes", png.len());
+    let again = server.get(&link).header("if-none-match", tag);
+    assert_eq!(again.send().await.expect("an answer").status(), 304);
+}
+
 #[tokio::test]
 async fn a_glb_becomes_a_glb_a_report_and_pictures() {
     let server = Server::start();
@@ -28,7 +48,13 @@ async fn a_glb_becomes_a_glb_a_report_and_pictures() {
         .filter_map(|file| file["href"].as_str())
         .collect();
     let base = job["links"]["self"].as_str().expect("a link");
-    let expected = ["result", "layout.png", "heatmap.png", "report"];
+    let expected = [
+        "result",
+        "layout.png",
+        "heatmap.png",
+        "thumbnail.png",
+        "report",
+    ];
     assert_eq!(hrefs, expected.map(|name| format!("{base}/{name}")));
 
     let result = server.get(hrefs[0]).send().await.expect("an answer");
@@ -43,7 +69,7 @@ async fn a_glb_becomes_a_glb_a_report_and_pictures() {
     );
     let glb = result.bytes().await.expect("bytes");
     assert!(glb.starts_with(b"glTF") && glb.windows(10).any(|w| w == b"TEXCOORD_0"));
-    for picture in &hrefs[1..3] {
+    for picture in &hrefs[1..4] {
         let bytes = server
             .get(picture)
             .send()
@@ -53,7 +79,7 @@ async fn a_glb_becomes_a_glb_a_report_and_pictures() {
             .await;
         assert!(bytes.expect("bytes").starts_with(b"\x89PNG"));
     }
-    let report = json(server.get(hrefs[3]).send().await.expect("an answer")).await;
+    let report = json(server.get(hrefs[4]).send().await.expect("an answer")).await;
     assert_eq!(report["certified"], true, "{report}");
     // What was asked for, and beside it what the service allows.
     assert_eq!(report["options"]["time_budget"], object!(null));

@@ -25,6 +25,7 @@ struct Sent {
     flips: u32,
     unit: f64,
     energy: f64,
+    is_plan: bool,
     faces: Vec<u32>,
     corners: Vec<[[f64; 2]; 3]>,
 }
@@ -45,7 +46,7 @@ impl Reader<'_> {
         f64::from_le_bytes(self.take())
     }
     fn map(&mut self) -> Sent {
-        let [_, first, iteration, n_faces, n, flips, width, _] =
+        let [_, first, iteration, n_faces, n, flips, width, plan] =
             std::array::from_fn(|_| self.u32());
         let [unit, energy, _] = std::array::from_fn(|_| self.f64());
         let faces = (0..n).map(|_| self.u32()).collect();
@@ -62,6 +63,7 @@ impl Reader<'_> {
             flips,
             unit,
             energy,
+            is_plan: plan == 1,
             faces,
             corners: (0..n).map(&mut triangle).collect(),
         }
@@ -196,6 +198,27 @@ async fn every_frame_is_what_the_solver_had() {
             map.iteration
         );
     }
+}
+
+#[tokio::test]
+async fn seams_of_large_charts_are_seen_being_planned() {
+    let server = Server::start();
+    let job = server.submit(meshes::hills(180), "").await;
+    let frames = frames(&server, &job).await;
+    let maps: Vec<&Sent> = frames.iter().flatten().collect();
+    let plans = maps.iter().take_while(|map| map.is_plan);
+    let n_plans = plans.clone().count();
+    assert!(
+        0 < n_plans && n_plans < maps.len(),
+        "first plans, then charts"
+    );
+    for plan in plans {
+        assert!(plan.n_faces < 60_000, "simplified");
+        let distinct: HashSet<&u32> = plan.faces.iter().collect();
+        assert!(100 * distinct.len() >= 99 * plan.faces.len());
+        assert!(plan.faces.iter().all(|&face| face < 2 * 180 * 180));
+    }
+    frames.iter().for_each(|maps| assert_no_flips(maps));
 }
 
 #[tokio::test]

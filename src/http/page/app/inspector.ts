@@ -98,7 +98,7 @@ function verdict(job: Job): HTMLElement {
 function failure({ error }: Job): HTMLElement | null {
   if (!error) return null;
   return element("section", { className: "failure" }, element("p", {}, element("strong", { textContent: error.title })), element("p", { textContent: error.detail }),
-    element("p", { className: "hint" }, "Repair the file or change the options, then unwrap again. ", element("a", { href: `docs#${error.code}`, textContent: `About ${error.code}` })));
+    element("p", { className: "hint" }, "Repair the file or change the options, then try again. ", element("a", { href: `docs#${error.code}`, textContent: `About ${error.code}` })));
 }
 
 function proofs(report: Report): HTMLElement {

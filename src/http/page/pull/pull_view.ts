@@ -83,7 +83,7 @@ export class PullView implements Doer {
     try {
       this.#session = await openSession(this.#origin, way);
     } catch (error) {
-      this.#tools.say("");
+      this.#tools.say("Nothing is held. Choose another way, or another file.");
       return this.told.failed(error);
     }
     this.#way = way;

@@ -117,7 +117,7 @@ export class PullTools {
   frame({ stage, step, flips, energy, smallest }: LiveFrame): void {
     const wait = [...this.#waits].sort((a, b) => a - b)[this.#waits.length >> 1];
     byId("pull-figures").textContent = [
-      `${flips} flips`, `smallest element ${(100 * smallest).toFixed(1)} % of rest`, Number.isFinite(energy) ? `energy ${short(energy)}` : "", `iteration ${step}`,
+      `${flips} flips`, Number.isFinite(smallest) ? `smallest element ${(100 * smallest).toFixed(1)} % of rest` : "", Number.isFinite(energy) ? `energy ${short(energy)}` : "", `iteration ${step}`,
       { moving: "moving", settled: "at rest", unreached: "targets cannot be reached" }[stage], wait === undefined ? "" : `follows in ${wait.toFixed(0)} ms`,
     ].filter(Boolean).join(" · ");
   }
