@@ -12,6 +12,7 @@ mod cli_streams;
 mod cluster;
 mod contract;
 mod deforming;
+mod deployment;
 mod figures;
 #[path = "../harness/mod.rs"]
 #[expect(dead_code, reason = "some is for the benchmark")]

@@ -85,6 +85,20 @@ pub fn block(n: usize) -> Case {
     }
 }
 
+/// An armadillo, held at the feet and dragged by a hand.
+pub fn armadillo() -> Case {
+    let msh = std::fs::read(places::shared("data/tet/Armadillo13K.msh")).expect("test data");
+    Case {
+        name: "armadillo of 54,985 tetrahedra".to_owned(),
+        file: ("armadillo.msh", msh),
+        options: json!({}),
+        held: vec![35.0, -50.0, 0.0],
+        dragged: vec![63.5, 71.9, -33.1],
+        radius: 20.0,
+        reach: 15.0,
+    }
+}
+
 /// A cow in a cage.
 pub fn caged() -> Case {
     let ply = std::fs::read(places::asset("spot.ply")).expect("an asset");

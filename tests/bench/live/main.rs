@@ -5,6 +5,7 @@
 //! - `moves`: 1,000 moves of one handle after 50 to warm up, each sent when the frame with the one before has come: milliseconds
 //!   from sending a move to the complete frame that contains it, and what server and child work for it. Sheets of 5,000 and 50,000
 //!   triangles, a block of 13,000 tetrahedra.
+//! - `armadillo`: the same for a hand of the armadillo, 13,230 vertices in 54,985 tetrahedra, where `../shared/data` is.
 //! - `large`: the same for 20 moves of a sheet of 500,000 triangles; the first comes when all is at rest.
 //! - `fifty`: fifty sheets of 5,000 triangles at once for 30 seconds, what happens to one more, and what is left afterward.
 //! - `drag`: three meshes, one after the other, their handles dragged at random. Every frame is judged by its bytes.
@@ -27,7 +28,7 @@ mod service;
 
 use std::time::Duration;
 
-use cases::{block, caged, sheet};
+use cases::{armadillo, block, caged, sheet};
 
 #[tokio::main]
 async fn main() {
@@ -40,6 +41,9 @@ async fn main() {
         for case in [sheet(50), sheet(158), block(13)] {
             moves::measure(&case, moves).await;
         }
+    }
+    if is_asked("armadillo") {
+        moves::measure(&armadillo(), count("MOVES", 1000)).await;
     }
     if is_asked("large") {
         moves::measure(&sheet(500), 20).await;

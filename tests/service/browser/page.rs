@@ -1,14 +1,16 @@
 //! The page, driven as a person would: each test is a scenario of `tests/page`.
 
+mod pulling;
+
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
 
 use crate::cli::{assert_status, unwrapd};
+use crate::cluster::Cluster;
 use crate::meshes::{self, PLATE};
 use crate::places;
-use crate::server::sessions::sheet;
 use crate::server::{Server, ended, form, keys};
 
 /// Runs a scenario at an address with arguments; what it returns.
@@ -69,6 +71,15 @@ async fn charts_relax_in_the_uv_view() {
     std::fs::write(&mesh, meshes::hills(170)).expect("written");
     let before = before["links"]["self"].as_str().expect("a link").to_owned();
     scenario("relaxing", server.url("/"), &[text(&mesh), before]).await;
+}
+
+#[tokio::test]
+async fn a_job_that_a_worker_runs_says_so() {
+    let cluster = Cluster::with_lease("60");
+    let service = cluster.api();
+    let _worker = cluster.worker();
+    let job = service.submit(meshes::large(), "cut=disk").await;
+    scenario("elsewhere", with_job(&service, &job), &[]).await;
 }
 
 #[tokio::test]
@@ -184,48 +195,6 @@ async fn jobs_of_every_kind_are_shown() {
         );
     }
     scenario("kinds", server.url("/"), &shown).await;
-}
-
-/// Something is held at a first place of the view and dragged by the mouse from a second to a third, in shares of its size.
-async fn pulled(file: String, what: &str, places: &str) {
-    let server = Server::start();
-    let arguments = [file, what.to_owned(), places.to_owned()];
-    let said = scenario("pull", server.url("/"), &arguments).await;
-    assert!(said["frames"].as_u64() > Some(10), "{said}");
-}
-
-#[tokio::test]
-async fn a_mesh_of_the_plane_is_pulled() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let off = folder.path().join("sheet.off");
-    std::fs::write(&off, sheet(16).1).expect("a file");
-    let places = "[[0.5, 0.85], [0.5, 0.2], [0.62, 0.4]]";
-    pulled(text(&off), "Planar mesh", places).await;
-}
-
-#[tokio::test]
-async fn a_picture_is_pulled() {
-    let places = "[[0.4, 0.6], [0.6, 0.5], [0.7, 0.3]]";
-    pulled(asset("pictures/spot.png"), "Picture", places).await;
-}
-
-#[tokio::test]
-async fn a_surface_in_a_cage_is_pulled() {
-    let places = "[[0.5, 0.62], [0.5, 0.42], [0.62, 0.3]]";
-    pulled(asset("spot.ply"), "Surface in a cage", places).await;
-}
-
-#[tokio::test]
-async fn islands_are_arranged_and_the_others_packed_around_them() {
-    let server = Server::start();
-    let folder = tempfile::tempdir().expect("a folder");
-    let url = unwrapped(&server, "cat_head.obj").await;
-    let files = ["before.glb", "after.glb"].map(|name| text(&folder.path().join(name)));
-    scenario("arrange", url, &files).await;
-    let [_, output] = files;
-    let verified =
-        tokio::task::spawn_blocking(move || unwrapd(&["verify", &output, "--bijective"]));
-    assert_status(&verified.await.expect("no panic"), 0);
 }
 
 /// Sources and bundle agree: building it again gives the same bytes.
