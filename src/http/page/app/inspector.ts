@@ -39,10 +39,12 @@ export class ProgressPanel {
 
   constructor(readonly job: Job, readonly actions: Actions) {
     byId("inspector").replaceChildren(
-      element("section", { className: "progress-panel" }, this.#stage, this.#bar, this.#facts, this.#curve,
+      element("section", { className: "progress-panel" }, this.#stage, this.#bar,
+        // Above what grows, so that they stay where they are.
         element("div", { className: "actions" },
           button("Finish early", actions.finish, { title: "Take the current map, which is valid, as the result" }),
-          button("Cancel", actions.cancel))));
+          button("Cancel", actions.cancel)),
+        this.#facts, this.#curve));
     this.show(job);
   }
 
