@@ -172,7 +172,7 @@ export function note(text: string): void {
 /** The pictures of the service, where there are no views. */
 export function showFallback(job: Job | null, why = ""): void {
   const holder = byId("fallback");
-  const pictures = job ? job.links.files.filter(({ name }) => name.endsWith(".png")) : [];
+  const pictures = job ? job.links.files.filter(({ name }) => name.endsWith(".png") && name !== "thumbnail.png") : [];
   holder.hidden = job === null;
   holder.replaceChildren(element("p", { textContent: why }), ...pictures.map(({ href, name }) => element("img", { src: address(href), alt: name })));
 }
