@@ -84,6 +84,8 @@ mod taylor;
 mod terms;
 mod texture_mapping;
 mod threads;
+#[cfg(feature = "files")]
+mod thumbnail;
 mod turns;
 mod unfolding;
 mod units;

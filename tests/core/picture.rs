@@ -2,7 +2,7 @@
 use image::RgbImage;
 use unwrapd::measure::FaceDistortion;
 use unwrapd::mesh::VAxis;
-use unwrapd::picture::{HeatmapMeasure, Image, Panel, heatmap_png, layout_png, thumbnail_png};
+use unwrapd::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
 
 type CornerUvs = [[f64; 2]; 3];
 
@@ -256,23 +256,4 @@ fn strange_numbers_are_drawn_or_left_out() {
         }
         decode(&layout_png(&[panel], 100, VAxis::Down));
     }
-}
-
-#[test]
-fn thumbnails_have_the_means_of_what_they_show() {
-    let mut wide = Image::transparent(576, 288);
-    for (k, pixel) in wide.pixels.iter_mut().enumerate() {
-        *pixel = if k % 576 < 288 {
-            [200, 0, 0, 255]
-        } else {
-            [0, 0, 100 * (k % 2) as u8, 255]
-        };
-    }
-    let small = Image::decode(&thumbnail_png(&wide.png()).unwrap()).unwrap();
-    assert_eq!([small.width, small.height], [144, 72]);
-    assert_eq!(small.pixels[144 * 50 + 20], [200, 0, 0, 255]);
-    assert_eq!(small.pixels[144 * 50 + 100], [0, 0, 50, 255]);
-    let own = Image::transparent(30, 40);
-    assert_eq!(Image::decode(&thumbnail_png(&own.png()).unwrap()), Ok(own));
-    assert!(thumbnail_png(b"no picture").is_err());
 }

@@ -8,26 +8,6 @@ use serde_json::json as object;
 use crate::meshes;
 use crate::server::{Server, assert_problem, json};
 
-/// A list shows small pictures, and asks for none twice.
-#[tokio::test]
-async fn thumbnails_are_small_and_kept() {
-    let server = Server::start();
-    let job = server.submit(meshes::small(), "").await;
-    server.ended(&job).await;
-    let link = format!(
-        "{}/thumbnail.png",
-        job["links"]["self"].as_str().expect("a link")
-    );
-    let answer = server.get(&link).send().await.expect("an answer");
-    assert_eq!(answer.headers()["content-type"], "image/png");
-    let tag = answer.headers()["etag"].clone();
-    let png = answer.bytes().await.expect("bytes");
-    assert_eq!(png[16..24], [0, 0, 0, 72, 0, 0, 0, 72], "its sides");
-    assert!(png.len() < 15_000, "{} bytes", png.len());
-    let again = server.get(&link).header("if-none-match", tag);
-    assert_eq!(again.send().await.expect("an answer").status(), 304);
-}
-
 #[tokio::test]
 async fn a_glb_becomes_a_glb_a_report_and_pictures() {
     let server = Server::start();

@@ -218,7 +218,9 @@ async fn seams_of_large_charts_are_seen_being_planned() {
         assert!(100 * distinct.len() >= 99 * plan.faces.len());
         assert!(plan.faces.iter().all(|&face| face < 2 * 180 * 180));
     }
-    frames.iter().for_each(|maps| assert_no_flips(maps));
+    for maps in &frames {
+        assert_no_flips(maps);
+    }
 }
 
 #[tokio::test]

@@ -165,3 +165,23 @@ async fn a_damaged_input_fails_its_job() {
     let job = server.ended(&job).await;
     assert_eq!(job["error"]["code"], "damaged_file", "{job}");
 }
+
+/// A list shows small pictures, and asks for none twice.
+#[tokio::test]
+async fn thumbnails_are_small_and_kept() {
+    let server = Server::start();
+    let job = server.submit(meshes::small(), "").await;
+    server.ended(&job).await;
+    let link = format!(
+        "{}/thumbnail.png",
+        job["links"]["self"].as_str().expect("a link")
+    );
+    let answer = server.get(&link).send().await.expect("an answer");
+    assert_eq!(answer.headers()["content-type"], "image/png");
+    let tag = answer.headers()["etag"].clone();
+    let png = answer.bytes().await.expect("bytes");
+    assert_eq!(png[16..24], [0, 0, 0, 72, 0, 0, 0, 72], "its sides");
+    assert!(png.len() < 15_000, "{} bytes", png.len());
+    let again = server.get(&link).header("if-none-match", tag);
+    assert_eq!(again.send().await.expect("an answer").status(), 304);
+}
