@@ -19,12 +19,13 @@ use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
 /// Create a job of any kind.
 ///
 /// The input is a form or the body itself. A form has the input as `mesh`, `image` or `problem`,
-/// the files it references as `resource`, `options` as JSON, and `kind`. Options can also be query
-/// parameters; a list is then its JSON text. Each kind has its own options, named like those of the
+/// the files it references as `resource`, `options` as JSON, and `kind`. `priority` and
+/// `metadata` can be parts too. Options can also be query parameters; a list is then its JSON text. Each kind has its own options, named like those of the
 /// command line in snake_case. The handles of a job have the JSON form of the command line's handle
 /// files.
 ///
-/// `unwrap`, `repack`, `measure`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and STL.
+/// `unwrap`, `repack`, `measure`, `verify`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and
+/// STL.
 /// `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads PNG and
 /// JPEG. `solve` reads a problem file with its mesh beside it.
 ///
@@ -48,6 +49,7 @@ use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
         ("kind" = Option<crate::jobs::Kind>, Query, description = "Kind of job; the default is `unwrap`"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
         ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Of the waiting jobs of one owner, those of higher priority start first; the default is 0"),
+        ("metadata" = Option<String>, Query, description = "JSON object of at most 4096 bytes and 64 members, which is repeated wherever the job is shown. `listJobs` finds jobs by it"),
     ),
     responses(
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),

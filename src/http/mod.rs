@@ -17,9 +17,11 @@ mod events;
 mod exposition;
 mod extract;
 mod framing;
+mod handling;
 mod held;
 mod inputs;
 mod jobs;
+mod list;
 mod live;
 mod maps;
 mod missing;
@@ -28,6 +30,7 @@ mod openapi;
 mod options;
 mod origins;
 mod page;
+mod parts;
 mod pause;
 mod probes;
 mod problem;
@@ -106,7 +109,7 @@ type Shared = axum::extract::State<Arc<App>>;
 /// need a key, once there is one.
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(openapi::preamble())
-        .routes(routes!(create::create_job, jobs::list_jobs))
+        .routes(routes!(create::create_job, list::list_jobs))
         .routes(routes!(jobs::get_job, jobs::delete_job))
         .routes(routes!(jobs::finish_job))
         .routes(routes!(jobs::retry_job))

@@ -176,6 +176,11 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
     });
     if is_job {
         schema["properties"]["image"] = input;
+        schema["properties"]["priority"] = json!({ "type": "integer", "minimum": -100, "maximum": 100 });
+        schema["properties"]["metadata"] = json!({
+            "type": "object",
+            "description": "What the client notes of the job: at most 4096 bytes and 64 members",
+        });
         schema["properties"]["problem"] = json!({
             "type": "string",
             "contentMediaType": "application/json",
@@ -187,7 +192,10 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
         schema["required"] = json!(["mesh"]);
     }
     let mut content = Map::new();
-    let encoding = json!({ "options": { "contentType": "application/json" } });
+    let mut encoding = json!({ "options": { "contentType": "application/json" } });
+    if is_job {
+        encoding["metadata"] = encoding["options"].clone();
+    }
     content.insert(
         "multipart/form-data".to_owned(),
         json!({ "schema": schema, "encoding": encoding }),

@@ -3,23 +3,21 @@
 use std::path::PathBuf;
 
 use axum::body::Body;
-use axum::extract::multipart::{Field, Multipart, MultipartError};
+use axum::extract::multipart::{Field, Multipart};
 use futures_util::{Stream, StreamExt};
 use serde_json::{Map, Value};
 use sha2::{Digest as _, Sha256};
 use tokio::io::AsyncWriteExt;
 
 use super::framing;
+use super::handling::{Said, once};
 use super::options::{self, UploadQuery};
+use super::parts::{INPUT_PARTS, at_most, malformed, text, unexpected};
 use super::problem::{Code, Problem};
 use super::received::Received;
 use crate::deform::from_json;
 use crate::jobs::{InputFile, Kind, Scratch};
 
-/// Names of the part that holds the input.
-const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
-/// Bytes of a text part: options with some thousand handles.
-const MAX_TEXT_BYTES: u64 = 256 << 10;
 /// Files of an upload.
 const MAX_FILES: usize = 4096;
 /// Bytes of the path of a resource.
@@ -37,11 +35,12 @@ pub(super) struct Receiver {
     kind: Option<Kind>,
     has_options: bool,
     options: Map<String, Value>,
+    said: Said,
 }
 
 impl Receiver {
-    /// An upload into a fresh folder, of at most `limit` bytes.
-    pub fn new(folder: PathBuf, limit: u64) -> Result<Self, Problem> {
+    /// An upload into a fresh folder, of at most `limit` bytes, of which something was said already.
+    pub fn new(folder: PathBuf, limit: u64, said: Said) -> Result<Self, Problem> {
         Ok(Self {
             folder: Scratch::make(folder)?,
             left: limit,
@@ -51,6 +50,7 @@ impl Receiver {
             kind: None,
             has_options: false,
             options: Map::new(),
+            said,
         })
     }
 
@@ -86,6 +86,10 @@ impl Receiver {
                     })?;
                 }
                 "resource" => self.resource(field).await?,
+                part if Said::NAMES.contains(&part) => {
+                    let part = part.to_owned();
+                    self.said.take(&part, &text(field).await?)?;
+                }
                 part => return Err(unexpected(part)),
             }
         }
@@ -150,6 +154,9 @@ impl Receiver {
             return Err(Problem::new(Code::MissingMesh, detail));
         };
         once("kind", query.kind.or(kind).is_none() || self.kind.is_none())?;
+        if kind.is_some() {
+            self.said.check_unkept()?;
+        }
         let kind = kind.or(query.kind).or(self.kind).unwrap_or_default();
         let mut given = self.options;
         for (name, value) in query.options {
@@ -172,7 +179,7 @@ impl Receiver {
             kind,
             options,
             files,
-            priority: query.priority.unwrap_or_default(),
+            handling: self.said.into_handling(),
         })
     }
 }
@@ -189,48 +196,6 @@ fn file_name(given: &str, kind: Kind, extension: &str) -> String {
     } else {
         format!("{name}.{extension}")
     }
-}
-
-async fn text(mut field: Field<'_>) -> Result<String, Problem> {
-    let mut bytes = Vec::new();
-    while let Some(chunk) = field.chunk().await.map_err(|e| malformed(&e))? {
-        bytes.extend_from_slice(&chunk);
-        if MAX_TEXT_BYTES < bytes.len() as u64 {
-            let detail = format!("a text part can have at most {MAX_TEXT_BYTES} bytes");
-            return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_TEXT_BYTES));
-        }
-    }
-    String::from_utf8(bytes)
-        .map_err(|_| Problem::new(Code::InvalidRequest, "a text part is not UTF-8"))
-}
-
-/// Refuses what is given more than once: one of two would be lost.
-fn once(name: &str, is_first: bool) -> Result<(), Problem> {
-    if is_first {
-        return Ok(());
-    }
-    let detail = format!("{name} is given twice");
-    Err(Problem::new(Code::InvalidRequest, detail))
-}
-
-fn at_most(name: &str, bytes: usize) -> Result<(), Problem> {
-    if name.len() <= bytes {
-        return Ok(());
-    }
-    let detail = format!("a file name can have at most {bytes} bytes");
-    Err(Problem::new(Code::InvalidRequest, detail))
-}
-
-fn unexpected(part: &str) -> Problem {
-    let part: String = part.chars().take(100).collect();
-    let detail = format!(
-        "unexpected part {part:?}: the parts of a form are mesh, image or problem, resource, options and kind"
-    );
-    Problem::new(Code::InvalidRequest, detail)
-}
-
-fn malformed(error: &MultipartError) -> Problem {
-    Problem::new(Code::InvalidRequest, error.body_text())
 }
 
 fn broken(error: &axum::Error) -> Problem {

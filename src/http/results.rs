@@ -36,7 +36,7 @@ pub(super) async fn get_result(
 
 /// Get the report: what was done, the quality of the result, and what is proven.
 ///
-/// `Report` of `unwrap`, `repack` and `measure`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of
+/// `Report` of `unwrap`, `repack` and `measure`, `Verified` of `verify`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of
 /// `edit_uv` and `texture_map`.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/report", operation_id = "getReport", tag = "results",

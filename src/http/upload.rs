@@ -133,7 +133,7 @@ pub(super) fn accepts(app: &App) -> Result<(), Problem> {
 }
 
 async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Received, Problem> {
-    let query = UploadQuery::read(request.uri())?;
+    let mut query = UploadQuery::read(request.uri())?;
     if kind.is_some() && query.kind.is_some() {
         return Err(Problem::new(
             Code::InvalidRequest,
@@ -142,7 +142,8 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
     }
     let limit = app.settings.upload_bytes;
     let scratch = &app.jobs.settings().scratch;
-    let mut receiver = Receiver::new(scratch.join(format!("upload-{}", JobId::fresh())), limit)?;
+    let folder = scratch.join(format!("upload-{}", JobId::fresh()));
+    let mut receiver = Receiver::new(folder, limit, std::mem::take(&mut query.said))?;
     let media_type = media_type(request.headers());
     if media_type == "multipart/form-data" {
         let form = Multipart::from_request(request, &())

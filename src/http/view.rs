@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::problem::Problem;
 use crate::document::Warning;
-use crate::jobs::{Event, Job, Kind, Settings, Timestamp};
+use crate::jobs::{Event, Job, Kind, Metadata, Settings, Timestamp};
 
 /// A job: request, state and outcome.
 #[derive(Serialize, utoipa::ToSchema)]
@@ -29,6 +29,9 @@ pub(super) struct JobView {
     options: Value,
     /// Of the waiting jobs of one owner, those of higher priority start first.
     priority: i32,
+    /// What the client noted of the job.
+    #[schema(value_type = Object)]
+    metadata: Metadata,
     /// Number of times the job was started.
     attempt: u32,
     /// Whether the result is a copy of that of an earlier job with equal kind, options and input.
@@ -116,6 +119,7 @@ impl JobView {
             input_bytes: job.input.iter().map(|file| file.bytes).sum(),
             options: job.options.clone(),
             priority: job.priority,
+            metadata: job.metadata.clone(),
             attempt: job.attempt,
             cached: job.is_copy(),
             created_at: job.created,
@@ -139,7 +143,7 @@ impl JobView {
     }
 }
 
-/// A page of jobs, newest first.
+/// A page of jobs.
 #[derive(Serialize, utoipa::ToSchema)]
 pub(super) struct JobPage {
     /// The jobs of this page.

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::queue::Jobs;
 use super::space::free_bytes;
-use super::storage::Capacity;
+use super::quotas::Capacity;
 use super::store_error::{StoreError, StoreResult};
 
 /// Over which the pace of the queue is taken.

@@ -8,12 +8,13 @@ use uuid::Uuid;
 
 use super::access::Owner;
 use super::input_output::{InputFile, OutputFile};
+use super::kind::Kind;
 use super::lease::{Token, WorkerId};
+use super::metadata::Metadata;
 use super::progress::{Event, Progress};
 use super::state::State;
 use super::timestamp::Timestamp;
 use crate::document::Warning;
-use crate::mesh::io::Content;
 
 /// Names a job; ids sort by the time of their making (UUID version 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -49,69 +50,6 @@ impl FromStr for JobId {
 impl Serialize for JobId {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
-    }
-}
-
-/// What a job does with its file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Makes a UV map and writes the file with it.
-    #[default]
-    Unwrap,
-    /// Measures the UV map that the file already has.
-    Measure,
-    /// Solves a problem file: handles pulled to targets, no element inverted.
-    Solve,
-    /// Pulls a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted.
-    Deform,
-    /// Warps a picture by handles without folding it.
-    Warp,
-    /// Moves anchors of a file's UVs, no face flipped.
-    EditUv,
-    /// Aligns points of a surface with points of a texture, no face flipped.
-    TextureMap,
-    /// Packs the UV islands that the file has into one atlas, each as it is.
-    Repack,
-}
-
-impl Kind {
-    /// All kinds.
-    pub const ALL: [Self; 8] = [
-        Self::Unwrap,
-        Self::Measure,
-        Self::Solve,
-        Self::Deform,
-        Self::Warp,
-        Self::EditUv,
-        Self::TextureMap,
-        Self::Repack,
-    ];
-
-    /// What jobs of this kind read.
-    pub fn reads(self) -> Content {
-        match self {
-            Self::Unwrap | Self::Measure | Self::EditUv | Self::TextureMap | Self::Repack => {
-                Content::Surface
-            }
-            Self::Solve => Content::Problem,
-            Self::Deform => Content::Body,
-            Self::Warp => Content::Picture,
-        }
-    }
-
-    /// The word used in JSON and in the store.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Unwrap => "unwrap",
-            Self::Measure => "measure",
-            Self::Solve => "solve",
-            Self::Deform => "deform",
-            Self::Warp => "warp",
-            Self::EditUv => "edit_uv",
-            Self::TextureMap => "texture_map",
-            Self::Repack => "repack",
-        }
     }
 }
 
@@ -175,6 +113,8 @@ pub struct Job {
     pub priority: i32,
     /// The `traceparent` that the client sent (W3C Trace Context), which logs repeat.
     pub trace: Option<String>,
+    /// What its client notes of it.
+    pub metadata: Metadata,
     /// Names its present or last holder; fences off what former ones report.
     pub token: Token,
     /// Who has it.
@@ -221,6 +161,7 @@ impl Job {
             digest: String::new(),
             priority: 0,
             trace: None,
+            metadata: Metadata::default(),
             token: 0,
             worker: None,
             lease: None,

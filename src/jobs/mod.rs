@@ -41,6 +41,7 @@
 pub mod access;
 mod attempt;
 mod beats;
+mod blobs;
 mod capacity;
 mod cgroup;
 mod checksum;
@@ -52,21 +53,26 @@ mod deadline;
 mod digest;
 mod drain;
 mod frames;
+mod handling;
 mod input_output;
 mod job;
 mod keys;
+mod kind;
 mod lane;
 mod lease;
+mod listing;
 mod live;
 mod map_feed;
 mod map_frame;
 mod maps;
 mod memory_failure;
+mod metadata;
 pub mod meters;
 mod output;
 mod pace;
 mod progress;
 mod queue;
+mod quotas;
 mod reporter;
 mod retention;
 mod reuse;
@@ -88,25 +94,30 @@ mod transition;
 mod watching;
 mod work;
 
+pub use blobs::{Blobs, Content};
 pub use capacity::Usage;
 pub use checksum::sha256;
 pub use child::{read_stderr, spawn};
 pub use compute::contain;
 pub use contained::Contained;
 pub use digest::Digest;
+pub use handling::Handling;
 pub use input_output::{InputFile, OutputFile};
-pub use job::{Failure, Job, JobId, Kind, Verdict};
+pub use job::{Failure, Job, JobId, Verdict};
+pub use kind::Kind;
 pub use lease::{Rules, Token, WorkerId};
+pub use listing::{Listing, Order};
+pub use metadata::{Metadata, MetadataError};
 pub use pace::Pace;
 pub use progress::{Event, Progress, Saying};
 pub use queue::{Ended, Jobs};
+pub use quotas::{Capacity, OwnerQuota, OwnerQuotas};
 pub use scratch::Scratch;
 pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
 pub use storage::{
-    Beat, Blobs, Capacity, Changed, Content, Enqueued, IdempotencyKey, JobStore, Listing,
-    OwnerQuota, OwnerQuotas, Queue, Reason, Share, Sweep,
+    Beat, Changed, Enqueued, IdempotencyKey, JobStore, Queue, Reason, Share, Sweep,
 };
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};

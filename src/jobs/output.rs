@@ -7,7 +7,7 @@ use super::input_output::{InputFile, OutputFile};
 use super::job::Job;
 use super::keys::{input_key, output_key};
 use super::queue::Jobs;
-use super::storage::Content;
+use super::blobs::Content;
 use super::store_error::StoreResult;
 
 impl Jobs {

@@ -4,11 +4,13 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::job::{Kind, Verdict};
+use super::job::Verdict;
+use super::kind::Kind;
 use crate::document::{Upload, Warning};
 use crate::pipeline::{
     self, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions,
-    Observer, Options, PipelineError, RepackOptions, SolveOptions, WarpOptions,
+    Observer, Options, PipelineError, RepackOptions, SolveOptions,
+    VerifyOptions, WarpOptions,
 };
 
 /// What a job leaves.
@@ -36,6 +38,7 @@ impl Work {
         match kind {
             Kind::Unwrap => Self::of(options, unwrap),
             Kind::Measure => Self::of(options, measure),
+            Kind::Verify => Self::of(options, verify),
             Kind::Solve => Self::of(options, solve),
             Kind::Deform => Self::of(options, deform),
             Kind::Warp => Self::of(options, warp),
@@ -99,6 +102,15 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
 fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended {
     let report = pipeline::measure_document(upload, options)?;
     Ok(Made::new(Vec::new()).reported(&report, None, &report.warnings))
+}
+
+fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> Ended {
+    let verified = pipeline::verify_document(upload, options)?;
+    let lacking = verified.lacking.iter();
+    let lacking = lacking.map(|words| Warning::new("not_proven", (*words).to_owned()));
+    let warnings: Vec<Warning> = verified.warnings.iter().cloned().chain(lacking).collect();
+    let certified = Some(verified.certified);
+    Ok(Made::new(Vec::new()).reported(&verified, certified, &warnings))
 }
 
 fn solve(upload: &Upload, options: &SolveOptions, observer: &dyn Observer) -> Ended {

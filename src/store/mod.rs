@@ -22,6 +22,7 @@ mod files;
 mod hints;
 mod idempotency;
 mod keys;
+mod listing;
 mod objects;
 mod quotas;
 mod reading;

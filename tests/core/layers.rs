@@ -109,6 +109,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "axum",
             "utoipa_axum",
             "hyper",
+            "humantime",
             "hyper_util",
             "tokio",
             "tokio_io_timeout",
