@@ -24,7 +24,7 @@ pub(super) enum Command {
     /// Exit status 0 means certified: it is proven that no triangle is flipped, degenerate or
     /// overlapping, that no chart is mirrored, and that padding, pages and bits are as requested.
     ///
-    /// Exit status 4 means not certified. OUT is still written, and a warning names what is
+    /// Exit status 4 means not certified, or whatever else `accept` requests. OUT is still written, and a warning names what is
     /// missing. Only if a triangle would be flipped against the promise, no file is written.
     ///
     /// Other statuses: 2 usage error, 3 unusable input, 1 any other error. Distortion above the

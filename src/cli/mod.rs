@@ -8,6 +8,7 @@
 //! be written. Each input is opened once (`input`).
 #![doc = include_str!("guide.md")]
 
+mod acceptance;
 mod batch;
 mod bulk_args;
 mod bulk_display;

@@ -19,8 +19,8 @@ use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
 /// Create a job of any kind.
 ///
 /// The input is a form or the body itself. A form has the input as `mesh`, `image` or `problem`,
-/// the files it references as `resource`, `options` as JSON, and `kind`. `priority` and
-/// `metadata` can be parts too. Options can also be query parameters; a list is then its JSON text. Each kind has its own options, named like those of the
+/// the files it references as `resource`, `options` as JSON, and `kind`. `priority`,
+/// `metadata` and `accept` can be parts too. Options can also be query parameters; a list is then its JSON text. Each kind has its own options, named like those of the
 /// command line in snake_case. The handles of a job have the JSON form of the command line's handle
 /// files.
 ///
@@ -50,6 +50,7 @@ use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
         ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Of the waiting jobs of one owner, those of higher priority start first; the default is 0"),
         ("metadata" = Option<String>, Query, description = "JSON object of at most 4096 bytes and 64 members, which is repeated wherever the job is shown. `listJobs` finds jobs by it"),
+        ("accept" = Option<String>, Query, description = "Gates that the result has to meet, as a list with commas: `certified`, `max_charts=N`, `max_distortion=E` (mean symmetric Dirichlet energy of the worst atlas), `max_stretch=S` (99th percentile), `max_seconds=T`, `written`. `accepted` of the job says whether it does"),
     ),
     responses(
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),

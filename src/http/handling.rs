@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::problem::{Code, Problem};
-use crate::jobs::{Handling, Metadata};
+use crate::jobs::{GateError, Gates, Handling, Kind, Metadata};
 
 /// Priorities that a client may ask for.
 const PRIORITIES: RangeInclusive<i32> = -100..=100;
@@ -13,35 +13,43 @@ const PRIORITIES: RangeInclusive<i32> = -100..=100;
 pub(super) struct Said {
     priority: Option<i32>,
     metadata: Option<Metadata>,
+    accept: Option<Gates>,
 }
 
 impl Said {
     /// The names of what can be said.
-    pub const NAMES: [&str; 2] = ["priority", "metadata"];
+    pub const NAMES: [&str; 3] = ["priority", "metadata", "accept"];
 
     /// Takes what is said under one of these names.
     pub fn take(&mut self, name: &str, text: &str) -> Result<(), Problem> {
         let is_new = match name {
             "priority" => self.priority.replace(priority(text)?).is_none(),
+            "accept" => self.accept.replace(gates(text)?).is_none(),
             _ => self.metadata.replace(metadata(text)?).is_none(),
         };
         once(name, is_new)
     }
 
-    /// All of it.
-    pub fn into_handling(self) -> Handling {
-        Handling {
+    /// All of it, for a job of this kind.
+    pub fn into_handling(self, kind: Kind) -> Result<Handling, Problem> {
+        if let Some(gates) = &self.accept {
+            gates.check(kind).map_err(|error| refused(&error))?;
+        }
+        Ok(Handling {
             priority: self.priority.unwrap_or_default(),
             metadata: self.metadata.unwrap_or_default(),
-        }
+            accept: self.accept,
+        })
     }
 
     /// Refuses what only a job that is kept can have.
     pub fn check_unkept(&self) -> Result<(), Problem> {
-        if self.metadata.is_none() {
-            return Ok(());
-        }
-        let detail = "nothing is kept of this call: metadata needs POST /v1/jobs";
+        let name = match self {
+            Self { metadata: Some(_), .. } => "metadata",
+            Self { accept: Some(_), .. } => "accept",
+            _ => return Ok(()),
+        };
+        let detail = format!("nothing is kept of this call: `{name}` needs POST /v1/jobs");
         Err(Problem::new(Code::InvalidRequest, detail))
     }
 }
@@ -54,6 +62,14 @@ fn priority(text: &str) -> Result<i32, Problem> {
         let detail = format!("`priority` must be a whole number from {low} to {high}");
         Problem::new(Code::InvalidRequest, detail)
     })
+}
+
+fn gates(text: &str) -> Result<Gates, Problem> {
+    text.parse().map_err(|error| refused(&error))
+}
+
+fn refused(error: &GateError) -> Problem {
+    Problem::new(Code::InvalidRequest, format!("`accept`: {error}"))
 }
 
 /// Metadata from its JSON text.

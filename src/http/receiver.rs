@@ -179,7 +179,7 @@ impl Receiver {
             kind,
             options,
             files,
-            handling: self.said.into_handling(),
+            handling: self.said.into_handling(kind)?,
         })
     }
 }

@@ -32,6 +32,8 @@ pub(super) struct JobView {
     /// What the client noted of the job.
     #[schema(value_type = Object)]
     metadata: Metadata,
+    /// The gates that the result has to meet, if any.
+    accept: Option<String>,
     /// Number of times the job was started.
     attempt: u32,
     /// Whether the result is a copy of that of an earlier job with equal kind, options and input.
@@ -54,6 +56,9 @@ pub(super) struct JobView {
     /// Whether the distortion keeps the bound of `quality` or `max_distortion`. Null until the job
     /// succeeded, and where there is no bound.
     within_bound: Option<bool>,
+    /// Whether the result meets the gates of `accept`. Null without gates, and until the job has ended; a
+    /// failed job meets none.
+    accepted: Option<bool>,
     /// Warnings about the input, the work and the result; empty until the job succeeded.
     warnings: Vec<Warning>,
     /// Cause of the failure; absent unless the job failed.
@@ -120,6 +125,7 @@ impl JobView {
             options: job.options.clone(),
             priority: job.priority,
             metadata: job.metadata.clone(),
+            accept: job.accept.as_ref().map(ToString::to_string),
             attempt: job.attempt,
             cached: job.is_copy(),
             created_at: job.created,
@@ -129,7 +135,8 @@ impl JobView {
                 .finished
                 .zip(settings.retention)
                 .map(|(end, kept)| end.later(kept)),
-            certified: job.verdict.certified,
+            certified: job.verdict.worth.certified,
+            accepted: job.accepted(),
             within_bound: job.verdict.within_bound,
             warnings: job.verdict.warnings.clone(),
             error: job.failure.as_ref().map(Problem::of_failure),

@@ -1,5 +1,6 @@
 //! What is said of a job beside what it computes.
 
+use super::gates::Gates;
 use super::metadata::Metadata;
 
 /// How a job is handled; equal jobs may be handled differently.
@@ -9,4 +10,6 @@ pub struct Handling {
     pub priority: i32,
     /// What the client notes of it.
     pub metadata: Metadata,
+    /// What its result has to be.
+    pub accept: Option<Gates>,
 }

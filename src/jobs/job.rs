@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use uuid::Uuid;
 
 use super::access::Owner;
+use super::gates::Gates;
 use super::input_output::{InputFile, OutputFile};
 use super::kind::Kind;
 use super::lease::{Token, WorkerId};
@@ -14,6 +15,7 @@ use super::metadata::Metadata;
 use super::progress::{Event, Progress};
 use super::state::State;
 use super::timestamp::Timestamp;
+use super::worth::Worth;
 use crate::document::Warning;
 
 /// Names a job; ids sort by the time of their making (UUID version 7).
@@ -73,11 +75,12 @@ impl Failure {
 }
 
 /// What is known of a result beside its files.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Verdict {
-    /// Whether everything that was asked for is proven on the bytes written; none of kinds that prove nothing of a result.
-    pub certified: Option<bool>,
+    /// What it is worth; `certified` is whether everything that was asked for is proven on the bytes written.
+    #[serde(flatten)]
+    pub worth: Worth,
     /// Whether the distortion keeps the bound that was asked for; none where there is no bound.
     pub within_bound: Option<bool>,
     /// What users should know of the input, of the work and of the result.
@@ -115,6 +118,8 @@ pub struct Job {
     pub trace: Option<String>,
     /// What its client notes of it.
     pub metadata: Metadata,
+    /// What its result has to be.
+    pub accept: Option<Gates>,
     /// Names its present or last holder; fences off what former ones report.
     pub token: Token,
     /// Who has it.
@@ -162,6 +167,7 @@ impl Job {
             priority: 0,
             trace: None,
             metadata: Metadata::default(),
+            accept: None,
             token: 0,
             worker: None,
             lease: None,
@@ -187,6 +193,18 @@ impl Job {
             state: self.state,
             progress: self.progress,
             elapsed_ms: self.started.map_or(0, |started| until.since(started)),
+        }
+    }
+
+    /// Whether it is as its client wants it; none if nothing is wanted, or before its end.
+    pub fn accepted(&self) -> Option<bool> {
+        let gates = self.accept.as_ref()?;
+        let end = self.finished?;
+        let seconds = self.started.map_or(0, |started| end.since(started)) as f64 / 1000.0;
+        match self.state {
+            State::Succeeded => Some(gates.accept(&self.verdict.worth, seconds)),
+            State::Failed => Some(false),
+            _ => None,
         }
     }
 

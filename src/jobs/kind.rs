@@ -58,6 +58,16 @@ impl Kind {
         }
     }
 
+    /// Whether jobs of this kind say what is proven of their result.
+    pub fn proves(self) -> bool {
+        !matches!(self, Self::Measure | Self::Solve | Self::Deform)
+    }
+
+    /// Whether jobs of this kind measure atlases.
+    pub fn measures(self) -> bool {
+        matches!(self, Self::Unwrap | Self::Repack | Self::Measure)
+    }
+
     /// The word used in JSON and in the store.
     pub fn word(self) -> &'static str {
         match self {

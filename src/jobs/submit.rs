@@ -101,6 +101,7 @@ impl Jobs {
             digest: submission.digest,
             priority: submission.handling.priority,
             metadata: submission.handling.metadata,
+            accept: submission.handling.accept,
             trace: submission.trace,
             ephemeral: submission.ephemeral,
             ..Job::queued(id, submission.kind, submission.options)

@@ -16,6 +16,7 @@ mod jobs;
 pub mod keys;
 mod limited;
 mod maps;
+mod noted;
 mod origins;
 pub mod progress;
 mod requests;

@@ -6,7 +6,6 @@ use unwrapd::jobs::access::{Owner, Reach};
 use unwrapd::jobs::{Job, JobId, JobStore, Kind, Listing, Metadata, Order, State, Timestamp};
 use unwrapd::store::RecordStore;
 
-use super::succeed;
 use crate::contract::{claim, claimed, enqueued, job};
 
 async fn listed(store: &RecordStore, reach: &Reach, listing: Listing) -> Vec<JobId> {
