@@ -5,7 +5,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
     batch, completions, config, deform, edit_uv, health, keys, man, measure, queue, repack, serve,
-    solve, submit, unwrap_args, verify, warp, worker,
+    solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
 };
 use crate::options::as_typed;
 
@@ -95,6 +95,8 @@ pub(super) enum Command {
     ///
     /// It works on the database of the service, for all processes that share it, while they run.
     Queue(queue::Args),
+    /// Print the secret by which an owner checks the webhooks of the service
+    WebhookSecret(webhook_secret::Args),
     /// Print what is in force for `serve`, and where each value comes from
     ///
     /// It takes the options of `serve`, on the command line and in the environment. The source of a

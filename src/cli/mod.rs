@@ -44,6 +44,8 @@ mod unwrap_args;
 mod verify;
 mod warp;
 mod watch_args;
+mod webhook_args;
+mod webhook_secret;
 mod work_args;
 mod worker;
 
@@ -91,6 +93,7 @@ fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
         Command::Worker(args) => worker::run(&args).map_err(Failure::other),
         Command::Keys(args) => keys::run(&args),
         Command::Queue(args) => queue::run(&args),
+        Command::WebhookSecret(args) => webhook_secret::run(&args),
         Command::Config(args) => config::run(&args, &command::command(), typed),
         Command::Openapi => {
             console::print(crate::http::openapi());

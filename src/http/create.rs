@@ -14,13 +14,14 @@ use super::view::{JobView, job_path};
 use super::wishes::Wishes;
 use super::{App, Shared, json};
 use crate::jobs::access::Caller;
-use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
+use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted, Webhook};
+use crate::webhooks;
 
 /// Create a job of any kind.
 ///
 /// The input is a form or the body itself. A form has the input as `mesh`, `image` or `problem`,
 /// the files it references as `resource`, `options` as JSON, and `kind`. `priority`,
-/// `metadata` and `accept` can be parts too. Options can also be query parameters; a list is then its JSON text. Each kind has its own options, named like those of the
+/// `metadata`, `accept` and `webhook` can be parts too. Options can also be query parameters; a list is then its JSON text. Each kind has its own options, named like those of the
 /// command line in snake_case. The handles of a job have the JSON form of the command line's handle
 /// files.
 ///
@@ -51,6 +52,7 @@ use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
         ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Of the waiting jobs of one owner, those of higher priority start first; the default is 0"),
         ("metadata" = Option<String>, Query, description = "JSON object of at most 4096 bytes and 64 members, which is repeated wherever the job is shown. `listJobs` finds jobs by it"),
         ("accept" = Option<String>, Query, description = "Gates that the result has to meet, as a list with commas: `certified`, `max_charts=N`, `max_distortion=E` (mean symmetric Dirichlet energy of the worst atlas), `max_stretch=S` (99th percentile), `max_seconds=T`, `written`. `accepted` of the job says whether it does"),
+        ("webhook" = Option<String>, Query, description = "Address to which the end of the job is posted, signed as Standard Webhooks says, until it answers 2xx"),
     ),
     responses(
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
@@ -73,6 +75,9 @@ pub(super) async fn create_job(
 ) -> Result<Response, Problem> {
     let wishes = Wishes::read(&headers)?;
     let received = upload::receive(&app, None, request).await?;
+    if let Some(webhook) = &received.handling.webhook {
+        check_webhook(&app, webhook)?;
+    }
     let (submission, _folder) = received.into_submission(caller.owner(), wishes, false);
     let job = match app.jobs.submit(submission).await? {
         Submitted::New(job) | Submitted::Replay(job) => job,
@@ -89,6 +94,14 @@ pub(super) async fn create_job(
         response.headers_mut().insert("preference-applied", applied);
     }
     Ok(response)
+}
+
+/// Refuses what will not be delivered.
+fn check_webhook(app: &App, webhook: &Webhook) -> Result<(), Problem> {
+    let refused = |why: String| Problem::new(Code::InvalidRequest, format!("`webhook`: {why}"));
+    let no_secret = || refused("this service sends none: it has no --webhook-secret".to_owned());
+    let reachable = app.settings.webhooks.ok_or_else(no_secret)?;
+    webhooks::check(webhook, reachable).map_err(|error| refused(error.to_string()))
 }
 
 impl From<SubmitError> for Problem {

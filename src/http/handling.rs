@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::problem::{Code, Problem};
-use crate::jobs::{GateError, Gates, Handling, Kind, Metadata};
+use crate::jobs::{GateError, Gates, Handling, Kind, Metadata, Webhook};
 
 /// Priorities that a client may ask for.
 const PRIORITIES: RangeInclusive<i32> = -100..=100;
@@ -14,17 +14,19 @@ pub(super) struct Said {
     priority: Option<i32>,
     metadata: Option<Metadata>,
     accept: Option<Gates>,
+    webhook: Option<Webhook>,
 }
 
 impl Said {
     /// The names of what can be said.
-    pub const NAMES: [&str; 3] = ["priority", "metadata", "accept"];
+    pub const NAMES: [&str; 4] = ["priority", "metadata", "accept", "webhook"];
 
     /// Takes what is said under one of these names.
     pub fn take(&mut self, name: &str, text: &str) -> Result<(), Problem> {
         let is_new = match name {
             "priority" => self.priority.replace(priority(text)?).is_none(),
             "accept" => self.accept.replace(gates(text)?).is_none(),
+            "webhook" => self.webhook.replace(webhook(text)?).is_none(),
             _ => self.metadata.replace(metadata(text)?).is_none(),
         };
         once(name, is_new)
@@ -39,14 +41,22 @@ impl Said {
             priority: self.priority.unwrap_or_default(),
             metadata: self.metadata.unwrap_or_default(),
             accept: self.accept,
+            webhook: self.webhook,
         })
     }
 
     /// Refuses what only a job that is kept can have.
     pub fn check_unkept(&self) -> Result<(), Problem> {
         let name = match self {
-            Self { metadata: Some(_), .. } => "metadata",
-            Self { accept: Some(_), .. } => "accept",
+            Self {
+                metadata: Some(_), ..
+            } => "metadata",
+            Self {
+                accept: Some(_), ..
+            } => "accept",
+            Self {
+                webhook: Some(_), ..
+            } => "webhook",
             _ => return Ok(()),
         };
         let detail = format!("nothing is kept of this call: `{name}` needs POST /v1/jobs");
@@ -70,6 +80,11 @@ fn gates(text: &str) -> Result<Gates, Problem> {
 
 fn refused(error: &GateError) -> Problem {
     Problem::new(Code::InvalidRequest, format!("`accept`: {error}"))
+}
+
+fn webhook(text: &str) -> Result<Webhook, Problem> {
+    let webhook = text.parse::<Webhook>();
+    webhook.map_err(|error| Problem::new(Code::InvalidRequest, format!("`webhook`: {error}")))
 }
 
 /// Metadata from its JSON text.

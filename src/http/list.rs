@@ -62,7 +62,9 @@ impl ListQuery {
             state: self.state,
             kind: self.kind,
             owner: owner.map_err(|error| invalid(format!("`owner`: {error}")))?,
-            metadata: self.metadata.map_or_else(|| Ok(Metadata::default()), |text| metadata(&text))?,
+            metadata: self
+                .metadata
+                .map_or_else(|| Ok(Metadata::default()), |text| metadata(&text))?,
             since: time("created_from", self.created_from)?,
             until: time("created_before", self.created_before)?,
             order: self.order.unwrap_or_default(),
@@ -78,9 +80,13 @@ fn invalid(detail: impl Into<String>) -> Problem {
 
 /// A time as RFC 3339 has it.
 fn time(name: &str, text: Option<String>) -> Result<Option<Timestamp>, Problem> {
-    let parsed = text.map(|text| humantime::parse_rfc3339_weak(&text)).transpose();
+    let parsed = text
+        .map(|text| humantime::parse_rfc3339_weak(&text))
+        .transpose();
     let parsed = parsed.map_err(|error| {
-        invalid(format!("`{name}` is no time such as 2026-12-31T23:59:59Z: {error}"))
+        invalid(format!(
+            "`{name}` is no time such as 2026-12-31T23:59:59Z: {error}"
+        ))
     })?;
     Ok(parsed.map(Timestamp::from))
 }

@@ -176,8 +176,11 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
     });
     if is_job {
         schema["properties"]["image"] = input;
-        schema["properties"]["priority"] = json!({ "type": "integer", "minimum": -100, "maximum": 100 });
-        schema["properties"]["accept"] = json!({ "type": "string", "description": "Gates, as in the query" });
+        schema["properties"]["priority"] =
+            json!({ "type": "integer", "minimum": -100, "maximum": 100 });
+        schema["properties"]["accept"] =
+            json!({ "type": "string", "description": "Gates, as in the query" });
+        schema["properties"]["webhook"] = json!({ "type": "string", "format": "uri", "description": "Where the end of the job is posted" });
         schema["properties"]["metadata"] = json!({
             "type": "object",
             "description": "What the client notes of the job: at most 4096 bytes and 64 members",

@@ -55,7 +55,13 @@ pub(super) fn options(kind: Kind) -> &'static str {
 
 /// What a report may be.
 pub(super) fn any_report() -> Value {
-    let reports = ["Report", "Verified", "DeformReport", "WarpReport", "EditReport"];
+    let reports = [
+        "Report",
+        "Verified",
+        "DeformReport",
+        "WarpReport",
+        "EditReport",
+    ];
     json!({ "anyOf": reports.map(reference) })
 }
 

@@ -34,6 +34,9 @@ pub(super) struct JobView {
     metadata: Metadata,
     /// The gates that the result has to meet, if any.
     accept: Option<String>,
+    /// The address to which the end of the job is posted, if any.
+    #[schema(format = "uri")]
+    webhook: Option<String>,
     /// Number of times the job was started.
     attempt: u32,
     /// Whether the result is a copy of that of an earlier job with equal kind, options and input.
@@ -126,6 +129,7 @@ impl JobView {
             priority: job.priority,
             metadata: job.metadata.clone(),
             accept: job.accept.as_ref().map(ToString::to_string),
+            webhook: job.webhook.as_ref().map(ToString::to_string),
             attempt: job.attempt,
             cached: job.is_copy(),
             created_at: job.created,

@@ -2,6 +2,7 @@
 
 use super::gates::Gates;
 use super::metadata::Metadata;
+use super::webhook::Webhook;
 
 /// How a job is handled; equal jobs may be handled differently.
 #[derive(Clone, Debug, Default)]
@@ -12,4 +13,6 @@ pub struct Handling {
     pub metadata: Metadata,
     /// What its result has to be.
     pub accept: Option<Gates>,
+    /// Where its end is told.
+    pub webhook: Option<Webhook>,
 }

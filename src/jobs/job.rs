@@ -15,6 +15,7 @@ use super::metadata::Metadata;
 use super::progress::{Event, Progress};
 use super::state::State;
 use super::timestamp::Timestamp;
+use super::webhook::Webhook;
 use super::worth::Worth;
 use crate::document::Warning;
 
@@ -120,6 +121,8 @@ pub struct Job {
     pub metadata: Metadata,
     /// What its result has to be.
     pub accept: Option<Gates>,
+    /// Where its end is told.
+    pub webhook: Option<Webhook>,
     /// Names its present or last holder; fences off what former ones report.
     pub token: Token,
     /// Who has it.
@@ -168,6 +171,7 @@ impl Job {
             trace: None,
             metadata: Metadata::default(),
             accept: None,
+            webhook: None,
             token: 0,
             worker: None,
             lease: None,

@@ -69,6 +69,7 @@ mod maps;
 mod memory_failure;
 mod metadata;
 pub mod meters;
+mod outbox;
 mod output;
 mod pace;
 mod progress;
@@ -93,6 +94,7 @@ mod task;
 mod timestamp;
 mod transition;
 mod watching;
+mod webhook;
 mod work;
 mod worth;
 
@@ -111,6 +113,7 @@ pub use kind::Kind;
 pub use lease::{Rules, Token, WorkerId};
 pub use listing::{Listing, Order};
 pub use metadata::{Metadata, MetadataError};
+pub use outbox::{Notice, Outbox};
 pub use pace::Pace;
 pub use progress::{Event, Progress, Saying};
 pub use queue::{Ended, Jobs};
@@ -119,9 +122,7 @@ pub use scratch::Scratch;
 pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
-pub use storage::{
-    Beat, Changed, Enqueued, IdempotencyKey, JobStore, Queue, Reason, Share, Sweep,
-};
+pub use storage::{Beat, Changed, Enqueued, IdempotencyKey, JobStore, Queue, Reason, Share, Sweep};
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;
@@ -129,5 +130,6 @@ pub use task::{Pictures, TASK, Task, input_file, output_file, read_json, read_up
 pub use timestamp::Timestamp;
 pub use transition::{Ending, Happening, Refusal, Wish, after};
 pub use watching::NextMaps;
+pub use webhook::{Webhook, WebhookError};
 pub use work::Work;
 pub use worth::Worth;

@@ -102,6 +102,7 @@ impl Jobs {
             priority: submission.handling.priority,
             metadata: submission.handling.metadata,
             accept: submission.handling.accept,
+            webhook: submission.handling.webhook,
             trace: submission.trace,
             ephemeral: submission.ephemeral,
             ..Job::queued(id, submission.kind, submission.options)

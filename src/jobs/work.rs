@@ -10,8 +10,7 @@ use super::worth::Worth;
 use crate::document::{Upload, Warning};
 use crate::pipeline::{
     self, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions,
-    Observer, Options, PipelineError, RepackOptions, SolveOptions,
-    VerifyOptions, WarpOptions,
+    Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions, WarpOptions,
 };
 
 /// What a job leaves.
@@ -198,12 +197,7 @@ impl Made {
     }
 
     /// With the report, and with what of it stands in the job.
-    fn reported(
-        mut self,
-        report: &impl Serialize,
-        worth: Worth,
-        warnings: &[Warning],
-    ) -> Self {
+    fn reported(mut self, report: &impl Serialize, worth: Worth, warnings: &[Warning]) -> Self {
         // Reports are plain data, which serialization cannot refuse.
         let bytes = serde_json::to_vec_pretty(report).unwrap_or_default();
         self.add("report", "report.json", bytes);

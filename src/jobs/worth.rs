@@ -34,7 +34,11 @@ impl Worth {
         Self {
             certified: Some(report.certified),
             charts: Some(measures().map(|of| of.seams.charts as u64).sum()),
-            distortion: worst(measures().map(|of| of.distortion.sym_dirichlet_mean).collect()),
+            distortion: worst(
+                measures()
+                    .map(|of| of.distortion.sym_dirichlet_mean)
+                    .collect(),
+            ),
             stretch: worst(measures().map(|of| of.distortion.stretch_p99).collect()),
         }
     }

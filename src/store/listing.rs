@@ -85,8 +85,10 @@ fn bound(
     values: Vec<Value>,
 ) -> Query<'static, Any, <Any as sqlx::Database>::Arguments> {
     let statement = sqlx::query(statement);
-    values.into_iter().fold(statement, |query, value| match value {
-        Value::Text(text) => query.bind(text),
-        Value::Number(number) => query.bind(number),
-    })
+    values
+        .into_iter()
+        .fold(statement, |query, value| match value {
+            Value::Text(text) => query.bind(text),
+            Value::Number(number) => query.bind(number),
+        })
 }

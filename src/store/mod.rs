@@ -24,6 +24,7 @@ mod idempotency;
 mod keys;
 mod listing;
 mod objects;
+mod outbox;
 mod quotas;
 mod reading;
 mod records;

@@ -75,6 +75,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "getrandom",
             "sha2",
             "subtle",
+            "url",
         ],
     ),
     (
@@ -98,13 +99,29 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         &["tokio", "tokio_util", "serde_json", "tracing"],
     ),
     (
+        "webhooks",
+        &["jobs"],
+        &[
+            "base64",
+            "hmac",
+            "metrics",
+            "reqwest",
+            "rustls",
+            "sha2",
+            "tokio",
+            "tokio_util",
+            "tracing",
+            "url",
+        ],
+    ),
+    (
         "bulk",
         &["jobs"],
         &["tokio", "serde_json", "csv", "uuid", "reqwest", "rustls"],
     ),
     (
         "http",
-        &["sessions"],
+        &["sessions", "webhooks"],
         &[
             "axum",
             "utoipa_axum",

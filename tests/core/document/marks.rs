@@ -40,7 +40,10 @@ fn judged(options: &MeasureOptions) -> VerifyOptions {
 
 /// Whether the file says itself that no two faces overlap.
 fn is_promised(verified: &Verified) -> bool {
-    verified.mark.as_ref().is_some_and(|mark| !mark.terms.overlaps)
+    verified
+        .mark
+        .as_ref()
+        .is_some_and(|mark| !mark.terms.overlaps)
 }
 
 fn codes(verified: &Verified) -> Vec<&str> {

@@ -7,8 +7,8 @@ use tempfile::TempDir;
 use tokio::runtime::Runtime;
 use unwrapd::jobs::access::{Owner, Reach};
 use unwrapd::jobs::{
-    Blobs, Ended, Handling, InputFile, Job, JobId, Jobs, Kind, Listing, State, Submission, SubmitError,
-    Submitted, Work,
+    Blobs, Ended, Handling, InputFile, Job, JobId, Jobs, Kind, Listing, State, Submission,
+    SubmitError, Submitted, Work,
 };
 
 use super::faulty::Fault;

@@ -29,6 +29,7 @@ mod submitted;
 mod synchronous;
 mod verdicts;
 mod watchable;
+mod webhooks;
 
 use std::path::Path;
 

@@ -36,9 +36,15 @@ async fn metadata_is_repeated_and_finds_jobs() {
     let server = Server::start();
     let form = Form::new().text("metadata", r#"{"project": "atlas", "frame": 7}"#);
     let first = submitted(&server, form).await;
-    assert_eq!(first["metadata"], object!({ "project": "atlas", "frame": 7 }));
+    assert_eq!(
+        first["metadata"],
+        object!({ "project": "atlas", "frame": 7 })
+    );
     let second = server
-        .submit(meshes::small(), "kind=measure&metadata=%7B%22project%22%3A%22atlas%22%7D")
+        .submit(
+            meshes::small(),
+            "kind=measure&metadata=%7B%22project%22%3A%22atlas%22%7D",
+        )
         .await;
     let third = server.submit(meshes::small(), "resolution=256").await;
     assert_eq!(third["metadata"], object!({}));
@@ -51,10 +57,22 @@ async fn metadata_is_repeated_and_finds_jobs() {
         found(&[("order", "oldest_first"), ("limit", "2")]).await,
         [first.clone(), second.clone()]
     );
-    let after_first = [("order", "oldest_first"), ("cursor", first.as_str().expect("an id"))];
+    let after_first = [
+        ("order", "oldest_first"),
+        ("cursor", first.as_str().expect("an id")),
+    ];
     assert_eq!(found(&after_first).await, [second.clone(), third.clone()]);
-    assert_eq!(found(&[("created_from", "2026-01-01T00:00:00Z")]).await.len(), 3);
-    assert!(found(&[("created_before", "2026-01-01T00:00:00Z")]).await.is_empty());
+    assert_eq!(
+        found(&[("created_from", "2026-01-01T00:00:00Z")])
+            .await
+            .len(),
+        3
+    );
+    assert!(
+        found(&[("created_before", "2026-01-01T00:00:00Z")])
+            .await
+            .is_empty()
+    );
     assert!(found(&[("owner", "alice")]).await.is_empty());
     assert_eq!(found(&[("owner", "")]).await.len(), 3);
 }
@@ -85,7 +103,9 @@ async fn what_cannot_be_looked_for_is_named() {
         assert_problem(answer.expect("an answer"), 400, "invalid_request").await;
     }
     // Nothing is kept of a synchronous call.
-    let answer = server.post("/v1/unwrap?metadata=%7B%7D").body(meshes::small());
+    let answer = server
+        .post("/v1/unwrap?metadata=%7B%7D")
+        .body(meshes::small());
     let answer = answer.send().await.expect("an answer");
     assert_problem(answer, 400, "invalid_request").await;
 }
@@ -112,10 +132,18 @@ async fn gates_say_whether_a_result_is_accepted() {
     assert_eq!(verdict, no, "an isometry has 4");
     for (query, named) in [
         ("accept=certain", "certain"),
-        ("kind=measure&accept=certified", "measure job proves nothing"),
-        ("kind=warp&accept=max_charts%3D1", "warp job measures no atlas"),
+        (
+            "kind=measure&accept=certified",
+            "measure job proves nothing",
+        ),
+        (
+            "kind=warp&accept=max_charts%3D1",
+            "warp job measures no atlas",
+        ),
     ] {
-        let answer = server.post(&format!("/v1/jobs?{query}")).body(meshes::small());
+        let answer = server
+            .post(&format!("/v1/jobs?{query}"))
+            .body(meshes::small());
         let answer = answer.send().await.expect("an answer");
         let problem = json(answer).await;
         let detail = problem["detail"].as_str().expect("a detail");
@@ -126,20 +154,30 @@ async fn gates_say_whether_a_result_is_accepted() {
 #[tokio::test]
 async fn a_failed_job_meets_no_gate() {
     let server = Server::start();
-    let job = server.submit(meshes::small(), "kind=verify&accept=written").await;
+    let job = server
+        .submit(meshes::small(), "kind=verify&accept=written")
+        .await;
     let job = server.ended(&job).await;
-    assert_eq!((&job["state"], &job["accepted"]), (&"failed".into(), &false.into()), "{job}");
+    assert_eq!(
+        (&job["state"], &job["accepted"]),
+        (&"failed".into(), &false.into()),
+        "{job}"
+    );
 }
 
 #[tokio::test]
 async fn verify_is_a_kind_of_job() {
     let server = Server::start();
-    let job = server.ended(&server.submit(meshes::small(), "resolution=512").await).await;
+    let job = server
+        .ended(&server.submit(meshes::small(), "resolution=512").await)
+        .await;
     let path = format!("{}/result", job["links"]["self"].as_str().expect("a link"));
     let glb = server.get(&path).send().await.expect("an answer");
     let glb = glb.bytes().await.expect("bytes").to_vec();
     let verified = async |query: &str| {
-        let job = server.submit(glb.clone(), &format!("kind=verify&{query}")).await;
+        let job = server
+            .submit(glb.clone(), &format!("kind=verify&{query}"))
+            .await;
         let job = server.ended(&job).await;
         let path = format!("{}/report", job["links"]["self"].as_str().expect("a link"));
         let report = json(server.get(&path).send().await.expect("an answer")).await;
@@ -147,11 +185,17 @@ async fn verify_is_a_kind_of_job() {
     };
     let (job, report) = verified("bijective=true").await;
     assert_eq!(job["certified"], true, "{job}");
-    assert_eq!((&report["certified"], &report["lacking"]), (&true.into(), &object!([])));
+    assert_eq!(
+        (&report["certified"], &report["lacking"]),
+        (&true.into(), &object!([]))
+    );
     assert_eq!(report["proven"]["bijective"], true);
     // More than was asked for when it was made.
     let (job, report) = verified("padding=400").await;
     assert_eq!(job["certified"], false, "{job}");
     assert_eq!(job["warnings"][0]["code"], "not_proven");
-    assert_eq!(report["lacking"], object!(["charts closer than the padding"]));
+    assert_eq!(
+        report["lacking"],
+        object!(["charts closer than the padding"])
+    );
 }

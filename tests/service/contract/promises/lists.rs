@@ -101,7 +101,9 @@ pub async fn jobs_are_found_by_their_metadata(store: Arc<RecordStore>) {
     let noted_first = noted(r#"{"project": "atlas", "frame": 7, "tags": ["a", "b"]}"#);
     let first = enqueued(&store, &noted_first).await;
     assert_eq!(first.metadata, noted_first.metadata);
-    let second = enqueued(&store, &noted(r#"{"project": "atlas", "frame": "7"}"#)).await.id;
+    let second = enqueued(&store, &noted(r#"{"project": "atlas", "frame": "7"}"#))
+        .await
+        .id;
     let third = claimed(&store).await;
     let list = async |text| {
         let listing = Listing {
@@ -112,7 +114,10 @@ pub async fn jobs_are_found_by_their_metadata(store: Arc<RecordStore>) {
     };
     assert_eq!(list(r#"{"project": "atlas"}"#).await, [second, first.id]);
     assert_eq!(list(r#"{"frame": 7}"#).await, [first.id]);
-    assert_eq!(list(r#"{"tags": ["a", "b"], "project": "atlas"}"#).await, [first.id]);
+    assert_eq!(
+        list(r#"{"tags": ["a", "b"], "project": "atlas"}"#).await,
+        [first.id]
+    );
     assert!(list(r#"{"project": "atlas", "frame": 8}"#).await.is_empty());
     assert!(list(r#"{"projec": "tatlas"}"#).await.is_empty());
     assert_eq!(list("{}").await, [third.id, second, first.id]);

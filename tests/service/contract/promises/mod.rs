@@ -6,6 +6,7 @@ mod keys;
 mod leases;
 mod lists;
 mod lookups;
+mod notices;
 mod owners;
 mod submissions;
 
@@ -65,6 +66,9 @@ promises!(
     lists::the_list_has_pages_and_no_guests,
     lists::the_list_has_what_is_asked_for,
     lists::jobs_are_found_by_their_metadata,
+    notices::an_end_is_told_until_it_is_settled,
+    notices::every_end_is_told_and_nothing_else,
+    notices::a_notice_is_taken_once,
     lookups::equal_jobs_are_those_that_succeeded,
     submissions::an_ended_job_is_stored_however_many_wait,
     owners::each_owner_finds_their_own,

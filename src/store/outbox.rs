@@ -1,0 +1,95 @@
+//! Notices in a database.
+
+use std::time::Duration;
+
+use futures_util::future::BoxFuture;
+use sqlx::any::AnyRow;
+use sqlx::{Any, Row, Transaction};
+
+use super::database::Database;
+use super::records::{RecordStore, bounded};
+use super::rows::damaged;
+use crate::jobs::access::Owner;
+use crate::jobs::{Job, Notice, Outbox, StoreResult, Timestamp};
+
+impl Outbox for RecordStore {
+    fn take(&self, most: u32, lease: Duration) -> BoxFuture<'_, StoreResult<Vec<Notice>>> {
+        bounded(take(&self.database, most, lease))
+    }
+
+    fn settle<'a>(&'a self, id: &'a str) -> BoxFuture<'a, StoreResult<()>> {
+        bounded(async move {
+            sqlx::query("DELETE FROM outbox WHERE id = $1")
+                .bind(id)
+                .execute(&self.database.writers)
+                .await?;
+            Ok(())
+        })
+    }
+
+    fn defer<'a>(&'a self, id: &'a str, pause: Duration) -> BoxFuture<'a, StoreResult<()>> {
+        bounded(async move {
+            let defer = "UPDATE outbox SET due = {now} + $2 WHERE id = $1";
+            sqlx::query(self.database.sql(defer))
+                .bind(id)
+                .bind(pause.as_millis() as i64)
+                .execute(&self.database.writers)
+                .await?;
+            Ok(())
+        })
+    }
+}
+
+async fn take(database: &Database, most: u32, lease: Duration) -> StoreResult<Vec<Notice>> {
+    // Most of the time there is none, and nothing has to be locked to know that.
+    let is_any = database.sql("SELECT id FROM outbox WHERE due <= {now} LIMIT 1");
+    let any = sqlx::query(is_any).fetch_optional(&database.readers);
+    if any.await?.is_none() {
+        return Ok(Vec::new());
+    }
+    let take = "UPDATE outbox SET attempt = attempt + 1, due = {now} + $1
+         WHERE id IN (SELECT id FROM outbox AS job WHERE due <= {now} ORDER BY due LIMIT $2 {free})
+         RETURNING id, owner, url, body, attempt";
+    let mut transaction = database.begin().await?;
+    let taken = sqlx::query(database.sql(take))
+        .bind(lease.as_millis() as i64)
+        .bind(i64::from(most))
+        .fetch_all(&mut *transaction)
+        .await?;
+    transaction.commit().await?;
+    taken.iter().map(notice).collect()
+}
+
+fn notice(row: &AnyRow) -> StoreResult<Notice> {
+    let text = |column| row.try_get::<String, _>(column).map_err(damaged);
+    let attempt: i64 = row.try_get("attempt").map_err(damaged)?;
+    Ok(Notice {
+        id: text("id")?,
+        owner: Owner::recorded(text("owner")?),
+        webhook: text("url")?.parse().map_err(damaged)?,
+        body: text("body")?,
+        attempt: attempt as u32,
+    })
+}
+
+/// Records the end of a job, if somebody wants to know.
+pub(super) async fn tell(
+    job: &Job,
+    now: Timestamp,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<()> {
+    let Some(notice) = Notice::of_end(job) else {
+        return Ok(());
+    };
+    sqlx::query(
+        "INSERT INTO outbox (id, owner, url, body, attempt, due) VALUES ($1, $2, $3, $4, 0, $5)",
+    )
+    .bind(notice.id)
+    .bind(notice.owner.as_str())
+    .bind(notice.webhook.to_string())
+    .bind(notice.body)
+    .bind(now.0)
+    .execute(&mut **transaction)
+    .await?;
+    Ok(())
+}
