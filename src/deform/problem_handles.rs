@@ -7,8 +7,6 @@ use super::body::Body;
 use super::handles::{Bound, Handle, bind};
 use super::paired::handles;
 use super::problem_error::ProblemError;
-use super::problem_file::ProblemFile;
-use crate::solver::Handles;
 
 /// The handles of a problem file.
 #[derive(Clone, Debug, Deserialize)]
@@ -21,45 +19,50 @@ pub enum ProblemHandles {
     Handles(Vec<Handle>),
 }
 
-impl ProblemFile {
+/// Where vertices should come, one position each.
+pub(super) type Targets = Vec<Vec<f64>>;
+
+impl ProblemHandles {
     /// Checks that targets are given once.
-    pub(super) fn check_targets(&self) -> Result<(), ProblemError> {
+    pub(super) fn check(
+        &self,
+        targets: &Targets,
+        sequence: &[Targets],
+    ) -> Result<(), ProblemError> {
         let malformed = |text: &str| Err(ProblemError::Malformed(text.to_owned()));
-        match &self.handles {
-            ProblemHandles::Vertices(vertices) if vertices.is_empty() => Ok(()),
-            ProblemHandles::Vertices(_) if self.targets.is_empty() => {
+        match self {
+            Self::Vertices(vertices) if !vertices.is_empty() && targets.is_empty() => {
                 malformed("missing field `targets`")
             }
-            ProblemHandles::Handles(_) if !(self.targets.is_empty() && self.sequence.is_empty()) => {
+            Self::Handles(_) if !(targets.is_empty() && sequence.is_empty()) => {
                 malformed("handles with `to` have no `targets` and no `sequence`")
             }
             _ => Ok(()),
         }
     }
 
-    /// The handles, which have found what they pull, and their stations.
-    pub(super) fn bound(&self, body: &Body) -> Result<Bound, ProblemError> {
-        match &self.handles {
-            ProblemHandles::Vertices(vertices) => Ok(Bound {
-                stations: self.stations(vertices, body)?,
-                aims: vertices.iter().map(|&v| Aim::at_vertex(v)).collect(),
-                turns: Vec::new(),
-            }),
-            ProblemHandles::Handles(handles) => bind(body, handles),
-        }
-    }
-
-    fn stations(&self, vertices: &[u32], body: &Body) -> Result<Vec<Handles>, ProblemError> {
+    /// The handles, which have found what they pull, and their stations: target sets that vertices
+    /// go through one after another, the last of them their targets.
+    pub(super) fn bound(
+        &self,
+        body: &Body,
+        targets: &Targets,
+        sequence: &[Targets],
+    ) -> Result<Bound, ProblemError> {
+        let vertices = match self {
+            Self::Vertices(vertices) => vertices,
+            Self::Handles(handles) => return bind(body, handles),
+        };
         check_vertices(vertices, body.n_vertices())?;
         let groups = body.groups(vertices);
-        let last = std::iter::once(&self.targets);
-        let sets = self
-            .sequence
-            .iter()
-            .filter(|&set| *set != self.targets)
-            .chain(last);
-        sets.map(|targets| handles(body.dim(), vertices, targets, &groups))
-            .collect()
+        let before = sequence.iter().filter(|&set| set != targets);
+        let stations = before.chain([targets]);
+        let stations = stations.map(|set| handles(body.dim(), vertices, set, &groups));
+        Ok(Bound {
+            stations: stations.collect::<Result<_, _>>()?,
+            aims: vertices.iter().map(|&v| Aim::at_vertex(v)).collect(),
+            turns: Vec::new(),
+        })
     }
 }
 
