@@ -17,6 +17,7 @@ mod completions;
 mod config;
 mod console;
 mod deform;
+mod drain;
 mod edit_uv;
 mod exposure_args;
 mod failure;
@@ -25,6 +26,7 @@ mod health;
 mod input;
 mod keys;
 mod listen;
+mod local_call;
 mod man;
 mod measure;
 mod output;
@@ -93,6 +95,7 @@ fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
         Command::Worker(args) => worker::run(&args).map_err(Failure::other),
         Command::Keys(args) => keys::run(&args),
         Command::Queue(args) => queue::run(&args),
+        Command::Drain(args) => drain::run(&args),
         Command::WebhookSecret(args) => webhook_secret::run(&args),
         Command::Config(args) => config::run(&args, &command::command(), typed),
         Command::Openapi => {
