@@ -25,6 +25,9 @@ use crate::webhooks;
 /// command line in snake_case. The handles of a job have the JSON form of the command line's handle
 /// files.
 ///
+/// An input with the files that it references can also be one ZIP, as a body or as the part of the
+/// input. It has exactly one file that the kind reads.
+///
 /// `unwrap`, `repack`, `measure`, `verify`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and
 /// STL.
 /// `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads PNG and
@@ -61,7 +64,7 @@ use crate::webhooks;
         (status = 408, description = "`request_timeout`: the body paused for too long, or took too long", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "`unknown_format`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "`unknown_format`, `invalid_archive`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "`owner_quota_used`: jobs, bytes or processor time of the owner", body = Problem, content_type = "application/problem+json"),
         (status = 503, description = "`queue_full`, `store_unavailable`: try again later; `draining`: try again elsewhere", body = Problem, content_type = "application/problem+json"),
         (status = 507, description = "`storage_full`: delete jobs, or try again later", body = Problem, content_type = "application/problem+json"),

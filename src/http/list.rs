@@ -54,7 +54,7 @@ impl ListQuery {
         }
         let cursor = self.cursor.map(|cursor| cursor.parse()).transpose();
         let owner = self.owner.map(|owner| match owner.as_str() {
-            "" => Ok(Owner::anonymous()),
+            "" => Ok(Owner::default()),
             name => name.parse(),
         });
         let owner = owner.transpose();

@@ -29,6 +29,7 @@ mod observation;
 mod openapi;
 mod options;
 mod origins;
+mod pack;
 mod page;
 mod parts;
 mod pause;
@@ -47,6 +48,7 @@ mod sign_in;
 mod socket;
 mod steady;
 mod synchronous;
+mod unpack;
 mod upload;
 mod view;
 mod windows;
@@ -121,6 +123,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(results::get_layout))
         .routes(routes!(results::get_heatmap))
         .routes(routes!(results::get_file))
+        .routes(routes!(pack::get_files))
         .routes(routes!(sessions::open_session, sessions::list_sessions))
         .routes(routes!(sessions::get_session, sessions::close_session))
         .routes(routes!(sessions::bake_session))

@@ -187,6 +187,7 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
         });
         schema["properties"]["problem"] = json!({
             "type": "string",
+            "format": "binary",
             "contentMediaType": "application/json",
             "contentSchema": reference("ProblemFile"),
             "description": "A problem file of `solve`, with its file name",

@@ -7,6 +7,10 @@ use super::problem::{Code, Problem};
 
 /// Names of the part that holds the input.
 pub(super) const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
+/// Files of an upload.
+pub(super) const MAX_FILES: usize = 4096;
+/// Bytes of the path of a resource.
+const MAX_NAME: usize = 1024;
 /// Bytes of a text part: options with some thousand handles.
 const MAX_TEXT_BYTES: u64 = 256 << 10;
 
@@ -22,6 +26,11 @@ pub(super) async fn text(mut field: Field<'_>) -> Result<String, Problem> {
     }
     String::from_utf8(bytes)
         .map_err(|_| Problem::new(Code::InvalidRequest, "a text part is not UTF-8"))
+}
+
+/// Refuses the path of a file that is too long.
+pub(super) fn at_most_name(name: &str) -> Result<(), Problem> {
+    at_most(name, MAX_NAME)
 }
 
 /// Refuses a file name that is too long.

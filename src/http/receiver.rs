@@ -12,16 +12,13 @@ use tokio::io::AsyncWriteExt;
 use super::framing;
 use super::handling::{Said, once};
 use super::options::{self, UploadQuery};
-use super::parts::{INPUT_PARTS, at_most, malformed, text, unexpected};
+use super::parts::{INPUT_PARTS, MAX_FILES, at_most, at_most_name, malformed, text, unexpected};
 use super::problem::{Code, Problem};
 use super::received::Received;
+use super::unpack::{self, Files};
 use crate::deform::from_json;
 use crate::jobs::{InputFile, Kind, Scratch};
 
-/// Files of an upload.
-const MAX_FILES: usize = 4096;
-/// Bytes of the path of a resource.
-const MAX_NAME: usize = 1024;
 /// Bytes of the name of the input: answers name their files after it, in a header.
 const MAX_INPUT_NAME: usize = 255;
 
@@ -119,7 +116,7 @@ impl Receiver {
         stream: impl Stream<Item = Result<B, E>> + Unpin,
         problem: impl Fn(E) -> Problem,
     ) -> Result<(InputFile, PathBuf), Problem> {
-        at_most(&name, MAX_NAME)?;
+        at_most_name(&name)?;
         let path = self.folder.path().join(format!(
             "file-{}",
             self.resources.len() + usize::from(self.input.is_some())
@@ -149,7 +146,7 @@ impl Receiver {
 
     /// Checks what came.
     pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
-        let Some((mut input, path)) = self.input else {
+        let Some((input, path)) = self.input else {
             let detail = "send it as part `mesh`, `image` or `problem`";
             return Err(Problem::new(Code::MissingMesh, detail));
         };
@@ -164,16 +161,12 @@ impl Receiver {
         }
         let options = options::complete(kind, given)?;
 
-        let checked = path.clone();
-        let format = tokio::task::spawn_blocking(move || framing::format(&checked, kind))
-            .await
-            .map_err(|error| Problem::internal(&error))??;
-        let name = query.filename.as_deref().unwrap_or(&input.name);
-        input.name = file_name(name, kind, format.extension());
-        at_most(&input.name, MAX_INPUT_NAME)?;
-
         let mut files = vec![(input, path)];
         files.extend(self.resources);
+        let looked = move || looked_at(files, kind, (self.limit, query.filename));
+        let files = tokio::task::spawn_blocking(looked)
+            .await
+            .map_err(|error| Problem::internal(&error))??;
         Ok(Received {
             folder: self.folder,
             kind,
@@ -182,6 +175,30 @@ impl Receiver {
             handling: self.said.into_handling(kind)?,
         })
     }
+}
+
+/// The files of an upload, those of an archive unpacked, of which the first is what the kind reads.
+fn looked_at(
+    mut files: Files,
+    kind: Kind,
+    (limit, filename): (u64, Option<String>),
+) -> Result<Files, Problem> {
+    let mut filename = filename;
+    if unpack::is_archive(&files[0].1)? {
+        if 1 < files.len() {
+            let detail = "an archive has all files in it: send no resource beside it";
+            return Err(Problem::new(Code::InvalidRequest, detail));
+        }
+        files = unpack::unpacked(&files[0].1, kind, limit)?;
+        // It was that of the archive.
+        filename = None;
+    }
+    let (input, path) = &mut files[0];
+    let format = framing::format(path, kind)?;
+    let name = filename.as_deref().unwrap_or(&input.name);
+    input.name = file_name(name, kind, format.extension());
+    at_most(&input.name, MAX_INPUT_NAME)?;
+    Ok(files)
 }
 
 /// A name for the input: what the client calls it, without folders and control characters, with an extension that is one of

@@ -109,7 +109,12 @@ fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
             return Err(Problem::new(Code::NotFinished, "wait for its end"));
         }
         State::Failed | State::Cancelled => {
-            let detail = format!("the job has {}", job.state.word());
+            let verb = if job.state == State::Failed {
+                "has"
+            } else {
+                "has been"
+            };
+            let detail = format!("the job {verb} {}", job.state.word());
             return Err(Problem::new(Code::NoResult, detail));
         }
     }

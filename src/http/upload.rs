@@ -26,7 +26,7 @@ const DRAIN_TIME: Duration = Duration::from_secs(5);
 const FRAMING_BYTES: u64 = 8 << 20;
 
 /// Media types of raw bodies that leave the format to the content.
-const UNTOLD: [&str; 2] = ["text/plain", BYTES];
+const UNTOLD: [&str; 3] = ["text/plain", "application/zip", BYTES];
 const BYTES: &str = "application/octet-stream";
 /// What `curl --data-binary` says of every body if it is not told otherwise.
 const CURL: &str = "application/x-www-form-urlencoded";

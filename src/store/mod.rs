@@ -23,6 +23,7 @@ mod hints;
 mod idempotency;
 mod keys;
 mod listing;
+mod notices;
 mod objects;
 mod outbox;
 mod quotas;

@@ -1,16 +1,16 @@
-//! Notices in a database.
+//! Notices in a database, as they are taken and settled.
 
 use std::time::Duration;
 
 use futures_util::future::BoxFuture;
+use sqlx::Row;
 use sqlx::any::AnyRow;
-use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
 use super::records::{RecordStore, bounded};
 use super::rows::damaged;
 use crate::jobs::access::Owner;
-use crate::jobs::{Job, Notice, Outbox, StoreResult, Timestamp};
+use crate::jobs::{Notice, Outbox, StoreResult};
 
 impl Outbox for RecordStore {
     fn take(&self, most: u32, lease: Duration) -> BoxFuture<'_, StoreResult<Vec<Notice>>> {
@@ -70,26 +70,4 @@ fn notice(row: &AnyRow) -> StoreResult<Notice> {
         body: text("body")?,
         attempt: attempt as u32,
     })
-}
-
-/// Records the end of a job, if somebody wants to know.
-pub(super) async fn tell(
-    job: &Job,
-    now: Timestamp,
-    transaction: &mut Transaction<'_, Any>,
-) -> StoreResult<()> {
-    let Some(notice) = Notice::of_end(job) else {
-        return Ok(());
-    };
-    sqlx::query(
-        "INSERT INTO outbox (id, owner, url, body, attempt, due) VALUES ($1, $2, $3, $4, 0, $5)",
-    )
-    .bind(notice.id)
-    .bind(notice.owner.as_str())
-    .bind(notice.webhook.to_string())
-    .bind(notice.body)
-    .bind(now.0)
-    .execute(&mut **transaction)
-    .await?;
-    Ok(())
 }

@@ -8,7 +8,7 @@ use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
 use super::within::within;
-use super::{outbox, quotas, rows};
+use super::{notices, quotas, rows};
 use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Changed, Happening, Job, JobId, Reason, Rules, State, StoreError, StoreResult, Sweep,
@@ -182,7 +182,7 @@ pub(super) async fn written(
                 return Err(StoreError::Conflict(format!("job {}", job.id)));
             }
             if !job.state.is_final() {
-                outbox::tell(&next, now, transaction).await?;
+                notices::tell(&next, now, transaction).await?;
             }
             Ok(Changed::Yes(Box::new(next)))
         }

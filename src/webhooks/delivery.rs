@@ -12,7 +12,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::guard::{Guard, Reachable, check};
 use super::secret::Secrets;
-use crate::jobs::{Notice, Outbox, StoreResult, Timestamp};
+use crate::jobs::{Notice, Outbox, Timestamp};
 
 /// Between two looks for notices.
 const PAUSE: Duration = Duration::from_secs(1);
@@ -131,10 +131,6 @@ impl Courier {
             }
         };
         counter!(DELIVERIES, "result" => result).increment(1);
-        self.note(id, settled);
-    }
-
-    fn note(&self, id: &str, settled: StoreResult<()>) {
         // It comes again after the lease, and is told twice.
         if let Err(error) = settled {
             tracing::warn!(id, %error, "delivery of a webhook not recorded");

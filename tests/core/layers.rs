@@ -140,6 +140,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "sha2",
             "flate2",
             "percent_encoding",
+            "zip",
         ],
     ),
     (

@@ -6,7 +6,7 @@ use unwrapd::jobs::access::{Owner, Reach};
 use unwrapd::jobs::{Job, JobId, JobStore, Kind, Listing, Metadata, Order, State, Timestamp};
 use unwrapd::store::RecordStore;
 
-use crate::contract::{claim, claimed, enqueued, job};
+use crate::contract::{claim, enqueued, job};
 
 async fn listed(store: &RecordStore, reach: &Reach, listing: Listing) -> Vec<JobId> {
     let list = store.list(reach, &listing).await.expect("an answer");
@@ -104,7 +104,7 @@ pub async fn jobs_are_found_by_their_metadata(store: Arc<RecordStore>) {
     let second = enqueued(&store, &noted(r#"{"project": "atlas", "frame": "7"}"#))
         .await
         .id;
-    let third = claimed(&store).await;
+    let third = enqueued(&store, &job()).await;
     let list = async |text| {
         let listing = Listing {
             metadata: metadata(text),
