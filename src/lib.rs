@@ -91,6 +91,10 @@
 )]
 #![cfg_attr(
     feature = "service",
+    doc = "| [`webhooks`] | ends of jobs, told to others |"
+)]
+#![cfg_attr(
+    feature = "service",
     doc = "| [`bulk`] | many files in one run: lists, shards, records, gates, summaries |"
 )]
 #![cfg_attr(feature = "service", doc = "| [`cli`] | commands |")]
@@ -266,6 +270,9 @@ pub mod store;
 
 #[cfg(feature = "service")]
 pub mod sessions;
+
+#[cfg(feature = "service")]
+pub mod webhooks;
 
 #[cfg(feature = "service")]
 pub mod bulk;

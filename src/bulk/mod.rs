@@ -22,7 +22,6 @@
 mod asset;
 mod digest;
 mod folder;
-mod gates;
 mod list_error;
 mod local;
 mod manifest;
@@ -43,7 +42,6 @@ mod worker;
 
 pub use asset::Asset;
 pub use folder::{Listing, assets_in};
-pub use gates::{Gate, GateError, Gates};
 pub use list_error::ListError;
 pub use local::Local;
 pub use manifest::assets_of;

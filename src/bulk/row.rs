@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::asset::Asset;
-use crate::jobs::Failure;
+use crate::jobs::{Failure, Gates, Worth};
 
 /// What became of an asset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,6 +68,16 @@ impl Row {
     }
 }
 
+impl Row {
+    /// Whether the asset meets all gates. One without an output meets none.
+    pub fn is_accepted(&self, gates: &Gates) -> bool {
+        match &self.status {
+            Status::Written(figures) => gates.accept(&figures.worth(), self.seconds),
+            Status::Failed { .. } | Status::Missing => false,
+        }
+    }
+}
+
 impl From<Failure> for Status {
     fn from(Failure { code, detail }: Failure) -> Self {
         Self::Failed { code, detail }
@@ -101,6 +111,16 @@ struct MeasuresRead {
 }
 
 impl Figures {
+    /// What gates judge of them.
+    fn worth(&self) -> Worth {
+        Worth {
+            certified: Some(self.certified),
+            charts: Some(self.charts),
+            distortion: self.distortion,
+            stretch: self.stretch,
+        }
+    }
+
     /// What a report says.
     pub(super) fn of_report(report: &[u8]) -> serde_json::Result<Self> {
         let ReportRead {

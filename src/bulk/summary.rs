@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::gates::Gates;
 use super::row::{Row, Status};
+use crate::jobs::Gates;
 
 /// Names of the columns.
 const HEADER: [&str; 13] = [
@@ -46,7 +46,7 @@ impl Totals {
             written: count(|status| matches!(status, Status::Written(_))),
             failed: count(|status| matches!(status, Status::Failed { .. })),
             missing: count(|status| matches!(status, Status::Missing)),
-            accepted: rows.iter().filter(|row| gates.accept(row)).count(),
+            accepted: rows.iter().filter(|row| row.is_accepted(gates)).count(),
         }
     }
 }
@@ -73,7 +73,7 @@ fn cells(row: &Row, gates: &Gates) -> [String; 13] {
             row.output.clone(),
             status.to_owned(),
             code.to_owned(),
-            gates.accept(row).to_string(),
+            row.is_accepted(gates).to_string(),
             certified,
             faces,
             charts,

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use super::console::warn_of;
 use super::failure::Failure;
 use super::input::{folder, read_file};
-use crate::bulk::{self, Asset, Extra, Gates, ShardChoice, array_variable};
+use crate::bulk::{self, Asset, Extra, ShardChoice, array_variable};
 use crate::document::OutputFormat;
+use crate::jobs::Gates;
 use crate::options::help_of;
 use crate::pipeline::{CommandOptions, GivenSeams, NamedSeams, Options};
 

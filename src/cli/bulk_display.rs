@@ -6,7 +6,8 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::console::say;
-use crate::bulk::{Fate, Figures, Gates, Row, Status, Totals};
+use crate::bulk::{Fate, Figures, Row, Status, Totals};
+use crate::jobs::Gates;
 
 /// Shows how far a run is.
 pub(super) struct BulkDisplay<'a> {
@@ -50,7 +51,7 @@ impl<'a> BulkDisplay<'a> {
             Fate::Done => self.n_done += 1,
         }
         self.n_made += usize::from(fate == Fate::Done && matches!(row.status, Status::Written(_)));
-        let is_accepted = self.gates.accept(row);
+        let is_accepted = row.is_accepted(self.gates);
         let is_told = match fate {
             Fate::Kept => false,
             Fate::Done => !is_accepted || (self.bar.is_none() && !self.is_quiet),

@@ -4,8 +4,8 @@ use clap::builder::StyledStr;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    batch, completions, config, deform, edit_uv, health, keys, man, measure, queue, repack, serve,
-    solve, submit, unwrap_args, verify, warp, worker,
+    batch, completions, config, deform, drain, edit_uv, health, keys, man, measure, queue, repack,
+    serve, solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
 };
 use crate::options::as_typed;
 
@@ -24,7 +24,7 @@ pub(super) enum Command {
     /// Exit status 0 means certified: it is proven that no triangle is flipped, degenerate or
     /// overlapping, that no chart is mirrored, and that padding, pages and bits are as requested.
     ///
-    /// Exit status 4 means not certified. OUT is still written, and a warning names what is
+    /// Exit status 4 means not certified, or whatever else `accept` requests. OUT is still written, and a warning names what is
     /// missing. Only if a triangle would be flipped against the promise, no file is written.
     ///
     /// Other statuses: 2 usage error, 3 unusable input, 1 any other error. Distortion above the
@@ -95,6 +95,13 @@ pub(super) enum Command {
     ///
     /// It works on the database of the service, for all processes that share it, while they run.
     Queue(queue::Args),
+    /// Have a service take in and start no more jobs, before it is stopped
+    ///
+    /// It is the service on a data folder of this machine. Running jobs end as usual, and the service
+    /// is not ready meanwhile. Others that share its database go on.
+    Drain(drain::Args),
+    /// Print the secret by which an owner checks the webhooks of the service
+    WebhookSecret(webhook_secret::Args),
     /// Print what is in force for `serve`, and where each value comes from
     ///
     /// It takes the options of `serve`, on the command line and in the environment. The source of a

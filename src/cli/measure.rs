@@ -6,20 +6,13 @@ use super::input::{Mapped, read_upload};
 use crate::certificate::Certificate;
 use crate::pipeline::{self, MeasureOptions};
 
-/// Which UVs of a file to judge, and by which options.
-#[derive(clap::Args)]
-pub(super) struct Which {
-    #[command(flatten)]
-    pub(super) mapped: Mapped,
-    #[command(flatten)]
-    pub(super) options: MeasureOptions,
-}
-
 /// Measures the UVs of a file: distortion, seams, packing, overlaps.
 #[derive(clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
-    which: Which,
+    mapped: Mapped,
+    #[command(flatten)]
+    options: MeasureOptions,
     /// Print the whole report as JSON
     #[arg(long)]
     json: bool,
@@ -27,8 +20,8 @@ pub(super) struct Args {
 
 /// Runs `measure`.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let upload = read_upload(&args.which.mapped.input)?;
-    let report = pipeline::measure_document(&upload, &args.which.options)?;
+    let upload = read_upload(&args.mapped.input)?;
+    let report = pipeline::measure_document(&upload, &args.options)?;
     if args.json {
         print_json(&report)?;
     } else {

@@ -8,6 +8,7 @@
 //! be written. Each input is opened once (`input`).
 #![doc = include_str!("guide.md")]
 
+mod acceptance;
 mod batch;
 mod bulk_args;
 mod bulk_display;
@@ -16,6 +17,7 @@ mod completions;
 mod config;
 mod console;
 mod deform;
+mod drain;
 mod edit_uv;
 mod exposure_args;
 mod failure;
@@ -24,6 +26,7 @@ mod health;
 mod input;
 mod keys;
 mod listen;
+mod local_call;
 mod man;
 mod measure;
 mod output;
@@ -43,6 +46,8 @@ mod unwrap_args;
 mod verify;
 mod warp;
 mod watch_args;
+mod webhook_args;
+mod webhook_secret;
 mod work_args;
 mod worker;
 
@@ -90,6 +95,8 @@ fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
         Command::Worker(args) => worker::run(&args).map_err(Failure::other),
         Command::Keys(args) => keys::run(&args),
         Command::Queue(args) => queue::run(&args),
+        Command::Drain(args) => drain::run(&args),
+        Command::WebhookSecret(args) => webhook_secret::run(&args),
         Command::Config(args) => config::run(&args, &command::command(), typed),
         Command::Openapi => {
             console::print(crate::http::openapi());

@@ -1,9 +1,11 @@
 //! `unwrapd repack`: UVs packed anew, as they are.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use serde::Deserialize;
 
+use super::acceptance::Acceptance;
 use super::console::{json, print_json};
 use super::failure::Failure;
 use super::format::output_format;
@@ -24,6 +26,8 @@ pub(super) struct Args {
     target: Target,
     #[command(flatten)]
     files: Files<OutputFormat>,
+    #[command(flatten)]
+    acceptance: Acceptance,
     #[arg(
         long,
         value_name = "I.json",
@@ -52,6 +56,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         options.islands = given_islands(islands)?;
         options.check()?;
     }
+    let began = Instant::now();
     let upload = read_upload(input)?;
     let outputs = outputs.with_resources_of(&upload);
     let display = Display::new(&output.talk);
@@ -62,7 +67,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if output.talk.json {
         print_json(&outcome.report)?;
     }
-    summarize(&outcome)
+    summarize(&outcome);
+    let seconds = began.elapsed().as_secs_f64();
+    args.acceptance.judge(&outcome.report, seconds)
 }
 
 /// The islands in a file.

@@ -9,10 +9,12 @@ use super::exposure_args::ExposureArgs;
 use super::listen::{ADDRESS_FILE, Listen, listener};
 use super::owner_args::OwnerArgs;
 use super::process;
+use super::webhook_args::WebhookArgs;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
 use crate::jobs;
 use crate::sessions::{self, Sessions};
+use crate::webhooks;
 
 /// The arguments of `serve`. Each has an environment variable.
 #[derive(clap::Args)]
@@ -74,6 +76,8 @@ pub(super) struct Args {
     owner: OwnerArgs,
     #[command(flatten)]
     exposure: ExposureArgs,
+    #[command(flatten)]
+    webhook: WebhookArgs,
 }
 
 fn days(text: &str) -> Result<f64, String> {
@@ -126,6 +130,7 @@ impl Args {
             wrong_keys: self.exposure.wrong_keys,
             origins: self.exposure.origins.clone(),
             hosts: self.exposure.hosts(address),
+            webhooks: self.webhook.settings().map(|settings| settings.reachable),
             base_path: self.exposure.base_path.clone(),
         }
     }
@@ -146,6 +151,10 @@ async fn serve(args: &Args) -> Result<(), String> {
     let (jobs, store) = process::queue(&args.work, settings).await?;
     let (watch, shown) = (&args.work.watch, Some(Arc::clone(&sessions)));
     let exposition = watch.exposition(Arc::clone(&jobs), shown, &stop).await?;
+    if let Some(settings) = args.webhook.settings() {
+        let outbox = Arc::clone(&store);
+        tokio::spawn(webhooks::deliver(outbox, settings, stop.clone()));
+    }
     let keys = args.exposure.keys(wished, store).await?;
 
     let listener = listener(wished).await?;

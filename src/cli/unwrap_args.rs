@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::acceptance::Acceptance;
 use super::failure::Failure;
 use super::format::output_format;
 use super::input::read_file;
@@ -22,6 +23,8 @@ pub(super) struct Args {
     pub(super) files: Files<OutputFormat>,
     #[command(flatten)]
     pub(super) pictures: Pictures,
+    #[command(flatten)]
+    pub(super) acceptance: Acceptance,
     #[arg(
         long,
         value_name = "normals|S.json",

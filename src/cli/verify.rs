@@ -2,26 +2,17 @@
 
 use super::console::{self, Lines, print_json, say, warn};
 use super::failure::Failure;
-use super::input::read_upload;
-use super::measure::{Which, certificate_text};
-use crate::certificate::Overlap;
-use crate::pipeline::{Mirrored, verify_document};
+use super::input::{Mapped, read_upload};
+use super::measure::certificate_text;
+use crate::pipeline::{VerifyOptions, verify_document};
 
 /// The arguments of `verify`.
 #[derive(clap::Args)]
-#[allow(
-    clippy::struct_excessive_bools,
-    reason = "switches of the command line"
-)]
 pub(super) struct Args {
     #[command(flatten)]
-    which: Which,
-    /// Also prove that no two faces overlap
-    #[arg(long)]
-    bijective: bool,
-    /// Also prove that no chart is mirrored
-    #[arg(long)]
-    unmirrored: bool,
+    mapped: Mapped,
+    #[command(flatten)]
+    options: VerifyOptions,
     /// Print the certificates as JSON
     #[arg(long)]
     json: bool,
@@ -35,13 +26,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         console::direct(Lines::None);
     }
-    let upload = read_upload(&args.which.mapped.input)?;
-    let overlap = if args.bijective {
-        Overlap::Test
-    } else {
-        Overlap::Skip
-    };
-    let verified = verify_document(&upload, &args.which.options, overlap)?;
+    let upload = read_upload(&args.mapped.input)?;
+    let verified = verify_document(&upload, &args.options)?;
     if args.json {
         print_json(&verified)?;
     } else {
@@ -55,20 +41,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     warn(&verified.warnings);
     let proven = &verified.proven;
-    let is_bijectivity_asked = args.bijective || verified.is_bijectivity_promised();
-    let asked = (
-        if is_bijectivity_asked {
-            Overlap::Test
-        } else {
-            Overlap::Skip
-        },
-        if args.unmirrored {
-            Mirrored::Refused
-        } else {
-            Mirrored::Allowed
-        },
-    );
-    if !proven.lacks(asked.0, asked.1).is_empty() {
+    if !verified.certified {
         return Err(Failure::uncertified(format!("not valid: {proven}")));
     }
     if !args.json {

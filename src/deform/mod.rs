@@ -37,6 +37,8 @@ mod problem;
 mod problem_error;
 #[cfg(feature = "files")]
 mod problem_file;
+#[cfg(feature = "files")]
+mod problem_handles;
 mod pull;
 mod session;
 mod shake;
@@ -66,6 +68,8 @@ pub use problem::{Model, Problem};
 pub use problem_error::ProblemError;
 #[cfg(feature = "files")]
 pub use problem_file::{ProblemFile, Rest};
+#[cfg(feature = "files")]
+pub use problem_handles::ProblemHandles;
 pub use pull::PullSummary;
 pub use session::{HandleId, Session};
 pub use solve::{Method, Solution};

@@ -2,18 +2,17 @@
 
 use serde::Deserialize;
 
-use super::aims::Aim;
 use super::body::Body;
 use super::model::DeformationEnergy;
 use super::numbers;
-use super::paired::handles;
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
+use super::problem_handles::ProblemHandles;
 use super::units::Units;
 use crate::barrier::BarrierKind;
 use crate::mesh::ElementError;
 use crate::mesh::io::Elements;
-use crate::solver::{Handles, LevenbergSettings};
+use crate::solver::LevenbergSettings;
 
 /// A problem as its file says it; every path is relative to the file.
 #[derive(Clone, Debug, Deserialize)]
@@ -26,10 +25,10 @@ pub struct ProblemFile {
     /// Where rest shapes come from.
     #[serde(default)]
     pub rest: Rest,
-    /// Vertex ids.
-    pub handles: Vec<u32>,
-    /// Where they should come, one position each.
-    #[serde(deserialize_with = "numbers::positions")]
+    /// What pulls: vertex ids, or handles in the form of all other kinds of jobs.
+    pub handles: ProblemHandles,
+    /// Where vertices should come, one position each.
+    #[serde(default, deserialize_with = "numbers::positions")]
     pub targets: Vec<Vec<f64>>,
     /// Target sets to go through one after another, the last of them [`targets`](Self::targets).
     #[serde(default)]
@@ -91,7 +90,10 @@ pub enum Rest {
 impl ProblemFile {
     /// Parses JSON.
     pub fn parse(json: &[u8]) -> Result<Self, ProblemError> {
-        numbers::from_json(json).map_err(|error| ProblemError::Malformed(error.to_string()))
+        let file: Result<Self, _> = numbers::from_json(json);
+        let file = file.map_err(|error| ProblemError::Malformed(error.to_string()))?;
+        file.handles.check(&file.targets, &file.sequence)?;
+        Ok(file)
     }
 
     /// The files that it names.
@@ -125,10 +127,11 @@ impl ProblemFile {
             bijective: self.bijective,
         };
         let barrier = model.barrier(&body, self.eps)?;
+        let bound = (self.handles).bound(&body, &self.targets, &self.sequence)?;
         let mut problem = Problem {
-            stations: self.stations(&body)?,
-            turned: Vec::new(),
-            aims: self.handles.iter().map(|&v| Aim::at_vertex(v)).collect(),
+            stations: bound.stations,
+            turned: bound.turns,
+            aims: bound.aims,
             search: false,
             levenberg: self.levenberg(),
             body,
@@ -155,31 +158,5 @@ impl ProblemFile {
             alpha: self.alpha0.unwrap_or(default.alpha),
             alpha_ratio: self.alpha_ratio.unwrap_or(default.alpha_ratio),
         }
-    }
-
-    fn stations(&self, body: &Body) -> Result<Vec<Handles>, ProblemError> {
-        let groups = body.groups(&self.handles_checked(body)?);
-        let last = std::iter::once(&self.targets);
-        let sets = self
-            .sequence
-            .iter()
-            .filter(|&set| *set != self.targets)
-            .chain(last);
-        sets.map(|targets| handles(body.dim(), &self.handles, targets, &groups))
-            .collect()
-    }
-
-    fn handles_checked(&self, body: &Body) -> Result<Vec<u32>, ProblemError> {
-        let n_vertices = body.n_vertices();
-        let outside = |&v: &u32| v as usize >= n_vertices;
-        if let Some(handle) = self.handles.iter().position(outside) {
-            let vertex = self.handles[handle];
-            return Err(ProblemError::UnknownHandle {
-                handle,
-                vertex,
-                n_vertices,
-            });
-        }
-        Ok(self.handles.clone())
     }
 }

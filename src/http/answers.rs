@@ -48,6 +48,7 @@ impl IntoResponses for CallProblems {
             Code::UnsupportedMediaType,
             Code::InternalError,
             Code::Crashed,
+            Code::OwnerQuotaUsed,
             Code::QueueFull,
             Code::Stopping,
             Code::Draining,

@@ -52,6 +52,7 @@ codes! {
     RangeNotSatisfiable => ("range_not_satisfiable", 416, "The range lies outside the file"),
     UnknownHost => ("unknown_host", 421, "The service is not reached under this name"),
     UnknownFormat => ("unknown_format", 422, "The job kind does not read this file format"),
+    InvalidArchive => ("invalid_archive", 422, "The ZIP is damaged, or has not one input"),
     InvalidGltf => ("invalid_gltf", 422, "The file is not valid glTF 2.0"),
     IdempotencyKeyReused => (
         "idempotency_key_reused",

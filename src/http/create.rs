@@ -14,17 +14,22 @@ use super::view::{JobView, job_path};
 use super::wishes::Wishes;
 use super::{App, Shared, json};
 use crate::jobs::access::Caller;
-use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
+use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted, Webhook};
+use crate::webhooks;
 
 /// Create a job of any kind.
 ///
 /// The input is a form or the body itself. A form has the input as `mesh`, `image` or `problem`,
-/// the files it references as `resource`, `options` as JSON, and `kind`. Options can also be query
-/// parameters; a list is then its JSON text. Each kind has its own options, named like those of the
+/// the files it references as `resource`, `options` as JSON, and `kind`. `priority`,
+/// `metadata`, `accept` and `webhook` can be parts too. Options can also be query parameters; a list is then its JSON text. Each kind has its own options, named like those of the
 /// command line in snake_case. The handles of a job have the JSON form of the command line's handle
 /// files.
 ///
-/// `unwrap`, `repack`, `measure`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and STL.
+/// An input with the files that it references can also be one ZIP, as a body or as the part of the
+/// input. It has exactly one file that the kind reads.
+///
+/// `unwrap`, `repack`, `measure`, `verify`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and
+/// STL.
 /// `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads PNG and
 /// JPEG. `solve` reads a problem file with its mesh beside it.
 ///
@@ -48,6 +53,9 @@ use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
         ("kind" = Option<crate::jobs::Kind>, Query, description = "Kind of job; the default is `unwrap`"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
         ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Of the waiting jobs of one owner, those of higher priority start first; the default is 0"),
+        ("metadata" = Option<String>, Query, description = "JSON object of at most 4096 bytes and 64 members, which is repeated wherever the job is shown. `listJobs` finds jobs by it"),
+        ("accept" = Option<String>, Query, description = "Gates that the result has to meet, as a list with commas: `certified`, `max_charts=N`, `max_distortion=E` (mean symmetric Dirichlet energy of the worst atlas), `max_stretch=S` (99th percentile), `max_seconds=T`, `written`. `accepted` of the job says whether it does"),
+        ("webhook" = Option<String>, Query, description = "Address to which the end of the job is posted, signed as Standard Webhooks says, until it answers 2xx"),
     ),
     responses(
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
@@ -56,7 +64,7 @@ use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted};
         (status = 408, description = "`request_timeout`: the body paused for too long, or took too long", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "`unknown_format`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "`unknown_format`, `invalid_archive`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "`owner_quota_used`: jobs, bytes or processor time of the owner", body = Problem, content_type = "application/problem+json"),
         (status = 503, description = "`queue_full`, `store_unavailable`: try again later; `draining`: try again elsewhere", body = Problem, content_type = "application/problem+json"),
         (status = 507, description = "`storage_full`: delete jobs, or try again later", body = Problem, content_type = "application/problem+json"),
@@ -70,6 +78,9 @@ pub(super) async fn create_job(
 ) -> Result<Response, Problem> {
     let wishes = Wishes::read(&headers)?;
     let received = upload::receive(&app, None, request).await?;
+    if let Some(webhook) = &received.handling.webhook {
+        check_webhook(&app, webhook)?;
+    }
     let (submission, _folder) = received.into_submission(caller.owner(), wishes, false);
     let job = match app.jobs.submit(submission).await? {
         Submitted::New(job) | Submitted::Replay(job) => job,
@@ -86,6 +97,14 @@ pub(super) async fn create_job(
         response.headers_mut().insert("preference-applied", applied);
     }
     Ok(response)
+}
+
+/// Refuses what will not be delivered.
+fn check_webhook(app: &App, webhook: &Webhook) -> Result<(), Problem> {
+    let refused = |why: String| Problem::new(Code::InvalidRequest, format!("`webhook`: {why}"));
+    let no_secret = || refused("this service sends none: it has no --webhook-secret".to_owned());
+    let reachable = app.settings.webhooks.ok_or_else(no_secret)?;
+    webhooks::check(webhook, reachable).map_err(|error| refused(error.to_string()))
 }
 
 impl From<SubmitError> for Problem {

@@ -1,4 +1,4 @@
-//! Jobs: listed, looked at, ended.
+//! Jobs: looked at, ended.
 
 use std::time::Duration;
 
@@ -10,66 +10,10 @@ use serde::Deserialize;
 use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId};
 use super::missing::{existing, missing};
 use super::problem::{Code, Problem};
-use super::view::{JobPage, JobView};
+use super::view::JobView;
 use super::{App, Shared, json};
 use crate::jobs::access::{Caller, Reach};
-use crate::jobs::{Changed, Ended, Job, JobId, Listing, Reason, Refusal, Wish};
-
-const DEFAULT_PAGE: u32 = 50;
-const MAX_PAGE: u32 = 200;
-
-/// What to list.
-#[derive(Deserialize, utoipa::IntoParams)]
-#[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ListQuery {
-    /// Only jobs in this state.
-    state: Option<crate::jobs::State>,
-    /// Maximum number of jobs; the default is 50.
-    #[param(minimum = 1, maximum = 200)]
-    limit: Option<u32>,
-    /// `next` of the previous page.
-    #[param(format = "uuid")]
-    cursor: Option<String>,
-}
-
-/// List jobs, newest first.
-#[utoipa::path(
-    get, path = "/v1/jobs", operation_id = "listJobs", tag = "jobs", params(ListQuery),
-    responses(
-        (status = 200, description = "A page of jobs", body = JobPage),
-        (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
-    )
-)]
-pub(super) async fn list_jobs(
-    State(app): Shared,
-    caller: Caller,
-    Parameters(query): Parameters<ListQuery>,
-) -> Result<Response, Problem> {
-    let invalid = |detail: String| Problem::new(Code::InvalidRequest, detail);
-    let limit = query.limit.unwrap_or(DEFAULT_PAGE);
-    if !(1..=MAX_PAGE).contains(&limit) {
-        return Err(invalid(format!("`limit` must be between 1 and {MAX_PAGE}")));
-    }
-    let before = query.cursor.map(|cursor| cursor.parse());
-    let before = before
-        .transpose()
-        .map_err(|_| invalid("`cursor` is not the `next` of a page".to_owned()))?;
-    let listing = Listing {
-        state: query.state,
-        before,
-        limit: limit + 1,
-    };
-    let mut jobs = app.jobs.list(&caller.reach(), listing).await?;
-    let is_last = jobs.len() <= limit as usize;
-    jobs.truncate(limit as usize);
-    let next = jobs
-        .last()
-        .filter(|_| !is_last)
-        .map(|job| job.id.to_string());
-    let jobs = jobs.iter().map(|job| view(&app, job)).collect();
-    Ok(json(StatusCode::OK, &JobPage { jobs, next }))
-}
+use crate::jobs::{Changed, Ended, Job, JobId, Reason, Refusal, Wish};
 
 /// How to look at a job.
 #[derive(Deserialize, utoipa::IntoParams)]

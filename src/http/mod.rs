@@ -17,9 +17,11 @@ mod events;
 mod exposition;
 mod extract;
 mod framing;
+mod handling;
 mod held;
 mod inputs;
 mod jobs;
+mod list;
 mod live;
 mod maps;
 mod missing;
@@ -27,7 +29,9 @@ mod observation;
 mod openapi;
 mod options;
 mod origins;
+mod pack;
 mod page;
+mod parts;
 mod pause;
 mod probes;
 mod problem;
@@ -44,6 +48,7 @@ mod sign_in;
 mod socket;
 mod steady;
 mod synchronous;
+mod unpack;
 mod upload;
 mod view;
 mod windows;
@@ -106,7 +111,7 @@ type Shared = axum::extract::State<Arc<App>>;
 /// need a key, once there is one.
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(openapi::preamble())
-        .routes(routes!(create::create_job, jobs::list_jobs))
+        .routes(routes!(create::create_job, list::list_jobs))
         .routes(routes!(jobs::get_job, jobs::delete_job))
         .routes(routes!(jobs::finish_job))
         .routes(routes!(jobs::retry_job))
@@ -119,6 +124,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(results::get_heatmap))
         .routes(routes!(results::get_thumbnail))
         .routes(routes!(results::get_file))
+        .routes(routes!(pack::get_files))
         .routes(routes!(sessions::open_session, sessions::list_sessions))
         .routes(routes!(sessions::get_session, sessions::close_session))
         .routes(routes!(sessions::bake_session))

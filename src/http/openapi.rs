@@ -176,8 +176,18 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
     });
     if is_job {
         schema["properties"]["image"] = input;
+        schema["properties"]["priority"] =
+            json!({ "type": "integer", "minimum": -100, "maximum": 100 });
+        schema["properties"]["accept"] =
+            json!({ "type": "string", "description": "Gates, as in the query" });
+        schema["properties"]["webhook"] = json!({ "type": "string", "format": "uri", "description": "Where the end of the job is posted" });
+        schema["properties"]["metadata"] = json!({
+            "type": "object",
+            "description": "What the client notes of the job: at most 4096 bytes and 64 members",
+        });
         schema["properties"]["problem"] = json!({
             "type": "string",
+            "format": "binary",
             "contentMediaType": "application/json",
             "contentSchema": reference("ProblemFile"),
             "description": "A problem file of `solve`, with its file name",
@@ -187,7 +197,10 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
         schema["required"] = json!(["mesh"]);
     }
     let mut content = Map::new();
-    let encoding = json!({ "options": { "contentType": "application/json" } });
+    let mut encoding = json!({ "options": { "contentType": "application/json" } });
+    if is_job {
+        encoding["metadata"] = encoding["options"].clone();
+    }
     content.insert(
         "multipart/form-data".to_owned(),
         json!({ "schema": schema, "encoding": encoding }),

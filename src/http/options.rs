@@ -1,17 +1,13 @@
 //! Options of a job, from a JSON part and query parameters, which mean the same.
 
-use std::ops::RangeInclusive;
-
 use axum::extract::Query;
 use axum::http::Uri;
 use serde_json::{Map, Value};
 
+use super::handling::{Said, once};
 use super::problem::{Code, Problem};
 use crate::deform::from_json;
 use crate::jobs::{Failure, Kind, Work};
-
-/// Priorities that a client may ask for.
-const PRIORITIES: RangeInclusive<i32> = -100..=100;
 
 /// What the query of an upload says.
 #[derive(Default)]
@@ -20,8 +16,8 @@ pub(super) struct UploadQuery {
     pub kind: Option<Kind>,
     /// Name of the file in a raw body.
     pub filename: Option<String>,
-    /// How soon the job is to start.
-    pub priority: Option<i32>,
+    /// How the job is to be handled.
+    pub said: Said,
     /// Everything else.
     pub options: Map<String, Value>,
 }
@@ -35,14 +31,14 @@ impl UploadQuery {
         for (name, text) in pairs {
             let is_new = match name.as_str() {
                 "kind" => query.kind.replace(kind(&text)?).is_none(),
-                "priority" => query.priority.replace(priority(&text)?).is_none(),
+                name if Said::NAMES.contains(&name) => {
+                    query.said.take(name, &text)?;
+                    true
+                }
                 "filename" => query.filename.replace(text).is_none(),
                 _ => query.options.insert(name.clone(), value(text)).is_none(),
             };
-            if !is_new {
-                let detail = format!("parameter {name} is given twice");
-                return Err(Problem::new(Code::InvalidRequest, detail));
-            }
+            once(&name, is_new)?;
         }
         Ok(query)
     }
@@ -53,16 +49,6 @@ pub(super) fn kind(text: &str) -> Result<Kind, Problem> {
     serde_json::from_value(text.into()).map_err(|_| {
         let words = Kind::ALL.map(Kind::word).join(", ");
         let detail = format!("unknown kind {text:?}: expected one of {words}");
-        Problem::new(Code::InvalidRequest, detail)
-    })
-}
-
-fn priority(text: &str) -> Result<i32, Problem> {
-    let priority = text.parse().ok();
-    let priority = priority.filter(|priority| PRIORITIES.contains(priority));
-    priority.ok_or_else(|| {
-        let (low, high) = (PRIORITIES.start(), PRIORITIES.end());
-        let detail = format!("`priority` must be a whole number from {low} to {high}");
         Problem::new(Code::InvalidRequest, detail)
     })
 }

@@ -106,6 +106,11 @@ impl From<StoreError> for Problem {
                 Self::new(Code::StoreUnavailable, "try again later")
             }
             StoreError::Damaged(what) => Self::new(Code::DamagedFile, what),
+            // Where it is concerns nobody but whoever runs the service.
+            StoreError::File { why, .. } => {
+                let detail = format!("a file of the service cannot be used: {why}");
+                Self::new(Code::InternalError, detail)
+            }
             StoreError::Other(_) => Self::internal(&error),
         }
     }

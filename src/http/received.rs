@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::wishes::Wishes;
 use crate::jobs::access::Owner;
-use crate::jobs::{Digest, InputFile, Kind, Scratch, Submission};
+use crate::jobs::{Digest, Handling, InputFile, Kind, Scratch, Submission};
 
 /// A received upload. Its folder goes when it is dropped.
 pub(super) struct Received {
@@ -15,7 +15,7 @@ pub(super) struct Received {
     /// The options, complete.
     pub options: Value,
     pub files: Vec<(InputFile, PathBuf)>,
-    pub priority: i32,
+    pub handling: Handling,
 }
 
 impl Received {
@@ -32,7 +32,7 @@ impl Received {
             kind: self.kind,
             options: self.options,
             files: self.files,
-            priority: self.priority,
+            handling: self.handling,
             trace: wishes.trace,
             reuse: wishes.reuse,
             key: wishes.key,

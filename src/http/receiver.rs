@@ -3,27 +3,22 @@
 use std::path::PathBuf;
 
 use axum::body::Body;
-use axum::extract::multipart::{Field, Multipart, MultipartError};
+use axum::extract::multipart::{Field, Multipart};
 use futures_util::{Stream, StreamExt};
 use serde_json::{Map, Value};
 use sha2::{Digest as _, Sha256};
 use tokio::io::AsyncWriteExt;
 
 use super::framing;
+use super::handling::{Said, once};
 use super::options::{self, UploadQuery};
+use super::parts::{INPUT_PARTS, MAX_FILES, at_most, at_most_name, malformed, text, unexpected};
 use super::problem::{Code, Problem};
 use super::received::Received;
+use super::unpack::{self, Files};
 use crate::deform::from_json;
 use crate::jobs::{InputFile, Kind, Scratch};
 
-/// Names of the part that holds the input.
-const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
-/// Bytes of a text part: options with some thousand handles.
-const MAX_TEXT_BYTES: u64 = 256 << 10;
-/// Files of an upload.
-const MAX_FILES: usize = 4096;
-/// Bytes of the path of a resource.
-const MAX_NAME: usize = 1024;
 /// Bytes of the name of the input: answers name their files after it, in a header.
 const MAX_INPUT_NAME: usize = 255;
 
@@ -37,11 +32,12 @@ pub(super) struct Receiver {
     kind: Option<Kind>,
     has_options: bool,
     options: Map<String, Value>,
+    said: Said,
 }
 
 impl Receiver {
-    /// An upload into a fresh folder, of at most `limit` bytes.
-    pub fn new(folder: PathBuf, limit: u64) -> Result<Self, Problem> {
+    /// An upload into a fresh folder, of at most `limit` bytes, of which something was said already.
+    pub fn new(folder: PathBuf, limit: u64, said: Said) -> Result<Self, Problem> {
         Ok(Self {
             folder: Scratch::make(folder)?,
             left: limit,
@@ -51,6 +47,7 @@ impl Receiver {
             kind: None,
             has_options: false,
             options: Map::new(),
+            said,
         })
     }
 
@@ -86,6 +83,10 @@ impl Receiver {
                     })?;
                 }
                 "resource" => self.resource(field).await?,
+                part if Said::NAMES.contains(&part) => {
+                    let part = part.to_owned();
+                    self.said.take(&part, &text(field).await?)?;
+                }
                 part => return Err(unexpected(part)),
             }
         }
@@ -115,7 +116,7 @@ impl Receiver {
         stream: impl Stream<Item = Result<B, E>> + Unpin,
         problem: impl Fn(E) -> Problem,
     ) -> Result<(InputFile, PathBuf), Problem> {
-        at_most(&name, MAX_NAME)?;
+        at_most_name(&name)?;
         let path = self.folder.path().join(format!(
             "file-{}",
             self.resources.len() + usize::from(self.input.is_some())
@@ -145,11 +146,14 @@ impl Receiver {
 
     /// Checks what came.
     pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
-        let Some((mut input, path)) = self.input else {
+        let Some((input, path)) = self.input else {
             let detail = "send it as part `mesh`, `image` or `problem`";
             return Err(Problem::new(Code::MissingMesh, detail));
         };
         once("kind", query.kind.or(kind).is_none() || self.kind.is_none())?;
+        if kind.is_some() {
+            self.said.check_unkept()?;
+        }
         let kind = kind.or(query.kind).or(self.kind).unwrap_or_default();
         let mut given = self.options;
         for (name, value) in query.options {
@@ -157,24 +161,44 @@ impl Receiver {
         }
         let options = options::complete(kind, given)?;
 
-        let checked = path.clone();
-        let format = tokio::task::spawn_blocking(move || framing::format(&checked, kind))
-            .await
-            .map_err(|error| Problem::internal(&error))??;
-        let name = query.filename.as_deref().unwrap_or(&input.name);
-        input.name = file_name(name, kind, format.extension());
-        at_most(&input.name, MAX_INPUT_NAME)?;
-
         let mut files = vec![(input, path)];
         files.extend(self.resources);
+        let looked = move || looked_at(files, kind, (self.limit, query.filename));
+        let files = tokio::task::spawn_blocking(looked)
+            .await
+            .map_err(|error| Problem::internal(&error))??;
         Ok(Received {
             folder: self.folder,
             kind,
             options,
             files,
-            priority: query.priority.unwrap_or_default(),
+            handling: self.said.into_handling(kind)?,
         })
     }
+}
+
+/// The files of an upload, those of an archive unpacked, of which the first is what the kind reads.
+fn looked_at(
+    mut files: Files,
+    kind: Kind,
+    (limit, filename): (u64, Option<String>),
+) -> Result<Files, Problem> {
+    let mut filename = filename;
+    if unpack::is_archive(&files[0].1)? {
+        if 1 < files.len() {
+            let detail = "an archive has all files in it: send no resource beside it";
+            return Err(Problem::new(Code::InvalidRequest, detail));
+        }
+        files = unpack::unpacked(&files[0].1, kind, limit)?;
+        // It was that of the archive.
+        filename = None;
+    }
+    let (input, path) = &mut files[0];
+    let format = framing::format(path, kind)?;
+    let name = filename.as_deref().unwrap_or(&input.name);
+    input.name = file_name(name, kind, format.extension());
+    at_most(&input.name, MAX_INPUT_NAME)?;
+    Ok(files)
 }
 
 /// A name for the input: what the client calls it, without folders and control characters, with an extension that is one of
@@ -189,48 +213,6 @@ fn file_name(given: &str, kind: Kind, extension: &str) -> String {
     } else {
         format!("{name}.{extension}")
     }
-}
-
-async fn text(mut field: Field<'_>) -> Result<String, Problem> {
-    let mut bytes = Vec::new();
-    while let Some(chunk) = field.chunk().await.map_err(|e| malformed(&e))? {
-        bytes.extend_from_slice(&chunk);
-        if MAX_TEXT_BYTES < bytes.len() as u64 {
-            let detail = format!("a text part can have at most {MAX_TEXT_BYTES} bytes");
-            return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_TEXT_BYTES));
-        }
-    }
-    String::from_utf8(bytes)
-        .map_err(|_| Problem::new(Code::InvalidRequest, "a text part is not UTF-8"))
-}
-
-/// Refuses what is given more than once: one of two would be lost.
-fn once(name: &str, is_first: bool) -> Result<(), Problem> {
-    if is_first {
-        return Ok(());
-    }
-    let detail = format!("{name} is given twice");
-    Err(Problem::new(Code::InvalidRequest, detail))
-}
-
-fn at_most(name: &str, bytes: usize) -> Result<(), Problem> {
-    if name.len() <= bytes {
-        return Ok(());
-    }
-    let detail = format!("a file name can have at most {bytes} bytes");
-    Err(Problem::new(Code::InvalidRequest, detail))
-}
-
-fn unexpected(part: &str) -> Problem {
-    let part: String = part.chars().take(100).collect();
-    let detail = format!(
-        "unexpected part {part:?}: the parts of a form are mesh, image or problem, resource, options and kind"
-    );
-    Problem::new(Code::InvalidRequest, detail)
-}
-
-fn malformed(error: &MultipartError) -> Problem {
-    Problem::new(Code::InvalidRequest, error.body_text())
 }
 
 fn broken(error: &axum::Error) -> Problem {

@@ -11,7 +11,7 @@ use super::missing::existing;
 use super::problem::{Code, Problem};
 use super::{App, Shared};
 use crate::jobs::access::Caller;
-use crate::jobs::{JobId, State as JobState};
+use crate::jobs::{Job, JobId, State as JobState};
 
 /// Get the result: the mesh with its new UVs, the deformed body, the warped picture.
 ///
@@ -36,7 +36,7 @@ pub(super) async fn get_result(
 
 /// Get the report: what was done, the quality of the result, and what is proven.
 ///
-/// `Report` of `unwrap`, `repack` and `measure`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of
+/// `Report` of `unwrap`, `repack` and `measure`, `Verified` of `verify`, `DeformReport` of `solve` and `deform`, `WarpReport` of `warp`, `EditReport` of
 /// `edit_uv` and `texture_map`.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/report", operation_id = "getReport", tag = "results",
@@ -135,6 +135,24 @@ pub(super) async fn get_file(
     file(&app, &caller, id, &format!("files/{name}"), &headers).await
 }
 
+/// Whether a job has made files.
+pub(super) fn check_succeeded(job: &Job) -> Result<(), Problem> {
+    match job.state {
+        JobState::Succeeded => Ok(()),
+        JobState::Queued | JobState::Running => {
+            let detail = format!("the job is {}", job.state.word());
+            Err(Problem::new(Code::NotFinished, detail))
+        }
+        JobState::Failed | JobState::Cancelled => {
+            let why = job.failure.as_ref().map_or_else(
+                || "the job was cancelled".to_owned(),
+                |failure| format!("the job failed: {}", failure.detail),
+            );
+            Err(Problem::new(Code::NoResult, why))
+        }
+    }
+}
+
 async fn file(
     app: &App,
     caller: &Caller,
@@ -143,20 +161,7 @@ async fn file(
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
     let job = existing(app, &caller.reach(), id).await?;
-    match job.state {
-        JobState::Succeeded => {}
-        JobState::Queued | JobState::Running => {
-            let detail = format!("the job is {}", job.state.word());
-            return Err(Problem::new(Code::NotFinished, detail));
-        }
-        JobState::Failed | JobState::Cancelled => {
-            let why = job.failure.map_or_else(
-                || "the job was cancelled".to_owned(),
-                |failure| format!("the job failed: {}", failure.detail),
-            );
-            return Err(Problem::new(Code::NoResult, why));
-        }
-    }
+    check_succeeded(&job)?;
     let file = job.output(role).ok_or_else(|| {
         let detail = format!("this {} job made no {role}", job.kind.word());
         Problem::new(Code::NoSuchFile, detail)

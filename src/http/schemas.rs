@@ -10,7 +10,7 @@ use crate::deform::ProblemFile;
 use crate::jobs::{Event, Kind};
 use crate::pipeline::{
     DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, RepackOptions,
-    Report, SolveOptions, WarpOptions, WarpReport,
+    Report, SolveOptions, Verified, VerifyOptions, WarpOptions, WarpReport,
 };
 
 /// Schemas that no handler names, with those that they refer to.
@@ -18,12 +18,14 @@ pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {
     let mut schemas = Vec::new();
     add::<Options>(&mut schemas);
     add::<MeasureOptions>(&mut schemas);
+    add::<VerifyOptions>(&mut schemas);
     add::<SolveOptions>(&mut schemas);
     add::<DeformOptions>(&mut schemas);
     add::<WarpOptions>(&mut schemas);
     add::<EditOptions>(&mut schemas);
     add::<RepackOptions>(&mut schemas);
     add::<Report>(&mut schemas);
+    add::<Verified>(&mut schemas);
     add::<DeformReport>(&mut schemas);
     add::<WarpReport>(&mut schemas);
     add::<EditReport>(&mut schemas);
@@ -42,6 +44,7 @@ pub(super) fn options(kind: Kind) -> &'static str {
     match kind {
         Kind::Unwrap => "Options",
         Kind::Measure => "MeasureOptions",
+        Kind::Verify => "VerifyOptions",
         Kind::Solve => "SolveOptions",
         Kind::Deform => "DeformOptions",
         Kind::Warp => "WarpOptions",
@@ -52,7 +55,13 @@ pub(super) fn options(kind: Kind) -> &'static str {
 
 /// What a report may be.
 pub(super) fn any_report() -> Value {
-    let reports = ["Report", "DeformReport", "WarpReport", "EditReport"];
+    let reports = [
+        "Report",
+        "Verified",
+        "DeformReport",
+        "WarpReport",
+        "EditReport",
+    ];
     json!({ "anyOf": reports.map(reference) })
 }
 
@@ -80,7 +89,8 @@ pub(super) fn merge_groups(schemas: &mut Value) {
         }
     }
     if let Some(schemas) = schemas.as_object_mut() {
-        schemas.retain(|name, _| !groups.contains(name));
+        let own = Kind::ALL.map(options);
+        schemas.retain(|name, _| own.contains(&name.as_str()) || !groups.contains(name));
     }
 }
 

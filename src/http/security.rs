@@ -1,7 +1,7 @@
 //! Keys in the OpenAPI document: how they are sent, and what each operation asks of them.
 
 use axum::http::Method;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::admission::COOKIE;
 use super::answers::problems;
@@ -59,9 +59,16 @@ fn ask(operation: &mut Value, method: &str, path: &str) {
     let mut refusals = json!(problems(&codes));
     let challenge = json!({ "description": "How to send a key", "schema": { "type": "string" } });
     refusals["401"]["headers"] = json!({ "WWW-Authenticate": challenge });
-    let answers = operation["responses"].as_object_mut();
-    for (answers, refusals) in answers.into_iter().zip(refusals.as_object()) {
-        answers.extend(refusals.clone());
-        answers.sort_keys();
+    for (status, refusal) in refusals.as_object().into_iter().flatten() {
+        let answer = &mut operation["responses"][status];
+        match answer["description"].as_str() {
+            Some(known) => {
+                let both = format!("{known}; {}", refusal["description"].as_str().unwrap_or(""));
+                answer["description"] = both.into();
+            }
+            None => *answer = refusal.clone(),
+        }
     }
+    let answers = operation["responses"].as_object_mut();
+    answers.into_iter().for_each(Map::sort_keys);
 }

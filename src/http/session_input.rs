@@ -14,7 +14,7 @@ use super::problem::{Code, Problem};
 use super::received::Received;
 use super::upload::{self, accepts};
 use crate::jobs::access::Caller;
-use crate::jobs::{InputFile, Job, JobId, Kind, Scratch, State};
+use crate::jobs::{Handling, InputFile, Job, JobId, Kind, Scratch, State};
 
 /// What of a job a session takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
@@ -75,7 +75,7 @@ pub(super) async fn received(
         kind,
         options,
         files,
-        priority: 0,
+        handling: Handling::default(),
     })
 }
 
@@ -109,7 +109,12 @@ fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
             return Err(Problem::new(Code::NotFinished, "wait for its end"));
         }
         State::Failed | State::Cancelled => {
-            let detail = format!("the job has {}", job.state.word());
+            let verb = if job.state == State::Failed {
+                "has"
+            } else {
+                "has been"
+            };
+            let detail = format!("the job {verb} {}", job.state.word());
             return Err(Problem::new(Code::NoResult, detail));
         }
     }

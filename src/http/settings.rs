@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use crate::webhooks::Reachable;
+
 /// What one request may ask for, and where it may come from.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -21,6 +23,8 @@ pub struct Settings {
     pub origins: Vec<String>,
     /// Names under which the service is reached, beside addresses and `localhost`; none: any name.
     pub hosts: Option<Vec<String>>,
+    /// Where webhooks may go; none if there are no webhooks.
+    pub webhooks: Option<Reachable>,
     /// What a proxy puts in front of all paths; empty without one.
     pub base_path: String,
 }

@@ -127,7 +127,7 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
 /// What stands in a job, as headers: nothing else of it is left.
 fn tell_verdict(verdict: &Verdict, headers: &mut HeaderMap) {
     for (name, verdict) in [
-        (CERTIFIED, verdict.certified),
+        (CERTIFIED, verdict.worth.certified),
         (WITHIN_BOUND, verdict.within_bound),
     ] {
         if let Some(verdict) = verdict {

@@ -26,7 +26,7 @@ const DRAIN_TIME: Duration = Duration::from_secs(5);
 const FRAMING_BYTES: u64 = 8 << 20;
 
 /// Media types of raw bodies that leave the format to the content.
-const UNTOLD: [&str; 2] = ["text/plain", BYTES];
+const UNTOLD: [&str; 3] = ["text/plain", "application/zip", BYTES];
 const BYTES: &str = "application/octet-stream";
 /// What `curl --data-binary` says of every body if it is not told otherwise.
 const CURL: &str = "application/x-www-form-urlencoded";
@@ -133,7 +133,7 @@ pub(super) fn accepts(app: &App) -> Result<(), Problem> {
 }
 
 async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Received, Problem> {
-    let query = UploadQuery::read(request.uri())?;
+    let mut query = UploadQuery::read(request.uri())?;
     if kind.is_some() && query.kind.is_some() {
         return Err(Problem::new(
             Code::InvalidRequest,
@@ -142,7 +142,8 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
     }
     let limit = app.settings.upload_bytes;
     let scratch = &app.jobs.settings().scratch;
-    let mut receiver = Receiver::new(scratch.join(format!("upload-{}", JobId::fresh())), limit)?;
+    let folder = scratch.join(format!("upload-{}", JobId::fresh()));
+    let mut receiver = Receiver::new(folder, limit, std::mem::take(&mut query.said))?;
     let media_type = media_type(request.headers());
     if media_type == "multipart/form-data" {
         let form = Multipart::from_request(request, &())

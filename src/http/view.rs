@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::problem::Problem;
 use crate::document::Warning;
-use crate::jobs::{Event, Job, Kind, Settings, Timestamp};
+use crate::jobs::{Event, Job, Kind, Metadata, Settings, Timestamp};
 
 /// A job: request, state and outcome.
 #[derive(Serialize, utoipa::ToSchema)]
@@ -29,6 +29,14 @@ pub(super) struct JobView {
     options: Value,
     /// Of the waiting jobs of one owner, those of higher priority start first.
     priority: i32,
+    /// What the client noted of the job.
+    #[schema(value_type = Object)]
+    metadata: Metadata,
+    /// The gates that the result has to meet, if any.
+    accept: Option<String>,
+    /// The address to which the end of the job is posted, if any.
+    #[schema(format = "uri")]
+    webhook: Option<String>,
     /// Number of times the job was started.
     attempt: u32,
     /// Whether the result is a copy of that of an earlier job with equal kind, options and input.
@@ -51,6 +59,9 @@ pub(super) struct JobView {
     /// Whether the distortion keeps the bound of `quality` or `max_distortion`. Null until the job
     /// succeeded, and where there is no bound.
     within_bound: Option<bool>,
+    /// Whether the result meets the gates of `accept`. Null without gates, and until the job has ended; a
+    /// failed job meets none.
+    accepted: Option<bool>,
     /// Warnings about the input, the work and the result; empty until the job succeeded.
     warnings: Vec<Warning>,
     /// Cause of the failure; absent unless the job failed.
@@ -116,6 +127,9 @@ impl JobView {
             input_bytes: job.input.iter().map(|file| file.bytes).sum(),
             options: job.options.clone(),
             priority: job.priority,
+            metadata: job.metadata.clone(),
+            accept: job.accept.as_ref().map(ToString::to_string),
+            webhook: job.webhook.as_ref().map(ToString::to_string),
             attempt: job.attempt,
             cached: job.is_copy(),
             created_at: job.created,
@@ -125,7 +139,8 @@ impl JobView {
                 .finished
                 .zip(settings.retention)
                 .map(|(end, kept)| end.later(kept)),
-            certified: job.verdict.certified,
+            certified: job.verdict.worth.certified,
+            accepted: job.accepted(),
             within_bound: job.verdict.within_bound,
             warnings: job.verdict.warnings.clone(),
             error: job.failure.as_ref().map(Problem::of_failure),
@@ -139,7 +154,7 @@ impl JobView {
     }
 }
 
-/// A page of jobs, newest first.
+/// A page of jobs.
 #[derive(Serialize, utoipa::ToSchema)]
 pub(super) struct JobPage {
     /// The jobs of this page.

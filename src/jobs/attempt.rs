@@ -68,6 +68,10 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
                 rest = PAUSE;
                 Ending::HandedBack(PAUSE)
             }
+            StoreError::File { why, .. } => {
+                let detail = format!("a file of the service cannot be used: {why}");
+                Ending::Failed(Failure::new("internal_error", detail))
+            }
             _ => Ending::Failed(Failure::new(
                 "internal_error",
                 "the service could not run it",
@@ -89,7 +93,8 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
 }
 
 async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
-    tokio::fs::create_dir_all(folder).await?;
+    let made = tokio::fs::create_dir_all(folder).await;
+    made.map_err(StoreError::at(folder))?;
     for (index, file) in job.input.iter().enumerate() {
         let to = folder.join(task::input_file(index));
         jobs.blobs.fetch(&input_key(job.id, index), &to).await?;

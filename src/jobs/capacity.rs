@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use super::queue::Jobs;
+use super::quotas::Capacity;
 use super::space::free_bytes;
-use super::storage::Capacity;
 use super::store_error::{StoreError, StoreResult};
 
 /// Over which the pace of the queue is taken.

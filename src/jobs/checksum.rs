@@ -6,7 +6,7 @@ use futures_util::{StreamExt, stream};
 use sha2::{Digest, Sha256};
 use tokio::io::AsyncReadExt;
 
-use super::storage::Content;
+use super::blobs::Content;
 use super::store_error::{StoreError, StoreResult};
 
 /// Bytes that are read at once.

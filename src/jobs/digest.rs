@@ -1,7 +1,7 @@
 //! What a piece of work follows from, as one digest.
 
 use super::input_output::InputFile;
-use super::job::Kind;
+use super::kind::Kind;
 use sha2::{Digest as _, Sha256};
 
 /// A digest of several texts: no two sequences of texts have the same.

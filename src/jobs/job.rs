@@ -7,13 +7,17 @@ use serde::{Deserialize, Serialize, Serializer};
 use uuid::Uuid;
 
 use super::access::Owner;
+use super::gates::Gates;
 use super::input_output::{InputFile, OutputFile};
+use super::kind::Kind;
 use super::lease::{Token, WorkerId};
+use super::metadata::Metadata;
 use super::progress::{Event, Progress};
 use super::state::State;
 use super::timestamp::Timestamp;
+use super::webhook::Webhook;
+use super::worth::Worth;
 use crate::document::Warning;
-use crate::mesh::io::Content;
 
 /// Names a job; ids sort by the time of their making (UUID version 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -52,69 +56,6 @@ impl Serialize for JobId {
     }
 }
 
-/// What a job does with its file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Makes a UV map and writes the file with it.
-    #[default]
-    Unwrap,
-    /// Measures the UV map that the file already has.
-    Measure,
-    /// Solves a problem file: handles pulled to targets, no element inverted.
-    Solve,
-    /// Pulls a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted.
-    Deform,
-    /// Warps a picture by handles without folding it.
-    Warp,
-    /// Moves anchors of a file's UVs, no face flipped.
-    EditUv,
-    /// Aligns points of a surface with points of a texture, no face flipped.
-    TextureMap,
-    /// Packs the UV islands that the file has into one atlas, each as it is.
-    Repack,
-}
-
-impl Kind {
-    /// All kinds.
-    pub const ALL: [Self; 8] = [
-        Self::Unwrap,
-        Self::Measure,
-        Self::Solve,
-        Self::Deform,
-        Self::Warp,
-        Self::EditUv,
-        Self::TextureMap,
-        Self::Repack,
-    ];
-
-    /// What jobs of this kind read.
-    pub fn reads(self) -> Content {
-        match self {
-            Self::Unwrap | Self::Measure | Self::EditUv | Self::TextureMap | Self::Repack => {
-                Content::Surface
-            }
-            Self::Solve => Content::Problem,
-            Self::Deform => Content::Body,
-            Self::Warp => Content::Picture,
-        }
-    }
-
-    /// The word used in JSON and in the store.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Unwrap => "unwrap",
-            Self::Measure => "measure",
-            Self::Solve => "solve",
-            Self::Deform => "deform",
-            Self::Warp => "warp",
-            Self::EditUv => "edit_uv",
-            Self::TextureMap => "texture_map",
-            Self::Repack => "repack",
-        }
-    }
-}
-
 /// Why a job failed: a stable code and one sentence for people.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
@@ -135,11 +76,12 @@ impl Failure {
 }
 
 /// What is known of a result beside its files.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Verdict {
-    /// Whether everything that was asked for is proven on the bytes written; none of kinds that prove nothing of a result.
-    pub certified: Option<bool>,
+    /// What it is worth; `certified` is whether everything that was asked for is proven on the bytes written.
+    #[serde(flatten)]
+    pub worth: Worth,
     /// Whether the distortion keeps the bound that was asked for; none where there is no bound.
     pub within_bound: Option<bool>,
     /// What users should know of the input, of the work and of the result.
@@ -175,6 +117,12 @@ pub struct Job {
     pub priority: i32,
     /// The `traceparent` that the client sent (W3C Trace Context), which logs repeat.
     pub trace: Option<String>,
+    /// What its client notes of it.
+    pub metadata: Metadata,
+    /// What its result has to be.
+    pub accept: Option<Gates>,
+    /// Where its end is told.
+    pub webhook: Option<Webhook>,
     /// Names its present or last holder; fences off what former ones report.
     pub token: Token,
     /// Who has it.
@@ -221,6 +169,9 @@ impl Job {
             digest: String::new(),
             priority: 0,
             trace: None,
+            metadata: Metadata::default(),
+            accept: None,
+            webhook: None,
             token: 0,
             worker: None,
             lease: None,
@@ -246,6 +197,18 @@ impl Job {
             state: self.state,
             progress: self.progress,
             elapsed_ms: self.started.map_or(0, |started| until.since(started)),
+        }
+    }
+
+    /// Whether it is as its client wants it; none if nothing is wanted, or before its end.
+    pub fn accepted(&self) -> Option<bool> {
+        let gates = self.accept.as_ref()?;
+        let end = self.finished?;
+        let seconds = self.started.map_or(0, |started| end.since(started)) as f64 / 1000.0;
+        match self.state {
+            State::Succeeded => Some(gates.accept(&self.verdict.worth, seconds)),
+            State::Failed => Some(false),
+            _ => None,
         }
     }
 

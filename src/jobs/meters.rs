@@ -6,7 +6,8 @@
 use metrics::{Unit, counter, describe_counter, describe_histogram, histogram};
 use tokio::time::Instant;
 
-use super::job::{Job, Kind};
+use super::job::Job;
+use super::kind::Kind;
 use super::state::State;
 use super::timestamp::Timestamp;
 use crate::pipeline::Stage;

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
+use super::blobs::Content;
 use super::checksum;
 use super::input_output::{InputFile, OutputFile};
 use super::job::Job;
 use super::keys::{input_key, output_key};
 use super::queue::Jobs;
-use super::storage::Content;
 use super::store_error::StoreResult;
 
 impl Jobs {

@@ -8,15 +8,17 @@ use tokio::sync::{Notify, OnceCell};
 use tokio_util::task::TaskTracker;
 
 use super::access::Reach;
+use super::blobs::Blobs;
 use super::job::{Job, JobId};
 use super::keys::output_folder;
 use super::lease::WorkerId;
+use super::listing::Listing;
 use super::live::Live;
 use super::meters;
 use super::running::Running;
 use super::settings::Settings;
 use super::state::State;
-use super::storage::{Blobs, Changed, JobStore, Listing, Queue, Reason};
+use super::storage::{Changed, JobStore, Queue, Reason};
 use super::store_error::StoreResult;
 use super::transition::{Happening, Wish};
 
@@ -89,8 +91,8 @@ impl Jobs {
         self.store.has_expired(reach, id).await
     }
 
-    /// A page of jobs, the newest first.
-    pub async fn list(&self, reach: &Reach, listing: Listing) -> StoreResult<Vec<Job>> {
+    /// A page of jobs.
+    pub async fn list(&self, reach: &Reach, listing: &Listing) -> StoreResult<Vec<Job>> {
         self.store.list(reach, listing).await
     }
 

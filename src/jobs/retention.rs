@@ -11,7 +11,7 @@ use super::queue::Jobs;
 use super::settings::Deployment;
 use super::state::State;
 use super::storage::{Reason, Sweep};
-use super::store_error::StoreResult;
+use super::store_error::{StoreError, StoreResult};
 use super::timestamp::Timestamp;
 use super::transition::Wish;
 
@@ -33,9 +33,11 @@ impl Jobs {
     pub async fn recover(&self) -> StoreResult<()> {
         let scratch = &self.settings.scratch;
         if tokio::fs::try_exists(scratch).await? {
-            tokio::fs::remove_dir_all(scratch).await?;
+            let removed = tokio::fs::remove_dir_all(scratch).await;
+            removed.map_err(StoreError::at(scratch))?;
         }
-        tokio::fs::create_dir_all(scratch).await?;
+        let made = tokio::fs::create_dir_all(scratch).await;
+        made.map_err(StoreError::at(scratch))?;
         if self.settings.deployment == Deployment::Embedded {
             self.sweep(Sweep::Abandoned).await?;
             for id in self.store.ephemeral().await? {

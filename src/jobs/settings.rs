@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::lease::Rules;
-use super::storage::OwnerQuotas;
+use super::quotas::OwnerQuotas;
 
 /// Whether there are other processes on the same records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,16 +1,15 @@
-//! What the queue needs from the world: records and files.
+//! What the queue needs from a place for records.
 
-use std::ops::Range;
-use std::path::Path;
 use std::time::Duration;
 
 use futures_util::future::BoxFuture;
-use futures_util::stream::BoxStream;
 
 use super::access::Reach;
 use super::job::{Job, JobId};
 use super::lease::{Token, WorkerId};
+use super::listing::Listing;
 use super::progress::{Event, Saying};
+use super::quotas::{Capacity, OwnerQuota};
 use super::state::State;
 use super::store_error::StoreResult;
 use super::transition::{Happening, Refusal};
@@ -42,39 +41,6 @@ pub enum Enqueued {
     OverQuota,
 }
 
-/// How much may be stored.
-#[derive(Clone, Copy, Debug)]
-pub struct Capacity {
-    /// Jobs that may wait.
-    pub depth: u32,
-    /// Bytes that the files of all jobs may take when one more is accepted.
-    pub bytes: Option<u64>,
-    /// What one owner may have.
-    pub of_owner: OwnerQuotas,
-}
-
-/// What one owner may have.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct OwnerQuotas {
-    /// Jobs that wait or run.
-    pub jobs: Option<u32>,
-    /// Bytes of the files of all their jobs.
-    pub bytes: Option<u64>,
-    /// Processor time of a day in UTC.
-    pub cpu_of_day: Option<Duration>,
-}
-
-/// A quota of an owner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OwnerQuota {
-    /// [`OwnerQuotas::jobs`].
-    Jobs,
-    /// [`OwnerQuotas::bytes`].
-    Bytes,
-    /// [`OwnerQuotas::cpu_of_day`].
-    Cpu,
-}
-
 /// Which jobs a worker takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Share {
@@ -82,17 +48,6 @@ pub struct Share {
     pub largest: Option<u64>,
     /// Only those of owners of whom fewer than so many run, in all processes.
     pub of_owner: Option<u32>,
-}
-
-/// Which jobs to list, the newest first.
-#[derive(Clone, Copy, Debug)]
-pub struct Listing {
-    /// Only those in this state.
-    pub state: Option<State>,
-    /// Only those made before this one.
-    pub before: Option<JobId>,
-    /// At most so many.
-    pub limit: u32,
 }
 
 /// All jobs at a glance.
@@ -156,7 +111,7 @@ pub trait JobStore: Send + Sync {
     fn list<'a>(
         &'a self,
         reach: &'a Reach,
-        listing: Listing,
+        listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
     /// The present states of those of these jobs that exist, in any order.
@@ -222,35 +177,4 @@ pub trait JobStore: Send + Sync {
 
     /// Writes something, so that whoever asks knows that records can be written.
     fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
-}
-
-/// The content of a file as it is read.
-pub type Content = BoxStream<'static, StoreResult<Vec<u8>>>;
-
-/// Files of jobs, under keys such as `ID/input/0`. A file is there completely or not at all, and
-/// nobody writes to one.
-pub trait Blobs: Send + Sync {
-    /// Stores a local file under a key, durably. The file may be moved away.
-    fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
-
-    /// Stores the content of a key under another one as well, as durably as [`Blobs::put`].
-    fn copy<'a>(&'a self, from: &'a str, to: &'a str) -> BoxFuture<'a, StoreResult<()>>;
-
-    /// Brings a file to a local path.
-    fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
-
-    /// Reads these bytes of a file.
-    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>>;
-
-    /// The jobs that have files.
-    fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
-
-    /// Bytes that may still be written; `None` where nobody counts.
-    fn free_bytes(&self) -> StoreResult<Option<u64>>;
-
-    /// Whether files can be stored and read now.
-    fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
-
-    /// Removes all files whose keys begin with this folder. It is no error if there are none.
-    fn remove<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<()>>;
 }

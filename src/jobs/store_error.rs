@@ -1,6 +1,7 @@
 //! Why a store did not do what it was asked.
 
 use std::io::{Error, ErrorKind};
+use std::path::Path;
 
 /// The store did not do what it was asked. Each holds one line for the log.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -20,6 +21,14 @@ pub enum StoreError {
     /// What it returned is not what was stored.
     #[error("damaged: {0}")]
     Damaged(String),
+    /// A file or a folder cannot be used.
+    #[error("{path}: {why}")]
+    File {
+        /// Where it is.
+        path: String,
+        /// Why not.
+        why: String,
+    },
     /// Nothing that waiting would mend.
     #[error("{0}")]
     Other(String),
@@ -35,6 +44,17 @@ impl StoreError {
             self,
             Self::Full(_) | Self::Unavailable(_) | Self::Unanswered(_)
         )
+    }
+}
+
+impl StoreError {
+    /// That something could not be done with the file or folder at a path.
+    pub fn at(path: &Path) -> impl FnOnce(Error) -> Self + use<> {
+        let path = path.display().to_string();
+        move |error| match error.into() {
+            Self::Other(why) => Self::File { path, why },
+            other => other,
+        }
     }
 }
 

@@ -4,12 +4,15 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::access::Owner;
+use super::handling::Handling;
 use super::input_output::InputFile;
-use super::job::{Job, JobId, Kind};
+use super::job::{Job, JobId};
 use super::keys::input_key;
+use super::kind::Kind;
 use super::meters;
 use super::queue::Jobs;
-use super::storage::{Enqueued, IdempotencyKey, OwnerQuota};
+use super::quotas::OwnerQuota;
+use super::storage::{Enqueued, IdempotencyKey};
 use super::store_error::StoreError;
 use super::timestamp::Timestamp;
 
@@ -28,8 +31,8 @@ pub struct Submission {
     pub files: Vec<(InputFile, PathBuf)>,
     /// Names what is asked for; see [`Job::digest`].
     pub digest: String,
-    /// Of the waiting jobs of one owner, those of higher priority start first.
-    pub priority: i32,
+    /// How it is handled.
+    pub handling: Handling,
     /// Whether the result of an equal job will do.
     pub reuse: bool,
     /// The trace that it is a part of; see [`Job::trace`].
@@ -96,7 +99,10 @@ impl Jobs {
             owner: submission.owner,
             input: submission.files.into_iter().map(|(file, _)| file).collect(),
             digest: submission.digest,
-            priority: submission.priority,
+            priority: submission.handling.priority,
+            metadata: submission.handling.metadata,
+            accept: submission.handling.accept,
+            webhook: submission.handling.webhook,
             trace: submission.trace,
             ephemeral: submission.ephemeral,
             ..Job::queued(id, submission.kind, submission.options)

@@ -11,7 +11,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::input_output::OutputFile;
-use super::job::{Kind, Verdict};
+use super::job::Verdict;
+use super::kind::Kind;
 use super::progress::Progress;
 use crate::document::Upload;
 use crate::pipeline::Limits;

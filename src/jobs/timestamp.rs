@@ -14,10 +14,7 @@ pub struct Timestamp(pub i64);
 impl Timestamp {
     /// The system clock now.
     pub fn now() -> Self {
-        let since = SystemTime::now()
-            .duration_since(UNIX_EPOCH)
-            .unwrap_or_default();
-        Self(since.as_millis() as i64)
+        SystemTime::now().into()
     }
 
     /// The moment so much later.
@@ -34,6 +31,13 @@ impl Timestamp {
     /// Milliseconds from an earlier moment to this one; 0 from a later one.
     pub fn since(self, earlier: Self) -> u64 {
         (self.0 - earlier.0).max(0) as u64
+    }
+}
+
+impl From<SystemTime> for Timestamp {
+    fn from(time: SystemTime) -> Self {
+        let since = time.duration_since(UNIX_EPOCH).unwrap_or_default();
+        Self(since.as_millis() as i64)
     }
 }
 

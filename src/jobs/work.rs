@@ -4,13 +4,15 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::job::{Kind, Verdict};
+use super::job::Verdict;
+use super::kind::Kind;
+use super::worth::Worth;
 use crate::document::{Upload, Warning};
 use crate::mesh::io::Format;
 use crate::picture::thumbnail_png;
 use crate::pipeline::{
     self, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions,
-    Observer, Options, PipelineError, RepackOptions, SolveOptions, WarpOptions,
+    Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions, WarpOptions,
 };
 
 /// What a job leaves.
@@ -38,6 +40,7 @@ impl Work {
         match kind {
             Kind::Unwrap => Self::of(options, unwrap),
             Kind::Measure => Self::of(options, measure),
+            Kind::Verify => Self::of(options, verify),
             Kind::Solve => Self::of(options, solve),
             Kind::Deform => Self::of(options, deform),
             Kind::Warp => Self::of(options, warp),
@@ -92,7 +95,7 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
     let groups = report.groups.iter();
     let mut bounds = groups.filter_map(|group| Some(group.atlas.as_ref()?.bound.as_ref()?.kept));
     let within_bound = bounds.next().map(|first| first && bounds.all(|kept| kept));
-    let mut made = made.reported(report, Some(report.certified), &report.warnings);
+    let mut made = made.reported(report, Worth::of(report), &report.warnings);
     made.pictures = Some(outcome.pictures);
     made.verdict.within_bound = within_bound;
     made
@@ -100,7 +103,21 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
 
 fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended {
     let report = pipeline::measure_document(upload, options)?;
-    Ok(Made::new(Vec::new()).reported(&report, None, &report.warnings))
+    // Nothing was asked for that could be proven.
+    let worth = Worth {
+        certified: None,
+        ..Worth::of(&report)
+    };
+    Ok(Made::new(Vec::new()).reported(&report, worth, &report.warnings))
+}
+
+fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> Ended {
+    let verified = pipeline::verify_document(upload, options)?;
+    let lacking = verified.lacking.iter();
+    let lacking = lacking.map(|words| Warning::new("not_proven", (*words).to_owned()));
+    let warnings: Vec<Warning> = verified.warnings.iter().cloned().chain(lacking).collect();
+    let worth = Worth::proven(verified.certified);
+    Ok(Made::new(Vec::new()).reported(&verified, worth, &warnings))
 }
 
 fn solve(upload: &Upload, options: &SolveOptions, observer: &dyn Observer) -> Ended {
@@ -113,7 +130,7 @@ fn deform(upload: &Upload, options: &DeformOptions, observer: &dyn Observer) -> 
 
 fn body(deformed: Deformed) -> Made {
     let report = &deformed.report;
-    let mut made = Made::new(deformed.files).reported(report, None, &report.warnings);
+    let mut made = Made::new(deformed.files).reported(report, Worth::default(), &report.warnings);
     made.add("files/trace.csv", "trace.csv", deformed.trace.into_bytes());
     made
 }
@@ -121,7 +138,7 @@ fn body(deformed: Deformed) -> Made {
 fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> Ended {
     let warped = pipeline::warp_file(upload, options, observer)?;
     let report = &warped.report;
-    Ok(Made::new(warped.files).reported(report, Some(report.certified), &report.warnings))
+    Ok(Made::new(warped.files).reported(report, Worth::proven(report.certified), &report.warnings))
 }
 
 fn edit_uv(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> Ended {
@@ -140,7 +157,7 @@ fn edit(
 ) -> Ended {
     let edited = pipeline::edit_document(upload, editing, options, observer)?;
     let report = &edited.report;
-    Ok(Made::new(edited.files).reported(report, Some(report.certified), &report.warnings))
+    Ok(Made::new(edited.files).reported(report, Worth::proven(report.certified), &report.warnings))
 }
 
 impl Made {
@@ -190,17 +207,12 @@ impl Made {
     }
 
     /// With the report, and with what of it stands in the job.
-    fn reported(
-        mut self,
-        report: &impl Serialize,
-        certified: Option<bool>,
-        warnings: &[Warning],
-    ) -> Self {
+    fn reported(mut self, report: &impl Serialize, worth: Worth, warnings: &[Warning]) -> Self {
         // Reports are plain data, which serialization cannot refuse.
         let bytes = serde_json::to_vec_pretty(report).unwrap_or_default();
         self.add("report", "report.json", bytes);
         self.verdict = Verdict {
-            certified,
+            worth,
             warnings: warnings.to_vec(),
             ..Verdict::default()
         };

@@ -96,7 +96,7 @@ pub use limits::Limits;
 pub use options::{
     Baking, Caller, CommandOptions, Course, DeformOptions, EditOptions, Editing, GivenSeams,
     Island, MeasureOptions, NamedSeams, Options, Preset, Pulling, RepackOptions, Sets,
-    SolveOptions, WarpOptions,
+    SolveOptions, VerifyOptions, WarpOptions,
 };
 #[cfg(feature = "files")]
 pub use rebake::ImageFormat;

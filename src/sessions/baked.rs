@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::session::Session;
 use crate::jobs::{
-    Digest, Failure, InputFile, JobId, Kind, Scratch, Submission, input_file, sha256,
+    Digest, Failure, Handling, InputFile, JobId, Kind, Scratch, Submission, input_file, sha256,
 };
 use crate::pipeline::START;
 
@@ -67,7 +67,7 @@ impl Session {
             kind: self.kind,
             options,
             files,
-            priority: 0,
+            handling: Handling::default(),
             trace: None,
             reuse: false,
             key: None,

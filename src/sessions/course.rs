@@ -52,7 +52,7 @@ impl Course {
             }
             Kind::EditUv => uvs(upload, Editing::Map, options, limits)?,
             Kind::TextureMap => uvs(upload, Editing::Texture, options, limits)?,
-            Kind::Unwrap | Kind::Measure | Kind::Solve | Kind::Repack => {
+            Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve | Kind::Repack => {
                 let detail = format!("a job of kind {} has no handles", kind.word());
                 return Err(Failure::new("invalid_options", detail));
             }

@@ -12,7 +12,7 @@ use crate::jobs::{StoreError, StoreResult};
 
 /// The n-th leads from version n to the next. A program of the version before must be able to go on
 /// after it: columns are added, never taken away.
-const SQLITE: [&str; 9] = [
+const SQLITE: [&str; 12] = [
     include_str!("schema/sqlite/1.sql"),
     include_str!("schema/sqlite/2.sql"),
     include_str!("schema/sqlite/3.sql"),
@@ -22,14 +22,20 @@ const SQLITE: [&str; 9] = [
     include_str!("schema/sqlite/7.sql"),
     include_str!("schema/sqlite/8.sql"),
     include_str!("schema/sqlite/9.sql"),
+    include_str!("schema/sqlite/10.sql"),
+    include_str!("schema/sqlite/11.sql"),
+    include_str!("schema/sqlite/12.sql"),
 ];
-const POSTGRES: [&str; 6] = [
+const POSTGRES: [&str; 9] = [
     include_str!("schema/postgres/1.sql"),
     include_str!("schema/postgres/2.sql"),
     include_str!("schema/postgres/3.sql"),
     include_str!("schema/postgres/4.sql"),
     include_str!("schema/postgres/5.sql"),
     include_str!("schema/postgres/6.sql"),
+    include_str!("schema/postgres/7.sql"),
+    include_str!("schema/postgres/8.sql"),
+    include_str!("schema/postgres/9.sql"),
 ];
 
 /// What every connection to SQLite is set to. What is committed is durable; the log is copied into

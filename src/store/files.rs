@@ -21,7 +21,7 @@ pub struct FileBlobs {
 impl FileBlobs {
     /// Uses this folder, and makes it if need be.
     pub fn open(root: &Path) -> StoreResult<Self> {
-        std::fs::create_dir_all(root)?;
+        std::fs::create_dir_all(root).map_err(StoreError::at(root))?;
         Ok(Self {
             root: root.to_owned(),
         })
@@ -44,7 +44,8 @@ impl Blobs for FileBlobs {
         async move {
             let to = self.root.join(key);
             let folder = to.parent().unwrap_or(&self.root);
-            fs::create_dir_all(folder).await?;
+            let made = fs::create_dir_all(folder).await;
+            made.map_err(StoreError::at(folder))?;
             fs::File::open(from).await?.sync_all().await?;
             match fs::rename(from, &to).await {
                 Err(error) if error.kind() == ErrorKind::CrossesDevices => {
@@ -78,7 +79,7 @@ impl Blobs for FileBlobs {
                 Err(error) if error.kind() == ErrorKind::CrossesDevices => {
                     fs::copy(from, to).await?;
                 }
-                linked => linked?,
+                linked => linked.map_err(StoreError::at(&from))?,
             }
             Ok(())
         }
@@ -87,7 +88,9 @@ impl Blobs for FileBlobs {
 
     fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
         async move {
-            let mut file = fs::File::open(self.root.join(key)).await?;
+            let path = self.root.join(key);
+            let opened = fs::File::open(&path).await;
+            let mut file = opened.map_err(StoreError::at(&path))?;
             file.seek(SeekFrom::Start(range.start)).await?;
             let blocks = ReaderStream::new(file.take(range.end - range.start));
             let content = blocks.map(|block| Ok(block.map(Vec::from)?));
@@ -120,7 +123,8 @@ impl Blobs for FileBlobs {
 
     fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
         async move {
-            fs::metadata(&self.root).await?;
+            let found = fs::metadata(&self.root).await;
+            found.map_err(StoreError::at(&self.root))?;
             Ok(())
         }
         .boxed()

@@ -9,7 +9,7 @@ use super::database::Database;
 use super::rows;
 use super::within::within;
 use crate::jobs::access::Reach;
-use crate::jobs::{Event, Job, JobId, Listing, Queue, State, StoreResult};
+use crate::jobs::{Event, Job, JobId, Queue, State, StoreResult};
 
 /// Jobs that are looked at together.
 const BATCH: usize = 64;
@@ -50,28 +50,6 @@ pub(super) async fn equal(database: &Database, job: &Job) -> StoreResult<Vec<Job
     let found = sqlx::query(database.sql(equal))
         .bind(&job.digest)
         .bind(job.owner.as_str())
-        .fetch_all(&database.readers)
-        .await?;
-    jobs(&found)
-}
-
-/// A page of jobs, the newest first, without those of calls.
-pub(super) async fn page(
-    database: &Database,
-    reach: &Reach,
-    listing: Listing,
-) -> StoreResult<Vec<Job>> {
-    let (within, owner) = within(reach, 4);
-    let page = format!(
-        "SELECT {{columns}} FROM job
-         WHERE ephemeral = 0 AND ($1 = '' OR state = $1) AND ($2 = '' OR id < $2) AND {within}
-         ORDER BY id DESC LIMIT $3"
-    );
-    let found = sqlx::query(database.sql(&page))
-        .bind(listing.state.map_or("", State::word))
-        .bind(listing.before.map_or_else(String::new, |id| id.to_string()))
-        .bind(i64::from(listing.limit))
-        .bind(owner)
         .fetch_all(&database.readers)
         .await?;
     jobs(&found)

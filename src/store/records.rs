@@ -7,7 +7,7 @@ use futures_util::future::BoxFuture;
 
 use super::database::Database;
 use super::hints::Hints;
-use super::{claims, reading, reserve, submissions, transitions};
+use super::{claims, listing, reading, reserve, submissions, transitions};
 use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Capacity, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId, JobStore,
@@ -76,9 +76,9 @@ impl JobStore for RecordStore {
     fn list<'a>(
         &'a self,
         reach: &'a Reach,
-        listing: Listing,
+        listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
-        bounded(reading::page(&self.database, reach, listing))
+        bounded(listing::page(&self.database, reach, listing))
     }
 
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>> {

@@ -13,16 +13,16 @@ use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 pub(super) const COLUMNS: &str =
     "id, owner, kind, state, options, input, output, verdict, attempt, digest,
     priority, token, worker, lease, due, lost, cancel, finish_early, ephemeral, seq, progress,
-    failure, created, started, finished, trace";
+    failure, created, started, finished, trace, metadata, accept, webhook";
 
 /// Adds a job that nobody works on.
 pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
     sqlx::query(
         "INSERT INTO job (id, kind, state, options, input, output, verdict, attempt, token, due,
                           lost, cancel, finish_early, ephemeral, seq, progress, created, bytes,
-                          digest, priority, finished, owner, trace)
+                          digest, priority, finished, owner, trace, metadata, accept, webhook)
          VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18,
-                 $19, $20, $21, $22, $23)",
+                 $19, $20, $21, $22, $23, $24, $25, $26)",
     )
     .bind(job.id.to_string())
     .bind(job.kind.word())
@@ -47,8 +47,18 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     .bind(job.finished.map(|time| time.0))
     .bind(job.owner.as_str())
     .bind(&job.trace)
+    .bind(json(&job.metadata)?)
+    .bind(job.accept.as_ref().map(ToString::to_string))
+    .bind(job.webhook.as_ref().map(ToString::to_string))
     .execute(&mut **transaction)
     .await?;
+    for label in job.metadata.labels() {
+        sqlx::query("INSERT INTO label (digest, job) VALUES ($1, $2) ON CONFLICT DO NOTHING")
+            .bind(label)
+            .bind(job.id.to_string())
+            .execute(&mut **transaction)
+            .await?;
+    }
     Ok(())
 }
 
@@ -149,6 +159,13 @@ pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
         digest: text("digest")?,
         priority: number("priority")? as i32,
         trace: maybe("trace")?,
+        metadata: (maybe("metadata")?.map(|json| parsed(&json)).transpose()?).unwrap_or_default(),
+        accept: (maybe("accept")?)
+            .map(|gates| gates.parse().map_err(damaged))
+            .transpose()?,
+        webhook: (maybe("webhook")?)
+            .map(|url| url.parse().map_err(damaged))
+            .transpose()?,
         token: number("token")? as Token,
         worker: maybe("worker")?
             .map(|worker| worker.parse().map_err(damaged))

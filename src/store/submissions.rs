@@ -5,7 +5,7 @@ use sqlx::{Any, Row, Transaction};
 use super::database::Database;
 use super::hints::Hints;
 use super::reading::stored_bytes;
-use super::{idempotency, quotas, rows};
+use super::{idempotency, notices, quotas, rows};
 use crate::jobs::{
     Capacity, Enqueued, IdempotencyKey, Job, State, StoreError, StoreResult, Timestamp,
 };
@@ -48,6 +48,7 @@ pub(super) async fn enqueue(
     if let Some(key) = key {
         idempotency::remember(key, &job, &mut transaction).await?;
     }
+    notices::tell(&job, now, &mut transaction).await?;
     hints.give(&job, &mut transaction).await?;
     transaction.commit().await.map_err(unanswered)?;
     Ok(Enqueued::New(Box::new(job)))

@@ -8,7 +8,7 @@ use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
 use super::within::within;
-use super::{quotas, rows};
+use super::{notices, quotas, rows};
 use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Changed, Happening, Job, JobId, Reason, Rules, State, StoreError, StoreResult, Sweep,
@@ -180,6 +180,9 @@ pub(super) async fn written(
             }
             if !rows::update(&next, job.token, transaction).await? {
                 return Err(StoreError::Conflict(format!("job {}", job.id)));
+            }
+            if !job.state.is_final() {
+                notices::tell(&next, now, transaction).await?;
             }
             Ok(Changed::Yes(Box::new(next)))
         }

@@ -75,6 +75,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "getrandom",
             "sha2",
             "subtle",
+            "url",
         ],
     ),
     (
@@ -98,17 +99,34 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
         &["tokio", "tokio_util", "serde_json", "tracing"],
     ),
     (
+        "webhooks",
+        &["jobs"],
+        &[
+            "base64",
+            "hmac",
+            "metrics",
+            "reqwest",
+            "rustls",
+            "sha2",
+            "tokio",
+            "tokio_util",
+            "tracing",
+            "url",
+        ],
+    ),
+    (
         "bulk",
         &["jobs"],
         &["tokio", "serde_json", "csv", "uuid", "reqwest", "rustls"],
     ),
     (
         "http",
-        &["sessions"],
+        &["sessions", "webhooks"],
         &[
             "axum",
             "utoipa_axum",
             "hyper",
+            "humantime",
             "hyper_util",
             "tokio",
             "tokio_io_timeout",
@@ -122,6 +140,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "sha2",
             "flate2",
             "percent_encoding",
+            "zip",
         ],
     ),
     (

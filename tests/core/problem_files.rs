@@ -29,6 +29,14 @@ fn bad_problems_have_names() {
     for (rest, code) in [
         (r#""handles": [0, 2]"#.to_owned(), "malformed_problem"),
         (
+            r#""handles": [{"vertex": 0, "to": [0, 0]}], "targets": [[0, 0]]"#.to_owned(),
+            "malformed_problem",
+        ),
+        (
+            r#""handles": [{"vertex": 7, "to": [0, 0]}]"#.to_owned(),
+            "unknown_handle",
+        ),
+        (
             r#""handles": [0, 7], "targets": [[0, 0], [2, 1]]"#.to_owned(),
             "unknown_handle",
         ),
@@ -54,6 +62,17 @@ fn bad_problems_have_names() {
         assert_eq!(problem(&with(&rest)).expect_err(code), code, "{rest}");
     }
     assert_eq!(problem("{").expect_err("no JSON"), "malformed_problem");
+}
+
+#[test]
+fn handles_of_both_forms_are_the_same() {
+    let pairs = problem(&with(r#""handles": [0, 2], "targets": [[0, 0], [2, 1]]"#));
+    let handles = r#""handles": [{"vertex": 0, "to": [0, 0]}, {"vertex": 2, "to": [2, 1]}]"#;
+    let handles = problem(&with(handles)).expect("a problem");
+    let pairs = pairs.expect("a problem");
+    assert_eq!(handles.stations.len(), 1);
+    assert_eq!(handles.stations[0].vertices, pairs.stations[0].vertices);
+    assert_eq!(handles.stations[0].targets, pairs.stations[0].targets);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::caged;
 use super::solution::{Deformed, WriteMap, solve};
 use super::source::Source;
-use crate::deform::Problem;
+use crate::deform::{Problem, ProblemError};
 use crate::document::Upload;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
@@ -20,6 +20,9 @@ pub fn deform_file(
     observer: &dyn Observer,
 ) -> Result<Deformed, PipelineError> {
     options.check()?;
+    if options.handles.is_empty() {
+        return Err(ProblemError::NoHandle.into());
+    }
     let tracker = Tracker::new(observer, options.caller.budget(options.budget));
     in_pool(options.caller.workers(options.workers), || {
         match options.cage {

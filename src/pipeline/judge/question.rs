@@ -64,11 +64,18 @@ impl Question {
             || options.bits.is_some()
             || options.pages.is_some()
             || options.aligned;
-        let is_promised = self.mark.as_ref().is_some_and(|mark| !mark.terms.overlaps);
-        if needs_pairs || is_promised {
+        if needs_pairs {
             Overlap::Test
         } else {
-            asked
+            self.promised(asked)
+        }
+    }
+
+    /// Whether faces may overlap: not if the document says so itself, whatever is `asked`.
+    pub fn promised(&self, asked: Overlap) -> Overlap {
+        match &self.mark {
+            Some(mark) if !mark.terms.overlaps => Overlap::Test,
+            _ => asked,
         }
     }
 }

@@ -3,23 +3,29 @@
 use serde::Serialize;
 
 use super::groups::WrittenUvs;
-use super::proven::Proven;
+use super::proven::{Mirrored, Proven};
 use super::question::Question;
 use super::report::Report;
 use crate::certificate::{Certificate, Overlap};
 use crate::document::{Document, Mark, Upload, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
-use crate::pipeline::options::{CommandOptions, MeasureOptions};
+use crate::pipeline::options::{CommandOptions, MeasureOptions, VerifyOptions};
 
 /// The exact judgment of a document's UVs.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Verified {
+    /// Whether everything requested holds.
+    pub certified: bool,
+    /// What is requested and does not hold, in words.
+    pub lacking: Vec<&'static str>,
     /// What holds of all groups.
     pub proven: Proven,
     /// A certificate per group.
     pub groups: Vec<VerifiedGroup>,
     /// What the document says of its UVs, where it was judged by that.
+    #[cfg_attr(feature = "service", schema(value_type = Option<Object>))]
     pub mark: Option<Mark>,
     /// What users should know of the file that was read.
     pub warnings: Vec<Warning>,
@@ -27,6 +33,7 @@ pub struct Verified {
 
 /// The exact judgment of a group's UVs.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct VerifiedGroup {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`; `chart0` where charts alone are judged.
     pub name: String,
@@ -34,13 +41,6 @@ pub struct VerifiedGroup {
     pub label: String,
     /// What is proven of it.
     pub certificate: Certificate,
-}
-
-impl Verified {
-    /// Whether faces may not overlap because the document says so.
-    pub fn is_bijectivity_promised(&self) -> bool {
-        self.mark.as_ref().is_some_and(|mark| !mark.terms.overlaps)
-    }
 }
 
 /// Measures the UVs that a document has.
@@ -59,15 +59,24 @@ pub fn measure_document(
 /// Judges the UVs that a document has. Shares no code with the writer.
 pub fn verify_document(
     upload: &Upload,
-    options: &MeasureOptions,
-    overlap: Overlap,
+    options: &VerifyOptions,
 ) -> Result<Verified, PipelineError> {
-    with_uvs(upload, options, |document, question| {
+    let asked = if options.bijective {
+        Overlap::Test
+    } else {
+        Overlap::Skip
+    };
+    let mirrored = if options.unmirrored {
+        Mirrored::Refused
+    } else {
+        Mirrored::Allowed
+    };
+    with_uvs(upload, &options.judged, |document, question| {
         let uvs = match question.charts() {
             Some(charts) => WrittenUvs::of_charts(document, question, charts)?,
             None => WrittenUvs::asked(document, question)?,
         };
-        let certificates = uvs.certify(&question.options.claims(question.overlap(overlap)));
+        let certificates = uvs.certify(&question.options.claims(question.overlap(asked)));
         let groups: Vec<VerifiedGroup> = (uvs.groups.into_iter().zip(certificates))
             .map(|(group, certificate)| VerifiedGroup {
                 name: group.name,
@@ -75,8 +84,12 @@ pub fn verify_document(
                 certificate,
             })
             .collect();
+        let proven = Proven::of(groups.iter().map(|group| &group.certificate));
+        let lacking = proven.lacks(question.promised(asked), mirrored);
         Ok(Verified {
-            proven: Proven::of(groups.iter().map(|group| &group.certificate)),
+            certified: lacking.is_empty(),
+            lacking,
+            proven,
             groups,
             mark: question.mark.clone(),
             warnings: warnings(document, question),

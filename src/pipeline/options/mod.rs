@@ -39,6 +39,8 @@ mod unwrap;
 #[cfg(feature = "files")]
 mod unwrap_checks;
 #[cfg(feature = "files")]
+mod verify;
+#[cfg(feature = "files")]
 mod warp;
 
 pub use cutting::{Cutting, KeptMaps};
@@ -74,5 +76,7 @@ pub use sets::Sets;
 pub use solve::SolveOptions;
 #[cfg(feature = "files")]
 pub use unwrap::{GivenSeams, NamedSeams, Options};
+#[cfg(feature = "files")]
+pub use verify::VerifyOptions;
 #[cfg(feature = "files")]
 pub use warp::WarpOptions;

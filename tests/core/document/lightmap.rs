@@ -1,12 +1,11 @@
 //! UVs for the light of a scene: a part of one atlas for whatever a node shows.
 
 use serde_json::json;
-use unwrapd::certificate::Overlap;
 use unwrapd::document::{Document, Upload};
 use unwrapd::mesh::Resolution;
 use unwrapd::pipeline::{
     Cutting, Layout, MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified,
-    unwrap_document, verify_document,
+    VerifyOptions, unwrap_document, verify_document,
 };
 
 use super::build::{Builder, parts};
@@ -35,7 +34,7 @@ fn scene() -> Builder {
 
 /// What is claimed of a lightmap's UVs, asked of a file.
 fn verified(outcome: &Outcome, texcoord: u32) -> Verified {
-    let options = MeasureOptions {
+    let judged = MeasureOptions {
         texcoord: Some(texcoord),
         group_by: Some(unwrapd::document::GroupBy::Scene),
         separate_nodes: true,
@@ -44,8 +43,13 @@ fn verified(outcome: &Outcome, texcoord: u32) -> Verified {
         aligned: true,
         ..MeasureOptions::default()
     };
+    let options = VerifyOptions {
+        bijective: true,
+        unmirrored: false,
+        judged,
+    };
     let (name, bytes) = outcome.files[0].clone();
-    verify_document(&Upload::single(&name, bytes), &options, Overlap::Test).unwrap()
+    verify_document(&Upload::single(&name, bytes), &options).unwrap()
 }
 
 #[test]

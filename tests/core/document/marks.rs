@@ -1,12 +1,11 @@
 //! What a file says of the UVs that were written to it, and how it is judged by that.
 
 use serde_json::{Value, json};
-use unwrapd::certificate::Overlap;
 use unwrapd::deform::uv::parse_anchors;
 use unwrapd::document::{Document, GroupBy, Marked, OutputFormat, Sets, Upload};
 use unwrapd::pipeline::{
     EditOptions, Editing, Layout, MeasureOptions, Options, Preset, Unobserved, Verified,
-    edit_document, measure_document, unwrap_document, verify_document,
+    VerifyOptions, edit_document, measure_document, unwrap_document, verify_document,
 };
 
 use super::build::{Builder, glb, parts};
@@ -28,7 +27,23 @@ fn unwrapped(input: &Upload, options: &Options) -> Files {
 
 /// What plain `verify` finds.
 fn verified(files: &Files) -> Verified {
-    verify_document(&upload(files), &MeasureOptions::default(), Overlap::Skip).unwrap()
+    verify_document(&upload(files), &VerifyOptions::default()).unwrap()
+}
+
+/// Judged by these options alone.
+fn judged(options: &MeasureOptions) -> VerifyOptions {
+    VerifyOptions {
+        judged: options.clone(),
+        ..VerifyOptions::default()
+    }
+}
+
+/// Whether the file says itself that no two faces overlap.
+fn is_promised(verified: &Verified) -> bool {
+    verified
+        .mark
+        .as_ref()
+        .is_some_and(|mark| !mark.terms.overlaps)
 }
 
 fn codes(verified: &Verified) -> Vec<&str> {
@@ -67,7 +82,7 @@ fn a_textured_asset_is_judged_where_its_uvs_went() {
         ]
     );
     let verified = verified(&outcome.files);
-    assert!(verified.proven.bijective && verified.is_bijectivity_promised());
+    assert!(verified.proven.bijective && is_promised(&verified));
     assert_eq!(verified.mark.as_ref().unwrap().sets, Sets::One(1));
     let padding = verified.proven.padding.unwrap();
     assert!(padding.kept && padding.asked_texels == 2, "{padding:?}");
@@ -78,7 +93,7 @@ fn a_textured_asset_is_judged_where_its_uvs_went() {
         texcoord: Some(0),
         ..MeasureOptions::default()
     };
-    let asked = verify_document(&upload(&outcome.files), &options, Overlap::Skip).unwrap();
+    let asked = verify_document(&upload(&outcome.files), &judged(&options)).unwrap();
     assert!(asked.mark.is_none() && asked.proven.padding.is_none());
 }
 
@@ -226,7 +241,7 @@ fn edited_charts_are_spoken_of_alone_where_others_do_not_hold() {
                 texcoord: Some(0),
                 ..MeasureOptions::default()
             };
-            let all = verify_document(&upload(&files), &options, Overlap::Skip).unwrap();
+            let all = verify_document(&upload(&files), &judged(&options)).unwrap();
             assert!(!all.proven.locally_injective);
         }
     }
@@ -244,7 +259,7 @@ fn edited_maps_may_overlap_unless_they_may_not() {
             (mark.terms.overlaps, &mark.terms.charts),
             (!bijective, &None)
         );
-        assert_eq!(found.is_bijectivity_promised(), bijective);
+        assert_eq!(is_promised(&found), bijective);
         assert!(found.proven.locally_injective);
         assert!(matches!(
             Document::read(&upload(&files)).unwrap().marked().unwrap(),

@@ -1,6 +1,6 @@
 //! Gates: what assets must be, and how that is written.
 
-use unwrapd::bulk::{GateError, Gates};
+use unwrapd::jobs::{GateError, Gates};
 
 use super::Folders;
 use crate::cli::assert_status;

@@ -125,7 +125,7 @@ impl<S: JobStore> JobStore for Faulty<S> {
     fn list<'a>(
         &'a self,
         reach: &'a Reach,
-        listing: Listing,
+        listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
         self.inner.list(reach, listing)
     }

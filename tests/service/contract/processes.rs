@@ -7,8 +7,8 @@ use tempfile::TempDir;
 use tokio::runtime::Runtime;
 use unwrapd::jobs::access::{Owner, Reach};
 use unwrapd::jobs::{
-    Blobs, Ended, InputFile, Job, JobId, Jobs, Kind, Listing, State, Submission, SubmitError,
-    Submitted, Work,
+    Blobs, Ended, Handling, InputFile, Job, JobId, Jobs, Kind, Listing, State, Submission,
+    SubmitError, Submitted, Work,
 };
 
 use super::faulty::Fault;
@@ -66,7 +66,7 @@ impl Process {
             options: options.expect("options").into_options(),
             files: vec![file("mesh.glb", &meshes::hills(2)), file("more.bin", b"x")],
             digest: "always the same".to_owned(),
-            priority: 0,
+            handling: Handling::default(),
             trace: None,
             reuse: false,
             key: Some("night-run".to_owned()),
@@ -139,11 +139,10 @@ impl Process {
     /// Every job there is.
     pub fn all(&self) -> Vec<JobId> {
         let listing = Listing {
-            state: None,
-            before: None,
             limit: 10,
+            ..Listing::default()
         };
-        let list = self.does(self.jobs().list(&Reach::All, listing));
+        let list = self.does(self.jobs().list(&Reach::All, &listing));
         let list = list.expect("an answer");
         list.iter().map(|job| job.id).collect()
     }

@@ -63,3 +63,40 @@ async fn a_drained_service_removes_nothing() {
     let gone = server.get(path).send().await.expect("an answer");
     assert_problem(gone, 410, "job_expired").await;
 }
+
+#[tokio::test]
+async fn a_command_drains_the_service_on_a_folder() {
+    let server = Server::with(&[("UNWRAPD_WORKERS", "1")]);
+    let drain = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_unwrapd"));
+        command
+            .arg("drain")
+            .args(arguments)
+            .arg("--data")
+            .arg(server.data());
+        command.output().expect("the binary runs")
+    };
+    let running = server.submit(meshes::hills(120), "").await;
+    server.mapping(&running).await;
+    let drained = drain(&["--wait"]);
+    let said = String::from_utf8_lossy(&drained.stdout);
+    assert_eq!(
+        (drained.status.code(), &*said),
+        (Some(0), "draining\t0 running\n")
+    );
+    assert_eq!(server.ended(&running).await["state"], "succeeded");
+    let refused = server.post("/v1/jobs").body(meshes::small()).send().await;
+    assert_problem(refused.expect("an answer"), 503, "draining").await;
+    let undone = drain(&["--undo"]);
+    assert_eq!(undone.status.code(), Some(0));
+    let job = server.submit(meshes::small(), "").await;
+    assert_eq!(server.ended(&job).await["state"], "succeeded");
+    // Where nobody listens.
+    let folder = tempfile::tempdir().expect("a folder");
+    let nowhere = std::process::Command::new(env!("CARGO_BIN_EXE_unwrapd"))
+        .args(["drain", "--data"])
+        .arg(folder.path())
+        .output()
+        .expect("the binary runs");
+    assert_eq!(nowhere.status.code(), Some(1));
+}

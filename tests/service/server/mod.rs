@@ -1,6 +1,7 @@
 //! Tests that talk to a real server, each to one of its own.
 
 mod applications;
+mod archives;
 mod assets;
 mod backup;
 mod bad_inputs;
@@ -16,6 +17,8 @@ mod jobs;
 pub mod keys;
 mod limited;
 mod maps;
+mod messages;
+mod noted;
 mod origins;
 pub mod progress;
 mod requests;
@@ -28,6 +31,7 @@ mod submitted;
 mod synchronous;
 mod verdicts;
 mod watchable;
+mod webhooks;
 
 use std::path::Path;
 

@@ -26,14 +26,14 @@ export function curl(kind: string, filename: string, options: Record<string, unk
 
 /** The command that does the same without the service; null where handles or islands would come in a file. */
 export function commandLine(kind: string, filename: string, options: Record<string, unknown>): string | null {
-  if (!["unwrap", "repack", "measure"].includes(kind) || "islands" in options) return null;
+  if (!["unwrap", "repack", "measure", "verify"].includes(kind) || "islands" in options) return null;
   const { format = "glb", ...others } = options;
   const stem = filename.replace(/\.[^.]*$/, "");
   const flags = Object.entries(others).flatMap(([name, value]) => {
     const flag = `--${name.replaceAll("_", "-")}`;
     return value === true ? [flag] : [flag, text(value)];
   });
-  const output = kind === "measure" ? [] : ["-o", `${stem}-${kind}.${text(format)}`];
+  const output = kind === "measure" || kind === "verify" ? [] : ["-o", `${stem}-${kind}.${text(format)}`];
   return ["unwrapd", kind === "measure" ? "verify" : kind, filename, ...output, ...flags].map(quoted).join(" ");
 }
 

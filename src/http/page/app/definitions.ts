@@ -32,7 +32,7 @@ interface Schema {
 type Schemas = Record<string, Schema>;
 
 /** Kinds of jobs that need no handles, with the schemas of their options. */
-export const KINDS = { unwrap: "Options", repack: "RepackOptions", measure: "MeasureOptions" } as const;
+export const KINDS = { unwrap: "Options", repack: "RepackOptions", measure: "MeasureOptions", verify: "VerifyOptions" } as const;
 export type FormKind = keyof typeof KINDS;
 
 /** The schemas of all kinds' options. */

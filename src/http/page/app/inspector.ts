@@ -7,7 +7,7 @@ import { curve } from "./charts_svg";
 import { button, byId, element, pairs, prose } from "./dom";
 import { bytes, duration, percent, plain, short, whole } from "./format";
 import { outcome } from "./job_list";
-import { claimed, claims, measure, type Report } from "./reports";
+import { claimed, claims, measure, measured, type Report } from "./reports";
 
 /** What can be done with a job. */
 export interface Actions {
@@ -110,8 +110,8 @@ function proofs(report: Report): HTMLElement {
 }
 
 function facts(report: Report): HTMLElement | null {
-  const groups = report.groups ?? [];
-  if (!groups.length) return section("Report", generic(report));
+  const groups = measured(report);
+  if (!groups.length) return report.groups ? null : section("Report", generic(report));
   const sum = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0), 0);
   const area = sum("area_3d") || 1;
   const mean = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0) * (measure(group, "area_3d") ?? 0), 0) / area;

@@ -7,7 +7,7 @@ import { histogram } from "./charts_svg";
 import { button, byId, element } from "./dom";
 import { duration, percent, plain, short, whole } from "./format";
 import { generic } from "./inspector";
-import { type Claim, claimed, claims, type GroupReport, measure, type Report } from "./reports";
+import { type Claim, claimed, claims, type GroupReport, measure, measured, type Report } from "./reports";
 import { MEASURE_NAMES } from "./toolbar";
 
 /** What a report shows. */
@@ -32,7 +32,7 @@ export function showReport(shown: Shown): void {
     compared(shown),
     atlas?.isMapped ? histograms(atlas) : null,
     atlas?.isMapped && shown.analysis ? worst(shown.analysis, atlas, shown.flyTo) : null,
-    report?.groups?.length ? atlases(report.groups) : null,
+    measured(report).length ? atlases(measured(report)) : null,
     report && !report.groups ? block("Numbers", generic(report)) : null,
     pictures(job), report?.seconds ? times(report.seconds) : null,
   ];

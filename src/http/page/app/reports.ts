@@ -1,4 +1,4 @@
-// Reports of `unwrap`, `repack` and `measure`, as far as the page shows them.
+// Reports of `unwrap`, `repack`, `measure` and `verify`, as far as the page shows them.
 
 export interface Report {
   unwrapd_version?: string;
@@ -27,7 +27,8 @@ export interface GroupReport {
   name: string;
   label: string;
   texels_per_unit?: number;
-  measures: Record<string, number | boolean | null | unknown>;
+  /** Absent where only proofs were asked for. */
+  measures?: Record<string, number | boolean | null | unknown>;
   certificate?: Record<string, unknown>;
   defects?: Record<string, number>;
   atlas?: { bound?: { max_distortion: number; distortion: number; kept: boolean } };
@@ -63,8 +64,13 @@ export function claimed({ holds, text }: Claim): string {
   return holds ? text : `Not so: ${text.charAt(0).toLowerCase()}${text.slice(1)}`;
 }
 
+/** The groups that were measured. */
+export function measured(report: Report | null): GroupReport[] {
+  return report?.groups?.filter(({ measures }) => measures) ?? [];
+}
+
 /** A number that a group's measures have. */
 export function measure(group: GroupReport, key: string): number | null {
-  const value = group.measures[key];
+  const value = group.measures?.[key];
   return typeof value === "number" ? value : null;
 }

@@ -117,7 +117,7 @@ export class Setup {
     const count = Object.keys(values).length;
     byId("changed").textContent = count ? `${counted(count, "option")} set` : "";
     byId("reset").hidden = count === 0;
-    const verb = { unwrap: "Unwrap", repack: "Repack", measure: "Measure" }[this.kind];
+    const verb = { unwrap: "Unwrap", repack: "Repack", measure: "Measure", verify: "Verify" }[this.kind];
     byId("submit").textContent = 1 < this.#chosen.length ? `${verb} ${counted(this.#chosen.length, "file")}` : verb;
     byId("chosen").replaceChildren(...this.#chosen.map((one) => this.#chip(one)));
   }

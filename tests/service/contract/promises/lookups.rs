@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use unwrapd::jobs::access::Reach;
-use unwrapd::jobs::{Job, JobId, JobStore, Listing, State, Timestamp};
+use unwrapd::jobs::{Job, JobId, JobStore, State, Timestamp};
 use unwrapd::store::RecordStore;
 
 use super::{get, succeed};
@@ -45,29 +45,6 @@ pub async fn events_are_those_of_the_records(store: Arc<RecordStore>) {
     assert_eq!(event.progress.fraction, 0.75);
     assert_eq!(events[1].1.state, State::Queued);
     assert_eq!(store.events(&[]).await.expect("an answer"), []);
-}
-
-pub async fn the_list_has_pages_and_no_guests(store: Arc<RecordStore>) {
-    let mut ids = Vec::new();
-    for ephemeral in [false, true, false, false] {
-        let job = Job { ephemeral, ..job() };
-        ids.push(enqueued(&store, &job).await.id);
-    }
-    assert_eq!(store.ephemeral().await.expect("an answer"), [ids[1]]);
-    let page = async |state, before, limit| {
-        let listing = Listing {
-            state,
-            before,
-            limit,
-        };
-        let page = store.list(&Reach::All, listing).await.expect("an answer");
-        page.iter().map(|job| job.id).collect::<Vec<_>>()
-    };
-    assert_eq!(page(None, None, 2).await, [ids[3], ids[2]]);
-    assert_eq!(page(None, Some(ids[2]), 2).await, [ids[0]]);
-    claim(&store).await.expect("it waits");
-    assert_eq!(page(Some(State::Running), None, 9).await, [ids[0]]);
-    assert!(page(Some(State::Failed), None, 9).await.is_empty());
 }
 
 pub async fn equal_jobs_are_those_that_succeeded(store: Arc<RecordStore>) {

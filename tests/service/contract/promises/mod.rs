@@ -4,7 +4,9 @@ mod claims;
 mod ends;
 mod keys;
 mod leases;
+mod lists;
 mod lookups;
+mod notices;
 mod owners;
 mod submissions;
 
@@ -61,7 +63,12 @@ promises!(
     ends::only_ended_jobs_are_deleted,
     ends::what_expired_is_remembered,
     lookups::events_are_those_of_the_records,
-    lookups::the_list_has_pages_and_no_guests,
+    lists::the_list_has_pages_and_no_guests,
+    lists::the_list_has_what_is_asked_for,
+    lists::jobs_are_found_by_their_metadata,
+    notices::an_end_is_told_until_it_is_settled,
+    notices::every_end_is_told_and_nothing_else,
+    notices::a_notice_is_taken_once,
     lookups::equal_jobs_are_those_that_succeeded,
     submissions::an_ended_job_is_stored_however_many_wait,
     owners::each_owner_finds_their_own,
@@ -118,11 +125,10 @@ async fn postgres_serves_who_has_used_an_older_schema() {
         succeed(&store, &claimed).await;
         get(&store, claimed.id).await;
         let listing = Listing {
-            state: None,
-            before: None,
             limit: 9,
+            ..Listing::default()
         };
-        store.list(&Reach::All, listing).await.expect("an answer");
+        store.list(&Reach::All, &listing).await.expect("an answer");
         store.equal(&job()).await.expect("an answer");
         store.events(&[claimed.id]).await.expect("an answer");
         claim(&store).await.expect("it waits");
@@ -132,7 +138,7 @@ async fn postgres_serves_who_has_used_an_older_schema() {
         assert!(deleted.expect("an answer"));
     };
     use_all("a key").await;
-    for table in ["job", "idempotency", "expired"] {
+    for table in ["job", "idempotency", "expired", "label"] {
         let newer = format!("ALTER TABLE {table} ADD COLUMN newer BIGINT NOT NULL DEFAULT 0");
         postgres.psql("updated", &newer);
     }

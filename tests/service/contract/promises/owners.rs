@@ -36,11 +36,10 @@ pub async fn each_owner_finds_their_own(store: Arc<RecordStore>) {
     let owners = owners(&store).await;
     let list = async |reach| {
         let listing = Listing {
-            state: None,
-            before: None,
             limit: 9,
+            ..Listing::default()
         };
-        let list = store.list(reach, listing).await.expect("an answer");
+        let list = store.list(reach, &listing).await.expect("an answer");
         list.iter().map(|job| job.id).collect::<Vec<_>>()
     };
     for (reach, own) in &owners {

@@ -1,13 +1,15 @@
-//! What an asset has to be for a run to succeed.
+//! What a result has to be to be accepted.
 
+use std::fmt;
 use std::str::FromStr;
 
-use super::row::{Figures, Row, Status};
+use super::kind::Kind;
+use super::worth::Worth;
 
-/// One condition. An asset without an output meets none.
+/// One condition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gate {
-    /// There is an output.
+    /// There is a result.
     Written,
     /// Everything requested is proven of it.
     Certified,
@@ -21,11 +23,11 @@ pub enum Gate {
     MaxSeconds(f64),
 }
 
-/// Conditions, all of which an asset has to meet; written `max_charts=12,certified`.
+/// Conditions, all of which a result has to meet; written `max_charts=12,certified`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gates(Vec<Gate>);
 
-/// Why conditions cannot be read. Each names the part that is wrong.
+/// Why conditions cannot be read, or cannot be judged. Each names the part that is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GateError {
     /// There is no such condition.
@@ -42,6 +44,16 @@ pub enum GateError {
     /// A condition that has no number has one.
     #[error("{0:?} takes no value")]
     NoValue(String),
+    /// Nothing of the kind is known of results of a job of this kind.
+    #[error("{gate:?} cannot be judged: a {kind} job {lacks}")]
+    Unjudged {
+        /// The condition.
+        gate: String,
+        /// The kind of the job.
+        kind: &'static str,
+        /// What jobs of this kind do not do.
+        lacks: &'static str,
+    },
 }
 
 const WORDS: &str = "written, certified, max_charts=N, max_distortion=E, max_stretch=S or \
@@ -55,26 +67,67 @@ impl Default for Gates {
 }
 
 impl Gates {
-    /// Whether an asset meets all conditions.
-    pub fn accept(&self, row: &Row) -> bool {
-        match &row.status {
-            Status::Written(figures) => self.0.iter().all(|gate| gate.accepts(row, figures)),
-            Status::Failed { .. } | Status::Missing => false,
-        }
+    /// Whether a result that took so many seconds meets all conditions.
+    pub fn accept(&self, worth: &Worth, seconds: f64) -> bool {
+        self.missed(worth, seconds).next().is_none()
+    }
+
+    /// The conditions that it does not meet.
+    pub fn missed(&self, worth: &Worth, seconds: f64) -> impl Iterator<Item = &Gate> {
+        let is_missed = move |gate: &&Gate| !gate.accepts(worth, seconds);
+        self.0.iter().filter(is_missed)
+    }
+
+    /// Whether all conditions can be judged of jobs of a kind.
+    pub fn check(&self, kind: Kind) -> Result<(), GateError> {
+        let unjudged = |(gate, lacks): (&Gate, &'static str)| GateError::Unjudged {
+            gate: gate.to_string(),
+            kind: kind.word(),
+            lacks,
+        };
+        let mut lacking = self.0.iter().filter_map(|gate| match gate {
+            Gate::Written | Gate::MaxSeconds(_) => None,
+            Gate::Certified => (!kind.proves()).then_some((gate, "proves nothing")),
+            _ => (!kind.measures()).then_some((gate, "measures no atlas")),
+        });
+        lacking.next().map_or(Ok(()), |found| Err(unjudged(found)))
     }
 }
 
 impl Gate {
-    fn accepts(self, row: &Row, figures: &Figures) -> bool {
+    fn accepts(self, worth: &Worth, seconds: f64) -> bool {
+        // What has no area has no distortion.
         let is_within = |figure: Option<f64>, most: f64| figure.is_none_or(|figure| figure <= most);
         match self {
             Self::Written => true,
-            Self::Certified => figures.certified,
-            Self::MaxCharts(most) => figures.charts <= most,
-            Self::MaxDistortion(most) => is_within(figures.distortion, most),
-            Self::MaxStretch(most) => is_within(figures.stretch, most),
-            Self::MaxSeconds(most) => row.seconds <= most,
+            Self::Certified => worth.certified == Some(true),
+            Self::MaxCharts(most) => worth.charts.is_none_or(|charts| charts <= most),
+            Self::MaxDistortion(most) => is_within(worth.distortion, most),
+            Self::MaxStretch(most) => is_within(worth.stretch, most),
+            Self::MaxSeconds(most) => seconds <= most,
         }
+    }
+}
+
+/// As it is read.
+impl fmt::Display for Gate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Written => f.write_str("written"),
+            Self::Certified => f.write_str("certified"),
+            Self::MaxCharts(most) => write!(f, "max_charts={most}"),
+            Self::MaxDistortion(most) => write!(f, "max_distortion={most}"),
+            Self::MaxStretch(most) => write!(f, "max_stretch={most}"),
+            Self::MaxSeconds(most) => write!(f, "max_seconds={most}"),
+        }
+    }
+}
+
+/// As they are read.
+impl fmt::Display for Gates {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let gates: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&gates.join(","))
     }
 }
 

@@ -1,0 +1,47 @@
+//! What a result has to be for exit status 0.
+
+use crate::certificate::Overlap;
+use crate::jobs::{Gate, Gates, Worth};
+use crate::pipeline::{Mirrored, Report};
+
+use super::failure::Failure;
+
+/// The gates of a command.
+#[derive(clap::Args)]
+pub(super) struct Acceptance {
+    /// What the result must be for exit status 0, as a list with commas
+    ///
+    /// Gates are certified, max_charts=N, max_distortion=E, max_stretch=S, max_seconds=T and
+    /// written. Distortion and stretch are those of the worst atlas: the mean energy, and the 99th
+    /// percentile.
+    #[arg(
+        long,
+        value_name = "GATES",
+        default_value = "certified",
+        help_heading = "Files and messages"
+    )]
+    accept: Gates,
+}
+
+impl Acceptance {
+    /// A failure if a result that took so many seconds misses a gate; it is written all the same.
+    pub(super) fn judge(&self, report: &Report, seconds: f64) -> Result<(), Failure> {
+        let worth = Worth::of(report);
+        let missed: Vec<&Gate> = self.accept.missed(&worth, seconds).collect();
+        if missed.is_empty() {
+            return Ok(());
+        }
+        if missed.contains(&&Gate::Certified) {
+            let missing = report.proven.lacks(Overlap::Test, Mirrored::Refused);
+            return Err(Failure::uncertified(format!(
+                "not certified, but written: {} (not_certified)",
+                missing.join(", ")
+            )));
+        }
+        let missed: Vec<String> = missed.into_iter().map(ToString::to_string).collect();
+        Err(Failure::uncertified(format!(
+            "not accepted, but written: {} (not_accepted)",
+            missed.join(", ")
+        )))
+    }
+}

@@ -1,0 +1,93 @@
+//! Calls of the service on a data folder, over a plain socket: for images without a shell or curl.
+
+use std::io::{Read, Write};
+use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, TcpStream};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::listen::ADDRESS_FILE;
+
+const TIMEOUT: Duration = Duration::from_secs(3);
+/// Bytes of an answer.
+const MOST: u64 = 64 << 10;
+
+/// Which service is called.
+#[derive(clap::Args)]
+pub(super) struct Local {
+    /// Address of the service [default: the one that the service on the data folder listens on]
+    #[arg(long, value_name = "ADDRESS")]
+    listen: Option<SocketAddr>,
+    /// Data folder of the service
+    #[arg(
+        long,
+        value_name = "DIR",
+        env = "UNWRAPD_DATA",
+        default_value = "./data"
+    )]
+    data: PathBuf,
+}
+
+/// What a service answers.
+pub(super) struct Answer {
+    pub(super) status_line: String,
+    pub(super) body: String,
+}
+
+impl Local {
+    /// The address of the service.
+    pub(super) fn address(&self) -> Result<SocketAddr, String> {
+        let mut address = match self.listen {
+            Some(address) => address,
+            None => written(&self.data.join(ADDRESS_FILE))?,
+        };
+        if address.ip().is_unspecified() {
+            address.set_ip(match address {
+                SocketAddr::V4(_) => Ipv4Addr::LOCALHOST.into(),
+                SocketAddr::V6(_) => Ipv6Addr::LOCALHOST.into(),
+            });
+        }
+        Ok(address)
+    }
+
+    /// Calls a path, with a key if there is one.
+    pub(super) fn call(&self, call: &str, key: Option<&str>) -> Result<Answer, String> {
+        let address = self.address()?;
+        answer(address, call, key).map_err(|error| format!("{address} does not answer: {error}"))
+    }
+}
+
+impl Answer {
+    /// Whether the status is 200.
+    pub(super) fn is_ok(&self) -> bool {
+        self.status_line.split(' ').nth(1) == Some("200")
+    }
+}
+
+/// The address that a service wrote when it started.
+fn written(path: &Path) -> Result<SocketAddr, String> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| format!("no service on this folder: {}: {error}", path.display()))?;
+    text.trim()
+        .parse()
+        .map_err(|_| format!("{} has no address in it", path.display()))
+}
+
+fn answer(address: SocketAddr, call: &str, key: Option<&str>) -> std::io::Result<Answer> {
+    let key = key.map_or_else(String::new, |key| {
+        format!("Authorization: Bearer {key}\r\n")
+    });
+    let mut stream = TcpStream::connect_timeout(&address, TIMEOUT)?;
+    stream.set_read_timeout(Some(TIMEOUT))?;
+    let head = format!(
+        "{call} HTTP/1.1\r\nHost: {address}\r\n{key}Content-Length: 0\r\nConnection: close\r\n\r\n"
+    );
+    stream.write_all(head.as_bytes())?;
+    let mut answer = Vec::new();
+    stream.take(MOST).read_to_end(&mut answer)?;
+    let answer = String::from_utf8_lossy(&answer);
+    let (head, body) = answer.split_once("\r\n\r\n").unwrap_or((&answer, ""));
+    Ok(Answer {
+        status_line: head.lines().next().unwrap_or_default().to_owned(),
+        body: body.to_owned(),
+    })
+}

@@ -1,0 +1,45 @@
+//! How the ends of jobs are told to others.
+
+use clap::builder::BoolishValueParser;
+
+use crate::webhooks::{Reachable, Secrets, Settings};
+
+/// How the ends of jobs are told to others.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Webhooks")]
+pub(super) struct WebhookArgs {
+    /// Secret of the service, at least 24 characters, from which `unwrapd webhook-secret` derives that
+    /// of each owner. Without it, jobs with a webhook are refused. While one is replaced: NEW,OLD
+    #[arg(
+        long,
+        value_name = "SECRET",
+        env = "UNWRAPD_WEBHOOK_SECRET",
+        hide_env_values = true
+    )]
+    pub(super) webhook_secret: Option<Secrets>,
+    /// Deliver webhooks also to loopback and to private networks
+    #[arg(
+        long,
+        env = "UNWRAPD_WEBHOOK_ALLOW_PRIVATE",
+        value_parser = BoolishValueParser::new()
+    )]
+    webhook_allow_private: bool,
+}
+
+impl WebhookArgs {
+    /// How deliveries are made; none without a secret.
+    pub(super) fn settings(&self) -> Option<Settings> {
+        Some(Settings {
+            secrets: self.webhook_secret.clone()?,
+            reachable: self.reachable(),
+        })
+    }
+
+    fn reachable(&self) -> Reachable {
+        if self.webhook_allow_private {
+            Reachable::Any
+        } else {
+            Reachable::Public
+        }
+    }
+}

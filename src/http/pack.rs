@@ -1,0 +1,115 @@
+//! All results of a job as one ZIP.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{Seek, Write};
+
+use axum::body::Body;
+use axum::extract::State;
+use axum::http::{HeaderValue, header};
+use axum::response::{IntoResponse, Response};
+use futures_util::StreamExt;
+use futures_util::stream::poll_fn;
+use tokio::runtime::Handle;
+use tokio_util::io::ReaderStream;
+use zip::result::ZipError;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use super::answers::FileAnswers;
+use super::extract::PathId;
+use super::missing::existing;
+use super::problem::Problem;
+use super::results::check_succeeded;
+use super::{App, Shared};
+use crate::jobs::access::Caller;
+use crate::jobs::{Job, JobId, Scratch};
+
+/// Files from this size on need the larger records of ZIP64.
+const LARGE: u64 = u32::MAX as u64;
+
+/// Get all files that a job produced as one ZIP.
+///
+/// The archive is complete when the answer begins. Files have the names of `links.files`, and are
+/// stored as they are.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/files.zip", operation_id = "getFiles", tag = "results",
+    params(("id" = String, Path, format = "uuid", description = "The job")),
+    responses(
+        (status = 200, description = "The archive", body = Vec<u8>, content_type = "application/zip"),
+        FileAnswers,
+    )
+)]
+pub(super) async fn get_files(
+    State(app): Shared,
+    caller: Caller,
+    PathId(id): PathId,
+) -> Result<Response, Problem> {
+    let job = existing(&app, &caller.reach(), id).await?;
+    check_succeeded(&job)?;
+    let name = format!("{}.zip", job.id);
+    let handle = Handle::current();
+    let packed = tokio::task::spawn_blocking(move || packed(&app, &job, &handle)).await;
+    let (scratch, file, bytes) = packed.map_err(|error| Problem::internal(&error))??;
+    let mut blocks = ReaderStream::new(tokio::fs::File::from_std(file));
+    let content = poll_fn(move |context| {
+        // The folder goes with the answer.
+        let _ = &scratch;
+        blocks.poll_next_unpin(context)
+    });
+    let mut response = Body::from_stream(content).into_response();
+    let headers = response.headers_mut();
+    let zip = HeaderValue::from_static("application/zip");
+    headers.insert(header::CONTENT_TYPE, zip);
+    headers.insert(header::CONTENT_LENGTH, bytes.into());
+    let disposition = HeaderValue::from_str(&format!("attachment; filename=\"{name}\""));
+    headers.extend(disposition.map(|value| (header::CONTENT_DISPOSITION, value)));
+    Ok(response)
+}
+
+/// The archive in a folder of its own, and its size.
+fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64), Problem> {
+    app.jobs.has_room()?;
+    let folder = app
+        .jobs
+        .settings()
+        .scratch
+        .join(format!("pack-{}", JobId::fresh()));
+    let scratch = Scratch::make(folder)?;
+    let path = scratch.path().join("files.zip");
+    let file = File::options()
+        .read(true)
+        .write(true)
+        .create_new(true)
+        .open(path)?;
+    let mut archive = ZipWriter::new(file);
+    let mut names = BTreeSet::new();
+    for output in &job.output {
+        let name = if names.insert(&output.name) {
+            &output.name
+        } else {
+            &output.role
+        };
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .large_file(LARGE <= output.bytes);
+        archive.start_file(name.as_str(), options)?;
+        let mut content = handle.block_on(app.jobs.read(job, output, 0..output.bytes))?;
+        while let Some(block) = handle.block_on(content.next()) {
+            archive.write_all(&block?)?;
+        }
+    }
+    let mut file = archive.finish()?;
+    let bytes = file.stream_position()?;
+    file.rewind()?;
+    Ok((scratch, file, bytes))
+}
+
+impl From<ZipError> for Problem {
+    fn from(error: ZipError) -> Self {
+        match error {
+            ZipError::Io(error) => error.into(),
+            error => Self::internal(&error),
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Parts of a form: their texts, and what is wrong with them.
+
+use axum::extract::multipart::{Field, MultipartError};
+
+use super::handling::Said;
+use super::problem::{Code, Problem};
+
+/// Names of the part that holds the input.
+pub(super) const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
+/// Files of an upload.
+pub(super) const MAX_FILES: usize = 4096;
+/// Bytes of the path of a resource.
+const MAX_NAME: usize = 1024;
+/// Bytes of a text part: options with some thousand handles.
+const MAX_TEXT_BYTES: u64 = 256 << 10;
+
+/// The text of a part.
+pub(super) async fn text(mut field: Field<'_>) -> Result<String, Problem> {
+    let mut bytes = Vec::new();
+    while let Some(chunk) = field.chunk().await.map_err(|e| malformed(&e))? {
+        bytes.extend_from_slice(&chunk);
+        if MAX_TEXT_BYTES < bytes.len() as u64 {
+            let detail = format!("a text part can have at most {MAX_TEXT_BYTES} bytes");
+            return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_TEXT_BYTES));
+        }
+    }
+    String::from_utf8(bytes)
+        .map_err(|_| Problem::new(Code::InvalidRequest, "a text part is not UTF-8"))
+}
+
+/// Refuses the path of a file that is too long.
+pub(super) fn at_most_name(name: &str) -> Result<(), Problem> {
+    at_most(name, MAX_NAME)
+}
+
+/// Refuses a file name that is too long.
+pub(super) fn at_most(name: &str, bytes: usize) -> Result<(), Problem> {
+    if name.len() <= bytes {
+        return Ok(());
+    }
+    let detail = format!("a file name can have at most {bytes} bytes");
+    Err(Problem::new(Code::InvalidRequest, detail))
+}
+
+/// What is said of a part that nobody reads.
+pub(super) fn unexpected(part: &str) -> Problem {
+    let part: String = part.chars().take(100).collect();
+    let detail = format!(
+        "unexpected part {part:?}: the parts of a form are mesh, image or problem, resource, options, kind, {}",
+        Said::NAMES.join(", ")
+    );
+    Problem::new(Code::InvalidRequest, detail)
+}
+
+/// What is said of a form that is none.
+pub(super) fn malformed(error: &MultipartError) -> Problem {
+    Problem::new(Code::InvalidRequest, error.body_text())
+}

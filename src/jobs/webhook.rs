@@ -1,0 +1,58 @@
+//! Where the end of a job is told.
+
+use std::fmt;
+use std::str::FromStr;
+
+use url::Url;
+
+/// Bytes of an address.
+const MOST: usize = 2048;
+
+/// An address to which the end of a job is posted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Webhook(Url);
+
+/// What is no such address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum WebhookError {
+    /// It is not one of HTTP.
+    #[error("it is not an address that begins with http:// or https://")]
+    NoAddress,
+    /// It is too long.
+    #[error("it can have at most {MOST} bytes")]
+    TooLong,
+    /// It has a name or a password before the host.
+    #[error("it must not contain credentials: deliveries are signed")]
+    Credentials,
+}
+
+impl Webhook {
+    /// The address.
+    pub fn url(&self) -> &Url {
+        &self.0
+    }
+}
+
+impl fmt::Display for Webhook {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for Webhook {
+    type Err = WebhookError;
+
+    fn from_str(text: &str) -> Result<Self, WebhookError> {
+        if MOST < text.len() {
+            return Err(WebhookError::TooLong);
+        }
+        let url: Url = text.parse().map_err(|_| WebhookError::NoAddress)?;
+        if !matches!(url.scheme(), "http" | "https") || url.host().is_none() {
+            return Err(WebhookError::NoAddress);
+        }
+        if !url.username().is_empty() || url.password().is_some() {
+            return Err(WebhookError::Credentials);
+        }
+        Ok(Self(url))
+    }
+}

@@ -1,0 +1,27 @@
+//! Notices in a database, as they are recorded with the ends of jobs.
+
+use sqlx::{Any, Transaction};
+
+use crate::jobs::{Job, Notice, StoreResult, Timestamp};
+
+/// Records the end of a job, if somebody wants to know.
+pub(super) async fn tell(
+    job: &Job,
+    now: Timestamp,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<()> {
+    let Some(notice) = Notice::of_end(job) else {
+        return Ok(());
+    };
+    sqlx::query(
+        "INSERT INTO outbox (id, owner, url, body, attempt, due) VALUES ($1, $2, $3, $4, 0, $5)",
+    )
+    .bind(notice.id)
+    .bind(notice.owner.as_str())
+    .bind(notice.webhook.to_string())
+    .bind(notice.body)
+    .bind(now.0)
+    .execute(&mut **transaction)
+    .await?;
+    Ok(())
+}

@@ -1,0 +1,73 @@
+//! Notices in a database, as they are taken and settled.
+
+use std::time::Duration;
+
+use futures_util::future::BoxFuture;
+use sqlx::Row;
+use sqlx::any::AnyRow;
+
+use super::database::Database;
+use super::records::{RecordStore, bounded};
+use super::rows::damaged;
+use crate::jobs::access::Owner;
+use crate::jobs::{Notice, Outbox, StoreResult};
+
+impl Outbox for RecordStore {
+    fn take(&self, most: u32, lease: Duration) -> BoxFuture<'_, StoreResult<Vec<Notice>>> {
+        bounded(take(&self.database, most, lease))
+    }
+
+    fn settle<'a>(&'a self, id: &'a str) -> BoxFuture<'a, StoreResult<()>> {
+        bounded(async move {
+            sqlx::query("DELETE FROM outbox WHERE id = $1")
+                .bind(id)
+                .execute(&self.database.writers)
+                .await?;
+            Ok(())
+        })
+    }
+
+    fn defer<'a>(&'a self, id: &'a str, pause: Duration) -> BoxFuture<'a, StoreResult<()>> {
+        bounded(async move {
+            let defer = "UPDATE outbox SET due = {now} + $2 WHERE id = $1";
+            sqlx::query(self.database.sql(defer))
+                .bind(id)
+                .bind(pause.as_millis() as i64)
+                .execute(&self.database.writers)
+                .await?;
+            Ok(())
+        })
+    }
+}
+
+async fn take(database: &Database, most: u32, lease: Duration) -> StoreResult<Vec<Notice>> {
+    // Most of the time there is none, and nothing has to be locked to know that.
+    let is_any = database.sql("SELECT id FROM outbox WHERE due <= {now} LIMIT 1");
+    let any = sqlx::query(is_any).fetch_optional(&database.readers);
+    if any.await?.is_none() {
+        return Ok(Vec::new());
+    }
+    let take = "UPDATE outbox SET attempt = attempt + 1, due = {now} + $1
+         WHERE id IN (SELECT id FROM outbox AS job WHERE due <= {now} ORDER BY due LIMIT $2 {free})
+         RETURNING id, owner, url, body, attempt";
+    let mut transaction = database.begin().await?;
+    let taken = sqlx::query(database.sql(take))
+        .bind(lease.as_millis() as i64)
+        .bind(i64::from(most))
+        .fetch_all(&mut *transaction)
+        .await?;
+    transaction.commit().await?;
+    taken.iter().map(notice).collect()
+}
+
+fn notice(row: &AnyRow) -> StoreResult<Notice> {
+    let text = |column| row.try_get::<String, _>(column).map_err(damaged);
+    let attempt: i64 = row.try_get("attempt").map_err(damaged)?;
+    Ok(Notice {
+        id: text("id")?,
+        owner: Owner::recorded(text("owner")?),
+        webhook: text("url")?.parse().map_err(damaged)?,
+        body: text("body")?,
+        attempt: attempt as u32,
+    })
+}

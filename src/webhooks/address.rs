@@ -1,0 +1,49 @@
+//! Which addresses of the network are everybody's.
+
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
+
+/// Whether an address is one of the public network: not of this host, not of a private network, and
+/// for no special use (RFC 6890). What embeds an address of version 4 is judged by that.
+pub fn is_public(address: IpAddr) -> bool {
+    match address {
+        IpAddr::V4(address) => is_public_v4(address),
+        IpAddr::V6(address) => is_public_v6(address),
+    }
+}
+
+fn is_public_v4(address: Ipv4Addr) -> bool {
+    let [a, b, c, _] = address.octets();
+    !(a == 0
+        || address.is_loopback()
+        || address.is_private()
+        || address.is_link_local()
+        || address.is_documentation()
+        // Shared by customers of a provider (RFC 6598).
+        || a == 100 && (64..128).contains(&b)
+        // Of protocols (RFC 6890), once of relays (RFC 7526).
+        || (a, b, c) == (192, 0, 0)
+        || (a, b, c) == (192, 88, 99)
+        // Of benchmarks (RFC 2544).
+        || a == 198 && (b == 18 || b == 19)
+        // Groups, what is reserved, and all at once.
+        || 224 <= a)
+}
+
+fn is_public_v6(address: Ipv6Addr) -> bool {
+    let segments = address.segments();
+    let embedded = |high: u16, low: u16| {
+        let [a, b] = high.to_be_bytes();
+        let [c, d] = low.to_be_bytes();
+        is_public_v4(Ipv4Addr::new(a, b, c, d))
+    };
+    match segments {
+        [0, 0, 0, 0, 0, 0xffff, high, low] | [0x64, 0xff9b, 0, 0, 0, 0, high, low] => {
+            embedded(high, low)
+        }
+        [0x2002, high, low, ..] => embedded(high, low),
+        // Teredo, benchmarks, ORCHID, documentation.
+        [0x2001, second, ..] if second < 0x200 || second == 0xdb8 => false,
+        // Global unicast, and nothing else.
+        [first, ..] => first & 0xe000 == 0x2000,
+    }
+}

@@ -1,0 +1,170 @@
+//! Notices, posted until they are heard.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use metrics::{counter, describe_counter};
+use reqwest::header::CONTENT_TYPE;
+use reqwest::redirect::Policy;
+use reqwest::{Client, StatusCode};
+use tokio::task::JoinSet;
+use tokio_util::sync::CancellationToken;
+
+use super::guard::{Guard, Reachable, check};
+use super::secret::Secrets;
+use crate::jobs::{Notice, Outbox, Timestamp};
+
+/// Between two looks for notices.
+const PAUSE: Duration = Duration::from_secs(1);
+/// Deliveries at once: a slow receiver holds up no other.
+const TOGETHER: usize = 32;
+/// How long a receiver may take.
+const PATIENCE: Duration = Duration::from_secs(15);
+/// How long a notice is this process's alone: longer than a receiver may take.
+const LEASE: Duration = Duration::from_mins(1);
+/// Pauses between tries, after the last of which a notice is given up: those of Standard Webhooks.
+const RETRIES: [Duration; 7] = [
+    Duration::from_secs(5),
+    Duration::from_mins(5),
+    Duration::from_mins(30),
+    Duration::from_hours(2),
+    Duration::from_hours(5),
+    Duration::from_hours(10),
+    Duration::from_hours(14),
+];
+
+const DELIVERIES: &str = "unwrapd_webhook_deliveries_total";
+
+/// How deliveries are made.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// What they are signed with.
+    pub secrets: Secrets,
+    /// Where they may go.
+    pub reachable: Reachable,
+}
+
+/// Delivers what is in an outbox until told to stop.
+pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: CancellationToken) {
+    describe_counter!(DELIVERIES, "Tries to deliver a webhook by this process");
+    for result in ["delivered", "failed", "given_up"] {
+        counter!(DELIVERIES, "result" => result).absolute(0);
+    }
+    // Another part of the process may have chosen already.
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    let client = Client::builder()
+        .user_agent(concat!("unwrapd/", env!("CARGO_PKG_VERSION")))
+        .redirect(Policy::none())
+        .no_proxy()
+        .timeout(PATIENCE)
+        .dns_resolver(Arc::new(Guard(settings.reachable)))
+        .build();
+    let client = match client {
+        Ok(client) => client,
+        Err(error) => return tracing::error!(%error, "no webhooks are delivered"),
+    };
+    let courier = Arc::new(Courier {
+        outbox,
+        settings,
+        client,
+    });
+    let mut under_way = JoinSet::new();
+    loop {
+        let room = TOGETHER - under_way.len();
+        match courier.outbox.take(room as u32, LEASE).await {
+            Ok(notices) => {
+                for notice in notices {
+                    let courier = Arc::clone(&courier);
+                    under_way.spawn(async move { courier.carry(&notice).await });
+                }
+            }
+            Err(error) => tracing::warn!(%error, "webhooks not looked for"),
+        }
+        tokio::select! {
+            () = tokio::time::sleep(PAUSE) => {}
+            () = stop.cancelled() => return,
+        }
+        while under_way.try_join_next().is_some() {}
+        if under_way.len() == TOGETHER {
+            under_way.join_next().await;
+        }
+    }
+}
+
+struct Courier {
+    outbox: Arc<dyn Outbox>,
+    settings: Settings,
+    client: Client,
+}
+
+/// What became of a delivery.
+enum Answer {
+    Heard,
+    /// Why not.
+    Unheard(String),
+    /// The receiver wants no more of it.
+    Gone,
+}
+
+impl Courier {
+    /// Delivers a notice, or decides when that is tried again.
+    async fn carry(&self, notice: &Notice) {
+        let host = notice.webhook.url().host_str().unwrap_or_default();
+        let (id, attempt) = (&*notice.id, notice.attempt);
+        let retry = RETRIES.get(attempt.saturating_sub(1) as usize);
+        let (result, settled) = match (self.post(notice).await, retry) {
+            (Answer::Heard, _) => {
+                tracing::info!(id, host, attempt, "webhook delivered");
+                ("delivered", self.outbox.settle(id).await)
+            }
+            (Answer::Unheard(why), Some(&pause)) => {
+                tracing::warn!(id, host, attempt, why, "webhook not delivered yet");
+                ("failed", self.outbox.defer(id, pause).await)
+            }
+            (Answer::Unheard(why), None) => {
+                tracing::error!(id, host, attempt, why, "webhook given up");
+                ("given_up", self.outbox.settle(id).await)
+            }
+            (Answer::Gone, _) => {
+                tracing::warn!(id, host, attempt, "webhook refused for good");
+                ("given_up", self.outbox.settle(id).await)
+            }
+        };
+        counter!(DELIVERIES, "result" => result).increment(1);
+        // It comes again after the lease, and is told twice.
+        if let Err(error) = settled {
+            tracing::warn!(id, %error, "delivery of a webhook not recorded");
+        }
+    }
+
+    async fn post(&self, notice: &Notice) -> Answer {
+        if let Err(refused) = check(&notice.webhook, self.settings.reachable) {
+            return Answer::Unheard(refused.to_string());
+        }
+        let time = Timestamp::now().0.div_euclid(1000);
+        let signed = (&*notice.id, time, &*notice.body);
+        let signature = self.settings.secrets.sign(&notice.owner, signed);
+        let request = self
+            .client
+            .post(notice.webhook.url().clone())
+            .header(CONTENT_TYPE, "application/json")
+            .header("webhook-id", &notice.id)
+            .header("webhook-timestamp", time)
+            .header("webhook-signature", signature)
+            .body(notice.body.clone());
+        match request.send().await {
+            Ok(answer) if answer.status().is_success() => Answer::Heard,
+            Ok(answer) if answer.status() == StatusCode::GONE => Answer::Gone,
+            Ok(answer) => Answer::Unheard(format!("the answer is {}", answer.status())),
+            Err(error) => Answer::Unheard(text(&error.without_url())),
+        }
+    }
+}
+
+/// An error with its causes, on one line. Addresses may hold what only their receiver knows.
+fn text(error: &dyn std::error::Error) -> String {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    let mut words: Vec<String> = causes.map(ToString::to_string).collect();
+    words.dedup();
+    words.join(": ")
+}
