@@ -58,7 +58,8 @@ fn compose_files_are_valid() {
 /// A variable that no option reads would be set in vain.
 #[test]
 fn every_variable_is_that_of_an_option() {
-    let help = ["serve", "worker"].map(|command| unwrapd(&[command, "--help"]).stdout);
+    let of = |line: &str| unwrapd(&line.split(' ').collect::<Vec<_>>()).stdout;
+    let help = ["serve --help", "worker --help"].map(of);
     let help = String::from_utf8(help.concat()).expect("text");
     let mut named = BTreeSet::new();
     let deployed = [
