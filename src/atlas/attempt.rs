@@ -48,7 +48,7 @@ pub(super) struct Packing<'a> {
 pub(super) enum Extent {
     /// As little as charts need; they may come to need more than there is.
     Growing,
-    /// To their borders; a row where one chart found no place is not searched again for another of the same size.
+    /// To their borders; a row where one chart found no place is not searched again for another of about the same size.
     Full,
 }
 
@@ -113,7 +113,7 @@ impl Packing<'_> {
                 let mut read =
                     WORK_PER_CHART + WORK_PER_EDGE * self.plan.outlines[i].edges().len() as u64;
                 let [w, h] = turned[0].size;
-                let row = lowest.entry([w.min(h), w.max(h)]).or_default();
+                let row = lowest.entry([w.min(h), w.max(h)].map(rough)).or_default();
                 let before = sheet.work;
                 let spot = match &self.plan.near {
                     Some(near) => find_near(near, i, &mut sheet, &turned, target),
@@ -174,6 +174,14 @@ impl Packing<'_> {
             (turned, stretch)
         })
     }
+}
+
+/// A number that sizes which differ by a sixteenth or less may share.
+fn rough(size: u32) -> u32 {
+    let finer = size
+        .checked_ilog2()
+        .map_or(0, |bits| bits.saturating_sub(4));
+    size >> finer << finer
 }
 
 /// The factor by which a chart at so many grid units per mesh unit has to exceed the common scale.

@@ -30,10 +30,12 @@ pub(super) struct Layout {
 
 /// Scales tried at most, and at most until one fits (each is then smaller by some per cent).
 const ATTEMPTS: [usize; 2] = [12, 400];
+/// Scales tried at least, however many words that reads: the first leaves up to a fifth of the pages of a crowd empty.
+const LEAST_ATTEMPTS: usize = 3;
 /// The search ends when the best scale and one that failed are as near as this. With many charts the
 /// fill hardly depends on luck, and every attempt costs more.
 const NEAR: f64 = 1.003;
-const NEAR_IF_MANY: f64 = 1.015;
+const NEAR_IF_MANY: f64 = 1.005;
 /// The same for a layout that is known from a coarser raster, and by how much the scale is lowered should it not fit.
 const NEAR_IF_KNOWN: f64 = 1.0005;
 const LOWERED: f64 = 0.993;
@@ -45,8 +47,8 @@ pub(super) fn raster(n_charts: usize, most_cells: u32) -> u32 {
             let least = (256 * n_charts as u32).isqrt().next_power_of_two();
             most_cells.clamp(least, 1024)
         }
-        401..=60_000 => 2048,
-        60_001..=1_000_000 => 4096,
+        401..=2_000 => 2048,
+        2_001..=1_000_000 => 4096,
         _ => 16384,
     }
 }
@@ -152,7 +154,8 @@ fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
         };
         if let Some((good, _)) = best {
             let is_ended = (packing.on_read)(0) == Control::Finish;
-            let enough = tried >= ATTEMPTS[0] || work > search_words || failed < good * near;
+            let is_read = tried >= LEAST_ATTEMPTS && work > search_words;
+            let enough = tried >= ATTEMPTS[0] || is_read || failed < good * near;
             if enough || is_ended || packing.plan.order.len() <= 1 {
                 break;
             }

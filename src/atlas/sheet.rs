@@ -11,6 +11,12 @@ use super::turned::Turned;
 /// Widths of windows at most: up to 64 cells.
 const WIDTHS: usize = 7;
 
+/// Words of a row from which on its longest free run is known, so that rows that are full are passed over. Of fewer, looking
+/// costs no more than that.
+const WIDE: usize = 16;
+/// The longest free run of a row in which cells were taken since it was counted.
+const UNKNOWN: u32 = u32::MAX;
+
 /// The occupied cells of all pages.
 #[derive(Clone)]
 pub(super) struct Sheet {
@@ -25,6 +31,8 @@ pub(super) struct Sheet {
     height: usize,
     /// Page after page and row after row, in each for every width 2ᵏ `words` of bits: bit x says that a cell of x..x + 2ᵏ is taken.
     rows: Vec<u64>,
+    /// For each row of wide pages its longest run of free cells, or [`UNKNOWN`]; empty of others.
+    free: Vec<u32>,
     blocked: Vec<u64>,
     /// The longer side of what is used of a page so far.
     pub side: u32,
@@ -40,6 +48,7 @@ impl Sheet {
         let [width, height] = form.reach(capacity).map(|cells| cells + 2 * frame);
         let words = width.div_ceil(64) as usize + 2;
         let widths = WIDTHS.min((u32::BITS - width.leading_zeros()) as usize);
+        let n_rows = height as usize * form.pages as usize;
         Self {
             form,
             capacity,
@@ -47,7 +56,8 @@ impl Sheet {
             words,
             widths,
             height: height as usize,
-            rows: vec![0; words * widths * height as usize * form.pages as usize],
+            rows: vec![0; words * widths * n_rows],
+            free: vec![width; if words < WIDE { 0 } else { n_rows }],
             blocked: Vec::new(),
             side,
             tops: vec![0; form.pages as usize],
@@ -63,6 +73,7 @@ impl Sheet {
             let end = used.min(page.len());
             page[..end].fill(0);
         }
+        self.free.fill(UNKNOWN);
         self.capacity = capacity;
         self.side = 0;
         self.tops.fill(0);
@@ -128,7 +139,7 @@ impl Sheet {
         corner: Corner,
         [first, last]: [u32; 2],
     ) -> Option<u32> {
-        if first > last {
+        if first > last || !self.may_hold(mask, corner) {
             return None;
         }
         let n = (last / 64 + 1) as usize;
@@ -162,6 +173,27 @@ impl Sheet {
         Some(64 * word as u32 + self.blocked[word].trailing_ones())
     }
 
+    /// Whether each run of a mask is as short as a free one in its row; always of narrow pages.
+    fn may_hold(&mut self, mask: &Turned, corner: Corner) -> bool {
+        if self.free.is_empty() {
+            return true;
+        }
+        let base = self.row(corner) - mask.margin as usize;
+        (mask.reach.iter())
+            .all(|run| self.longest_free(base + run.row as usize) >= run.end - run.start)
+    }
+
+    /// The longest run of free cells of a row of a wide page, with the frame.
+    fn longest_free(&mut self, row: usize) -> u32 {
+        if self.free[row] == UNKNOWN {
+            let words = &self.rows[row * self.words * self.widths..][..self.words];
+            self.work += words.len() as u64;
+            self.free[row] = longest_zeros(words);
+        }
+        self.work += 1;
+        self.free[row]
+    }
+
     /// Takes the cells of a mask's body, whose lower left cell comes to lie at `corner`.
     pub(super) fn take(&mut self, mask: &Turned, corner: Corner) {
         let x = corner.x + self.frame;
@@ -169,6 +201,9 @@ impl Sheet {
         let base = self.row(corner);
         for runs in mask.body.chunk_by(|a, b| a.row == b.row) {
             let row = base + runs[0].row as usize;
+            if let Some(free) = self.free.get_mut(row) {
+                *free = UNKNOWN;
+            }
             let row = &mut self.rows[row * stride..][..stride];
             for run in runs {
                 set_bits(&mut row[..self.words], x + run.start, x + run.end);
@@ -194,6 +229,9 @@ impl Sheet {
             let [start, end] = ends.map(|x| x.clamp(0, width) as u32);
             if start < end && (0..self.height as i64).contains(&row) {
                 let row = page as usize * self.height + row as usize;
+                if let Some(free) = self.free.get_mut(row) {
+                    *free = UNKNOWN;
+                }
                 let row = &mut self.rows[row * stride..][..stride];
                 set_bits(&mut row[..self.words], start, end);
                 widen(row, self.words, [start, end]);
@@ -205,6 +243,26 @@ impl Sheet {
     fn row(&self, corner: Corner) -> usize {
         corner.page as usize * self.height + (corner.y + self.frame) as usize
     }
+}
+
+/// The longest run of zeros among bits.
+fn longest_zeros(words: &[u64]) -> u32 {
+    let (mut longest, mut open) = (0, 0);
+    for &word in words {
+        if word == 0 {
+            open += u64::BITS;
+            continue;
+        }
+        longest = longest.max(open + word.trailing_zeros());
+        let (mut zeros, mut inside) = (!word, 0);
+        while zeros != 0 {
+            zeros &= zeros << 1;
+            inside += 1;
+        }
+        longest = longest.max(inside);
+        open = word.leading_zeros();
+    }
+    longest.max(open)
 }
 
 /// Derives the wider windows of a row from its cells, of which some between `start` and `end` were taken.

@@ -84,6 +84,21 @@ fn thousands_of_tiny_charts_fit() {
 }
 
 #[test]
+fn a_crowd_leaves_little_empty() {
+    let part = |i: u32, times: f64| (f64::from(i) * times).fract();
+    let blobs =
+        (0..6000).map(|i| blob(0.3 + part(i, 0.618).powi(2), 3, 0.1 + 0.6 * part(i, 0.414)));
+    let charts: Vec<Chart> = blobs.collect();
+    let options = AtlasOptions {
+        texture: Texture::square(4096),
+        ..AtlasOptions::default()
+    };
+    let atlas = pack(&maps(&charts), &options).unwrap();
+    assert_positive_and_inside(&charts, &atlas);
+    assert!(atlas.utilization > 0.66, "{}", atlas.utilization);
+}
+
+#[test]
 fn padding_shrinks_when_it_leaves_no_room() {
     let charts: Vec<Chart> = (0..300)
         .map(|i| blob(1.0 + f64::from(i) / 300.0, 3, 0.1))
