@@ -13,6 +13,9 @@ type Responses = BTreeMap<String, RefOr<Response>>;
 /// What asking for a file that a job made is answered, apart from the file.
 pub(super) struct FileAnswers;
 
+/// What asking for all files of a job is answered, apart from these.
+pub(super) struct ArchiveProblems;
+
 /// What a synchronous call is answered, apart from its result.
 pub(super) struct CallProblems;
 
@@ -34,6 +37,19 @@ impl IntoResponses for FileAnswers {
             answers.insert(status.to_owned(), answer.into());
         }
         answers
+    }
+}
+
+impl IntoResponses for ArchiveProblems {
+    fn responses() -> Responses {
+        problems(&[
+            Code::JobNotFound,
+            Code::JobExpired,
+            Code::NotFinished,
+            Code::NoResult,
+            Code::StoreUnavailable,
+            Code::StorageFull,
+        ])
     }
 }
 

@@ -20,18 +20,17 @@ use crate::webhooks;
 /// Create a job of any kind.
 ///
 /// The input is a form or the body itself. A form has the input as `mesh`, `image` or `problem`,
-/// the files it references as `resource`, `options` as JSON, and `kind`. `priority`,
-/// `metadata`, `accept` and `webhook` can be parts too. Options can also be query parameters; a list is then its JSON text. Each kind has its own options, named like those of the
-/// command line in snake_case. The handles of a job have the JSON form of the command line's handle
-/// files.
+/// the files it references as `resource`, `options` as JSON, and `kind`. `priority`, `metadata`,
+/// `accept` and `webhook` can be parts too. Options can also be query parameters; a list is then
+/// its JSON text. Each kind has options of its own, named as on the command line, in snake_case.
+/// The handles of a job have the JSON form of the command line's handle files.
 ///
-/// An input with the files that it references can also be one ZIP, as a body or as the part of the
-/// input. It has exactly one file that the kind reads.
+/// A ZIP can bring an input together with the files that it references. It is the body, or the part
+/// of the input, and has exactly one file that the kind reads.
 ///
-/// `unwrap`, `repack`, `measure`, `verify`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY and
-/// STL.
-/// `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads PNG and
-/// JPEG. `solve` reads a problem file with its mesh beside it.
+/// `unwrap`, `repack`, `measure`, `verify`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY
+/// and STL. `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads
+/// PNG and JPEG. `solve` reads a problem file with its mesh beside it.
 ///
 /// When the answer is sent, the input and the job are stored. The job will succeed, fail or be
 /// cancelled, even if the service crashes. Unknown formats, malformed JSON and unknown options are
@@ -40,7 +39,8 @@ use crate::webhooks;
 /// A job whose kind, options and input equal those of an earlier one of its owner gets a copy of
 /// its result and is marked `cached`. `Cache-Control: no-cache` asks for a new computation.
 ///
-/// With `Idempotency-Key`, a repetition within a day returns the same job. With `Prefer: wait=N`,
+/// With `Idempotency-Key`, a repetition within a day returns the same job. It must agree in input,
+/// kind, options, metadata, gates and webhook. With `Prefer: wait=N`,
 /// the answer waits up to N seconds, at most 60. It is 200 if the job has ended by then. Progress
 /// is under `/events`, the result under `/result` and `/report`. Ended jobs are removed with their
 /// files after 30 days, or after the configured time.

@@ -16,7 +16,7 @@ use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::answers::FileAnswers;
+use super::answers::ArchiveProblems;
 use super::extract::PathId;
 use super::missing::existing;
 use super::problem::Problem;
@@ -37,7 +37,7 @@ const LARGE: u64 = u32::MAX as u64;
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
         (status = 200, description = "The archive", body = Vec<u8>, content_type = "application/zip"),
-        FileAnswers,
+        ArchiveProblems,
     )
 )]
 pub(super) async fn get_files(

@@ -1,5 +1,6 @@
 //! What is said of a job beside what it computes.
 
+use super::digest::Digest;
 use super::gates::Gates;
 use super::metadata::Metadata;
 use super::webhook::Webhook;
@@ -15,4 +16,31 @@ pub struct Handling {
     pub accept: Option<Gates>,
     /// Where its end is told.
     pub webhook: Option<Webhook>,
+}
+
+impl Handling {
+    /// What a repetition under one key must agree in: what is asked for, of which this is the digest, and what is said of it. The
+    /// priority may differ.
+    pub fn fingerprint(&self, digest: &str) -> String {
+        let Self {
+            metadata,
+            accept,
+            webhook,
+            ..
+        } = self;
+        if metadata.is_empty() && accept.is_none() && webhook.is_none() {
+            return digest.to_owned();
+        }
+        let mut all = Digest::default();
+        all.add(digest.as_bytes());
+        for label in metadata.labels() {
+            all.add(label.as_bytes());
+        }
+        let accept = accept.as_ref().map(ToString::to_string);
+        let webhook = webhook.as_ref().map(ToString::to_string);
+        for said in [accept, webhook] {
+            all.add(said.unwrap_or_default().as_bytes());
+        }
+        all.finish()
+    }
 }

@@ -95,6 +95,10 @@ impl Jobs {
         for (index, (_, path)) in submission.files.iter().enumerate() {
             self.blobs.put(&input_key(id, index), path).await?;
         }
+        let key = submission.key.map(|key| IdempotencyKey {
+            key,
+            fingerprint: submission.handling.fingerprint(&submission.digest),
+        });
         let mut job = Job {
             owner: submission.owner,
             input: submission.files.into_iter().map(|(file, _)| file).collect(),
@@ -110,10 +114,6 @@ impl Jobs {
         if submission.reuse {
             self.reuse(&mut job).await;
         }
-        let key = submission.key.map(|key| IdempotencyKey {
-            key,
-            fingerprint: job.digest.clone(),
-        });
         let capacity = self.capacity();
         match self.store.enqueue(&job, key.as_ref(), capacity).await? {
             Enqueued::New(job) => {

@@ -302,6 +302,10 @@ async fn a_key_makes_repetitions_harmless() {
         "idempotency_key_reused",
     )
     .await;
+    for said in ["metadata={\"n\":1}", "accept=certified"] {
+        let other = send(&format!("padding=3&{said}"), meshes::small()).await;
+        assert_problem(other, 422, "idempotency_key_reused").await;
+    }
     let jobs = json(server.get("/v1/jobs").send().await.expect("an answer")).await;
     assert_eq!(jobs["jobs"].as_array().map(Vec::len), Some(1));
 }
