@@ -1,5 +1,6 @@
 // A mesh is held and dragged by the mouse; every frame that the page got is judged by its bytes. Undo, bake, keys.
 import assert from "node:assert/strict";
+import { basename } from "node:path";
 import { frameOf, flips, meshOf } from "../live.mjs";
 
 export async function run(page, url, file, what, place, picture) {
@@ -17,6 +18,7 @@ export async function run(page, url, file, what, place, picture) {
   await page.waitForSelector("#panes[data-shown]");
   await page.click("#tab-pull");
   await page.setInputFiles("#pull-files", file);
+  assert.equal(await page.textContent("#title"), basename(file));
   await page.selectOption("#pull-way", { label: what });
   await page.click("#pull-start");
   await page.waitForFunction(() => document.querySelector("#pull-figures").textContent.includes("0 flips"));

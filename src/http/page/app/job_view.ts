@@ -9,6 +9,7 @@ import type { JobList } from "./job_list";
 import type { Report } from "./reports";
 import type { Chosen, Setup } from "./setup";
 import type { Source } from "./source";
+import { nameShown } from "./title";
 import type { Viewer } from "./viewer";
 import { watchCharts } from "./watching";
 
@@ -60,7 +61,7 @@ export class JobView {
     this.#made.delete(id);
     const job = made ?? (await call<Job>(jobPath(id)));
     this.job = job;
-    this.#title(job);
+    nameShown(job.filename);
     if (isFinal(job.state)) return this.#ended(job);
     const panel = new ProgressPanel(job, this.#actions(job));
     note(awaited(job, job));
@@ -77,11 +78,6 @@ export class JobView {
       stopCharts();
       stopEvents();
     };
-  }
-
-  #title(job: Job): void {
-    byId("title").textContent = job.filename;
-    document.title = `${job.filename} · unwrapd`;
   }
 
   async #inputFor(job: Job): Promise<Chosen | null> {

@@ -20,6 +20,7 @@ import { type Chosen, Setup } from "./setup";
 import { soupOf } from "../viewer/soups";
 import { showLegend, showPointed } from "./status";
 import { startTheme } from "./theme";
+import { nameInHand, nameShown } from "./title";
 import { pullKeys } from "../pull/keys";
 import { PullView } from "../pull/pull_view";
 import { Toolbar } from "./toolbar";
@@ -31,7 +32,7 @@ const toolbar = new Toolbar(viewer, change, () => void compare());
 const list = new JobList((id) => void open(id));
 const setup = new Setup((first) => void preview(first), made, failed);
 const jobs = new JobView({ viewer, list, setup, failed, removed: () => void open(null), shown: refresh });
-const pull = new PullView({ failed, baked: (job) => { void list.refresh(); void open(job.id, { ...START }); } });
+const pull = new PullView({ failed, chosen: () => nameInHand(pull.name), baked: (job) => { void list.refresh(); void open(job.id, { ...START }); } });
 const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...viewer.place, face: null, chart: null, seam: null }), changed: refresh });
 let before: Analysis | null = null;
 let isBefore = false;
@@ -62,6 +63,7 @@ function refresh(): void {
   byId("title-state").textContent = isBefore ? "before" : "";
   if (place.tab === "report") void report();
   if (place.tab === "pull") offer();
+  nameInHand(place.tab === "pull" ? pull.name : null);
   writePlace(place);
 }
 
@@ -104,7 +106,7 @@ async function open(id: string | null, place: Place = { ...START, tab: viewer.pl
   } catch (error) {
     viewer.clear();
     jobs.leave();
-    byId("title").textContent = "Not found";
+    nameShown("Not found");
     byId("inspector").replaceChildren();
     failed(error);
   }
@@ -123,8 +125,7 @@ async function preview(chosen: Chosen): Promise<void> {
   list.select(null);
   isBefore = false;
   viewer.place = { ...START, shade: "charts" };
-  byId("title").textContent = chosen.name;
-  document.title = `${chosen.name} · unwrapd`;
+  nameShown(chosen.name);
   note("Reading the file …");
   try {
     viewer.clear();

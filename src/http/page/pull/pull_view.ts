@@ -1,13 +1,13 @@
 // The page's third view: a file in the hand, pulled live.
 
 import { call, type Job } from "../app/api";
-import { byId, element, svg } from "../app/dom";
 import { LiveClient, type Reply, type Wish } from "../live/client";
 import type { LiveFrame, LiveMesh } from "../live/decode";
 import { extension } from "../viewer/loading";
 import { type Grip, Grips, handleOf } from "./grips";
 import { type Doer, Pointer } from "./pointer";
-import { PullScene, type Touched } from "./scene";
+import { sceneOn, showMarks } from "./pane";
+import type { PullScene, Touched } from "./scene";
 import { PullTools } from "./tools";
 import { type Known, type Origin, openSession, type Session, socketOf, type Way, waysOf } from "./what";
 
@@ -19,6 +19,8 @@ const ENDS: Record<string, string> = {
 /** What the view tells the page. */
 export interface Told {
   failed(error: unknown): void;
+  /** A file was chosen here. */
+  chosen(): void;
   /** A session was baked to a job. */
   baked(job: Job): void;
 }
@@ -55,6 +57,11 @@ export class PullView implements Doer {
     addEventListener("pagehide", () => void this.leave());
   }
 
+  /** The name of what is pulled, or would be. */
+  get name(): string | null {
+    return this.#origin?.name ?? null;
+  }
+
   /** What would be pulled: what the page shows. */
   offer(origin: Origin | null, known: Known | null): void {
     if (this.#session) return;
@@ -73,6 +80,7 @@ export class PullView implements Doer {
     if (!first) return;
     void this.leave();
     this.offer({ name: first.name, content: first, resources: new Map(others.map((file) => [file.name, file as Blob])) }, null);
+    this.told.chosen();
   }
 
   /** Opens a session. */
@@ -231,33 +239,6 @@ export class PullView implements Doer {
   }
 
   #drawGrips(): void {
-    const scene = this.#scene;
-    const drawn = scene && this.#client ? this.grips.all.map((grip) => this.#drawn(scene, grip)) : [];
-    byId("pull-grips").replaceChildren(...drawn);
-  }
-
-  #drawn(scene: PullScene, grip: Grip): SVGElement {
-    const [cx, cy] = scene.project(grip.to);
-    const isSelected = this.grips.selected.has(grip.name);
-    const classes = ["grip", isSelected && "selected", grip.isLocked && "locked"].filter(Boolean).join(" ");
-    const mark = grip.isLocked ? svg("rect", { x: cx - 5, y: cy - 5, width: 10, height: 10, class: classes }) : svg("circle", { cx, cy, r: 6, class: classes });
-    mark.append(svg("title", {}, `Handle ${grip.name + 1}`));
-    return mark;
-  }
-}
-
-function sceneOn(): PullScene | null {
-  const pane = byId("pull-pane");
-  const places = { plane: element("div", { className: "pane" }), solid: element("div", { className: "pane", hidden: true }) };
-  for (const place of Object.values(places)) {
-    place.tabIndex = 0;
-    place.setAttribute("role", "application");
-    place.setAttribute("aria-label", "What is pulled: press to hold, drag to pull");
-    pane.insertBefore(place, byId("pull-grips"));
-  }
-  try {
-    return new PullScene(byId<HTMLCanvasElement>("pull-canvas"), places);
-  } catch {
-    return null;
+    if (this.#scene) showMarks(this.#scene, this.grips);
   }
 }
