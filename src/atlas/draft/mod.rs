@@ -29,7 +29,9 @@ const CROWD: usize = 64;
 /// A chart is small whose rectangle has less than such a half perimeter, as a share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
 /// Sides of squares in which all charts are first placed, in sides of the page.
-const SIDES: [u32; 3] = [1, 2, 4];
+const SIDES: [u32; 5] = [1, 2, 4, 8, MOST_SIDES];
+/// A chart that is longer is a needle. Ten pages, which one chart may be expected to fill, are as large as 3.2 sides squared.
+const MOST_SIDES: u32 = 16;
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 512;
 
@@ -97,7 +99,7 @@ impl Draft {
         };
         let extents = plan.order.iter().flat_map(|&i| plan.outlines[i].extent);
         let longest = extents.fold(0.0, f64::max) * raster.scale;
-        if longest > f64::from(raster.largest(SIDES[2])) {
+        if longest > f64::from(raster.largest(MOST_SIDES)) {
             return None;
         }
         let poses = plan.outlines.iter().map(|o| raster.poses(o)).collect();

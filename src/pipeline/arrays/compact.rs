@@ -89,7 +89,8 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
     let mut candidates = vec![cutter.candidate.clone()];
     let mut best = search.most_valued(&mut candidates);
     let mut idle = 0;
-    while idle < MOST_IDLE || cutter.candidate.draft.is_crowded() {
+    let most_idle = MOST_IDLE * search.options.texture.pages as usize;
+    while idle < most_idle || cutter.candidate.draft.is_crowded() {
         let mut batch = Vec::new();
         while batch.len() < BATCH
             && candidates.len() + batch.len() <= most
@@ -152,7 +153,7 @@ impl<'a> Cutter<'a> {
                 },
             },
             of_page,
-            price: PRICE * seam_price / seams,
+            price: PRICE * seam_price / f64::from(pages) / seams,
             per_chart: PER_CHART * area.sqrt(),
             most_charts,
         }
