@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 use utoipa::openapi::{RefOr, Schema};
 
 use crate::deform::ProblemFile;
-use crate::jobs::{Event, Kind};
+use crate::jobs::{Event, Kind, Order};
 use crate::pipeline::{
     DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, RepackOptions,
     Report, SolveOptions, Verified, VerifyOptions, WarpOptions, WarpReport,
@@ -31,6 +31,7 @@ pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {
     add::<EditReport>(&mut schemas);
     add::<Event>(&mut schemas);
     add::<ProblemFile>(&mut schemas);
+    add::<Order>(&mut schemas);
     schemas
 }
 
