@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 use utoipa::ToSchema;
 use utoipa::openapi::{RefOr, Schema};
 
+use super::session_input::JobFile;
 use crate::deform::ProblemFile;
 use crate::jobs::{Event, Kind, Order};
 use crate::pipeline::{
@@ -32,6 +33,7 @@ pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {
     add::<Event>(&mut schemas);
     add::<ProblemFile>(&mut schemas);
     add::<Order>(&mut schemas);
+    add::<JobFile>(&mut schemas);
     schemas
 }
 

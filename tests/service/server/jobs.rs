@@ -33,6 +33,7 @@ async fn a_glb_becomes_a_glb_a_report_and_pictures() {
         "layout.png",
         "heatmap.png",
         "thumbnail.png",
+        "uvs.bin",
         "report",
     ];
     assert_eq!(hrefs, expected.map(|name| format!("{base}/{name}")));
