@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs the image as it is meant to be run, on a read-only root and without privileges, and asks of it what the README
-# promises: one call, a job, its files, a restart that keeps them.
+# promises: one call, a job, its files, a restart that keeps them. There is nothing in the image to help with that.
 #
 # usage: docker build -f docker/Dockerfile -t unwrapd . && tests/container.sh [unwrapd]
 set -eu
@@ -38,11 +38,12 @@ grep -q allow-anonymous "$work/refused"
 key=$(docker run --rm $unprivileged "$image" keys create --owner tests)
 
 start
-docker exec "$container" id
+[ "$(docker inspect -f '{{.Config.User}}' "$container")" = 65532:65532 ]
 docker exec "$container" unwrapd health
+until [ "$(docker inspect -f '{{.State.Health.Status}}' "$container")" = healthy ]; do sleep 1; done
 curl -sSf "$address/healthz"
 curl -sSf "$address/v1/unwrap" -H 'content-type: model/gltf-binary' --data-binary @tests/assets/Box.glb -o "$work/box.glb"
-docker exec -i "$container" sh -c 'cat >/data/box.glb && unwrapd verify /data/box.glb --bijective' <"$work/box.glb"
+docker exec -i "$container" unwrapd verify - --bijective <"$work/box.glb"
 
 id=$(curl -sSf "$address/v1/jobs?cut=auto" -H 'content-type: model/gltf-binary' -H 'prefer: wait=60' \
     --data-binary @tests/assets/Box.glb | member id)

@@ -149,7 +149,8 @@ impl ExposureArgs {
     pub fn connections(&self) -> Connections {
         let wished = self.max_connections.map_or(MOST_CONNECTIONS, u64::from);
         let open_files = more_open_files().unwrap_or(wished + OTHER_FILES);
-        let allowed = open_files.saturating_sub(OTHER_FILES).max(open_files / 2);
+        // A connection that uploads has a file open as well.
+        let allowed = open_files.saturating_sub(OTHER_FILES).max(open_files / 2) / 2;
         if self.max_connections.is_some() && allowed < wished {
             tracing::warn!(
                 open_files,

@@ -151,5 +151,6 @@ pub(super) fn note(primitive: &Primitive, replaced: bool) -> PrimitiveNote {
         indices_widened: false,
         converted_to_triangles: false,
         tangents: TangentsNote::Untouched,
+        sources: None,
     }
 }

@@ -47,6 +47,9 @@ pub struct PrimitiveNote {
     pub converted_to_triangles: bool,
     /// What became of the tangents.
     pub tangents: TangentsNote,
+    /// For each vertex now its number before, as elements of the accessors are counted; `None` where each is what it was.
+    #[serde(skip)]
+    pub sources: Option<Vec<u32>>,
 }
 
 /// What became of the tangents of a primitive.

@@ -54,7 +54,7 @@ use crate::webhooks;
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
         ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Of the waiting jobs of one owner, those of higher priority start first; the default is 0"),
         ("metadata" = Option<String>, Query, description = "JSON object of at most 4096 bytes and 64 members, which is repeated wherever the job is shown. `listJobs` finds jobs by it"),
-        ("accept" = Option<String>, Query, description = "Gates that the result has to meet, as a list with commas: `certified`, `max_charts=N`, `max_distortion=E` (mean symmetric Dirichlet energy of the worst atlas), `max_stretch=S` (99th percentile), `max_seconds=T`, `written`. `accepted` of the job says whether it does"),
+        ("accept" = Option<String>, Query, description = "Gates that the result has to meet, as a list with commas: `certified`, `max_charts=N`, `max_distortion=E` (mean symmetric Dirichlet energy of the worst atlas; `max_symmetric_dirichlet` is the same), `max_stretch=S` (99th percentile), `max_seconds=T`, `written`. `accepted` of the job says whether it does"),
         ("webhook" = Option<String>, Query, description = "Address to which the end of the job is posted, signed as Standard Webhooks says, until it answers 2xx"),
     ),
     responses(

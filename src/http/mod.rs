@@ -123,6 +123,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(results::get_layout))
         .routes(routes!(results::get_heatmap))
         .routes(routes!(results::get_thumbnail))
+        .routes(routes!(results::get_uvs))
         .routes(routes!(results::get_file))
         .routes(routes!(pack::get_files))
         .routes(routes!(sessions::open_session, sessions::list_sessions))

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use serde_json::{Map, Value, json};
+use utoipa::openapi::tag::TagBuilder;
 use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 
 use super::causes::CAUSES;
@@ -17,6 +18,16 @@ const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with ce
     RFC 9457 problems with a stable `code`; `x-problems` lists all codes. Errors caused by the input have status 422. A \
     failed job reports the same codes in `error`, and so does the command line. Once a service has an API key, calls need \
     one: `security` of an operation names its scopes. What belongs to another owner does not exist for a caller.";
+
+/// What operations are about, in the order in which they are shown.
+const TAGS: [(&str, &str); 6] = [
+    ("synchronous", "Small meshes, answered at once"),
+    ("jobs", "Submit, list, watch and end jobs"),
+    ("results", "What jobs made"),
+    ("sessions", "Pull bodies, pictures and UVs live"),
+    ("access", "Keys, and signing in"),
+    ("service", "Health, metrics, and operating it"),
+];
 
 /// The paths of uploads whose kind the upload says.
 const OF_ANY_KIND: [&str; 2] = ["/v1/jobs", "/v1/sessions"];
@@ -33,7 +44,16 @@ pub(super) fn preamble() -> OpenApi {
         .description(Some(DESCRIPTION))
         .license(Some(license))
         .build();
-    OpenApiBuilder::new().info(info).build()
+    let tag = |(name, description): (&str, &str)| {
+        TagBuilder::new()
+            .name(name)
+            .description(Some(description))
+            .build()
+    };
+    OpenApiBuilder::new()
+        .info(info)
+        .tags(Some(TAGS.map(tag)))
+        .build()
 }
 
 /// The document as text. At open paths nobody needs a key.

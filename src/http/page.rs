@@ -19,9 +19,10 @@ static DOCS: Asset = Asset::new(
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 const STYLE: &str = "text/css; charset=utf-8";
+const TEXT: &str = "text/plain; charset=utf-8";
 
 /// What the pages load, by name.
-static ASSETS: [(&str, Asset); 6] = [
+static ASSETS: [(&str, Asset); 7] = [
     (
         "page.js",
         Asset::new(SCRIPT, include_bytes!("page/dist/page.js")),
@@ -41,6 +42,10 @@ static ASSETS: [(&str, Asset); 6] = [
     (
         "docs.css",
         Asset::new(STYLE, include_bytes!("page/dist/docs.css")),
+    ),
+    (
+        "viewer.txt",
+        Asset::new(TEXT, include_bytes!("page/dist/viewer.txt")),
     ),
     (
         "sample.ply",

@@ -67,7 +67,8 @@ impl Problem {
     /// Something that should not happen: clients get no details, the log does.
     pub fn internal(error: &dyn std::fmt::Display) -> Self {
         tracing::error!(%error, "internal error");
-        Self::new(Code::InternalError, "the log of the service has details")
+        let detail = "the log of the service says why, under the X-Request-Id of this answer";
+        Self::new(Code::InternalError, detail)
     }
 
     /// Why a job failed. A code that is not in the table belongs to the input.

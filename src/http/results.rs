@@ -113,6 +113,38 @@ pub(super) async fn get_thumbnail(
     file(&app, &caller, id, "thumbnail.png", &headers).await
 }
 
+/// Get the UVs as arrays, with the vertices and faces that they belong to.
+///
+/// For programs that keep the mesh that they sent. `unwrap` and `repack` make it. All numbers have 4
+/// bytes and are little-endian:
+///
+/// - the bytes `UVS1`, then the number of primitives;
+/// - for each primitive its mesh and its number in that, as the result counts them, and its numbers of
+///   faces F and of vertices V;
+/// - for each primitive 6 F floats: u and v of the three corners of each face, in the numbers of the
+///   result; F integers: which triangle of the input each face is; V integers: which vertex of the
+///   input each vertex of the result is.
+///
+/// Integers are unsigned, and all count from 0. For glTF, vertices are elements of the primitive's
+/// accessors; triangles of the input are those of the primitive. Other formats count over the whole
+/// file, with a polygon of n corners as n − 2 triangles.
+#[utoipa::path(
+    get, path = "/v1/jobs/{id}/uvs.bin", operation_id = "getUvs", tag = "results",
+    params(("id" = String, Path, format = "uuid", description = "The job")),
+    responses(
+        (status = 200, description = "The arrays", body = Vec<u8>, content_type = "application/octet-stream"),
+        FileAnswers,
+    )
+)]
+pub(super) async fn get_uvs(
+    State(app): Shared,
+    caller: Caller,
+    PathId(id): PathId,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    file(&app, &caller, id, "uvs.bin", &headers).await
+}
+
 /// Get a file that belongs to the result.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/files/{name}", operation_id = "getFile", tag = "results",

@@ -6,8 +6,9 @@ use serde_json::{Map, Value, json};
 use utoipa::ToSchema;
 use utoipa::openapi::{RefOr, Schema};
 
+use super::session_input::JobFile;
 use crate::deform::ProblemFile;
-use crate::jobs::{Event, Kind};
+use crate::jobs::{Event, Kind, Order};
 use crate::pipeline::{
     DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, RepackOptions,
     Report, SolveOptions, Verified, VerifyOptions, WarpOptions, WarpReport,
@@ -31,6 +32,8 @@ pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {
     add::<EditReport>(&mut schemas);
     add::<Event>(&mut schemas);
     add::<ProblemFile>(&mut schemas);
+    add::<Order>(&mut schemas);
+    add::<JobFile>(&mut schemas);
     schemas
 }
 

@@ -15,7 +15,8 @@ pub enum Gate {
     Certified,
     /// It has so many charts at most.
     MaxCharts(u64),
-    /// The mean symmetric Dirichlet energy of its worst atlas is so large at most.
+    /// The mean symmetric Dirichlet energy of its worst atlas is so large at most. It has the name of the option that
+    /// bounds the same; `max_symmetric_dirichlet` is read as well.
     MaxDistortion(f64),
     /// The 99th percentile of the stretch of its worst atlas is so large at most.
     MaxStretch(f64),
@@ -164,7 +165,9 @@ impl FromStr for Gate {
                 let count = value.and_then(|value| value.parse().ok());
                 return Ok(Self::MaxCharts(count.ok_or(needs("a whole number"))?));
             }
-            "max_distortion" => return number().map(Self::MaxDistortion),
+            "max_distortion" | "max_symmetric_dirichlet" => {
+                return number().map(Self::MaxDistortion);
+            }
             "max_stretch" => return number().map(Self::MaxStretch),
             "max_seconds" => return number().map(Self::MaxSeconds),
             _ => return Err(GateError::Unknown(part.to_owned())),

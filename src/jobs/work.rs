@@ -19,8 +19,8 @@ use crate::pipeline::{
 pub(super) struct Made {
     /// Role, name and content of each file.
     pub files: Vec<(String, String, Vec<u8>)>,
-    /// What an atlas can be drawn from.
-    pictures: Option<pipeline::Pictures>,
+    /// What an atlas can be drawn from, and its UVs.
+    atlas: Option<(pipeline::Pictures, pipeline::UvArrays)>,
     /// What is known of them.
     pub verdict: Verdict,
 }
@@ -96,7 +96,7 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
     let mut bounds = groups.filter_map(|group| Some(group.atlas.as_ref()?.bound.as_ref()?.kept));
     let within_bound = bounds.next().map(|first| first && bounds.all(|kept| kept));
     let mut made = made.reported(report, Worth::of(report), &report.warnings);
-    made.pictures = Some(outcome.pictures);
+    made.atlas = Some((outcome.pictures, outcome.uvs));
     made.verdict.within_bound = within_bound;
     made
 }
@@ -172,17 +172,19 @@ impl Made {
         };
         Self {
             files: files.into_iter().enumerate().map(with_role).collect(),
-            pictures: None,
+            atlas: None,
             verdict: Verdict::default(),
         }
     }
 
-    /// Adds the pictures of an atlas, and a small one of these or of a picture that was warped. For a small mesh this takes longer
-    /// than unwrapping it.
+    /// Adds the pictures of an atlas, a small one of these or of a picture that was warped, and the UVs of an atlas as arrays. For a
+    /// small mesh this takes longer than unwrapping it.
     pub fn draw(&mut self) -> Result<(), PipelineError> {
         let mut pictures = Vec::new();
-        if let Some(drawn) = self.pictures.take() {
+        let mut arrays = None;
+        if let Some((drawn, uvs)) = self.atlas.take() {
             let drawn = drawn.draw()?;
+            arrays = Some(("uvs.bin", uvs.to_bytes()));
             pictures.push(("layout.png", drawn.layout_png));
             pictures.push(("heatmap.png", drawn.heatmap_png));
         }
@@ -193,12 +195,12 @@ impl Made {
         if let Some(Ok(small)) = shown.map(|picture| thumbnail_png(picture)) {
             pictures.push(("thumbnail.png", small));
         }
-        let pictures = pictures.into_iter();
-        let pictures = pictures.map(|(name, png)| (name.to_owned(), name.to_owned(), png));
+        let files = pictures.into_iter().chain(arrays);
+        let files = files.map(|(name, bytes)| (name.to_owned(), name.to_owned(), bytes));
         // The report stays last.
         let place = self.files.iter().position(|(role, ..)| role == "report");
         let place = place.unwrap_or(self.files.len());
-        self.files.splice(place..place, pictures);
+        self.files.splice(place..place, files);
         Ok(())
     }
 

@@ -77,6 +77,8 @@ pub use documents::texel_weight::TexelWeight;
 #[cfg(feature = "files")]
 pub use documents::unwrap::{Outcome, unwrap_document};
 #[cfg(feature = "files")]
+pub use documents::uv_arrays::UvArrays;
+#[cfg(feature = "files")]
 pub use edit::held::hold_uvs;
 #[cfg(feature = "files")]
 pub use edit::report::{ChartEditReport, EditReport};

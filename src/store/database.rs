@@ -39,9 +39,11 @@ const POSTGRES: [&str; 9] = [
 ];
 
 /// What every connection to SQLite is set to. What is committed is durable; the log is copied into
-/// the database after a quarter of the pages that are set aside for it.
+/// the database after a quarter of the pages that are set aside for it. What is sorted stays in memory:
+/// an image has no folder for temporary files.
 const PRAGMAS: &str = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;
-    PRAGMA wal_autocheckpoint = 256; PRAGMA foreign_keys = ON; PRAGMA busy_timeout = 5000;";
+    PRAGMA wal_autocheckpoint = 256; PRAGMA foreign_keys = ON; PRAGMA busy_timeout = 5000;
+    PRAGMA temp_store = MEMORY;";
 /// Connections of a process to PostgreSQL, and those to SQLite that read.
 const POSTGRES_CONNECTIONS: u32 = 8;
 const SQLITE_READERS: u32 = 4;

@@ -26,6 +26,20 @@ fn the_stored_document_is_fresh() {
 }
 
 #[test]
+fn every_schema_that_is_named_exists() {
+    let document = stored();
+    let named = STORED.split("\"#/components/schemas/").skip(1);
+    let named: BTreeSet<&str> = named.filter_map(|rest| rest.split('"').next()).collect();
+    assert!(20 < named.len());
+    let schemas = &document["components"]["schemas"];
+    let missing: Vec<_> = named
+        .iter()
+        .filter(|name| schemas[name].is_null())
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+#[test]
 fn every_operation_says_what_it_answers() {
     let document = stored();
     assert!(

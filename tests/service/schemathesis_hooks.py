@@ -1,4 +1,5 @@
-"""Bodies that schemathesis cannot make up: meshes, pictures and drawings, some of them usable."""
+"""Bodies that schemathesis cannot make up: meshes, pictures and drawings, some of them usable; and whose jobs are asked for."""
+import os
 import struct
 import zlib
 
@@ -38,3 +39,23 @@ for media_type in MEDIA_TYPES:
 def raw(ctx, value):
     """Sends bytes as they are."""
     return value if isinstance(value, bytes) else str(value).encode()
+
+
+# What belongs to alice, where somebody else asks.
+JOB, SESSION = os.environ.get("SECRET_JOB"), os.environ.get("SECRET_SESSION")
+
+
+@schemathesis.hook
+def map_path_parameters(context, path_parameters):
+    """Asks for what belongs to another owner."""
+    if JOB and path_parameters and "id" in path_parameters:
+        path_parameters["id"] = SESSION if "/sessions/" in context.operation.path else JOB
+    return path_parameters
+
+
+@schemathesis.check
+def nothing_of_another_owner(ctx, response, case):
+    """What belongs to another owner does not exist."""
+    if JOB:
+        assert "alice" not in response.text
+        assert "{id}" not in case.operation.path or response.status_code >= 400

@@ -13,8 +13,8 @@ use crate::document::colors::{Color, from_linear};
 use crate::document::material::{Dropped, Material, mtl_text, of_gltf};
 use crate::document::new_obj::{self, ObjPart};
 use crate::document::{
-    BakedTextures, DocumentError, Layout, NewUvs, Warning, WriteNotes, WriteOptions, Written,
-    warning,
+    BakedTextures, DocumentError, Layout, NewUvs, PrimitiveNote, Warning, WriteNotes, WriteOptions,
+    Written, warning,
 };
 use crate::mesh::VAxis;
 use serde_json::Value;
@@ -52,7 +52,10 @@ pub(super) fn write(
         });
         if uvs.corners[index].is_some() {
             let had_uvs = document.corner_uvs(index, 0)?.is_some();
-            notes.primitives.push(new_obj::note(primitive, had_uvs));
+            notes.primitives.push(PrimitiveNote {
+                sources: document.used[index].clone(),
+                ..new_obj::note(primitive, had_uvs)
+            });
         }
     }
     notes.textures_affected = textures_affected(document, uvs, baked)?;

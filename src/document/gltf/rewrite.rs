@@ -52,6 +52,7 @@ pub(super) fn rewrite(
         indices_widened: false,
         converted_to_triangles: false,
         tangents: tangents_note,
+        sources: None,
     };
     let used = document.used[index].as_deref();
     let is_split = !split.copies.is_empty() || joined.is_some();
@@ -70,6 +71,7 @@ pub(super) fn rewrite(
             .map(|vertex| used.map_or(vertex, |used| used[vertex as usize]))
             .collect();
         gather_vertices(document, body, &mut changed, &gather)?;
+        note.sources = Some(gather);
     }
     let texcoords = split.keys.iter().flat_map(|key| match key {
         Some((bits, _)) => bits.map(f32::from_bits),

@@ -29,6 +29,9 @@ made["page.js"] = await bundle("app/main.ts", { WORKER: JSON.stringify(versioned
 made["docs.js"] = await bundle("docs/main.ts");
 made["page.css"] = await bundle("page.css");
 made["docs.css"] = await bundle("docs.css");
+const viewer = join(here, "node_modules/swagger-ui-dist");
+const terms = ["NOTICE", "LICENSE", "swagger-ui-es-bundle.js.LICENSE.txt"];
+made["viewer.txt"] = terms.map((name) => readFileSync(join(viewer, name), "utf8")).join("\n");
 for (const page of ["index.html", "docs.html"]) {
   const html = readFileSync(join(here, page), "utf8");
   made[page] = html.replace(/assets\/([\w.]+)/g, (_, name) => `assets/${versioned(name, made[name])}`);

@@ -9,3 +9,4 @@ pub(super) mod prepared;
 pub(super) mod repack;
 pub(super) mod texel_weight;
 pub(super) mod unwrap;
+pub(super) mod uv_arrays;

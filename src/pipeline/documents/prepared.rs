@@ -16,8 +16,16 @@ pub struct Prepared {
     pub group_by: GroupBy,
     /// The options, with seams in the numbers of the document.
     pub seams: Options,
+    /// What the document was in the file.
+    pub origins: Origins,
     /// The texture that the UVs which are kept were made for, where the file says it.
     pub texture: Option<Resolution>,
+}
+
+/// What vertices and faces over all primitives of a document were in the file; `None` where each is what it was.
+pub struct Origins {
+    pub vertices: Option<Vec<u32>>,
+    pub faces: Option<Vec<u32>>,
 }
 
 impl Prepared {
@@ -58,6 +66,10 @@ impl Prepared {
             document: options.nodes().prepared(conversion.document)?,
             group_by,
             seams,
+            origins: Origins {
+                vertices: conversion.vertices,
+                faces: conversion.faces,
+            },
             texture,
         })
     }

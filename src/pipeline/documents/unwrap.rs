@@ -5,7 +5,11 @@ use super::merged::Merged;
 use super::new_uvs::new_uvs;
 use super::pictures::Pictures;
 use super::prepared::Prepared;
-use crate::document::{BakedTextures, Document, GroupBy, NewUvs, Upload, WriteOptions, Written};
+use super::uv_arrays::UvArrays;
+use crate::document::{
+    BakedTextures, Document, GroupBy, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+};
+use crate::mesh::VAxis;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::soup::Soup;
@@ -28,6 +32,8 @@ pub struct Outcome {
     pub report: Report,
     /// Draws the UV layout and the distortion.
     pub pictures: Pictures,
+    /// The UVs that were written.
+    pub uvs: UvArrays,
 }
 
 /// Unwraps every mesh of a document and judges the bytes it writes.
@@ -70,6 +76,7 @@ fn unwrap_in_pool(
         document,
         group_by,
         seams,
+        origins,
         texture,
     } = Prepared::read(upload, options, &plan)?;
     let groups = document.groups(group_by);
@@ -99,6 +106,12 @@ fn unwrap_in_pool(
 
     tracker.stage(Stage::Write);
     let written = write(&document, (&uvs, group_by), baked.as_ref(), upload, options)?;
+    let v_axis = match options.format {
+        OutputFormat::Obj => VAxis::Up,
+        OutputFormat::Glb | OutputFormat::Gltf => VAxis::Down,
+    };
+    let notes = &written.notes.primitives;
+    let arrays = UvArrays::new(&document, (&uvs, v_axis), notes, &origins);
     seconds.write = watch.lap();
     let noticed = document.warnings().to_vec();
     // What was written is read next: both would take twice the memory.
@@ -140,6 +153,7 @@ fn unwrap_in_pool(
             shown: options.heatmap_measure,
             workers: options.settings().workers,
         },
+        uvs: arrays,
     })
 }
 

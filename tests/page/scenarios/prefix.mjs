@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { createServer, request } from "node:http";
 import { connect } from "node:net";
 import { shown } from "../look.mjs";
+import { tried } from "./api.mjs";
 
 const PREFIX = "/tools/uv";
 
@@ -40,7 +41,8 @@ export async function run(page, url, mesh) {
   await page.waitForSelector(".verdict.certified");
   await shown(page);
   await page.click("nav >> text=API");
-  await page.waitForSelector("#operations details");
+  await page.waitForSelector(".opblock");
+  assert.equal(await tried(page, "service", "healthz"), "200");
   assert.deepEqual(missed, []);
   server.closeAllConnections();
   server.close();

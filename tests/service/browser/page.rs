@@ -117,6 +117,16 @@ async fn errors_say_what_to_do() {
 }
 
 #[tokio::test]
+async fn the_api_can_be_read_and_tried_out() {
+    let server = Server::start();
+    let said = scenario("api", server.url("/"), &[]).await;
+    assert!(
+        said["operations"].as_u64().is_some_and(|n| 30 < n),
+        "{said}"
+    );
+}
+
+#[tokio::test]
 async fn nothing_on_the_pages_is_inaccessible() {
     let server = Server::start();
     let url = unwrapped(&server, "cat_head.obj").await;

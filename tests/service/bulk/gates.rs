@@ -56,6 +56,7 @@ fn the_exit_status_is_decided_by_the_gates() {
             2,
         ),
         ("max_distortion=3.9", 4, 0),
+        ("max_symmetric_dirichlet=3.9", 4, 0),
         ("max_stretch=0.9", 4, 0),
         ("max_seconds=0", 4, 0),
     ] {

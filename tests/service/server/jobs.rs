@@ -33,6 +33,7 @@ async fn a_glb_becomes_a_glb_a_report_and_pictures() {
         "layout.png",
         "heatmap.png",
         "thumbnail.png",
+        "uvs.bin",
         "report",
     ];
     assert_eq!(hrefs, expected.map(|name| format!("{base}/{name}")));
@@ -59,7 +60,7 @@ async fn a_glb_becomes_a_glb_a_report_and_pictures() {
             .await;
         assert!(bytes.expect("bytes").starts_with(b"\x89PNG"));
     }
-    let report = json(server.get(hrefs[4]).send().await.expect("an answer")).await;
+    let report = json(server.get(hrefs[5]).send().await.expect("an answer")).await;
     assert_eq!(report["certified"], true, "{report}");
     // What was asked for, and beside it what the service allows.
     assert_eq!(report["options"]["time_budget"], object!(null));

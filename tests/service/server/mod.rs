@@ -29,6 +29,7 @@ pub mod sessions;
 mod sessions_end;
 mod submitted;
 mod synchronous;
+mod uvs;
 mod verdicts;
 mod watchable;
 mod webhooks;

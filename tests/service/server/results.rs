@@ -97,10 +97,9 @@ async fn pages_load_nothing_from_elsewhere() {
             .to_owned();
         assert!(policy.contains("default-src 'none'") && !policy.contains("unsafe"));
         let text = answer.text().await.expect("text");
-        assert!(
-            !text.contains("http://") && !text.contains("https://"),
-            "{path}"
-        );
+        let names_others = text.contains("http://") || text.contains("https://");
+        // The viewer of the API names standards; the browser that opens it sees that it asks nobody.
+        assert!(!names_others || path.starts_with("/assets/docs"), "{path}");
     }
     for path in ["/healthz", "/readyz"] {
         assert_eq!(

@@ -76,7 +76,13 @@ async fn jobs_are_counted_and_timed() {
 
 #[tokio::test]
 async fn dashboard_and_alerts_name_metrics_that_exist() {
-    let server = Server::with(&[("UNWRAPD_QUOTA_MIB", "64")]);
+    let server = Server::with(&[
+        ("UNWRAPD_QUOTA_MIB", "64"),
+        (
+            "UNWRAPD_WEBHOOK_SECRET",
+            "a-secret-of-at-least-24-characters",
+        ),
+    ]);
     some_jobs(&server).await;
     metrics(&server).await;
     let metrics = metrics(&server).await;
@@ -101,7 +107,7 @@ async fn dashboard_and_alerts_name_metrics_that_exist() {
         assert!(names.len() > 10);
     }
     let rules: Vec<&str> = alerts.split("- alert: ").skip(1).collect();
-    assert_eq!(rules.len(), 10);
+    assert_eq!(rules.len(), 11);
     for rule in rules {
         let action = rule.split("action: ").nth(1).expect("what to do");
         let sentence = action.lines().next().expect("a line");

@@ -1,0 +1,100 @@
+//! The UVs of a result as plain arrays, for programs that keep the mesh that they sent.
+
+use super::prepared::Origins;
+use crate::document::{Corners, Document, NewUvs, PrimitiveNote};
+use crate::mesh::VAxis;
+
+/// The first bytes of the file: what it is, and its version.
+const MAGIC: [u8; 4] = *b"UVS1";
+
+/// The UVs of every corner, and where faces and vertices come from.
+#[derive(Clone, Debug)]
+pub struct UvArrays(Vec<Arrays>);
+
+/// Those of a primitive that was written.
+#[derive(Clone, Debug)]
+struct Arrays {
+    mesh: u32,
+    primitive: u32,
+    uvs: Vec<Corners>,
+    /// For each face its number in the input.
+    faces: Vec<u32>,
+    /// For each vertex its number in the input.
+    vertices: Vec<u32>,
+}
+
+impl UvArrays {
+    /// What was written of `uvs`, with v as it is in the file written. `notes` say what became of the document, and `origins` what
+    /// it was.
+    pub fn new(
+        document: &Document,
+        (uvs, v_axis): (&NewUvs, VAxis),
+        notes: &[PrimitiveNote],
+        origins: &Origins,
+    ) -> Self {
+        let mut notes = notes.iter().peekable();
+        let mut first = [0, 0];
+        let mut all = Vec::new();
+        for (index, primitive) in document.primitives().iter().enumerate() {
+            let is_own = |note: &&PrimitiveNote| {
+                (note.mesh, note.primitive) == (primitive.mesh, primitive.primitive)
+            };
+            let note = notes.next_if(is_own);
+            if let (Some(note), Some(uvs)) = (note, uvs.toward(index, v_axis)) {
+                all.push(Arrays {
+                    mesh: note.mesh as u32,
+                    primitive: note.primitive as u32,
+                    faces: originals(0..uvs.len() as u32, first[1], origins.faces.as_deref()),
+                    vertices: originals(sources(note), first[0], origins.vertices.as_deref()),
+                    uvs,
+                });
+            }
+            first[0] += primitive.positions.len();
+            first[1] += primitive.triangles.len();
+        }
+        Self(all)
+    }
+
+    /// The file that `getUvs` of the API describes: numbers of 4 bytes, little-endian.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        let mut push = |numbers: &[u32]| {
+            bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+        };
+        push(&[self.0.len() as u32]);
+        for of in &self.0 {
+            push(&[of.mesh, of.primitive]);
+            push(&[of.uvs.len() as u32, of.vertices.len() as u32]);
+        }
+        for of in &self.0 {
+            for face in &of.uvs {
+                push(
+                    &face
+                        .as_flattened()
+                        .iter()
+                        .map(|x| x.to_bits())
+                        .collect::<Vec<_>>(),
+                );
+            }
+            push(&of.faces);
+            push(&of.vertices);
+        }
+        bytes
+    }
+}
+
+/// For each vertex written its number in the document.
+fn sources(note: &PrimitiveNote) -> Vec<u32> {
+    let same = || (0..note.vertices_after as u32).collect();
+    note.sources.clone().unwrap_or_else(same)
+}
+
+/// Numbers within a primitive as those of the input; `all` has them where the document is another, counted from `first` on.
+fn originals(
+    numbers: impl IntoIterator<Item = u32>,
+    first: usize,
+    all: Option<&[u32]>,
+) -> Vec<u32> {
+    let original = |number| all.map_or(number, |all| all[first + number as usize]);
+    numbers.into_iter().map(original).collect()
+}
