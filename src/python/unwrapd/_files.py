@@ -1,0 +1,122 @@
+"""Files: glTF, OBJ, OFF, PLY and STL in, glTF and OBJ out."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Callable, Mapping, Optional, Union
+
+from . import _native
+from ._errors import InvalidOptions
+from ._options import to_json
+
+Path = Union[str, "os.PathLike[str]"]
+Listener = Callable[[Any], Any]
+
+
+def unwrap_file(
+    input: Path, output: Path, *, progress: Optional[Listener] = None, **options: Any
+) -> dict[str, Any]:
+    """Unwrap every mesh of a file; everything else in it is preserved.
+
+    Parameters
+    ----------
+    input : path of a .glb, .gltf, .obj, .off, .ply or .stl
+        Files that it refers to are read from its folder.
+    output : path of a .glb, .gltf or .obj
+        Written when all is done, with the files beside it that the format needs.
+    **options
+        Those of ``unwrapd unwrap`` in snake case.
+
+    Returns
+    -------
+    The report, whose certificate is of the written bytes.
+    """
+    return _converted("unwrap", _native.unwrap_document, input, output, options, progress)
+
+
+def repack_file(
+    input: Path, output: Path, *, progress: Optional[Listener] = None, **options: Any
+) -> dict[str, Any]:
+    """Pack the UV islands of a file anew. As `unwrap_file`, with the options of ``unwrapd repack``."""
+    return _converted("repack", _native.repack_document, input, output, options, progress)
+
+
+def measure_file(input: Path, **options: Any) -> dict[str, Any]:
+    """Measure the UVs of a file, as ``unwrapd measure --json`` does."""
+    return json.loads(_native.measure_document(_file(input), to_json("measure", options, of_files=True)))
+
+
+def verify_file(input: Path, **options: Any) -> dict[str, Any]:
+    """Prove in exact arithmetic what the UVs of a file are, as ``unwrapd verify --json`` does."""
+    return json.loads(_native.verify_document(_file(input), to_json("verify", options, of_files=True)))
+
+
+def unwrap_bytes(
+    data: bytes,
+    name: str = "mesh.glb",
+    *,
+    resources: Optional[Mapping[str, bytes]] = None,
+    progress: Optional[Listener] = None,
+    **options: Any,
+) -> tuple[bytes, dict[str, Any]]:
+    """Unwrap a file in memory.
+
+    Parameters
+    ----------
+    data : the bytes of the file
+    name : its name, which tells the format where the bytes do not
+    resources : the files that it refers to, by relative path
+    **options
+        Those of `unwrap_file`, and ``format="glb"`` (the default) or ``"obj"``.
+
+    Returns
+    -------
+    The bytes of the result and the report.
+    """
+    if options.get("format") == "gltf":
+        raise InvalidOptions("`format` gltf consists of several files: use glb", "invalid_options", 2)
+    file = {"name": name, "bytes": bytes(data), "resources": dict(resources or {}), "folder": None}
+    given = to_json("unwrap", options, of_files=True)
+    files, report = _native.unwrap_document(file, given, None, progress)
+    return files[0][1], json.loads(report)
+
+
+def _converted(
+    function: str, make: Any, source: Path, output: Path, options: dict[str, Any], progress: Optional[Listener]
+) -> dict[str, Any]:
+    folder, name = os.path.split(os.fspath(output))
+    stem, extension = os.path.splitext(name)
+    written_as = extension.lower().lstrip(".")
+    if written_as not in ("glb", "gltf", "obj"):
+        raise InvalidOptions(f"{name}: the name of the output must end in .glb, .gltf or .obj", "invalid_options", 2)
+    if os.path.exists(output) and os.path.samefile(source, output):
+        raise InvalidOptions(f"{name} would replace the input", "invalid_options", 2)
+    given = to_json(function, {**options, "format": written_as}, of_files=True)
+    (main, *others), report = make(_file(source), given, stem, progress)
+    for relative, content in others:
+        _write(os.path.join(folder, relative), content)
+    _write(os.fspath(output), main[1])
+    return json.loads(report)
+
+
+def _file(path: Path) -> dict[str, Any]:
+    path = os.fspath(path)
+    folder, name = os.path.split(path)
+    with open(path, "rb") as file:
+        content = file.read()
+    return {"name": name, "bytes": content, "resources": {}, "folder": folder or "."}
+
+
+def _write(path: str, content: bytes) -> None:
+    """A file is whole or not there."""
+    os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
+    partial = f"{path}.{os.getpid()}.part"
+    try:
+        with open(partial, "wb") as file:
+            file.write(content)
+        os.replace(partial, path)
+    except BaseException:
+        if os.path.exists(partial):
+            os.remove(partial)
+        raise
