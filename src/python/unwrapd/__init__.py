@@ -6,7 +6,7 @@
 >>> atlas = unwrapd.unwrap(vertices, faces)
 >>> atlas.certified, atlas.n_charts
 (True, 1)
->>> (vertices[atlas.vmapping][atlas.indices] == vertices[faces]).all()
+>>> numpy.array_equal(vertices[atlas.vmapping][atlas.indices], vertices[faces])
 True
 
 `unwrapd.xatlas` has the calls of the package `xatlas`.
