@@ -34,7 +34,9 @@ def test_between_charts_colors_go_on(cube):
 def test_several(cube, pyramid):
     meshes = [cube, (pyramid[0] + 3, pyramid[1])]
     atlases = unwrapd.unwrap(meshes)
-    image, mask = unwrapd.bake(atlases, [np.full((len(v), 1), n + 1.0) for n, (v, _) in enumerate(meshes)], 128)
+    image, mask = unwrapd.bake(
+        atlases, [np.full((len(v), 1), n + 1.0) for n, (v, _) in enumerate(meshes)], 128
+    )
     assert image.shape == (128, 128, 1)
     values = image[mask][:, 0].round(5)
     assert set(values) == {1.0, 2.0}

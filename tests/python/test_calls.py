@@ -103,7 +103,9 @@ def test_after_a_fork(sheet):
     child = os.fork()
     if child == 0:
         again = unwrapd.unwrap(*mesh)
-        is_same = (again.uvs == expected.uvs).all() and (unwrapd.bake(again, mesh[0], 32)[0] == image).all()
+        is_same = (again.uvs == expected.uvs).all() and (
+            unwrapd.bake(again, mesh[0], 32)[0] == image
+        ).all()
         os._exit(0 if is_same else 1)
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline:

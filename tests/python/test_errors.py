@@ -41,7 +41,9 @@ def test_none_is_the_default(pyramid):
 
 
 def test_options_take_numpy_numbers(pyramid):
-    atlas = unwrapd.unwrap(*pyramid, padding=np.int64(3), seam_weight=np.float32(2), resolution=(2048, 1024))
+    atlas = unwrapd.unwrap(
+        *pyramid, padding=np.int64(3), seam_weight=np.float32(2), resolution=(2048, 1024)
+    )
     assert atlas.report["options"]["padding"] == 3
     assert atlas.report["options"]["resolution"] == "2048x1024"
 

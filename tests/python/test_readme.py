@@ -1,25 +1,27 @@
 """The lines of the README run, and names are where it says."""
 
+import ast
 import inspect
 import pathlib
 import re
 
-import numpy
 import pytest
 import unwrapd
+from unwrapd._options import names
 
 README = pathlib.Path(__file__).resolve().parents[2] / "src/python/README.md"
 
 
 def test_the_readme_runs(monkeypatch):
     pytest.importorskip("trimesh")
-    names = {}
+    scope = {}
     blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
     monkeypatch.setitem(__import__("sys").modules, "xatlas", None)
     for block in blocks:
-        exec(compile(block, str(README), "exec"), names)
+        exec(compile(block, str(README), "exec"), scope)
     assert sum(len(block.splitlines()) for block in blocks) >= 10
-    assert (names["vertices"][names["vmapping"]][names["indices"]] == names["vertices"][names["faces"]]).all()
+    vertices = scope["vertices"]
+    assert (vertices[scope["vmapping"]][scope["indices"]] == vertices[scope["faces"]]).all()
 
 
 def test_docstrings_are_true():
@@ -44,4 +46,16 @@ def test_stubs_name_what_there_is():
     assert named == {name for name in dir(unwrapd._native) if not name.startswith("_")}
     fields = set(re.findall(r"@property\n    def (\w+)", stubs))
     assert fields == {name for name in dir(unwrapd.Progress) if not name.startswith("_")}
-    assert numpy.__version__
+
+
+@pytest.mark.parametrize("function", ["unwrap", "repack", "measure", "verify"])
+def test_types_of_options_name_what_there_is(function):
+    classes = {}
+    for node in ast.parse((README.parent / "unwrapd/_option_types.pyi").read_text()).body:
+        if isinstance(node, ast.ClassDef):
+            own = {field.target.id for field in node.body if isinstance(field, ast.AnnAssign)}
+            bases = [base.id for base in node.bases if base.id != "TypedDict"]
+            classes[node.name] = own.union(*(classes[base] for base in bases))
+    name = function.capitalize()
+    assert classes[f"{name}Options"] == set(names(function, of_files=False))
+    assert classes[f"{name}FileOptions"] | {"format"} == set(names(function)) | {"format"}

@@ -25,7 +25,10 @@ def test_meshes_are_taken(mesh):
 def test_its_uvs_are_taken(mesh):
     atlas = unwrapd.unwrap(mesh)
     mapped = trimesh.Trimesh(
-        mesh.vertices[atlas.vmapping], atlas.indices, visual=trimesh.visual.TextureVisuals(uv=atlas.uvs), process=False
+        mesh.vertices[atlas.vmapping],
+        atlas.indices,
+        visual=trimesh.visual.TextureVisuals(uv=atlas.uvs),
+        process=False,
     )
     assert unwrapd.verify(mapped, bijective=True)["certified"]
     assert unwrapd.repack(mapped, padding=8).n_charts == atlas.n_charts

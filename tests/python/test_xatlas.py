@@ -20,7 +20,9 @@ def check(result, vertices, faces):
     assert uvs.dtype == np.float32 and uvs.shape == (len(vmapping), 2)
     assert len(indices) == 0 or int(indices.max()) < len(vmapping)
     assert len(vmapping) == 0 or int(vmapping.max()) < len(vertices)
-    assert np.array_equal(np.asarray(vertices)[vmapping][indices], np.asarray(vertices)[faces], equal_nan=True)
+    assert np.array_equal(
+        np.asarray(vertices)[vmapping][indices], np.asarray(vertices)[faces], equal_nan=True
+    )
     assert len(uvs) == 0 or (uvs.min() >= 0 and uvs.max() <= 1)
     assert all(array.flags.c_contiguous and array.flags.writeable for array in result)
 
@@ -78,7 +80,11 @@ def test_exceptions(xatlas, pyramid, error, text, arguments):
 
 def test_hard_input(xatlas, pyramid):
     vertices, faces = pyramid
-    check(xatlas.parametrize(np.zeros((0, 3)), np.zeros((0, 3), int)), np.zeros((0, 3)), np.zeros((0, 3), int))
+    check(
+        xatlas.parametrize(np.zeros((0, 3)), np.zeros((0, 3), int)),
+        np.zeros((0, 3)),
+        np.zeros((0, 3), int),
+    )
     nothing = np.vstack([vertices, [[9, 9, 9]]])
     assert 5 not in xatlas.parametrize(nothing, faces)[0]
     twice = np.vstack([faces, [[0, 0, 1]]])
@@ -101,7 +107,9 @@ def test_positions_that_are_not_finite(xatlas, pyramid):
     check(atlas.get_mesh(0), vertices, faces)
     atlas_index, chart_index = atlas.get_mesh_vertex_assignment(0)
     indices = atlas.get_mesh(0)[1]
-    assert (chart_index[indices[:4]] == 0xFFFF_FFFF).all() and (atlas_index[indices[:4]] == 0xFFFF_FFFF).all()
+    assert (chart_index[indices[:4]] == 0xFFFF_FFFF).all() and (
+        atlas_index[indices[:4]] == 0xFFFF_FFFF
+    ).all()
     assert (atlas_index[indices[4:]] == 0).all()
 
 
@@ -110,7 +118,12 @@ def test_an_empty_atlas(xatlas):
     assert len(atlas) == atlas.mesh_count == atlas.chart_count == atlas.atlas_count == 0
     assert atlas.width == atlas.height == 0 and atlas.texels_per_unit == 0
     assert atlas.generate() is None
-    for call in [lambda: atlas[0], lambda: atlas.get_mesh(0), lambda: atlas.utilization, lambda: atlas.chart_image]:
+    for call in [
+        lambda: atlas[0],
+        lambda: atlas.get_mesh(0),
+        lambda: atlas.utilization,
+        lambda: atlas.chart_image,
+    ]:
         with pytest.raises(IndexError, match="out of bounds"):
             call()
 
@@ -148,7 +161,9 @@ def test_charts(xatlas, pyramid, cube):
         assert faces.dtype == np.uint32 and sorted(faces) == list(range(len(indices)))
         for number, chart in enumerate(charts):
             assert (chart_index[indices[chart.faces]] == first + number).all()
-            assert chart.atlas_index == chart.material == 0 and chart.type.name in dir(xatlas.ChartType)
+            assert chart.atlas_index == chart.material == 0 and chart.type.name in dir(
+                xatlas.ChartType
+            )
         first += count
 
 
@@ -185,7 +200,12 @@ def test_options_have_the_same_names_defaults_and_types():
 
 def test_options_are_typed(xatlas):
     options = xatlas.PackOptions()
-    for name, value in [("resolution", -1), ("resolution", 1.5), ("padding", "a"), ("texels_per_unit", "a")]:
+    for name, value in [
+        ("resolution", -1),
+        ("resolution", 1.5),
+        ("padding", "a"),
+        ("texels_per_unit", "a"),
+    ]:
         with pytest.raises(TypeError):
             setattr(options, name, value)
     with pytest.raises(AttributeError):
@@ -290,7 +310,11 @@ def test_export(xatlas, pyramid, tmp_path):
         ((vertices, faces), {"v": 5, "f": 4}, "f 1 2 5"),
         ((vertices, faces, vertices[:, :2]), {"v": 5, "vt": 5, "f": 4}, "f 1/1 2/2 5/5"),
         ((vertices, faces, None, vertices), {"v": 5, "vn": 5, "f": 4}, "f 1//1 2//2 5//5"),
-        ((vertices, faces, vertices[:, :2], vertices), {"v": 5, "vn": 5, "vt": 5, "f": 4}, "f 1/1/1 2/2/2 5/5/5"),
+        (
+            (vertices, faces, vertices[:, :2], vertices),
+            {"v": 5, "vn": 5, "vt": 5, "f": 4},
+            "f 1/1/1 2/2/2 5/5/5",
+        ),
     ]:
         assert xatlas.export(path, *arguments) is None
         lines = open(path).read().splitlines()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Callable, Optional
+from typing import TYPE_CHECKING, Any, Callable, Optional, overload
 
 import numpy as np
 
@@ -11,7 +11,37 @@ from . import _meshes, _native
 from ._atlas import Atlas
 from ._options import to_json
 
-Listener = Callable[[Any], Any]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._option_types import (
+        MeasureOptions,
+        RepackOptions,
+        UnwrapOptions,
+        VerifyOptions,
+    )
+
+Listener = Callable[[_native.Progress], Any]
+
+
+@overload
+def unwrap(
+    mesh: list[Any],
+    faces: None = None,
+    *,
+    progress: Optional[Listener] = None,
+    **options: Unpack[UnwrapOptions],
+) -> list[Atlas]: ...
+@overload
+def unwrap(
+    mesh: Any,
+    faces: Any = None,
+    *,
+    normals: Any = None,
+    uvs: Any = None,
+    progress: Optional[Listener] = None,
+    **options: Unpack[UnwrapOptions],
+) -> Atlas: ...
 
 
 def unwrap(
@@ -39,7 +69,7 @@ def unwrap(
         Called now and then, on this thread, with a `Progress`. Returning False ends the work with the present map, which
         is valid; an exception cancels it.
     **options
-        The options of ``unwrapd unwrap`` in snake case, such as ``cut="fast"``, ``quality="high"``, ``resolution=2048``,
+        The options of ``unwrapd unwrap`` in snake case, such as ``cut="fast"``, ``quality="few"``, ``resolution=2048``,
         ``padding=4``, ``time_budget=10`` (seconds), ``threads=2``. `unwrapd.options("unwrap")` lists them.
 
     Returns
@@ -59,8 +89,26 @@ def unwrap(
     return _atlas(_native.unwrap(meshes, to_json("unwrap", options), progress), is_list)
 
 
+@overload
 def repack(
-    mesh: Any, faces: Any = None, uvs: Any = None, *, progress: Optional[Listener] = None, **options: Any
+    mesh: list[Any], *, progress: Optional[Listener] = None, **options: Unpack[RepackOptions]
+) -> list[Atlas]: ...
+@overload
+def repack(
+    mesh: Any,
+    faces: Any = None,
+    uvs: Any = None,
+    *,
+    progress: Optional[Listener] = None,
+    **options: Unpack[RepackOptions],
+) -> Atlas: ...
+def repack(
+    mesh: Any,
+    faces: Any = None,
+    uvs: Any = None,
+    *,
+    progress: Optional[Listener] = None,
+    **options: Any,
 ) -> Any:
     """Pack the UV islands of a mesh, or of several, into one atlas.
 
@@ -71,23 +119,29 @@ def repack(
     return _atlas(_native.repack(meshes, to_json("repack", options), progress), is_list)
 
 
-def measure(mesh: Any, faces: Any = None, uvs: Any = None, **options: Any) -> dict[str, Any]:
+def measure(
+    mesh: Any, faces: Any = None, uvs: Any = None, **options: Unpack[MeasureOptions]
+) -> dict[str, Any]:
     """Measure UVs: distortion, seams, density, packing, overlaps.
 
     Takes what `repack` takes and returns the report, as ``unwrapd measure --json`` prints it. UVs may come from anywhere.
     """
     meshes, _ = _taken(mesh, faces, uvs, None, True)
-    return json.loads(_native.measure(meshes, to_json("measure", options)))
+    report: dict[str, Any] = json.loads(_native.measure(meshes, to_json("measure", options)))
+    return report
 
 
-def verify(mesh: Any, faces: Any = None, uvs: Any = None, **options: Any) -> dict[str, Any]:
+def verify(
+    mesh: Any, faces: Any = None, uvs: Any = None, **options: Unpack[VerifyOptions]
+) -> dict[str, Any]:
     """Prove in exact arithmetic that UVs have no flipped or degenerate triangle.
 
     With ``bijective=True`` also that no two overlap. ``["certified"]`` is the answer, ``["lacking"]`` says what does not
     hold. Takes what `repack` takes.
     """
     meshes, _ = _taken(mesh, faces, uvs, None, True)
-    return json.loads(_native.verify(meshes, to_json("verify", options)))
+    verdict: dict[str, Any] = json.loads(_native.verify(meshes, to_json("verify", options)))
+    return verdict
 
 
 def bake(
@@ -110,7 +164,9 @@ def bake(
     mask : (size, size) bool
         Texels whose center lies in a chart.
     """
-    atlases, lists = ([atlas], [attributes]) if isinstance(atlas, Atlas) else (list(atlas), list(attributes))
+    atlases, lists = (
+        ([atlas], [attributes]) if isinstance(atlas, Atlas) else (list(atlas), list(attributes))
+    )
     if len(atlases) != len(lists):
         raise ValueError(f"{len(atlases)} meshes, but attributes of {len(lists)}")
     uvs = np.concatenate([atlas.corner_uvs for atlas in atlases]).astype(np.float64)
@@ -126,8 +182,11 @@ def _of_corners(atlas: Atlas, attributes: np.ndarray) -> np.ndarray:
         raise ValueError(f"attributes must have the shape (V,) or (V, C), not {attributes.shape}")
     named = atlas.vmapping[atlas.indices]
     if named.size and int(named.max()) >= len(table):
-        raise ValueError(f"attributes has {len(table)} rows, but faces name vertex {int(named.max())}")
-    return table[named].astype(np.float32)
+        raise ValueError(
+            f"attributes has {len(table)} rows, but faces name vertex {int(named.max())}"
+        )
+    values: np.ndarray = table[named].astype(np.float32)
+    return values
 
 
 def _taken(
@@ -142,17 +201,21 @@ def _taken(
             taken = _meshes.native(taken[0], taken[1], uvs, normals)
         return [taken], False
     if uvs is not None or normals is not None:
-        raise TypeError("uvs and normals belong to one mesh; in a list use tuples (vertices, faces, uvs, normals)")
+        raise TypeError(
+            "uvs and normals belong to one mesh; in a list use tuples (vertices, faces, uvs, normals)"
+        )
     if isinstance(mesh, (list, tuple)) and all(_is_entry(entry) for entry in mesh):
         return [_meshes.of(entry, with_uvs) for entry in mesh], True
-    raise TypeError("faces are missing: give vertices and faces, a mesh with both, or a list of meshes")
+    raise TypeError(
+        "faces are missing: give vertices and faces, a mesh with both, or a list of meshes"
+    )
 
 
 def _is_entry(entry: Any) -> bool:
     return _meshes.is_mesh(entry) or (isinstance(entry, tuple) and 2 <= len(entry) <= 4)
 
 
-def _atlas(given: tuple[list[tuple[np.ndarray, ...]], str], is_list: bool) -> Any:
+def _atlas(given: tuple[list[_native.Welded], str], is_list: bool) -> Any:
     meshes, report = given
     atlases = [Atlas(*mesh, report) for mesh in meshes]
     return atlases if is_list else atlases[0]

@@ -26,7 +26,12 @@ class Atlas:
     """
 
     def __init__(
-        self, vmapping: np.ndarray, indices: np.ndarray, uvs: np.ndarray, charts: np.ndarray, report: str
+        self,
+        vmapping: np.ndarray,
+        indices: np.ndarray,
+        uvs: np.ndarray,
+        charts: np.ndarray,
+        report: str,
     ) -> None:
         self.vmapping = vmapping
         self.indices = indices
@@ -37,32 +42,36 @@ class Atlas:
     @property
     def corner_uvs(self) -> np.ndarray:
         """UVs of the corners of the faces, (F, 3, 2) float32."""
-        return self.uvs[self.indices]
+        corners: np.ndarray = self.uvs[self.indices]
+        return corners
 
     @cached_property
     def report(self) -> dict[str, Any]:
         """The whole report: options, distortion, seams, packing, certificate, warnings, seconds."""
-        return json.loads(self._report)
+        report: dict[str, Any] = json.loads(self._report)
+        return report
 
     @property
     def certificate(self) -> dict[str, Any]:
         """What exact predicates say of these UVs: flips, overlaps, padding."""
-        return self.report["groups"][0]["certificate"]
+        certificate: dict[str, Any] = self.report["groups"][0]["certificate"]
+        return certificate
 
     @property
     def measures(self) -> dict[str, Any]:
         """Distortion, seams, density and packing."""
-        return self.report["groups"][0]["measures"]
+        measures: dict[str, Any] = self.report["groups"][0]["measures"]
+        return measures
 
     @property
     def certified(self) -> bool:
         """Whether everything that was asked for is proven."""
-        return self.report["certified"]
+        return bool(self.report["certified"])
 
     @property
     def n_charts(self) -> int:
         """Charts of the whole atlas."""
-        return self.certificate["charts"]
+        return int(self.certificate["charts"])
 
     def __repr__(self) -> str:
         proven = "certified" if self.certified else "not certified"

@@ -61,10 +61,14 @@ def corners(given: Any, triangles: np.ndarray, width: int, name: str) -> np.ndar
     _real(found, name)
     if found.ndim == 2 and found.shape[1] == width:
         if triangles.size and int(triangles.max()) >= len(found):
-            raise ValueError(f"{name} has {len(found)} rows, but faces name vertex {int(triangles.max())}")
+            raise ValueError(
+                f"{name} has {len(found)} rows, but faces name vertex {int(triangles.max())}"
+            )
         found = found[triangles]
     if found.shape != (len(triangles), 3, width):
-        raise ValueError(f"{name} must have the shape (V, {width}) or (F, 3, {width}), not {found.shape}")
+        raise ValueError(
+            f"{name} must have the shape (V, {width}) or (F, 3, {width}), not {found.shape}"
+        )
     return np.ascontiguousarray(found, dtype=np.float64)
 
 
@@ -95,4 +99,8 @@ def of(given: Any, with_uvs: bool = False) -> Native:
 def _real(found: np.ndarray, name: str) -> Any:
     if found.dtype.kind not in "fiu":
         raise TypeError(f"{name} must be real numbers, not {found.dtype}")
-    return found.dtype if found.dtype in (np.float32, np.float64) and found.dtype.isnative else np.float64
+    return (
+        found.dtype
+        if found.dtype in (np.float32, np.float64) and found.dtype.isnative
+        else np.float64
+    )

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Any, Mapping
 
 from . import _native
 
 #: What of `unwrap` concerns files, and what the functions on files take from names.
 _OF_FILES = frozenset(
     ["group_by", "texel_weight", "material_borders", "heatmap_measure", "format"]
-    + ["source_texcoord", "texcoord", "overwrite", "rebake", "bake_size", "image_format", "separate_nodes"]
+    + [
+        "source_texcoord",
+        "texcoord",
+        "overwrite",
+        "rebake",
+        "bake_size",
+        "image_format",
+        "separate_nodes",
+    ]
 )
 
 
@@ -19,7 +27,7 @@ def names(function: str, of_files: bool = True) -> list[str]:
     return [name for name in _native.option_names(function) if of_files or name not in _OF_FILES]
 
 
-def to_json(function: str, options: dict[str, Any], of_files: bool = False) -> str:
+def to_json(function: str, options: Mapping[str, Any], of_files: bool = False) -> str:
     """Options as JSON; those that are None are left out. A name that is none is a TypeError."""
     known = names(function, of_files)
     for name in options:

@@ -34,9 +34,7 @@ class Mesh:
         return self.positions, self.faces[self.is_used], uvs, normals
 
 
-def taken(
-    positions: Any, indices: Any, normals: Any = None, uvs: Any = None
-) -> Mesh:
+def taken(positions: Any, indices: Any, normals: Any = None, uvs: Any = None) -> Mesh:
     """A mesh from the arguments of `add_mesh`."""
     positions = table(positions, 3, "Position")
     faces = table(indices, 3, "Index", np.uint32)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
 
+from ._arrays import repack, unwrap
 from ._atlas import Atlas
+from ._errors import InvalidInput
 from ._xatlas_input import Mesh
+from ._xatlas_options import enlarge
 
 #: The atlas and the chart of what has no place.
 NONE = np.uint32(0xFFFF_FFFF)
@@ -56,3 +59,26 @@ def on_page(done: Done, page: int) -> tuple[Atlas, np.ndarray]:
     own = np.arange(len(done.vmapping), dtype=np.uint32)
     atlas = Atlas(own, done.indices[is_here], done.uvs, done.chart_of_face[is_here], "")
     return atlas, done.chart_index.astype(np.float32)
+
+
+def computed(
+    meshes: list[Mesh],
+    is_flat: bool,
+    charting: dict[str, Any],
+    given: dict[str, Any],
+    is_fixed: bool,
+) -> list[Optional[Atlas]]:
+    """The unwrapped meshes; None for those of which no face takes part."""
+    with_uvs, with_normals = is_flat or charting.get("cut") == "keep", "seams" in charting
+    used = [mesh.native(with_uvs, with_normals) for mesh in meshes if mesh.is_used.any()]
+    made: Optional[list[Atlas]] = None
+    while used and made is None:
+        try:
+            made = repack(used, **given) if is_flat else unwrap(used, **charting, **given)
+        except InvalidInput as error:
+            if error.code == "no_triangles":
+                break
+            if error.code != "texture_too_small" or not enlarge(given, is_fixed):
+                raise
+    found = iter(made or [])
+    return [next(found, None) if mesh.is_used.any() else None for mesh in meshes]

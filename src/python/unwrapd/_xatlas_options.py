@@ -26,7 +26,9 @@ class _Options:
     def _warn_of(self, ignored: list[str]) -> None:
         """Names those that were set and have no effect."""
         for name in ignored:
-            if getattr(self, name) != _typed(type(self._defaults[name]), name, self._defaults[name]):
+            if getattr(self, name) != _typed(
+                type(self._defaults[name]), name, self._defaults[name]
+            ):
                 text = f"unwrapd.xatlas: {type(self).__name__}.{name} has no effect"
                 warnings.warn(text, UserWarning, stacklevel=4)
 
@@ -36,10 +38,14 @@ def _typed(kind: type, name: str, value: Any) -> Any:
         return bool(value)
     try:
         if kind is float:
-            return float(np.float32(operator.index(value) if isinstance(value, bool) else value + 0.0))
+            return float(
+                np.float32(operator.index(value) if isinstance(value, bool) else value + 0.0)
+            )
         number = operator.index(value)
     except TypeError:
-        raise TypeError(f"{name} must be of type {kind.__name__}, not {type(value).__name__}") from None
+        raise TypeError(
+            f"{name} must be of type {kind.__name__}, not {type(value).__name__}"
+        ) from None
     if not 0 <= number <= 0xFFFF_FFFF:
         raise TypeError(f"{name} must not be negative or exceed 32 bits: {number}")
     return number
@@ -137,17 +143,21 @@ class PackOptions(_Options):
         resolution = min(65536, max(16, side))
         if self.resolution not in (0, resolution):
             warnings.warn(
-                f"unwrapd.xatlas: PackOptions.resolution {side} has become {resolution}", UserWarning, stacklevel=4
+                f"unwrapd.xatlas: PackOptions.resolution {side} has become {resolution}",
+                UserWarning,
+                stacklevel=4,
             )
         padding = self.padding + (self._FILTERED if self.bilinear else 0)
-        given = {
+        given: dict[str, Any] = {
             "resolution": resolution,
             "padding": min(padding, resolution // 8),
             "pages": pages,
             "packing": "tight" if self.bruteForce else "fast",
         }
         if given["padding"] < self.padding:
-            text = f"unwrapd.xatlas: PackOptions.padding {self.padding} has become {given['padding']}"
+            text = (
+                f"unwrapd.xatlas: PackOptions.padding {self.padding} has become {given['padding']}"
+            )
             warnings.warn(text, UserWarning, stacklevel=4)
         return {**given, "texels_per_unit": density} if density > 0.0 else given
 
@@ -159,4 +169,4 @@ def enlarge(given: dict[str, Any], is_fixed: bool) -> bool:
         given["pages"] += 1
     else:
         given["resolution"] += given["resolution"] // 8
-    return given["pages"] <= 10 and given["resolution"] <= 65536
+    return bool(given["pages"] <= 10 and given["resolution"] <= 65536)

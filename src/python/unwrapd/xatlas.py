@@ -13,16 +13,26 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._arrays import bake, repack, unwrap
+from ._arrays import bake
 from ._atlas import Atlas as _Unwrapped
-from ._errors import InvalidInput
-from ._xatlas_input import Mesh, table, taken, taken_uvs
+from ._xatlas_export import export
+from ._xatlas_input import Mesh, taken, taken_uvs
 from ._xatlas_mesh import NONE as _NONE
 from ._xatlas_mesh import Done as _Done
+from ._xatlas_mesh import computed
 from ._xatlas_mesh import on_page as _on_page
-from ._xatlas_options import ChartOptions, PackOptions, enlarge
+from ._xatlas_options import ChartOptions, PackOptions
 
-__all__ = ["Atlas", "Chart", "ChartOptions", "ChartType", "PackOptions", "export", "install", "parametrize"]
+__all__ = [
+    "Atlas",
+    "Chart",
+    "ChartOptions",
+    "ChartType",
+    "PackOptions",
+    "export",
+    "install",
+    "parametrize",
+]
 
 Result = tuple[np.ndarray, np.ndarray, np.ndarray]
 #: Colors of charts in an image: a step that makes neighbors differ.
@@ -86,13 +96,15 @@ class Atlas:
         chart_options = ChartOptions() if chart_options is None else chart_options
         pack_options = PackOptions() if pack_options is None else pack_options
         if not isinstance(chart_options, ChartOptions) or not isinstance(pack_options, PackOptions):
-            raise TypeError("generate(): incompatible function arguments: chart_options, pack_options")
+            raise TypeError(
+                "generate(): incompatible function arguments: chart_options, pack_options"
+            )
         if not self._meshes:
             return
         given = pack_options._given(sum(mesh.area() for mesh in self._meshes))
         charting = chart_options._given()
         is_fixed = pack_options.resolution > 0
-        self._keep(_computed(self._meshes, self._is_flat, charting, given, is_fixed), given)
+        self._keep(computed(self._meshes, self._is_flat, charting, given, is_fixed), given)
         self._images = self._drawn(given) if pack_options.create_image else []
         if verbose:
             print("--- Generated Atlas ---")
@@ -144,20 +156,22 @@ class Atlas:
         """A chart of a mesh."""
         done, number = self._at(mesh_index), _index(chart_index)
         if number >= done.n_charts:
-            raise IndexError(f"Chart index {number} out of bounds for mesh with {done.n_charts} charts.")
+            raise IndexError(
+                f"Chart index {number} out of bounds for mesh with {done.n_charts} charts."
+            )
         first = int(done.chart_of_face[done.chart_of_face != _NONE].min())
         faces = np.flatnonzero(done.chart_of_face == first + number).astype(np.uint32)
         return Chart(faces, int(done.atlas_index[done.indices[faces[0], 0]]))
 
     def get_utilization(self, atlas_index: int) -> float:
         """The covered share of an atlas."""
-        return self._of_atlas(self._utilization, atlas_index)
+        return float(self._of_atlas(self._utilization, atlas_index))
 
     def get_chart_image(self, atlas_index: int) -> np.ndarray:
         """A picture of the charts of an atlas, (height, width, 3) uint8."""
         if not self._images and _index(atlas_index) < self.atlas_count:
             raise RuntimeError("The atlas does not have an image.")
-        return self._of_atlas(self._images, atlas_index)
+        return np.array(self._of_atlas(self._images, atlas_index), np.uint8)
 
     @property
     def utilization(self) -> float:
@@ -183,7 +197,9 @@ class Atlas:
     def _at(self, mesh_index: int) -> _Done:
         number = _index(mesh_index)
         if number >= len(self._done):
-            raise IndexError(f"Mesh index {number} out of bounds for atlas with {len(self._done)} meshes.")
+            raise IndexError(
+                f"Mesh index {number} out of bounds for atlas with {len(self._done)} meshes."
+            )
         return self._done[number]
 
     def _of_atlas(self, values: list[Any], atlas_index: int) -> Any:
@@ -210,52 +226,9 @@ def parametrize(positions: Any, indices: Any, normals: Any = None, uvs: Any = No
     return atlas.get_mesh(0)
 
 
-def export(path: str, positions: Any, indices: Any = None, uvs: Any = None, normals: Any = None) -> None:
-    """Write a mesh as OBJ."""
-    if not isinstance(path, str):
-        raise TypeError("export(): incompatible function arguments: path must be a str")
-    positions = table(positions, 3, "Position")
-    tables = [("v", positions)]
-    faces = None if indices is None else table(indices, 3, "Index", np.uint32)
-    if normals is not None:
-        tables.append(("vn", table(normals, 3, "Normal", n_rows=len(positions))))
-    if uvs is not None:
-        tables.append(("vt", table(uvs, 2, "Texture coordinates", n_rows=len(positions))))
-    corner = "{0}" if len(tables) == 1 else "{0}/{0}" if normals is None else "{0}//{0}" if uvs is None else "{0}/{0}/{0}"
-    try:
-        file = open(path, "w", encoding="ascii")
-    except OSError:
-        raise ValueError(f"Cannot open path {path}") from None
-    with file:
-        for word, rows in tables:
-            # Nine digits give back each float32.
-            file.writelines(f"{word} {' '.join(format(x, '.9g') for x in row)}\n" for row in rows.tolist())
-        for face in [] if faces is None else (faces.astype(np.int64) + 1).tolist():
-            file.write(f"f {' '.join(corner.format(v) for v in face)}\n")
-
-
 def install() -> None:
     """Have ``import xatlas`` give this module, also in packages that are loaded already, as trimesh's ``mesh.unwrap()``."""
     sys.modules["xatlas"] = sys.modules[__name__]
-
-
-def _computed(
-    meshes: list[Mesh], is_flat: bool, charting: dict[str, Any], given: dict[str, Any], is_fixed: bool
-) -> list[Optional[_Unwrapped]]:
-    """The unwrapped meshes; None for those of which no face takes part."""
-    with_uvs, with_normals = is_flat or charting.get("cut") == "keep", "seams" in charting
-    used = [mesh.native(with_uvs, with_normals) for mesh in meshes if mesh.is_used.any()]
-    made: Optional[list[_Unwrapped]] = None
-    while used and made is None:
-        try:
-            made = repack(used, **given) if is_flat else unwrap(used, **charting, **given)
-        except InvalidInput as error:
-            if error.code == "no_triangles":
-                break
-            if error.code != "texture_too_small" or not enlarge(given, is_fixed):
-                raise
-    found = iter(made or [])
-    return [next(found, None) if mesh.is_used.any() else None for mesh in meshes]
 
 
 def _index(given: Any) -> int:
