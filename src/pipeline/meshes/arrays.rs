@@ -4,6 +4,7 @@ use crate::mesh::{CornerUvs, MeshError, VAxis};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::placement::Placement;
 use crate::pipeline::arrays::plan::Plan;
+use crate::pipeline::arrays::seams::Seams;
 use crate::pipeline::arrays::soup::Part;
 use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::island_error::IslandError;
@@ -125,7 +126,7 @@ fn joined(meshes: &[MeshArrays]) -> Result<Merged, PipelineError> {
     let mut joined = Merged {
         positions: Vec::new(),
         triangles: Vec::new(),
-        seams: Default::default(),
+        seams: Seams::default(),
         parts: Vec::new(),
     };
     for mesh in meshes {

@@ -5,8 +5,7 @@ use crate::certificate::chart_ids;
 use crate::mesh::{CornerUvs, VAxis};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
-use crate::pipeline::arrays::unwrap::{in_pool, unwrap_all};
-use crate::pipeline::documents::merged::Merged;
+use crate::pipeline::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
 use crate::pipeline::judge::groups::WrittenUvs;
 use crate::pipeline::judge::history::{add_history, promise_kept};
 use crate::pipeline::judge::report::{Report, Seconds};
@@ -80,25 +79,14 @@ fn unwrap_in_pool(
     seconds.read = watch.lap();
 
     let atlases = unwrap_all(&[mesh.soup()], &options.settings(), tracker)?;
-    let mut uvs = atlases
-        .first()
-        .map_or_else(Vec::new, |atlas| atlas.corner_uvs());
-    for &face in atlases.iter().flat_map(|atlas| &atlas.still) {
-        if let Some(given) = &mesh.seams.uvs {
-            uvs[face as usize] =
-                given[face as usize].map(|uv| uv.map(|x| f64::from((x as f32).max(0.0))));
-        }
-    }
+    let uvs = corner_uvs(&atlases, mesh.seams.uvs.as_deref());
     seconds.unwrap = watch.lap();
 
     tracker.stage(Stage::Judge);
-    let Merged {
-        positions,
-        triangles,
-        ..
-    } = mesh;
+    let group = judged(meshes.len(), mesh.positions, mesh.triangles, uvs);
+    let charts = chart_ids(&group.positions, &group.triangles, &group.uvs);
     let uvs = WrittenUvs {
-        groups: vec![judged(meshes.len(), positions, triangles, uvs)],
+        groups: vec![group],
         v_axis: VAxis::Up,
     };
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
@@ -113,13 +101,26 @@ fn unwrap_in_pool(
     report.options = Some(options.clone());
     report.limits = Some(options.caller.limits);
     report.seconds = Some(seconds);
-    let group = &uvs.groups[0];
-    let charts = chart_ids(&group.positions, &group.triangles, &group.uvs);
     Ok(UnwrappedMeshes {
-        uvs: divided(meshes, &group.uvs),
+        uvs: divided(meshes, &uvs.groups[0].uvs),
         charts: divided(meshes, &charts),
         report,
     })
+}
+
+/// The UVs of an atlas, with those that were given where islands stay.
+fn corner_uvs(atlases: &[Unwrapped], given: Option<&[CornerUvs]>) -> Vec<CornerUvs> {
+    let Some(atlas) = atlases.first() else {
+        return Vec::new();
+    };
+    let mut uvs = atlas.corner_uvs();
+    if let Some(given) = given {
+        for face in atlas.still.iter().map(|&face| face as usize) {
+            // What is less than a step below a page lies on its border.
+            uvs[face] = given[face].map(|uv| uv.map(|x| f64::from((x as f32).max(0.0))));
+        }
+    }
+    uvs
 }
 
 /// What all triangles have, mesh by mesh.

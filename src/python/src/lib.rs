@@ -4,6 +4,11 @@
 //! options as JSON objects, as the service takes them. Every call computes on threads of its own with the interpreter released,
 //! and looks every 20 ms whether the user pressed Ctrl-C.
 
+#![allow(
+    clippy::needless_pass_by_value,
+    reason = "what Python hands over belongs to the call"
+)]
+
 mod arrays;
 mod bake;
 mod call;
