@@ -140,3 +140,27 @@ def test_nothing_leaks(pyramid):
     before = resident()
     call(int(os.environ.get("UNWRAPD_CALLS", 200)))
     assert resident() - before < 4 << 20
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/task"), reason="no /proc here")
+def test_cancelled_work_ends_in_silence(sheet, capfd):
+    def workers():
+        names = []
+        for task in os.listdir("/proc/self/task"):
+            try:
+                with open(f"/proc/self/task/{task}/comm") as file:
+                    names.append(file.read().strip())
+            except OSError:
+                pass
+        return names.count("unwrapd")
+
+    def stop(progress):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        unwrapd.unwrap(*sheet(SIDE), progress=stop)
+    deadline = time.monotonic() + 30
+    while workers() and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert workers() == 0
+    assert capfd.readouterr() == ("", "")

@@ -1,5 +1,6 @@
 //! Calls of the library from Python: on a thread, with the interpreter released.
 
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -58,11 +59,16 @@ impl From<pipeline::Progress> for Progress {
 struct Link {
     begin: Instant,
     is_ending: AtomicBool,
+    is_abandoned: AtomicBool,
     latest: Mutex<Option<pipeline::Progress>>,
 }
 
 impl Observer for Link {
+    /// Leaves the library by unwinding once nobody waits for a result: an early end would still pack and judge one.
     fn progress(&self, progress: &pipeline::Progress) -> Control {
+        if self.is_abandoned.load(Ordering::Relaxed) {
+            resume_unwind(Box::new("abandoned"));
+        }
         *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress.clone());
         if self.is_ending.load(Ordering::Relaxed) {
             Control::Finish
@@ -77,10 +83,6 @@ impl Observer for Link {
 }
 
 impl Link {
-    fn end(&self) {
-        self.is_ending.store(true, Ordering::Relaxed);
-    }
-
     /// Tells of progress, if there is any and anyone listens. One that answers False ends the work with the present map.
     fn tell(&self, py: Python<'_>, listener: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let Some(listener) = listener else {
@@ -92,7 +94,7 @@ impl Link {
         if let Some(progress) = latest {
             let answer = listener.call1((Progress::from(progress),))?;
             if answer.is(&*pyo3::types::PyBool::new(py, false)) {
-                self.end();
+                self.is_ending.store(true, Ordering::Relaxed);
             }
         }
         Ok(())
@@ -100,7 +102,7 @@ impl Link {
 }
 
 /// Runs work on a thread. The calling thread stays with the interpreter: it handles signals and calls the listener. An exception
-/// of either leaves at once; the work ends at its next report, with nobody to take the result.
+/// of either leaves at once; the work ends at its next report.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     listener: Option<&Bound<'_, PyAny>>,
@@ -109,6 +111,7 @@ pub fn run<T: Send + 'static>(
     let link = Arc::new(Link {
         begin: Instant::now(),
         is_ending: AtomicBool::new(false),
+        is_abandoned: AtomicBool::new(false),
         latest: Mutex::new(None),
     });
     let (sender, mut receiver) = channel();
@@ -133,7 +136,7 @@ pub fn run<T: Send + 'static>(
             }
             Err(RecvTimeoutError::Timeout) => {
                 let attended = (py.check_signals()).and_then(|()| link.tell(py, listener));
-                attended.inspect_err(|_| link.end())?;
+                attended.inspect_err(|_| link.is_abandoned.store(true, Ordering::Relaxed))?;
             }
         }
     }
