@@ -82,7 +82,9 @@ def cell(found):
     if "failed" in found:
         return found["failed"]
     valid = "valid" if found["valid"] else "INVALID"
-    return f"{found['charts']} / {found['sym_dirichlet_mean']:.3f} / {found['cpu']:.2f} s / {valid}"
+    energy = found["sym_dirichlet_mean"]
+    stretched = "-" if energy is None else f"{energy:.3f}"
+    return f"{found['charts']} / {stretched} / {found['cpu']:.2f} s / {valid}"
 
 
 def main():

@@ -53,7 +53,9 @@ macro_rules! pytest {
     };
 }
 
-pytest!(arrays, bake, calls, errors, files, pipelines, readme, trimesh, xatlas);
+pytest!(
+    arrays, bake, calls, errors, files, pipelines, readme, trimesh, xatlas
+);
 
 #[test]
 fn no_file_is_left_out() {
