@@ -26,15 +26,19 @@ fn unwrapped(meshes: &[MeshArrays]) -> UnwrappedMeshes {
 /// One mesh gets the UVs that it gets without a report, and the report has their judgment.
 #[test]
 fn the_zoo_is_unwrapped_as_by_settings() {
+    let cutting = Cutting {
+        cut: Cut::Fast,
+        ..Cutting::default()
+    };
+    let options = Options {
+        cutting,
+        ..Options::default()
+    };
     for mesh in zoo::zoo() {
         let given = arrays(&mesh);
-        let made = unwrap_meshes(
-            std::slice::from_ref(&given),
-            &Options::default(),
-            &Unobserved,
-        );
+        let made = unwrap_meshes(std::slice::from_ref(&given), &options, &Unobserved);
         let (positions, triangles) = (&given.positions, &given.triangles);
-        let plain = unwrap(positions, triangles, &Settings::default(), &Unobserved);
+        let plain = unwrap(positions, triangles, &options.settings(), &Unobserved);
         match (made, plain) {
             (Ok(made), Ok(plain)) => {
                 assert_eq!(made.uvs[0], plain.corner_uvs(), "{}", mesh.name);

@@ -4,6 +4,7 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::panicking;
 use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
@@ -67,7 +68,11 @@ impl Observer for Link {
     /// Leaves the library by unwinding once nobody waits for a result: an early end would still pack and judge one.
     fn progress(&self, progress: &pipeline::Progress) -> Control {
         if self.is_abandoned.load(Ordering::Relaxed) {
-            resume_unwind(Box::new("abandoned"));
+            // What is dropped on the way out reports, too.
+            if !panicking() {
+                resume_unwind(Box::new("abandoned"));
+            }
+            return Control::Finish;
         }
         *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress.clone());
         if self.is_ending.load(Ordering::Relaxed) {
