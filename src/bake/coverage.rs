@@ -68,16 +68,21 @@ impl Coverage {
     }
 
     /// The face of a texel; `None` where no chart is near.
-    pub(super) fn at(&self, x: usize, y: usize) -> Option<u32> {
+    pub fn at(&self, x: usize, y: usize) -> Option<u32> {
         let texel = self.texels[y * self.side + x];
         (texel != EMPTY).then_some(texel & !BESIDE)
+    }
+
+    /// Whether the center of a texel lies in a face.
+    pub fn is_inside(&self, x: usize, y: usize) -> bool {
+        self.texels[y * self.side + x] & BESIDE == 0
     }
 
     /// Whether a texel and all around it lie in faces.
     pub(super) fn is_interior(&self, x: usize, y: usize) -> bool {
         let last = self.side - 1;
         let around = |c: usize| c.saturating_sub(1)..=(c + 1).min(last);
-        around(y).all(|y| around(x).all(|x| self.texels[y * self.side + x] & BESIDE == 0))
+        around(y).all(|y| around(x).all(|x| self.is_inside(x, y)))
     }
 
     /// The corners of a face, in texels.

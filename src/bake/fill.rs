@@ -1,14 +1,40 @@
 //! Texels between charts.
 
+/// What texels between charts take from their neighbors.
+pub(super) trait Mean: Copy {
+    /// The mean, if there is anything.
+    fn mean(values: impl Iterator<Item = Self>) -> Option<Self>;
+}
+
+impl Mean for [u8; 4] {
+    fn mean(values: impl Iterator<Item = Self>) -> Option<Self> {
+        let (mut sum, mut n) = ([0_u32; 4], 0);
+        for value in values {
+            for (sum, channel) in sum.iter_mut().zip(value) {
+                *sum += u32::from(channel);
+            }
+            n += 1;
+        }
+        (n > 0).then(|| sum.map(|s| ((s + n / 2) / n) as u8))
+    }
+}
+
+impl Mean for f32 {
+    fn mean(values: impl Iterator<Item = Self>) -> Option<Self> {
+        let (sum, n) = values.fold((0.0, 0.0), |(sum, n), value| (sum + value, n + 1.0));
+        (n > 0.0).then(|| sum / n)
+    }
+}
+
 /// Fills the texels without a value from those with one, ring by ring: each takes the mean of its neighbors of earlier
-/// rings. A texture without any value becomes black.
-pub(super) fn filled(texels: Vec<Option<[u8; 4]>>, side: usize) -> Vec<[u8; 4]> {
+/// rings. A texture without any value becomes `blank`.
+pub(super) fn filled<T: Mean>(texels: Vec<Option<T>>, side: usize, blank: T) -> Vec<T> {
     let mut texels = texels;
     let mut ring: Vec<usize> = (0..texels.len())
         .filter(|&texel| texels[texel].is_none() && mean(&texels, side, texel).is_some())
         .collect();
     while !ring.is_empty() {
-        let values: Vec<Option<[u8; 4]>> = ring.iter().map(|&t| mean(&texels, side, t)).collect();
+        let values: Vec<Option<T>> = ring.iter().map(|&t| mean(&texels, side, t)).collect();
         for (&texel, value) in ring.iter().zip(values) {
             texels[texel] = value;
         }
@@ -21,20 +47,12 @@ pub(super) fn filled(texels: Vec<Option<[u8; 4]>>, side: usize) -> Vec<[u8; 4]> 
         next.dedup();
         ring = next;
     }
-    let black = [0, 0, 0, 255];
-    texels.into_iter().map(|t| t.unwrap_or(black)).collect()
+    texels.into_iter().map(|t| t.unwrap_or(blank)).collect()
 }
 
 /// The mean of the neighbors that have a value.
-fn mean(texels: &[Option<[u8; 4]>], side: usize, texel: usize) -> Option<[u8; 4]> {
-    let (mut sum, mut n) = ([0_u32; 4], 0);
-    for value in around(side, texel).filter_map(|neighbor| texels[neighbor]) {
-        for (sum, channel) in sum.iter_mut().zip(value) {
-            *sum += u32::from(channel);
-        }
-        n += 1;
-    }
-    (n > 0).then(|| sum.map(|s| ((s + n / 2) / n) as u8))
+fn mean<T: Mean>(texels: &[Option<T>], side: usize, texel: usize) -> Option<T> {
+    T::mean(around(side, texel).filter_map(|neighbor| texels[neighbor]))
 }
 
 /// The up to eight neighbors of a texel.

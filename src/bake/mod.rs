@@ -7,11 +7,14 @@
 //! color of the chart's nearest point, so that nothing is read from across the borders of the source's charts. All
 //! others are filled from their neighbors, ring by ring, so that every mip level finds a chart's own colors around it.
 //!
+//! What vertices have, such as colors, needs no texture to come from: [`baked_attribute`] interpolates it.
+//!
 //! Normal maps hold directions relative to tangents, which turn with the UVs: [`Frames`] carries each direction from the
 //! old frame to the new one.
 //!
 //! Texel (x, y) of a texture of n × n is centered at ((x + ½)/n, (y + ½)/n) in UVs with v down, as glTF has it. Equal
 //! input gives equal pictures, for any number of threads.
+mod attribute;
 mod color;
 mod coverage;
 mod fill;
@@ -23,6 +26,7 @@ mod size;
 mod texture;
 mod triangle;
 
+pub use attribute::baked_attribute;
 pub use coverage::Coverage;
 pub use frames::Frames;
 pub use plane::{Plane, Sampled};

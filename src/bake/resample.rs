@@ -18,6 +18,9 @@ const STEP_SAMPLES: f64 = 4.0;
 /// A texel of the source that is larger than one of the target by this much only does not need more samples.
 const SLACK: f64 = 0.01;
 
+/// A texture of which nothing is covered.
+const BLACK: [u8; 4] = [0, 0, 0, 255];
+
 /// The new texture.
 pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
     let side = coverage.side();
@@ -40,7 +43,7 @@ pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
     Image {
         width: side,
         height: side,
-        pixels: filled(texels, side),
+        pixels: filled(texels, side, BLACK),
     }
 }
 

@@ -4,6 +4,7 @@
 //! it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and the
 //! certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same for
 //! UVs that a file already has; [`edit_document`] changes them, [`repack_document`] packs them anew.
+//! [`unwrap_meshes`], [`repack_meshes`], [`measure_meshes`] and [`verify_meshes`] are the same for several meshes given as arrays.
 //!
 //! The other applications are a function from a file's bytes to files' bytes each: [`solve_file`], [`deform_file`], [`warp_file`].
 //! All take options of their own, [`Limits`] that their caller sets, and an [`Observer`]; the command line and the service are
@@ -36,9 +37,13 @@ mod judge;
 #[cfg(feature = "files")]
 mod limits;
 #[cfg(feature = "files")]
+mod meshes;
+#[cfg(feature = "files")]
 mod rebake;
 #[cfg(feature = "files")]
 mod start;
+#[cfg(feature = "files")]
+mod stop_watch;
 
 pub use arrays::placement::Placement;
 pub use arrays::repeated::GridCorners;
@@ -94,6 +99,14 @@ pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VE
 pub use judge::verify::{Verified, VerifiedGroup, measure_document, verify_document};
 #[cfg(feature = "files")]
 pub use limits::Limits;
+#[cfg(feature = "files")]
+pub use meshes::arrays::MeshArrays;
+#[cfg(feature = "files")]
+pub use meshes::judged::{measure_meshes, verify_meshes};
+#[cfg(feature = "files")]
+pub use meshes::unwrap::{UnwrappedMeshes, repack_meshes, unwrap_meshes};
+#[cfg(feature = "files")]
+pub use meshes::welded::WeldedUvs;
 #[cfg(feature = "files")]
 pub use options::{
     Baking, Caller, CommandOptions, Course, DeformOptions, EditOptions, Editing, GivenSeams,

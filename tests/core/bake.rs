@@ -1,6 +1,8 @@
 //! Textures resampled from one UV map to another.
 
-use unwrapd::bake::{Corners, Coverage, Frames, Plane, Sampled, Texture, baked, side_for};
+use unwrapd::bake::{
+    Corners, Coverage, Frames, Plane, Sampled, Texture, baked, baked_attribute, side_for,
+};
 use unwrapd::document::{Encoding, Wrap};
 use unwrapd::picture::Image;
 
@@ -297,4 +299,26 @@ fn any_number_of_threads_gives_the_same_picture() {
     let one = in_pool(1);
     assert!(one.pixels.iter().any(|texel| *texel != one.pixels[0]));
     assert_eq!(one, in_pool(3));
+}
+
+/// What corners have is interpolated in faces, goes on beside them, and fills what is left.
+#[test]
+fn attributes_are_interpolated() {
+    let faces = rectangle(corners([0.25, 0.25], [0.75, 0.75]));
+    let coverage = Coverage::new(&faces, 16);
+    let linear = |[u, v]: [f64; 2]| (3.0 * u - 2.0 * v) as f32;
+    let values: Vec<[f32; 3]> = faces.iter().map(|face| face.map(linear)).collect();
+    let image = baked_attribute(&coverage, &values);
+    for (texel, &value) in image.iter().enumerate() {
+        let (x, y) = (texel % 16, texel / 16);
+        let at = [x, y].map(|c| (c as f64 + 0.5) / 16.0);
+        let is_inside = (4..12).contains(&x) && (4..12).contains(&y);
+        assert_eq!(coverage.is_inside(x, y), is_inside, "{x} {y}");
+        let nearest = at.map(|c| c.clamp(0.25, 0.75));
+        let is_beside = (3..13).contains(&x) && (3..13).contains(&y);
+        if is_beside {
+            assert!((value - linear(nearest)).abs() < 1e-6, "{x} {y}");
+        }
+        assert!((-0.75..=1.75).contains(&value), "{x} {y}: {value}");
+    }
 }

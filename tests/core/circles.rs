@@ -33,7 +33,9 @@ impl Sources {
                 .to_string_lossy()
                 .into_owned();
             let module = [at, std::slice::from_ref(&name)].concat();
-            if path.is_dir() {
+            if path.join("Cargo.toml").is_file() {
+                // A crate of its own.
+            } else if path.is_dir() {
                 self.add(&path, &module);
             } else if path.extension().is_some_and(|extension| extension == "rs") {
                 let text = code(&fs::read_to_string(&path).expect("text"));

@@ -1,4 +1,6 @@
 //! Tests of the geometry library.
+#[cfg(feature = "files")]
+mod array_meshes;
 mod atlas;
 #[cfg(feature = "files")]
 mod bake;

@@ -13,14 +13,15 @@ use crate::mesh::VAxis;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::soup::Soup;
-use crate::pipeline::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
-use crate::pipeline::judge::bound_report::BoundReport;
+use crate::pipeline::arrays::unwrap::{in_pool, unwrap_all};
 use crate::pipeline::judge::groups::WrittenUvs;
-use crate::pipeline::judge::report::{AtlasReport, GroupReport, Report, Seconds};
+use crate::pipeline::judge::history::{add_history, promise_kept};
+use crate::pipeline::judge::report::{Report, Seconds};
 use crate::pipeline::judge::shortfalls::shortfalls;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, Island, Options};
 use crate::pipeline::rebake::{self, rebaked};
+use crate::pipeline::stop_watch::StopWatch;
 use crate::pipeline::tracker::Tracker;
 
 /// Everything that comes out of unwrapping a document.
@@ -129,11 +130,7 @@ fn unwrap_in_pool(
 
     let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&judged);
-    let is_valid = groups.iter().all(|group| group.certificate.is_valid());
-    if plan.is_promised && !is_valid {
-        let messages: Vec<&str> = missing.iter().map(|w| w.message.as_str()).collect();
-        return Err(PipelineError::NotValid(messages.join("; ")));
-    }
+    promise_kept(&plan, &groups, &missing)?;
     let warnings = [noticed, written.notes.warnings.clone(), missing];
     let warnings = warnings.into_iter().flatten().chain(tracker.warning());
     let mut report = Report::new(groups, warnings.collect());
@@ -177,44 +174,4 @@ fn write(
         written.notes.warnings.extend(warnings);
     }
     Ok(written)
-}
-
-/// Adds to each group what only unwrapping knows.
-fn add_history(
-    groups: &mut [GroupReport],
-    atlases: &[Unwrapped],
-    uvs: &WrittenUvs,
-    (plan, options): (&Plan, &Options),
-) {
-    let aspect = options.layout.resolution.aspect();
-    let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
-    for ((group, atlas), uvs) in groups.iter_mut().zip(atlases).zip(&uvs.groups) {
-        group.defects = Some(atlas.defects);
-        group.atlas = Some(AtlasReport {
-            bound: (plan.reported_bound)
-                .map(|bound| BoundReport::new(&bound, &group.measures.distortion, (uvs, aspect))),
-            same_as: atlas.same_as.map(|group| names[group].clone()),
-            ..AtlasReport::new(atlas)
-        });
-    }
-}
-
-/// Seconds of the observer's clock from lap to lap.
-struct StopWatch<'a> {
-    tracker: &'a Tracker<'a>,
-    last: f64,
-}
-
-impl<'a> StopWatch<'a> {
-    fn start(tracker: &'a Tracker<'a>) -> Self {
-        Self {
-            tracker,
-            last: tracker.elapsed().as_secs_f64(),
-        }
-    }
-
-    fn lap(&mut self) -> f64 {
-        let now = self.tracker.elapsed().as_secs_f64();
-        now - std::mem::replace(&mut self.last, now)
-    }
 }

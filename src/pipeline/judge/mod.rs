@@ -3,6 +3,7 @@
 pub(super) mod bound_report;
 pub(super) mod group_uvs;
 pub(super) mod groups;
+pub(super) mod history;
 mod mean_energy;
 pub(super) mod proven;
 pub(super) mod question;

@@ -61,22 +61,49 @@ pub fn verify_document(
     upload: &Upload,
     options: &VerifyOptions,
 ) -> Result<Verified, PipelineError> {
-    let asked = if options.bijective {
-        Overlap::Test
-    } else {
-        Overlap::Skip
-    };
-    let mirrored = if options.unmirrored {
-        Mirrored::Refused
-    } else {
-        Mirrored::Allowed
-    };
+    let promise = Promise::of(options);
     with_uvs(upload, &options.judged, |document, question| {
         let uvs = match question.charts() {
             Some(charts) => WrittenUvs::of_charts(document, question, charts)?,
             None => WrittenUvs::asked(document, question)?,
         };
-        let certificates = uvs.certify(&question.options.claims(question.overlap(asked)));
+        Ok(Verified {
+            mark: question.mark.clone(),
+            warnings: warnings(document, question),
+            ..Verified::new(uvs, question, promise)
+        })
+    })
+}
+
+/// What is to be proven beside the orientation of every face.
+#[derive(Clone, Copy)]
+pub struct Promise {
+    overlap: Overlap,
+    mirrored: Mirrored,
+}
+
+impl Promise {
+    pub fn of(options: &VerifyOptions) -> Self {
+        Self {
+            overlap: if options.bijective {
+                Overlap::Test
+            } else {
+                Overlap::Skip
+            },
+            mirrored: if options.unmirrored {
+                Mirrored::Refused
+            } else {
+                Mirrored::Allowed
+            },
+        }
+    }
+}
+
+impl Verified {
+    /// The judgment of UVs, without what only their file says.
+    pub(in crate::pipeline) fn new(uvs: WrittenUvs, question: &Question, promise: Promise) -> Self {
+        let overlap = question.overlap(promise.overlap);
+        let certificates = uvs.certify(&question.options.claims(overlap));
         let groups: Vec<VerifiedGroup> = (uvs.groups.into_iter().zip(certificates))
             .map(|(group, certificate)| VerifiedGroup {
                 name: group.name,
@@ -85,16 +112,16 @@ pub fn verify_document(
             })
             .collect();
         let proven = Proven::of(groups.iter().map(|group| &group.certificate));
-        let lacking = proven.lacks(question.promised(asked), mirrored);
-        Ok(Verified {
+        let lacking = proven.lacks(question.promised(promise.overlap), promise.mirrored);
+        Self {
             certified: lacking.is_empty(),
             lacking,
             proven,
             groups,
-            mark: question.mark.clone(),
-            warnings: warnings(document, question),
-        })
-    })
+            mark: None,
+            warnings: Vec::new(),
+        }
+    }
 }
 
 /// What is to be said of the document and of its mark.

@@ -104,7 +104,7 @@ impl Options {
     }
 
     /// Mip levels beyond the first in which charts keep the padding.
-    pub(super) fn mips(&self) -> u32 {
+    pub(in crate::pipeline) fn mips(&self) -> u32 {
         self.mips.unwrap_or(match self.preset {
             Preset::Material => 0,
             Preset::Lightmap => LIGHTMAP_MIPS,

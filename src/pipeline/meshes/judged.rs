@@ -1,0 +1,60 @@
+//! What the UVs of meshes given as arrays are worth, and what can be proven of them.
+
+use super::arrays::{MeshArrays, with_uvs};
+use crate::certificate::Overlap;
+use crate::mesh::VAxis;
+use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::unwrap::in_pool;
+use crate::pipeline::judge::groups::WrittenUvs;
+use crate::pipeline::judge::question::Question;
+use crate::pipeline::judge::report::Report;
+use crate::pipeline::judge::verify::{Promise, Verified};
+use crate::pipeline::options::{CommandOptions, MeasureOptions, VerifyOptions};
+
+/// Measures the UVs that meshes have, which share one UV space.
+pub fn measure_meshes(
+    meshes: &[MeshArrays],
+    options: &MeasureOptions,
+) -> Result<Report, PipelineError> {
+    with_question(meshes, options, |uvs, question| {
+        let options = &question.options;
+        let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution());
+        Report::new(groups, Vec::new())
+    })
+}
+
+/// Judges the UVs that meshes have, which share one UV space.
+pub fn verify_meshes(
+    meshes: &[MeshArrays],
+    options: &VerifyOptions,
+) -> Result<Verified, PipelineError> {
+    with_question(meshes, &options.judged, |uvs, question| {
+        Verified::new(uvs, question, Promise::of(options))
+    })
+}
+
+/// Answers a question about meshes, within the limits.
+fn with_question<T: Send>(
+    meshes: &[MeshArrays],
+    options: &MeasureOptions,
+    answer: impl FnOnce(WrittenUvs, &Question) -> T + Send,
+) -> Result<T, PipelineError> {
+    options.check()?;
+    in_pool(options.caller.workers(options.workers), || {
+        let group = with_uvs(meshes)?;
+        if group.triangles.is_empty() {
+            return Err(PipelineError::NoTriangles);
+        }
+        options.caller.limits.check_count(group.triangles.len())?;
+        let uvs = WrittenUvs {
+            groups: vec![group],
+            v_axis: VAxis::Up,
+        };
+        let question = Question {
+            options: options.clone(),
+            mark: None,
+            warning: None,
+        };
+        Ok(answer(uvs, &question))
+    })?
+}

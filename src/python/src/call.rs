@@ -1,0 +1,148 @@
+//! Calls of the library from Python: on a thread, with the interpreter released.
+
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::panicking;
+use std::time::{Duration, Instant};
+
+use pyo3::prelude::*;
+use unwrapd::pipeline::{self, Observer, PipelineError};
+use unwrapd::solver::Control;
+
+use crate::error::{exception, internal};
+
+/// How often signals are looked for and progress is told.
+const ATTENTION: Duration = Duration::from_millis(20);
+
+/// Where the work stands.
+#[pyclass(frozen, get_all, module = "unwrapd")]
+pub struct Progress {
+    /// What is being done.
+    stage: &'static str,
+    /// Share of the whole work done, 0 to 1.
+    fraction: f64,
+    /// Charts mapped so far.
+    chart: usize,
+    /// Charts known so far.
+    charts: usize,
+    /// Iteration of the chart that reported last.
+    iteration: usize,
+    /// Its energy.
+    energy: f64,
+    /// Its smallest element over the rest size.
+    smallest: f64,
+}
+
+#[pymethods]
+impl Progress {
+    fn __repr__(&self) -> String {
+        format!("Progress({}, {:.3})", self.stage, self.fraction)
+    }
+}
+
+impl From<pipeline::Progress> for Progress {
+    fn from(progress: pipeline::Progress) -> Self {
+        Self {
+            stage: progress.stage.word(),
+            fraction: progress.fraction,
+            chart: progress.chart,
+            charts: progress.charts,
+            iteration: progress.iteration,
+            energy: progress.energy,
+            smallest: progress.smallest,
+        }
+    }
+}
+
+/// What the thread that works and the one that called share.
+struct Link {
+    begin: Instant,
+    is_ending: AtomicBool,
+    is_abandoned: AtomicBool,
+    latest: Mutex<Option<pipeline::Progress>>,
+}
+
+impl Observer for Link {
+    /// Leaves the library by unwinding once nobody waits for a result: an early end would still pack and judge one.
+    fn progress(&self, progress: &pipeline::Progress) -> Control {
+        if self.is_abandoned.load(Ordering::Relaxed) {
+            // What is dropped on the way out reports, too.
+            if !panicking() {
+                resume_unwind(Box::new("abandoned"));
+            }
+            return Control::Finish;
+        }
+        *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress.clone());
+        if self.is_ending.load(Ordering::Relaxed) {
+            Control::Finish
+        } else {
+            Control::Continue
+        }
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.begin.elapsed()
+    }
+}
+
+impl Link {
+    /// Tells of progress, if there is any and anyone listens. One that answers False ends the work with the present map.
+    fn tell(&self, py: Python<'_>, listener: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let Some(listener) = listener else {
+            return Ok(());
+        };
+        let latest = (self.latest.lock())
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
+        if let Some(progress) = latest {
+            let answer = listener.call1((Progress::from(progress),))?;
+            if answer.is(&*pyo3::types::PyBool::new(py, false)) {
+                self.is_ending.store(true, Ordering::Relaxed);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Runs work on a thread. The calling thread stays with the interpreter: it handles signals and calls the listener. An exception
+/// of either leaves at once; the work ends at its next report.
+pub fn run<T: Send + 'static>(
+    py: Python<'_>,
+    listener: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&dyn Observer) -> Result<T, PipelineError> + Send + 'static,
+) -> PyResult<T> {
+    let link = Arc::new(Link {
+        begin: Instant::now(),
+        is_ending: AtomicBool::new(false),
+        is_abandoned: AtomicBool::new(false),
+        latest: Mutex::new(None),
+    });
+    let (sender, mut receiver) = channel();
+    let observer = Arc::clone(&link);
+    std::thread::Builder::new()
+        .name("unwrapd".to_owned())
+        .spawn(move || {
+            // Whoever called may be gone.
+            let _ = sender.send(work(&*observer));
+        })
+        .map_err(|error| internal(py, &format!("cannot start a thread: {error}")))?;
+    loop {
+        let received;
+        (received, receiver) = py.detach(move || (receiver.recv_timeout(ATTENTION), receiver));
+        match received {
+            Ok(result) => {
+                link.tell(py, listener)?;
+                return result.map_err(|error| exception(py, &error));
+            }
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(internal(py, "the computation ended without a result"));
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                let attended = (py.check_signals()).and_then(|()| link.tell(py, listener));
+                attended.inspect_err(|_| link.is_abandoned.store(true, Ordering::Relaxed))?;
+            }
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Errors of the library as exceptions of the package.
+
+use pyo3::prelude::*;
+use unwrapd::pipeline::PipelineError;
+
+/// The exception for an error of the library, with its code.
+pub fn exception(py: Python<'_>, error: &PipelineError) -> PyErr {
+    of(py, error.code(), error.exit_code(), &error.to_string())
+}
+
+/// The exception for options that are not as they should be.
+pub fn invalid_options(py: Python<'_>, text: String) -> PyErr {
+    exception(py, &PipelineError::InvalidOptions(text))
+}
+
+/// The exception for a mistake of this program.
+pub fn internal(py: Python<'_>, text: &str) -> PyErr {
+    of(py, "internal_error", 1, text)
+}
+
+fn of(py: Python<'_>, code: &str, exit_code: u8, message: &str) -> PyErr {
+    let made = py
+        .import("unwrapd._errors")
+        .and_then(|module| module.call_method1("of", (code, exit_code, message)));
+    made.map_or_else(|error| error, PyErr::from_value)
+}

@@ -1,0 +1,127 @@
+//! Files as bytes.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use serde::Serialize;
+use unwrapd::document::Upload;
+use unwrapd::pipeline::{
+    self, CommandOptions, MeasureOptions, Observer, Options, Outcome, PipelineError, RepackOptions,
+    VerifyOptions,
+};
+
+use crate::call::run;
+use crate::error::internal;
+use crate::options::parsed;
+use unwrapd::options::OptionSet;
+
+/// A file with those that it refers to: the ones that are handed over, and those in a folder.
+#[derive(FromPyObject)]
+pub struct File<'py> {
+    #[pyo3(item)]
+    name: String,
+    #[pyo3(item)]
+    bytes: Bound<'py, PyBytes>,
+    #[pyo3(item)]
+    resources: BTreeMap<String, Vec<u8>>,
+    #[pyo3(item)]
+    folder: Option<PathBuf>,
+}
+
+impl File<'_> {
+    fn upload(self) -> Upload {
+        let upload = Upload {
+            name: self.name,
+            bytes: self.bytes.as_bytes().to_vec(),
+            resources: self.resources,
+        };
+        match self.folder {
+            Some(folder) => upload.with_references(|name| fs::read(folder.join(name)).ok()),
+            None => upload,
+        }
+    }
+}
+
+/// The written files by name, the main one first, and the report.
+type Written<'py> = (Vec<(String, Bound<'py, PyBytes>)>, String);
+
+/// Unwraps every mesh of a file.
+#[pyfunction]
+pub fn unwrap_document<'py>(
+    py: Python<'py>,
+    file: File<'py>,
+    options: &str,
+    stem: Option<String>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Written<'py>> {
+    written::<Options>(
+        py,
+        file,
+        (options, stem),
+        progress,
+        pipeline::unwrap_document,
+    )
+}
+
+/// Packs the UV islands of a file.
+#[pyfunction]
+pub fn repack_document<'py>(
+    py: Python<'py>,
+    file: File<'py>,
+    options: &str,
+    stem: Option<String>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Written<'py>> {
+    written::<RepackOptions>(
+        py,
+        file,
+        (options, stem),
+        progress,
+        pipeline::repack_document,
+    )
+}
+
+/// Measures the UVs of a file.
+#[pyfunction]
+pub fn measure_document(py: Python<'_>, file: File<'_>, options: &str) -> PyResult<String> {
+    let (upload, options) = (file.upload(), parsed::<MeasureOptions>(py, options)?);
+    let report = run(py, None, move |_| {
+        pipeline::measure_document(&upload, &options)
+    })?;
+    json(py, &report)
+}
+
+/// Judges the UVs of a file.
+#[pyfunction]
+pub fn verify_document(py: Python<'_>, file: File<'_>, options: &str) -> PyResult<String> {
+    let (upload, options) = (file.upload(), parsed::<VerifyOptions>(py, options)?);
+    let verified = run(py, None, move |_| {
+        pipeline::verify_document(&upload, &options)
+    })?;
+    json(py, &verified)
+}
+
+fn written<'py, O: OptionSet + CommandOptions + Send + 'static>(
+    py: Python<'py>,
+    file: File<'py>,
+    (options, stem): (&str, Option<String>),
+    progress: Option<Bound<'py, PyAny>>,
+    make: fn(&Upload, &O, &dyn Observer) -> Result<Outcome, PipelineError>,
+) -> PyResult<Written<'py>> {
+    let (upload, mut options) = (file.upload(), parsed::<O>(py, options)?);
+    options.caller_mut().stem = stem;
+    let outcome = run(py, progress.as_ref(), move |observer| {
+        make(&upload, &options, observer)
+    })?;
+    let files = outcome.files.into_iter();
+    let files = files.map(|(name, bytes)| (name, PyBytes::new(py, &bytes)));
+    Ok((files.collect(), json(py, &outcome.report)?))
+}
+
+/// A report as JSON.
+pub fn json<T: Serialize>(py: Python<'_>, report: &T) -> PyResult<String> {
+    serde_json::to_string(report).map_err(|error| internal(py, &error.to_string()))
+}

@@ -1,0 +1,39 @@
+//! The native part of the Python package `unwrapd`: arrays, bytes and JSON in and out of the library.
+//!
+//! What Python users see is written in Python, beside this crate; it hands over arrays of the types that are named here and
+//! options as JSON objects, as the service takes them. Every call computes on threads of its own with the interpreter released,
+//! and looks every 20 ms whether the user pressed Ctrl-C.
+
+#![allow(
+    clippy::needless_pass_by_value,
+    reason = "what Python hands over belongs to the call"
+)]
+
+mod arrays;
+mod bake;
+mod call;
+mod error;
+mod files;
+mod meshes;
+mod options;
+
+use pyo3::prelude::*;
+
+/// The native part of the Python package `unwrapd`; see `unwrapd/_native.pyi`.
+#[pymodule(name = "_native")]
+mod unwrapd_native {
+    #[pymodule_export]
+    use super::bake::bake;
+    #[pymodule_export]
+    use super::call::Progress;
+    #[pymodule_export]
+    use super::files::{measure_document, repack_document, unwrap_document, verify_document};
+    #[pymodule_export]
+    use super::meshes::{measure, repack, unwrap, verify};
+    #[pymodule_export]
+    use super::options::option_names;
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "Python's name for it")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

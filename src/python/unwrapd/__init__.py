@@ -1,0 +1,51 @@
+"""unwrapd unwraps meshes: few charts, no flipped triangle, and a proof of it.
+
+>>> import numpy, unwrapd
+>>> vertices = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [.5, .5, .7]])
+>>> faces = numpy.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+>>> atlas = unwrapd.unwrap(vertices, faces)
+>>> atlas.certified, atlas.n_charts
+(True, 1)
+>>> numpy.array_equal(vertices[atlas.vmapping][atlas.indices], vertices[faces])
+True
+
+`unwrapd.xatlas` has the calls of the package `xatlas`.
+"""
+
+from __future__ import annotations
+
+from . import _native
+from ._arrays import bake, measure, repack, unwrap, verify
+from ._atlas import Atlas
+from ._errors import Error, InvalidInput, InvalidOptions, NoValidResult
+from ._files import measure_file, repack_file, unwrap_bytes, unwrap_file, verify_file
+from ._native import Progress
+from ._options import names as _names
+
+__version__: str = _native.__version__
+
+
+def options(function: str) -> list[str]:
+    """The names of the options of ``"unwrap"``, ``"repack"``, ``"measure"`` or ``"verify"``, for arrays and files."""
+    return _names(function)
+
+
+__all__ = [
+    "Atlas",
+    "Error",
+    "InvalidInput",
+    "InvalidOptions",
+    "NoValidResult",
+    "Progress",
+    "bake",
+    "measure",
+    "measure_file",
+    "options",
+    "repack",
+    "repack_file",
+    "unwrap",
+    "unwrap_bytes",
+    "unwrap_file",
+    "verify",
+    "verify_file",
+]

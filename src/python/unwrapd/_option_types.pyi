@@ -1,0 +1,97 @@
+"""The options of functions, by their types; `unwrapd unwrap --help` says what each does."""
+
+from collections.abc import Sequence
+from typing import Any, Literal, TypedDict
+
+Resolution = int | str | tuple[int, int]
+Seams = Literal["normals"] | Sequence[Sequence[int]] | Any
+
+class Layout(TypedDict, total=False):
+    """How charts are laid out."""
+
+    resolution: Resolution | None
+    padding: int | None
+    pages: int | None
+    texels_per_unit: float | None
+    packing: Literal["fast", "tight"] | None
+    threads: int | None
+
+class UnwrapOptions(Layout, total=False):
+    """Where to cut, how to map and how to pack."""
+
+    preset: Literal["material", "lightmap"] | None
+    mips: int | None
+    seams: Seams | None
+    cut: Literal["auto", "fast", "disk", "keep", "seams"] | None
+    quality: Literal["smooth", "balanced", "few"] | None
+    kept_maps: Literal["optimized", "as-given"] | None
+    max_charts: int | None
+    max_distortion: float | None
+    max_stretch: float | None
+    seam_weight: float | None
+    symmetry: Literal["auto", "off"] | None
+    energy: Literal["arap", "lscm", "symmetric-dirichlet"] | None
+    barrier: str | None
+    barrier_strength: float | None
+    barrier_support: float | None
+    pin: Literal[0, 2] | None
+    quantization_safe: Literal[12, 14, 16] | None
+    time_budget: float | None
+
+class Sets(TypedDict, total=False):
+    """UV sets of a file, and what shares an atlas."""
+
+    group_by: Literal["mesh", "scene", "material", "primitive"] | None
+    source_texcoord: int | None
+    texcoord: int | None
+    overwrite: bool | None
+
+class UnwrapFileOptions(UnwrapOptions, Sets, total=False):
+    """The same and what concerns files."""
+
+    texel_weight: Sequence[str] | None
+    material_borders: bool | None
+    heatmap_measure: Literal["conformal", "area", "symmetric-dirichlet"] | None
+    rebake: bool | None
+    bake_size: int | None
+    image_format: Literal["source", "png", "jpeg"] | None
+
+class UnwrapBytesOptions(UnwrapFileOptions, total=False):
+    """The same and the format of the result."""
+
+    format: Literal["glb", "obj"] | None
+
+class RepackOptions(Layout, total=False):
+    """How islands are packed, and which stay."""
+
+    islands: Sequence[dict[str, Any]] | None
+
+class RepackFileOptions(RepackOptions, Sets, total=False):
+    """The same and what concerns files."""
+
+class MeasureOptions(TypedDict, total=False):
+    """What is asked of UVs."""
+
+    padding: int | None
+    resolution: Resolution | None
+    pages: int | None
+    mips: int | None
+    aligned: bool | None
+    bits: int | None
+    threads: int | None
+
+class MeasureFileOptions(MeasureOptions, total=False):
+    """The same and which UVs of a file."""
+
+    texcoord: int | None
+    group_by: Literal["mesh", "scene", "material", "primitive"] | None
+    separate_nodes: bool | None
+
+class VerifyOptions(MeasureOptions, total=False):
+    """What is to be proven of UVs."""
+
+    bijective: bool | None
+    unmirrored: bool | None
+
+class VerifyFileOptions(VerifyOptions, MeasureFileOptions, total=False):
+    """The same and which UVs of a file."""

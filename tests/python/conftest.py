@@ -1,0 +1,63 @@
+"""The package under test: the installed one, or the sources around the extension that `UNWRAPD_NATIVE` names."""
+
+import os
+import pathlib
+import sys
+import tempfile
+
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def pytest_configure(config):
+    native = os.environ.get("UNWRAPD_NATIVE")
+    if native is None:
+        return
+    config.package = tempfile.TemporaryDirectory(prefix="unwrapd-package-")
+    package = pathlib.Path(config.package.name) / "unwrapd"
+    package.mkdir()
+    for source in (ROOT / "src/python/unwrapd").iterdir():
+        if source.suffix in (".py", ".pyi", ".typed"):
+            (package / source.name).symlink_to(source)
+    (package / "_native.abi3.so").symlink_to(native)
+    sys.dont_write_bytecode = True
+    sys.path.insert(0, config.package.name)
+    os.environ["PYTHONPATH"] = config.package.name
+
+
+def pytest_unconfigure(config):
+    if hasattr(config, "package"):
+        config.package.cleanup()
+
+
+@pytest.fixture
+def pyramid():
+    """A pyramid without its base: one chart."""
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0.7]])
+    return vertices, np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+
+
+@pytest.fixture
+def cube():
+    """A closed cube."""
+    corners = [[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    faces = [f for a, b, c, d in quads for f in ([a, b, c], [a, c, d])]
+    return np.array(corners), np.array(faces)
+
+
+def waves(side):
+    """A bent sheet of side² vertices, large enough that work on it takes a while."""
+    x, y = np.meshgrid(np.linspace(0, 1, side), np.linspace(0, 1, side))
+    vertices = np.stack([x, y, 0.3 * np.sin(9 * x) * np.cos(7 * y)], -1).reshape(-1, 3)
+    at = np.arange(side * side).reshape(side, side)
+    a, b, c, d = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
+    faces = [np.stack(triangle, -1).reshape(-1, 3) for triangle in ([a, c, b], [a, d, c])]
+    return vertices, np.concatenate(faces)
+
+
+@pytest.fixture
+def sheet():
+    return waves

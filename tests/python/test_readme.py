@@ -1,0 +1,61 @@
+"""The lines of the README run, and names are where it says."""
+
+import ast
+import inspect
+import pathlib
+import re
+
+import pytest
+import unwrapd
+from unwrapd._options import names
+
+README = pathlib.Path(__file__).resolve().parents[2] / "src/python/README.md"
+
+
+def test_the_readme_runs(monkeypatch):
+    pytest.importorskip("trimesh")
+    scope = {}
+    blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
+    monkeypatch.setitem(__import__("sys").modules, "xatlas", None)
+    for block in blocks:
+        exec(compile(block, str(README), "exec"), scope)
+    assert sum(len(block.splitlines()) for block in blocks) >= 10
+    vertices = scope["vertices"]
+    assert (vertices[scope["vmapping"]][scope["indices"]] == vertices[scope["faces"]]).all()
+
+
+def test_docstrings_are_true():
+    import doctest
+
+    assert doctest.testmod(unwrapd).failed == 0
+
+
+@pytest.mark.parametrize("name", unwrapd.__all__)
+def test_everything_is_documented(name):
+    assert inspect.getdoc(getattr(unwrapd, name))
+
+
+def test_version():
+    manifest = (README.parents[2] / "Cargo.toml").read_text()
+    assert unwrapd.__version__ == re.search(r'\nversion = "(.*?)"', manifest).group(1)
+
+
+def test_stubs_name_what_there_is():
+    stubs = (README.parent / "unwrapd/_native.pyi").read_text()
+    named = set(re.findall(r"^(?:def|class) (\w+)", stubs, re.MULTILINE)) - {"File"}
+    assert named == {name for name in dir(unwrapd._native) if not name.startswith("_")}
+    fields = set(re.findall(r"@property\n    def (\w+)", stubs))
+    assert fields == {name for name in dir(unwrapd.Progress) if not name.startswith("_")}
+
+
+@pytest.mark.parametrize("function", ["unwrap", "repack", "measure", "verify"])
+def test_types_of_options_name_what_there_is(function):
+    classes = {}
+    for node in ast.parse((README.parent / "unwrapd/_option_types.pyi").read_text()).body:
+        if isinstance(node, ast.ClassDef):
+            own = {field.target.id for field in node.body if isinstance(field, ast.AnnAssign)}
+            bases = [base.id for base in node.bases if base.id != "TypedDict"]
+            classes[node.name] = own.union(*(classes[base] for base in bases))
+    name = function.capitalize()
+    assert classes[f"{name}Options"] == set(names(function, of_files=False))
+    assert classes[f"{name}FileOptions"] | {"format"} == set(names(function)) | {"format"}
