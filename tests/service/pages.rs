@@ -38,6 +38,28 @@ fn pages_are_written_and_verify() {
     }
 }
 
+/// Texels per unit, as a report has them.
+fn density(report: &str) -> f64 {
+    let text = std::fs::read(report).expect("a report");
+    let report: Value = serde_json::from_slice(&text).expect("a JSON report");
+    let density = report["groups"][0]["texels_per_unit"].as_f64();
+    density.expect("a number")
+}
+
+#[test]
+fn more_pages_are_denser() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (input, output, report) = (asset("cat_head.obj"), path("cat.glb"), path("r.json"));
+    let input = input.to_string_lossy();
+    let densities = ["1", "4", "7", "10"].map(|pages| {
+        let unwrap = ["unwrap", &input, "-o", &output, "--report", &report];
+        assert_status(&unwrapd(&[&unwrap[..], &["--pages", pages]].concat()), 0);
+        density(&report)
+    });
+    assert!(densities.is_sorted_by(|a, b| a < b), "{densities:?}");
+}
+
 #[test]
 fn a_density_is_kept_or_refused_with_what_would_do() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -47,13 +69,8 @@ fn a_density_is_kept_or_refused_with_what_would_do() {
     let unwrap = ["unwrap", &input, "-o", &output, "--report", &report];
     let with = |options: &[&str]| unwrapd(&[&unwrap[..], options].concat());
     assert_status(&with(&["--texels-per-unit", "150"]), 0);
-    let text = std::fs::read(&report).expect("a report");
-    let report: Value = serde_json::from_slice(&text).expect("a JSON report");
-    let density = report["groups"][0]["texels_per_unit"].as_f64();
-    assert!(
-        (density.expect("a number") - 150.0).abs() < 0.01,
-        "{density:?}"
-    );
+    let density = density(&report);
+    assert!((density - 150.0).abs() < 0.01, "{density}");
 
     let refused = with(&["--texels-per-unit", "700"]);
     assert_status(&refused, 3);

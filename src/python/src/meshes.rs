@@ -23,13 +23,7 @@ pub fn unwrap<'py>(
     options: &str,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Atlas<'py>> {
-    atlas(
-        py,
-        &meshes,
-        options,
-        progress,
-        |meshes, options: &Options, observer| pipeline::unwrap_meshes(meshes, options, observer),
-    )
+    atlas::<Options>(py, &meshes, options, progress, pipeline::unwrap_meshes)
 }
 
 /// Packs the UV islands of meshes into one atlas.
@@ -40,15 +34,7 @@ pub fn repack<'py>(
     options: &str,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Atlas<'py>> {
-    atlas(
-        py,
-        &meshes,
-        options,
-        progress,
-        |meshes, options: &RepackOptions, observer| {
-            pipeline::repack_meshes(meshes, options, observer)
-        },
-    )
+    atlas::<RepackOptions>(py, &meshes, options, progress, pipeline::repack_meshes)
 }
 
 /// Measures UVs.

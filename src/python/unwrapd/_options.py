@@ -9,8 +9,12 @@ from . import _native
 
 #: What of `unwrap` concerns files, and what the functions on files take from names.
 _OF_FILES = frozenset(
-    ["group_by", "texel_weight", "material_borders", "heatmap_measure", "format"]
-    + [
+    (
+        "group_by",
+        "texel_weight",
+        "material_borders",
+        "heatmap_measure",
+        "format",
         "source_texcoord",
         "texcoord",
         "overwrite",
@@ -18,7 +22,7 @@ _OF_FILES = frozenset(
         "bake_size",
         "image_format",
         "separate_nodes",
-    ]
+    )
 )
 
 
