@@ -23,43 +23,45 @@ impl Giving<'_> {
             return self.join(number, laid, run);
         };
         let of = moment(&self.charts[&number].chart);
-        let is_own_image = of.is_image_of(&of, &plane);
-        let image = if is_own_image {
-            None
-        } else {
-            self.image_of(number, &of, &plane)
+        if of.is_image_of(&of, &plane) {
+            let joint = of.and(&moment(&self.charts[&run.neighbor].chart));
+            return joint.is_image_of(&joint, &plane) && self.join(number, laid, run);
+        }
+        let image = self.image_of(number, &of, &plane);
+        let Some(image) = image.filter(|&image| image != run.neighbor) else {
+            return self.join(number, laid, run);
         };
         let line = self.image_of_run(number, run, &plane);
+        // Where the image has no place, the chart need not be minimized in its own.
+        if self.laid_along(image, &line).is_none() {
+            return false;
+        }
         let mut before = self.saved([number, run.neighbor]);
         if !self.join(number, laid, run) {
             return false;
         }
-        let is_alike = match image {
-            None if is_own_image => {
-                let joint = moment(&self.charts[&run.neighbor].chart);
-                joint.is_image_of(&joint, &plane)
-            }
-            None => true,
-            Some(other) if other == run.neighbor => true,
-            Some(other) => self.join_along(other, &line, &mut before),
-        };
+        let is_alike = self.join_along(image, &line, &mut before);
         if !is_alike {
             self.restore(before);
         }
         is_alike
     }
 
+    /// A chart laid on a neighbor along a line, if it can be.
+    fn laid_along(&self, number: u32, line: &[[f64; 3]]) -> Option<(Laid, Run)> {
+        let chart = &self.charts[&number];
+        let mut runs = self.borders.runs(number, &self.charts).into_iter();
+        let run = runs.find_map(|run| part_along(&run, line, &chart.chart.positions))?;
+        let laid = Laid::new(chart, &self.charts[&run.neighbor], &run)?;
+        Some((laid, run))
+    }
+
     /// Glues a chart to a neighbor along a line, if it can be.
     fn join_along(&mut self, number: u32, line: &[[f64; 3]], before: &mut Before) -> bool {
-        let mut runs = self.borders.runs(number, &self.charts).into_iter();
-        let positions = &self.charts[&number].chart.positions;
-        let Some(run) = runs.find_map(|run| part_along(&run, line, positions)) else {
+        let Some((laid, run)) = self.laid_along(number, line) else {
             return false;
         };
         let neighbor = &self.charts[&run.neighbor];
-        let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run) else {
-            return false;
-        };
         let is_new = |n: &u32| before.iter().all(|(of, ..)| of != n);
         let others: Vec<u32> = [number, run.neighbor].into_iter().filter(is_new).collect();
         if laid.n_overlaps(&Ground::new(neighbor), MOST_PAIRS) > MOST_PAIRS {

@@ -2,6 +2,7 @@
 
 use super::plane::MirrorPlane;
 use crate::numerics::vec3::{area_vector, distance, norm};
+use std::array::from_fn;
 
 /// What the areas on both sides of the plane, or of a chart and its image, may differ by as a share.
 const SAME_AREA: f64 = 0.1;
@@ -31,6 +32,14 @@ impl Moment {
         self.area += area;
         for k in 0..3 {
             self.weighted[k] += area * (a[k] + b[k] + c[k]) / 3.0;
+        }
+    }
+
+    /// Of both together.
+    pub fn and(&self, other: &Self) -> Self {
+        Self {
+            area: self.area + other.area,
+            weighted: from_fn(|k| self.weighted[k] + other.weighted[k]),
         }
     }
 
