@@ -20,7 +20,14 @@ pub(super) struct Arrangement {
 }
 
 impl Arrangement {
-    /// Places the charts of some places in the order; those before stay where they are, those behind do not count. None if that takes
+    /// Takes the cells of the charts of some places in the order.
+    pub(super) fn take(&self, poses: &[Arc<Poses>], sheet: &mut Sheet, places: Range<usize>) {
+        for &chart in &self.order[places] {
+            sheet.take(poses[chart].mask(self.pose[chart]), self.corners[chart]);
+        }
+    }
+
+    /// Places the charts of some places in the order on a sheet that holds those before; those behind do not count. None if that takes
     /// more than a page of side `largest`.
     pub(super) fn lay_out(
         &mut self,
@@ -29,7 +36,7 @@ impl Arrangement {
         places: Range<usize>,
         largest: u32,
     ) -> Option<()> {
-        sheet.clear(largest);
+        sheet.capacity = largest;
         let form = sheet.form;
         let (mut reach, mut side) = (0, 0);
         for (place, &chart) in self.order[..places.end].iter().enumerate() {
@@ -37,11 +44,11 @@ impl Arrangement {
             if place >= places.start {
                 let (_, spot) = sheet.find(std::slice::from_ref(mask), Window::ALL)?;
                 self.corners[chart] = spot.corner;
+                if place + 1 < places.end {
+                    sheet.take(mask, spot.corner);
+                }
             }
             let corner = self.corners[chart];
-            if place + 1 < places.end {
-                sheet.take(mask, corner);
-            }
             let [width, height] = mask.size;
             let far = form.side([corner.x + width, corner.y + height]);
             reach += far;

@@ -36,6 +36,7 @@ mod plan;
 mod poses;
 mod read_limit;
 mod relax;
+mod row;
 mod sheet;
 mod snap;
 mod spot;

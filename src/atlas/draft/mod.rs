@@ -1,5 +1,6 @@
 //! A layout on a coarse raster, which becomes fuller as long as one likes.
 mod places;
+mod prefixes;
 mod search;
 
 use std::sync::Arc;

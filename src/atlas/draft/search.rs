@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::prefixes::Prefixes;
 use super::{Draft, squeezed_side};
 use crate::atlas::OnRead;
 use crate::atlas::arrangement::Arrangement;
@@ -150,6 +151,7 @@ impl Draft {
         let (large, all) = (self.n_large, self.state.order.len());
         let largest = self.state.side + self.state.side / 16;
         let mut sheet = self.raster.sheet(largest + largest / 4);
+        let mut prefixes = Prefixes::new(sheet.clone(), large);
         let mut state = self.state.clone();
         if large < all
             && state
@@ -174,14 +176,18 @@ impl Draft {
             }
             sheet.work += WORDS_PER_CHART * large as u64;
             let most = largest.min(bound as u32);
+            prefixes.hold(&mut sheet, &state, &self.poses, first);
             let fits = trial.lay_out(&self.poses, &mut sheet, first..large, most);
             if fits.is_some() && trial.cost <= bound {
                 state = trial;
+                prefixes.change(first);
                 if state.cost < best.cost {
                     best = state.clone();
                 }
             }
         }
+        prefixes.hold(&mut sheet, &state, &self.poses, 0);
+        best.take(&self.poses, &mut sheet, 0..large);
         let most = largest + largest / 4;
         let placed =
             large == all || (best.lay_out(&self.poses, &mut sheet, large..all, most)).is_some();
