@@ -1,6 +1,7 @@
 //! Convex hulls known by their extent in a few directions.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 /// Directions, evenly spread. The hull of a circle comes out 0.3 % too large.
 const N: usize = 32;
@@ -46,33 +47,42 @@ impl Support {
     /// The area of the smallest square around what the reaches bound, of those at 32 angles; 0 of no points. Around a square it
     /// comes out up to a fifth too large.
     pub fn square(&self) -> f64 {
-        const SHARES: usize = 4;
         if self.0[0] == f64::NEG_INFINITY {
             return 0.0;
         }
-        let step = TAU / N as f64;
-        let sides = (0..N / 4).flat_map(|i| {
-            (0..SHARES).map(move |k| {
-                let share = k as f64 / SHARES as f64;
+        self.sides().fold(f64::INFINITY, f64::min).powi(2)
+    }
+
+    /// The sides of squares around what the reaches bound.
+    fn sides(&self) -> impl Iterator<Item = f64> {
+        let between = &*BETWEEN;
+        (0..N / 4).flat_map(move |i| {
+            between.iter().map(move |weights| {
                 // Between two directions the farthest point is where their two bounds meet.
-                let weights = [1.0 - share, share].map(|x| (x * step).sin() / step.sin());
                 let reach = |quarter: usize| {
                     let j = i + quarter * N / 4;
                     weights[0] * self.0[j % N] + weights[1] * self.0[(j + 1) % N]
                 };
                 (reach(0) + reach(2)).max(reach(1) + reach(3))
             })
-        });
-        sides.fold(f64::INFINITY, f64::min).powi(2)
+        })
     }
 
     /// The area of the hull, and twice by how much the smallest square around it exceeds another: what the points take up of an
     /// atlas for which that other square should be enough. What a hull leaves empty other charts fill in part, what is too
     /// long for the square nothing makes good.
     pub fn room(&self, square: f64) -> f64 {
-        self.area() + 2.0 * (self.square() - square).max(0.0)
+        let fits = self.sides().any(|side| side.powi(2) <= square);
+        let excess = if fits { 0.0 } else { self.square() - square };
+        self.area() + 2.0 * excess.max(0.0)
     }
 }
+
+/// Weights of the reaches in two neighboring directions, for some angles between them.
+static BETWEEN: LazyLock<[[f64; 2]; 4]> = LazyLock::new(|| {
+    let step = TAU / N as f64;
+    [0.0, 0.25, 0.5, 0.75].map(|share| [1.0 - share, share].map(|x| (x * step).sin() / step.sin()))
+});
 
 /// The directions of every [`Support`].
 #[derive(Clone, Debug)]

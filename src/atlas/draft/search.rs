@@ -55,7 +55,7 @@ impl Look {
         };
         match self {
             Self::First => of(1.5e6, 1, 1, [0.7, 0.3, 0.0]),
-            Self::Second => of(5e6, 2, 2, [0.6, 0.4, 0.0]),
+            Self::Second => of(3e6, 2, 2, [0.6, 0.4, 0.0]),
             Self::Last => of(30e6, 4, 3, [0.5, 0.25, 0.25]),
         }
     }

@@ -60,7 +60,7 @@ impl Field {
             (-y).max(y - last[1]).max(0.0),
         ];
         if beyond != [0.0; 2] {
-            return beyond[0].hypot(beyond[1]) + MARGIN - BLUR;
+            return dot(beyond, beyond).sqrt() + MARGIN - BLUR;
         }
         let node = (y + 0.5) as usize * self.size[0] + (x + 0.5) as usize;
         f64::from(self.values[node]) - BLUR

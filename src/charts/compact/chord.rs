@@ -48,15 +48,26 @@ struct Part {
 /// As a line recedes over the map, what lies beyond it grows and unites; of each part that hangs together the hull is known, and
 /// of what lies before the line too, so all chords of a direction cost little more than sorting. O(n) for n clusters.
 pub fn chords(clusters: &Clusters, crumb: f64, square: f64) -> Vec<Chord> {
+    let mut whole = Support::EMPTY;
+    for support in &clusters.support {
+        whole.unite(support);
+    }
+    let whole = whole.room(square);
     (0..SWEEPS)
         .flat_map(|k| {
             let (sin, cos) = (TAU * f64::from(k) / f64::from(SWEEPS)).sin_cos();
-            sweep(clusters, crumb, square, [cos, sin])
+            sweep(clusters, crumb, (square, whole), [cos, sin])
         })
         .collect()
 }
 
-fn sweep(clusters: &Clusters, crumb: f64, square: f64, direction: [f64; 2]) -> Vec<Chord> {
+/// The same from one direction, given the room that the whole map takes up.
+fn sweep(
+    clusters: &Clusters,
+    crumb: f64,
+    (square, whole): (f64, f64),
+    direction: [f64; 2],
+) -> Vec<Chord> {
     let mut order: Vec<(f64, u32)> = (clusters.centre.iter().zip(0..))
         .map(|(&centre, cluster)| (dot(centre, direction), cluster))
         .collect();
@@ -79,7 +90,6 @@ fn sweep(clusters: &Clusters, crumb: f64, square: f64, direction: [f64; 2]) -> V
         before[i] = before[i + 1].clone();
         before[i].unite(&hull(&order[end(i)..end(i + 1)]));
     }
-    let whole = hull(&order).room(square);
     let mut beyond = Beyond::new(clusters);
     let mut chords = Vec::new();
     let mut begin = 0;

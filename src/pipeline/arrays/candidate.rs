@@ -13,7 +13,7 @@ const STRAIGHT: f64 = 0.01;
 /// How candidates are looked at, one look after the other, and how many of the best.
 const LOOKS: [(Look, usize); 3] = [
     (Look::First, usize::MAX),
-    (Look::Second, 6),
+    (Look::Second, 4),
     (Look::Last, 2),
 ];
 
