@@ -11,6 +11,7 @@ mod causes;
 mod code;
 mod connections;
 mod create;
+mod crowds;
 mod download;
 mod drain;
 mod events;
@@ -72,6 +73,7 @@ use tower_http::set_header::SetResponseHeaderLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use self::crowds::Crowds;
 pub use self::exposition::{Exposition, measure};
 pub use self::origins::origin;
 use self::problem::{Code, Problem};
@@ -97,6 +99,8 @@ struct App {
     exposition: Exposition,
     /// Requests of each owner.
     requests: Option<Windows<Owner>>,
+    /// Archives of each owner that are made or sent.
+    archives: Arc<Crowds<Owner>>,
     /// Wrong keys from each address.
     wrong_keys: Windows<IpAddr>,
     settings: Settings,
@@ -187,6 +191,7 @@ pub async fn serve(
         keys,
         exposition,
         requests: settings.owner_requests.map(Windows::of),
+        archives: Arc::default(),
         wrong_keys: Windows::of(settings.wrong_keys),
         settings,
         stop: stop.clone(),
