@@ -73,7 +73,6 @@ use tower_http::set_header::SetResponseHeaderLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use self::crowds::Crowds;
 pub use self::exposition::{Exposition, measure};
 pub use self::origins::origin;
 use self::problem::{Code, Problem};
@@ -100,7 +99,7 @@ struct App {
     /// Requests of each owner.
     requests: Option<Windows<Owner>>,
     /// Archives of each owner that are made or sent.
-    archives: Arc<Crowds<Owner>>,
+    archives: Arc<crowds::Crowds<Owner>>,
     /// Wrong keys from each address.
     wrong_keys: Windows<IpAddr>,
     settings: Settings,

@@ -1,9 +1,10 @@
 """What an honest client waits for beside 1,100 connections that are idle, stop within a header, or stall an upload.
 
-usage: tests/bench/hostile.py [--program target/release/unwrapd] [--hostile 1100] [--files 1024] [--rounds 200] [--fresh] [--elsewhere]
+usage: tests/bench/hostile.py [--program PROGRAM] [--hostile N] [--files N] [--rounds N] [--fresh] [--elsewhere]
 
-The service may open so many files. A hostile connection that is closed comes again. The honest client keeps its connection, with
---fresh it makes one for each request. With --elsewhere, those of others come from 127.0.0.2, of which 100 are let in.
+The service may open so many files. A hostile connection that is closed comes again. The honest client
+was there before and keeps its connection; with --fresh it makes one for each request. With --elsewhere,
+the others come from 127.0.0.2, of which 100 are let in.
 """
 import argparse
 import http.client

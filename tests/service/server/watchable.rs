@@ -240,21 +240,3 @@ fn every_setting_of_the_service_has_a_variable_with_the_prefix() {
         }
     }
 }
-
-#[test]
-fn connections_leave_half_of_the_open_files_to_uploads() {
-    for (files, connections) in [(1024, "384"), (256, "64"), (20_000, "4096")] {
-        let config = "ulimit -n \"$2\" && exec \"$1\" config --json";
-        let output = std::process::Command::new("sh")
-            .args(["-c", config, "sh"])
-            .arg(crate::harness::program())
-            .arg(files.to_string())
-            .output()
-            .expect("a shell");
-        assert_status(&output, 0);
-        let rows: Vec<Value> = serde_json::from_slice(&output.stdout).expect("JSON");
-        let mut rows = rows.iter();
-        let row = rows.find(|row| row["option"] == "--max-connections");
-        assert_eq!(row.expect("a row")["value"], connections, "{files}");
-    }
-}
