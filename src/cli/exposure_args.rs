@@ -64,7 +64,8 @@ pub(super) struct ExposureArgs {
         value_parser = base_path
     )]
     pub base_path: String,
-    /// Maximum number of connections [default: 4096, or what the limit of open files allows]
+    /// Maximum number of connections [default: 4096, or half of what the limit of open
+    /// files allows]
     #[arg(long, value_name = "N", env = "UNWRAPD_MAX_CONNECTIONS")]
     max_connections: Option<u32>,
     /// Maximum number of connections of one address [default: no limit]

@@ -5,7 +5,8 @@ use std::time::Duration;
 use super::work_args::seconds;
 use crate::jobs::OwnerQuotas;
 
-/// What one owner may have. Without keys, all callers are one owner.
+/// What one owner may have. All keys of an owner count as one, so that a key that replaces another brings no more. Without keys,
+/// all callers are one owner.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Limits of one owner")]
 #[expect(

@@ -3,11 +3,10 @@
 //! Whoever is silent loses the connection: without headers, between two requests, within a body that
 //! comes or goes. So a client that holds connections open and says nothing keeps nobody out.
 
-use std::collections::HashMap;
 use std::io::ErrorKind;
-use std::net::{IpAddr, SocketAddr};
+use std::net::SocketAddr;
 use std::pin::pin;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
@@ -24,6 +23,7 @@ use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
 use super::admission::Peer;
+use super::crowds::Crowds;
 use super::held::Held;
 use super::problem::{Code, Problem};
 use super::settings::Connections;
@@ -151,43 +151,5 @@ impl Counted {
 impl Drop for Counted {
     fn drop(&mut self) {
         gauge!(OPEN).decrement(1.0);
-    }
-}
-
-/// How many connections each address has.
-#[derive(Default)]
-struct Crowds(Mutex<HashMap<IpAddr, usize>>);
-
-impl Crowds {
-    /// A seat for one more, if there is one.
-    fn enter(crowds: &Arc<Self>, address: IpAddr, most: Option<usize>) -> Option<Seat> {
-        let mut counts = crowds.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let count = counts.entry(address).or_default();
-        if most.is_some_and(|most| most <= *count) {
-            return None;
-        }
-        *count += 1;
-        Some(Seat {
-            crowds: Arc::clone(crowds),
-            address,
-        })
-    }
-}
-
-/// One connection of an address, until it is dropped.
-struct Seat {
-    crowds: Arc<Crowds>,
-    address: IpAddr,
-}
-
-impl Drop for Seat {
-    fn drop(&mut self) {
-        let mut counts = (self.crowds.0.lock()).unwrap_or_else(PoisonError::into_inner);
-        if let Some(count) = counts.get_mut(&self.address) {
-            *count -= 1;
-            if *count == 0 {
-                counts.remove(&self.address);
-            }
-        }
     }
 }

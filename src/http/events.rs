@@ -16,7 +16,7 @@ use serde::Deserialize;
 use super::extract::{Parameters, PathId};
 use super::missing::missing;
 use super::problem::{Code, Problem};
-use super::socket::{KEEP_ALIVE, goodbye};
+use super::socket::{KEEP_ALIVE, MOST_MESSAGE_BYTES, goodbye, refusal};
 use super::{App, Shared};
 use crate::jobs::Subscription;
 use crate::jobs::access::Caller;
@@ -37,11 +37,11 @@ pub(super) struct EventsQuery {
 /// Watch a job.
 ///
 /// A WebSocket receives one JSON object per text message. It is closed with 1000 after the final
-/// state, with 1001 when the service stops, or with 1008 when the key is refused from now on. With
-/// `Accept: text/event-stream`, the same objects arrive as server-sent events named `progress`,
-/// with `seq` as their id. Events are snapshots: `seq` rises and `fraction` never falls, but a slow
-/// client misses events in between. The final event is always sent, even if the job has already
-/// ended.
+/// state, with 1001 when the service stops, with 1008 when the key is refused from now on, or with
+/// 1009 after a message of more than 64 KiB. With `Accept: text/event-stream`, the same objects
+/// arrive as server-sent events named `progress`, with `seq` as their id. Events are snapshots:
+/// `seq` rises and `fraction` never falls, but a slow client misses events in between. The final
+/// event is always sent, even if the job has already ended.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/events", operation_id = "watchJob", tag = "jobs",
     params(
@@ -80,6 +80,7 @@ pub(super) async fn watch_job(
     if let Ok(upgrade) = upgrade {
         let sockets = app.sockets.clone();
         let relayed = move |socket| sockets.track_future(relay(socket, events, app, caller));
+        let upgrade = upgrade.max_message_size(MOST_MESSAGE_BYTES);
         return Ok(upgrade.on_upgrade(relayed));
     }
     let accepted = headers
@@ -125,8 +126,12 @@ async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>, c
                 None => break close_code::NORMAL,
             },
             said = socket.recv() => match said {
-                Some(Ok(Message::Close(_)) | Err(_)) | None => return,
+                Some(Ok(Message::Close(_))) | None => return,
                 Some(Ok(_)) => continue,
+                Some(Err(error)) => match refusal(error) {
+                    Some(code) => break code,
+                    None => return,
+                },
             },
             _ = quiet.tick() => Message::Ping(Vec::new().into()),
             () = app.stop.cancelled() => break close_code::AWAY,

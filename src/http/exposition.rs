@@ -1,4 +1,8 @@
 //! What is measured, in the text format of Prometheus.
+//!
+//! It is asked for, not pushed. The `prometheus` receiver of an OpenTelemetry collector asks as Prometheus does, and pushes over
+//! OTLP. To push from here would take a second registry beside this one and a dozen crates, and gauges such as the depth of the
+//! queue, which are looked up when somebody asks, would have to be looked up for nobody.
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -12,22 +12,19 @@ use tokio::sync::broadcast::error::RecvError;
 
 use super::problem::{Code, Problem};
 use super::sessions::PathSession;
-use super::socket::KEEP_ALIVE;
+use super::socket::{KEEP_ALIVE, MOST_MESSAGE_BYTES, goodbye, refusal};
 use super::{App, Shared};
 use crate::jobs::access::Caller;
 use crate::sessions::{End, Session};
-
-/// Bytes of a message at most: a handle, or settings.
-const MOST_MESSAGE_BYTES: usize = 64 << 10;
 
 /// Pull what a session holds, live.
 ///
 /// A WebSocket. The client sends messages as JSON texts. The server sends the mesh once, then
 /// frames, both binary, and a reply to each message. Frames that a slow client has not received are
 /// dropped in favor of the latest. The close code is 1000 if the session was ended or expired, 1001
-/// if the service stops, and 1008 if the key is refused from now on. It is 1011 if the computation
-/// failed, with the code of the failure as the reason. `live.md` beside this document describes
-/// messages, replies, meshes and frames.
+/// if the service stops, 1008 if the key is refused from now on, and 1009 after a message of more
+/// than 64 KiB. It is 1011 if the computation failed, with the code of the failure as the reason.
+/// `live.md` beside this document describes messages, replies, meshes and frames.
 #[utoipa::path(
     get, path = "/v1/sessions/{id}/live", operation_id = "pullSession", tag = "sessions",
     params(("id" = String, Path, format = "uuid", description = "The session")),
@@ -56,7 +53,7 @@ pub(super) async fn pull_session(
 async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: Caller) {
     let (mut sink, mut stream) = socket.split();
     let code = tokio::select! {
-        () = hear(&mut stream, &session) => return,
+        code = hear(&mut stream, &session) => code.map(|code| (code, String::new())),
         code = tell(&mut sink, &session) => code,
         () = app.keys.lapsed(&caller) => Some((close_code::POLICY, "key_refused".to_owned())),
     };
@@ -64,19 +61,20 @@ async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: 
         return;
     };
     let reason = Utf8Bytes::from(reason);
-    let goodbye = Message::Close(Some(CloseFrame { code, reason }));
-    if sink.send(goodbye).await.is_ok() {
-        super::socket::goodbye(&mut stream).await;
+    let close = Message::Close(Some(CloseFrame { code, reason }));
+    if sink.send(close).await.is_ok() {
+        goodbye(&mut stream).await;
     }
 }
 
-/// Passes messages on until the client is gone, or the child.
-async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) {
-    while let Some(Ok(message)) = stream.next().await {
-        let said = match &message {
-            Message::Text(text) => session.say(text.as_bytes()).await,
-            Message::Close(_) => return,
-            Message::Binary(_) | Message::Ping(_) | Message::Pong(_) => Ok(()),
+/// Passes messages on until one cannot be read; then how to close. `None` if the client is gone.
+async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<u16> {
+    loop {
+        let said = match stream.next().await? {
+            Err(error) => return refusal(error),
+            Ok(Message::Text(text)) => session.say(text.as_bytes()).await,
+            Ok(Message::Close(_)) => return None,
+            Ok(Message::Binary(_) | Message::Ping(_) | Message::Pong(_)) => Ok(()),
         };
         if said.is_err() {
             // The session is about to say why.

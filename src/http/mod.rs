@@ -11,6 +11,7 @@ mod causes;
 mod code;
 mod connections;
 mod create;
+mod crowds;
 mod download;
 mod drain;
 mod events;
@@ -97,6 +98,8 @@ struct App {
     exposition: Exposition,
     /// Requests of each owner.
     requests: Option<Windows<Owner>>,
+    /// Archives of each owner that are made or sent.
+    archives: Arc<crowds::Crowds<Owner>>,
     /// Wrong keys from each address.
     wrong_keys: Windows<IpAddr>,
     settings: Settings,
@@ -187,6 +190,7 @@ pub async fn serve(
         keys,
         exposition,
         requests: settings.owner_requests.map(Windows::of),
+        archives: Arc::default(),
         wrong_keys: Windows::of(settings.wrong_keys),
         settings,
         stop: stop.clone(),

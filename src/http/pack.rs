@@ -17,9 +17,10 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::answers::ArchiveProblems;
+use super::crowds::Crowds;
 use super::extract::PathId;
 use super::missing::existing;
-use super::problem::Problem;
+use super::problem::{Code, Problem};
 use super::results::check_succeeded;
 use super::{App, Shared};
 use crate::jobs::access::Caller;
@@ -28,10 +29,15 @@ use crate::jobs::{Job, JobId, Scratch};
 /// Files from this size on need the larger records of ZIP64.
 const LARGE: u64 = u32::MAX as u64;
 
+/// Archives that one owner may have made at a time: each is a copy on the disk until it is sent.
+const MOST_OF_OWNER: usize = 16;
+/// When to ask again, in seconds.
+const LATER: u64 = 5;
+
 /// Get all files that a job produced as one ZIP.
 ///
 /// The archive is complete when the answer begins. Files have the names of `links.files`, and are
-/// stored as they are.
+/// stored as they are. An owner can receive 16 archives at a time.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/files.zip", operation_id = "getFiles", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
@@ -47,14 +53,19 @@ pub(super) async fn get_files(
 ) -> Result<Response, Problem> {
     let job = existing(&app, &caller.reach(), id).await?;
     check_succeeded(&job)?;
+    let seat = Crowds::enter(&app.archives, caller.owner().clone(), Some(MOST_OF_OWNER));
+    let Some(seat) = seat else {
+        let detail = format!("an owner can receive {MOST_OF_OWNER} archives at a time");
+        return Err(Problem::new(Code::RateLimited, detail).retried_after(LATER));
+    };
     let name = format!("{}.zip", job.id);
     let handle = Handle::current();
     let packed = tokio::task::spawn_blocking(move || packed(&app, &job, &handle)).await;
     let (scratch, file, bytes) = packed.map_err(|error| Problem::internal(&error))??;
     let mut blocks = ReaderStream::new(tokio::fs::File::from_std(file));
     let content = poll_fn(move |context| {
-        // The folder goes with the answer.
-        let _ = &scratch;
+        // The folder goes with the answer, and so does the place of its owner.
+        let _ = (&scratch, &seat);
         blocks.poll_next_unpin(context)
     });
     let mut response = Body::from_stream(content).into_response();

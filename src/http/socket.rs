@@ -1,17 +1,38 @@
 //! What all WebSockets have in common.
 
+use std::future::pending;
 use std::time::Duration;
 
-use axum::extract::ws::Message;
+use axum::extract::ws::{Message, close_code};
 use futures_util::{Stream, StreamExt};
+use tungstenite::Error;
 
 /// Between signs of life on a quiet connection.
 pub(super) const KEEP_ALIVE: Duration = Duration::from_secs(15);
+/// Bytes of a message at most: a handle, or settings.
+pub(super) const MOST_MESSAGE_BYTES: usize = 64 << 10;
 /// For a client to answer a close frame.
 const CLOSE_TIME: Duration = Duration::from_secs(1);
 
-/// Waits a moment for the answer to a close frame.
+/// The close code for a message that could not be read; `None` if the client is gone.
+pub(super) fn refusal(error: axum::Error) -> Option<u16> {
+    match error.into_inner().downcast_ref()? {
+        Error::Capacity(_) => Some(close_code::SIZE),
+        Error::Utf8(_) => Some(close_code::INVALID),
+        Error::Protocol(_) => Some(close_code::PROTOCOL),
+        _ => None,
+    }
+}
+
+/// Waits a moment for the answer to a close frame. To end a connection of which something is unread is to reset it, and its
+/// client would not see the frame.
 pub(super) async fn goodbye<E>(socket: &mut (impl Stream<Item = Result<Message, E>> + Unpin)) {
-    let answer = async { while let Some(Ok(_)) = socket.next().await {} };
+    let answer = async {
+        while let Some(said) = socket.next().await {
+            if said.is_err() {
+                pending::<()>().await;
+            }
+        }
+    };
     let _ = tokio::time::timeout(CLOSE_TIME, answer).await;
 }

@@ -1,10 +1,11 @@
 //! Whether a file is what was stored.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use futures_util::{StreamExt, stream};
 use sha2::{Digest, Sha256};
-use tokio::io::AsyncReadExt;
 
 use super::blobs::Content;
 use super::store_error::{StoreError, StoreResult};
@@ -35,10 +36,16 @@ pub(super) async fn check(path: &Path, expected: Option<&str>) -> StoreResult<()
 
 /// The checksum of a local file.
 pub(super) async fn of(path: &Path) -> StoreResult<String> {
-    let mut file = tokio::fs::File::open(path).await?;
+    let path = path.to_owned();
+    let read = tokio::task::spawn_blocking(move || of_file(&path)).await;
+    Ok(read.map_err(std::io::Error::from)??)
+}
+
+fn of_file(path: &Path) -> std::io::Result<String> {
+    let mut file = File::open(path)?;
     let (mut hash, mut block) = (Sha256::new(), vec![0; BLOCK]);
     loop {
-        match file.read(&mut block).await? {
+        match file.read(&mut block)? {
             0 => return Ok(format!("{:x}", hash.finalize())),
             length => hash.update(&block[..length]),
         }

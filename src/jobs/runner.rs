@@ -51,6 +51,11 @@ impl Jobs {
         let pace = (self.settings.deployment).beat_interval(&self.settings.rules);
         let beats = tokio::spawn(async move { beater.beat(pace).await });
 
+        let reader = Arc::clone(&self);
+        // The first job would else wait until the whole program is read.
+        self.tasks
+            .spawn(async move { reader.engine().await.map(drop) });
+
         let (leave, attempts) = (CancellationToken::new(), TaskTracker::new());
         let lanes = Lane::all(&self.settings);
         let started = lanes.iter();

@@ -1,10 +1,11 @@
 //! Files of jobs in a folder, of this machine or of a network.
 
+use std::fs::File;
 use std::io::{ErrorKind, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use futures_util::future::BoxFuture;
+use futures_util::future::{BoxFuture, try_join_all};
 use futures_util::{FutureExt, StreamExt};
 use tokio::fs;
 use tokio::io::{AsyncReadExt, AsyncSeekExt};
@@ -27,14 +28,44 @@ impl FileBlobs {
         })
     }
 
-    /// Brings the name of a file to the disk, with all folders on its way.
+    /// Brings the name of a file to the disk, with all folders on its way. They are synced at once, which the file system can do
+    /// as one.
     async fn sync_folders_of(&self, path: &Path) -> StoreResult<()> {
         let folders = path.ancestors().skip(1);
-        for folder in folders.take_while(|folder| folder.starts_with(&self.root)) {
-            fs::File::open(folder).await?.sync_all().await?;
-        }
+        let folders = folders.take_while(|folder| folder.starts_with(&self.root));
+        let synced = folders.map(|folder| {
+            let folder = folder.to_owned();
+            blocking(move || File::open(folder)?.sync_all().map_err(StoreError::from))
+        });
+        try_join_all(synced).await?;
         Ok(())
     }
+}
+
+/// Does in one go what would wait for a thread at each step.
+async fn blocking<T: Send + 'static>(
+    work: impl FnOnce() -> StoreResult<T> + Send + 'static,
+) -> StoreResult<T> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.map_err(std::io::Error::from)?
+}
+
+/// Brings a file to its place, its content to the disk first.
+fn moved(from: &Path, to: &Path) -> StoreResult<()> {
+    if let Some(folder) = to.parent() {
+        std::fs::create_dir_all(folder).map_err(StoreError::at(folder))?;
+    }
+    File::open(from)?.sync_all()?;
+    match std::fs::rename(from, to) {
+        Err(error) if error.kind() == ErrorKind::CrossesDevices => {
+            let partial = to.with_extension("partial");
+            std::fs::copy(from, &partial)?;
+            File::open(&partial)?.sync_all()?;
+            std::fs::rename(partial, to)?;
+        }
+        renamed => renamed?,
+    }
+    Ok(())
 }
 
 impl Blobs for FileBlobs {
@@ -42,20 +73,9 @@ impl Blobs for FileBlobs {
     /// before this returns.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
         async move {
-            let to = self.root.join(key);
-            let folder = to.parent().unwrap_or(&self.root);
-            let made = fs::create_dir_all(folder).await;
-            made.map_err(StoreError::at(folder))?;
-            fs::File::open(from).await?.sync_all().await?;
-            match fs::rename(from, &to).await {
-                Err(error) if error.kind() == ErrorKind::CrossesDevices => {
-                    let partial = to.with_extension("partial");
-                    fs::copy(from, &partial).await?;
-                    fs::File::open(&partial).await?.sync_all().await?;
-                    fs::rename(partial, &to).await?;
-                }
-                moved => moved?,
-            }
+            let (from, to) = (from.to_owned(), self.root.join(key));
+            let place = to.clone();
+            blocking(move || moved(&from, &place)).await?;
             self.sync_folders_of(&to).await
         }
         .boxed()

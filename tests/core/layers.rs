@@ -136,6 +136,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "metrics",
             "metrics_exporter_prometheus",
             "tracing",
+            "tungstenite",
             "futures_util",
             "sha2",
             "flate2",

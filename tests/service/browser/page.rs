@@ -164,6 +164,26 @@ async fn several_files_are_unwrapped_at_once() {
     scenario("jobs", server.url("/"), &meshes).await;
 }
 
+#[tokio::test]
+async fn jobs_are_found_by_what_is_known_of_them() {
+    let server = Server::start();
+    let mesh = |name: &str| std::fs::read(places::asset(name)).expect("an asset");
+    let noted = form("unwrap", "{}", ("Box.glb", mesh("Box.glb")));
+    let noted = noted.text("metadata", r#"{"batch":7,"asset":"chair"}"#);
+    let noted = ended(&server, noted.text("accept", "max_charts=1")).await;
+    ended(
+        &server,
+        form("measure", "{}", ("Fox.glb", mesh("gltf/Fox.glb"))),
+    )
+    .await;
+    ended(
+        &server,
+        form("unwrap", "{}", ("bad.obj", b"v 0 0 0\n".to_vec())),
+    )
+    .await;
+    scenario("filters", server.url("/"), &[id(&noted).to_owned()]).await;
+}
+
 /// Two squares of one triangle pair each that overlap in a corner, and a pair of charts half a texel apart.
 const WRONG: &str = "\
 v 0 0 0\nv 4 0 0\nv 0 4 0\nv 10 0 0\nv 14 0 0\nv 10 4 0\nv 20 0 0\nv 24 0 0\nv 20 4 0\nv 30 0 0\nv 34 0 0\nv 30 4 0

@@ -142,3 +142,29 @@ async fn what_an_archive_grows_to_is_counted() {
     assert_problem(posted(&server, lying).await, 422, "invalid_archive").await;
     assert_eq!((scratch(&server), server.owners_of_files().len()), (0, 0));
 }
+
+#[tokio::test]
+async fn an_owner_receives_only_so_many_archives_at_a_time() {
+    let server = Server::start();
+    let (gltf, bytes) = triangle();
+    // More than the buffers of a connection take: who does not read it keeps the archive.
+    let note = "x".repeat(16 << 20);
+    let gltf = gltf.replacen('{', &format!("{{\"extras\":\"{note}\","), 1);
+    let archive = zipped(&[("a.gltf", gltf.as_bytes()), ("data/a b.bin", &bytes)]);
+    let job = json(posted(&server, archive).await).await;
+    let job = server.ended(&job).await;
+    let path = format!("/v1/jobs/{}/files.zip", job["id"].as_str().expect("an id"));
+    let asked = || async { server.get(&path).send().await.expect("an answer") };
+    let mut unread = Vec::new();
+    for _ in 0..16 {
+        unread.push(asked().await);
+    }
+    assert!(unread.iter().all(|answer| answer.status() == 200));
+    let refused = asked().await;
+    assert!(refused.headers().contains_key("retry-after"));
+    assert_problem(refused, 429, "rate_limited").await;
+    drop(unread);
+    while asked().await.status() != 200 {
+        tokio::task::yield_now().await;
+    }
+}

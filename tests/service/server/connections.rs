@@ -2,9 +2,12 @@
 
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;
 
+use crate::cli::assert_status;
+use crate::harness::program;
 use crate::meshes;
 use crate::server::{SOON, Server};
 
@@ -118,4 +121,22 @@ async fn silent_connections_keep_nobody_out() {
     }
     let job = server.submit(meshes::small(), "").await;
     assert_eq!(server.ended(&job).await["state"], "succeeded");
+}
+
+#[test]
+fn connections_leave_half_of_the_open_files_to_uploads() {
+    for (files, connections) in [(1024, "384"), (256, "64"), (20_000, "4096")] {
+        let config = "ulimit -n \"$2\" && exec \"$1\" config --json";
+        let output = std::process::Command::new("sh")
+            .args(["-c", config, "sh"])
+            .arg(program())
+            .arg(files.to_string())
+            .output()
+            .expect("a shell");
+        assert_status(&output, 0);
+        let rows: Vec<Value> = serde_json::from_slice(&output.stdout).expect("JSON");
+        let mut rows = rows.iter();
+        let row = rows.find(|row| row["option"] == "--max-connections");
+        assert_eq!(row.expect("a row")["value"], connections, "{files}");
+    }
 }

@@ -9,7 +9,8 @@ use tokio_tungstenite::tungstenite::client::IntoClientRequest;
 use tokio_tungstenite::{MaybeTlsStream, WebSocketStream, connect_async};
 
 use crate::meshes;
-use crate::server::{SOON, Server, assert_problem, json};
+use crate::server::sessions::sheet;
+use crate::server::{SOON, Server, assert_problem, form, json};
 
 /// A WebSocket client of one job's events.
 pub struct Socket {
@@ -25,6 +26,11 @@ impl Socket {
             stream,
             closed: None,
         }
+    }
+
+    /// Says something; the server may stop reading before its end.
+    pub async fn say(&mut self, text: String) {
+        let _ = self.stream.send(Message::text(text)).await;
     }
 
     /// The next event; `None` when the server closes.
@@ -124,6 +130,25 @@ async fn events_need_one_of_the_two_protocols() {
         .expect("an answer");
     assert_eq!(plain.headers()["upgrade"], "websocket");
     assert_problem(plain, 426, "upgrade_required").await;
+}
+
+#[tokio::test]
+async fn a_message_beyond_the_limit_is_answered_with_its_close_code() {
+    let server = Server::start();
+    let (_, off) = sheet(6);
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    let form = form("deform", "{}", ("sheet.off", off));
+    let opened = server.post("/v1/sessions").multipart(form).send().await;
+    let session = json(opened.expect("an answer")).await;
+    let live = session["links"]["live"].as_str().expect("a link");
+    for path in [&events_path(&job), live] {
+        for bytes in [(64 << 10) + 1, 8 << 20] {
+            let mut socket = Socket::connect(&server.socket_url(path)).await;
+            socket.say("x".repeat(bytes)).await;
+            while socket.next().await.is_some() {}
+            assert_eq!(socket.closed, Some(1009), "{path}: {bytes}");
+        }
+    }
 }
 
 #[tokio::test]

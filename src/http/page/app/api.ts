@@ -21,6 +21,12 @@ export interface Job {
   input_bytes: number;
   options: Record<string, unknown>;
   priority: number;
+  /** Who made the job, where there are keys. */
+  owner: string | null;
+  metadata: Record<string, unknown>;
+  /** The gates, and whether the result meets them. */
+  accept: string | null;
+  accepted: boolean | null;
   cached: boolean;
   created_at: string;
   started_at: string | null;

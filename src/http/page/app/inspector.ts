@@ -44,7 +44,8 @@ export class ProgressPanel {
         element("div", { className: "actions" },
           button("Finish early", actions.finish, { title: "Take the current map, which is valid, as the result" }),
           button("Cancel", actions.cancel)),
-        this.#facts, this.#curve));
+        this.#facts, this.#curve),
+      ...noted(job));
     this.show(job);
   }
 
@@ -69,14 +70,14 @@ export class ProgressPanel {
 /** Shows a job that has ended. */
 export async function showEnded(job: Job, report: Report | null, actions: Actions): Promise<void> {
   const options = await chosenOptions(job.kind, job.options).catch(() => ({}));
-  const parts: (Node | null)[] = [verdict(job), failure(job), report?.proven ? proofs(report) : null];
+  const parts: (Node | null)[] = [verdict(job), gates(job), failure(job), report?.proven ? proofs(report) : null];
   if (report) parts.push(facts(report));
   if (job.warnings.length) parts.push(section("Warnings", element("ul", { className: "warnings" }, ...job.warnings.map(({ message }) => element("li", {}, ...prose(message))))));
   if (job.links.files.length) parts.push(section("Files", files(job)));
   parts.push(section("Job", about(job, options), element("div", { className: "actions" },
     job.state === "failed" ? button("Retry", actions.retry) : null,
     button("Use these options", actions.reuse, { title: "Put the options of this job into the form" }),
-    button("Delete", actions.remove, { className: "danger" })), copies(job, options)));
+    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), ...noted(job));
   byId("inspector").replaceChildren(...parts.filter((part) => part !== null));
 }
 
@@ -95,6 +96,19 @@ function verdict(job: Job): HTMLElement {
     failed: "", cancelled: "Only the record is kept.", done: job.kind === "measure" ? "The UVs of the file as they are." : "",
   }[kind];
   return element("section", { className: `verdict ${kind}` }, element("h2", { textContent: text }), detail ? element("p", { textContent: detail }) : null);
+}
+
+/** Whether a job meets its gates. */
+function gates({ accept, accepted }: Job): HTMLElement | null {
+  if (accept === null || accepted === null) return null;
+  return element("section", { className: `verdict ${accepted ? "certified" : "open"}` }, element("h2", { textContent: accepted ? "Accepted" : "Not accepted" }),
+    element("p", { textContent: `The job ${accepted ? "meets" : "does not meet"} its gates: ${accept.replaceAll(",", ", ")}.` }));
+}
+
+/** What the client noted of a job. */
+function noted({ metadata }: Job): HTMLElement[] {
+  const members = Object.entries(metadata).map(([name, value]): [string, string] => [name, typeof value === "string" ? value : JSON.stringify(value)]);
+  return members.length ? [section("Metadata", pairs(members))] : [];
 }
 
 function failure({ error }: Job): HTMLElement | null {
@@ -140,7 +154,7 @@ function files(job: Job): HTMLElement {
 function about(job: Job, options: Record<string, unknown>): HTMLElement {
   const chosen = Object.entries(options).map(([name, value]) => `${plain(name).toLowerCase()} ${typeof value === "object" ? "…" : value}`).join(", ");
   return pairs([
-    ["Kind", plain(job.kind)], ["Options", chosen || "defaults"], ["Input", bytes(job.input_bytes)], ["Time", duration(job.elapsed_ms)],
+    ["Kind", plain(job.kind)], ...(job.owner ? [["Owner", job.owner] as [string, string]] : []), ["Options", chosen || "defaults"], ["Input", bytes(job.input_bytes)], ["Time", duration(job.elapsed_ms)],
     ["Made", new Date(job.created_at).toLocaleString()], ["Kept until", job.expires_at ? new Date(job.expires_at).toLocaleDateString() : "–"],
     ...(job.cached ? [["Result", "copied from an equal job"] as [string, string]] : []),
   ]);

@@ -4,6 +4,7 @@ import { call, isFinal, type Job } from "./api";
 import { byId, element } from "./dom";
 import { ago, duration, plain } from "./format";
 import { fragmentOf, START } from "./address";
+import { JobFilters } from "./job_filters";
 import { thumbnail } from "./thumbnails";
 
 const PAGE = 20;
@@ -18,6 +19,14 @@ export class JobList {
   #next: string | null = null;
   #queue: string[] = [];
   #timer = 0;
+  /** Counts changes of the filters: an answer that comes after one is not shown. */
+  #filterings = 0;
+  readonly #filters = new JobFilters(() => {
+    this.#filterings++;
+    this.#jobs = [];
+    this.#next = null;
+    void this.refresh();
+  });
 
   constructor(readonly chosen: (id: string) => void) {
     byId("older").addEventListener("click", () => void this.#older());
@@ -27,8 +36,10 @@ export class JobList {
   /** Asks the service for the newest jobs. */
   async refresh(): Promise<void> {
     clearTimeout(this.#timer);
+    const filterings = this.#filterings;
     try {
-      const page = await call<{ jobs: Job[]; next: string | null }>(`v1/jobs?limit=${PAGE}`);
+      const page = await this.#page();
+      if (filterings !== this.#filterings) return;
       const older = this.#jobs.filter((job) => page.jobs.length === PAGE && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
       if (!older.length) this.#next = page.next;
       this.#jobs = [...page.jobs, ...older];
@@ -53,10 +64,16 @@ export class JobList {
   }
 
   async #older(): Promise<void> {
-    const page = await call<{ jobs: Job[]; next: string | null }>(`v1/jobs?limit=${PAGE}&cursor=${this.#next}`);
+    const filterings = this.#filterings;
+    const page = await this.#page(`&cursor=${this.#next}`);
+    if (filterings !== this.#filterings) return;
     this.#jobs.push(...page.jobs);
     this.#next = page.next;
     this.#show();
+  }
+
+  #page(more = ""): Promise<{ jobs: Job[]; next: string | null }> {
+    return call(`v1/jobs?limit=${PAGE}${this.#filters.query()}${more}`);
   }
 
   #show(): void {
@@ -67,7 +84,8 @@ export class JobList {
       const key = JSON.stringify([job.state, Math.round(job.fraction * 100), this.position(job.id), this.current === job.id, ago(job.created_at)]);
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
-    if (!this.#jobs.length) list.replaceChildren(element("li", { className: "none", textContent: "None yet. Press Unwrap to make one of the sample." }));
+    const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";
+    if (!this.#jobs.length) list.replaceChildren(element("li", { className: "none", textContent: none }));
     byId("older").hidden = this.#next === null;
   }
 
@@ -75,7 +93,7 @@ export class JobList {
     const link = element("a", { href: `#${fragmentOf({ ...START, job: job.id })}`, className: "row-link" },
       thumbnail(job),
       element("span", { className: "name", textContent: job.filename, title: job.filename }),
-      element("span", { className: `facts ${outcome(job)}`, textContent: this.#facts(job) }));
+      element("span", { className: `facts ${outcome(job)}${job.accepted === false ? " refused" : ""}`, textContent: this.#facts(job) }));
     if (job.id === this.current) link.setAttribute("aria-current", "true");
     link.addEventListener("click", (event) => {
       event.preventDefault();
@@ -93,7 +111,8 @@ export class JobList {
     }
     if (job.state === "running") return `${kind}${job.stage ?? "running"} · ${Math.round(100 * job.fraction)} %`;
     const word = { certified: "certified", open: "not certified", failed: "failed", cancelled: "cancelled", done: "done" }[outcome(job)];
-    return `${kind}${word} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
+    const gates = job.accepted === false ? " · not accepted" : "";
+    return `${kind}${word}${gates} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
   }
 }
 
