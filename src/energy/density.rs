@@ -19,6 +19,11 @@ pub trait Density<const D: usize>: Send + Sync {
     /// ∂²ψ/∂σᵢ∂σⱼ.
     fn hessian(&self, sigma: &[f64; D]) -> Matrix<D>;
 
+    /// Gradient and Hessian; a density that has one from the other says so.
+    fn derivatives(&self, sigma: &[f64; D]) -> ([f64; D], Matrix<D>) {
+        (self.gradient(sigma), self.hessian(sigma))
+    }
+
     /// The curvature against a rotation in the plane of the axes i and j, (ψᵢ + ψⱼ)/(σᵢ + σⱼ) given the gradient.
     ///
     /// A density has a reason to say it itself if it knows the quotient without dividing, as
@@ -60,6 +65,10 @@ impl<const D: usize, T: Density<D> + ?Sized> Density<D> for Box<T> {
 
     fn hessian(&self, sigma: &[f64; D]) -> Matrix<D> {
         (**self).hessian(sigma)
+    }
+
+    fn derivatives(&self, sigma: &[f64; D]) -> ([f64; D], Matrix<D>) {
+        (**self).derivatives(sigma)
     }
 
     fn twist(&self, sigma: &[f64; D], gradient: &[f64; D], i: usize, j: usize) -> f64 {

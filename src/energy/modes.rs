@@ -33,8 +33,7 @@ pub struct Modes<const D: usize> {
 impl<const D: usize> Modes<D> {
     /// The derivatives of `weight`·ψ.
     pub fn new(density: &dyn Density<D>, sigma: &[f64; D], weight: f64) -> Self {
-        let gradient = density.gradient(sigma);
-        let hessian = density.hessian(sigma);
+        let (gradient, hessian) = density.derivatives(sigma);
         let (mut twist, mut flip) = ([[0.0; D]; D], [[0.0; D]; D]);
         for i in 0..D {
             for j in i + 1..D {

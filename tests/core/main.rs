@@ -33,6 +33,7 @@ mod elements;
 mod elsewhere;
 mod embed;
 mod energy;
+mod formula;
 mod given_back;
 mod given_seams;
 mod handles;

@@ -1,0 +1,202 @@
+//! Formulas as they are typed.
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = signed { ("*" | "/") signed }
+//! signed  = "-" signed | power
+//! power   = atom [ ("^" | "**") signed ]
+//! atom    = number | "s1" | … | "(" sum ")" | ("sqrt" | "exp" | "log" | "cosh") "(" sum ")"
+//! ```
+//! So −s1^2 is −(s1²), and powers of powers are taken from the right, as in Python.
+
+use super::FormulaError;
+use super::expression::{Expression, Function};
+
+/// The longest text, in bytes; the energies of the field have some 100.
+const LONGEST: usize = 1000;
+
+/// How deep brackets, signs and powers may be nested.
+const DEEPEST: usize = 50;
+
+/// The expression that `text` is, of `D` singular values.
+pub(super) fn parsed<const D: usize>(text: &str) -> Result<Expression, FormulaError> {
+    if text.len() > LONGEST {
+        return Err(FormulaError::TooLong { longest: LONGEST });
+    }
+    let mut parser = Parser {
+        text,
+        at: 0,
+        depth: 0,
+        n_sigma: D,
+    };
+    let expression = parser.sum()?;
+    match parser.peek() {
+        None => Ok(expression),
+        Some(_) => Err(parser.expected("an operator")),
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    /// Where the next character stands, in bytes.
+    at: usize,
+    depth: usize,
+    n_sigma: usize,
+}
+
+type Parsed = Result<Expression, FormulaError>;
+
+impl<'a> Parser<'a> {
+    fn sum(&mut self) -> Parsed {
+        let mut sum = self.product()?;
+        loop {
+            sum = if self.takes("+") {
+                Expression::Sum(Box::new([sum, self.product()?]))
+            } else if self.takes("-") {
+                Expression::Difference(Box::new([sum, self.product()?]))
+            } else {
+                return Ok(sum);
+            };
+        }
+    }
+
+    fn product(&mut self) -> Parsed {
+        let mut product = self.signed()?;
+        loop {
+            product = if self.takes("*") {
+                Expression::Product(Box::new([product, self.signed()?]))
+            } else if self.takes("/") {
+                Expression::Quotient(Box::new([product, self.signed()?]))
+            } else {
+                return Ok(product);
+            };
+        }
+    }
+
+    /// Every way into a deeper level leads through here.
+    fn signed(&mut self) -> Parsed {
+        if self.depth == DEEPEST {
+            return Err(FormulaError::TooDeep {
+                column: self.column(),
+                deepest: DEEPEST,
+            });
+        }
+        self.depth += 1;
+        let signed = if self.takes("-") {
+            Expression::Negative(Box::new(self.signed()?))
+        } else {
+            self.power()?
+        };
+        self.depth -= 1;
+        Ok(signed)
+    }
+
+    fn power(&mut self) -> Parsed {
+        let base = self.atom()?;
+        if !(self.takes("**") || self.takes("^")) {
+            return Ok(base);
+        }
+        let exponent = self.signed()?;
+        Ok(match exponent.constant() {
+            Some(number) => Expression::Power(Box::new(base), number),
+            None => Expression::Exponential(Box::new([base, exponent])),
+        })
+    }
+
+    fn atom(&mut self) -> Parsed {
+        if self.takes("(") {
+            return self.closed();
+        }
+        match self.peek() {
+            Some(c) if c.is_ascii_digit() || c == '.' => self.number(),
+            Some(c) if c.is_alphabetic() => self.named(),
+            _ => Err(self.expected("a number, a singular value, a function or `(`")),
+        }
+    }
+
+    /// What stands between brackets, behind the first.
+    fn closed(&mut self) -> Parsed {
+        let inside = self.sum()?;
+        if self.takes(")") {
+            Ok(inside)
+        } else {
+            Err(self.expected("an operator or `)`"))
+        }
+    }
+
+    fn number(&mut self) -> Parsed {
+        let rest = &self.text[self.at..];
+        let digits = |from: usize| {
+            let is_digit = |c: char| c.is_ascii_digit() || c == '.';
+            from + rest[from..]
+                .find(|c| !is_digit(c))
+                .unwrap_or(rest.len() - from)
+        };
+        let mut end = digits(0);
+        if let Some(exponent) = rest[end..].strip_prefix(['e', 'E']) {
+            let sign = usize::from(exponent.starts_with(['+', '-']));
+            end = digits(end + 1 + sign);
+        }
+        let Ok(number) = rest[..end].parse() else {
+            return Err(self.expected("a number"));
+        };
+        self.at += end;
+        Ok(Expression::Number(number))
+    }
+
+    fn named(&mut self) -> Parsed {
+        let (start, name) = (self.column(), self.name());
+        let names = ["s1", "s2", "s3"];
+        if let Some(i) = names[..self.n_sigma].iter().position(|&s| s == name) {
+            return Ok(Expression::Sigma(i));
+        }
+        let Some(function) = Function::named(name) else {
+            return Err(FormulaError::UnknownName {
+                column: start,
+                name: name.to_owned(),
+                last: self.n_sigma,
+            });
+        };
+        if !self.takes("(") {
+            return Err(self.expected("`(`"));
+        }
+        Ok(Expression::Call(function, Box::new(self.closed()?)))
+    }
+
+    fn name(&mut self) -> &'a str {
+        let rest = &self.text[self.at..];
+        let end = rest
+            .find(|c: char| !c.is_alphanumeric())
+            .unwrap_or(rest.len());
+        self.at += end;
+        &rest[..end]
+    }
+
+    fn peek(&mut self) -> Option<char> {
+        let rest = self.text[self.at..].trim_start();
+        self.at = self.text.len() - rest.len();
+        rest.chars().next()
+    }
+
+    /// Passes the sign if it comes next.
+    fn takes(&mut self, sign: &str) -> bool {
+        self.peek();
+        let rest = &self.text[self.at..];
+        // `**` is one sign.
+        let comes = rest.starts_with(sign) && !(sign == "*" && rest.starts_with("**"));
+        self.at += if comes { sign.len() } else { 0 };
+        comes
+    }
+
+    fn column(&mut self) -> usize {
+        self.peek();
+        self.text[..self.at].chars().count() + 1
+    }
+
+    fn expected(&mut self, expected: &'static str) -> FormulaError {
+        FormulaError::Unexpected {
+            column: self.column(),
+            expected,
+        }
+    }
+}
