@@ -144,6 +144,10 @@ impl<const D: usize> Sub for Jet<D> {
     }
 }
 
+#[expect(
+    clippy::suspicious_arithmetic_impl,
+    reason = "the product rule has sums"
+)]
 impl<const D: usize> Mul for Jet<D> {
     type Output = Self;
 
@@ -160,10 +164,6 @@ impl<const D: usize> Mul for Jet<D> {
     }
 }
 
-#[expect(
-    clippy::suspicious_arithmetic_impl,
-    reason = "a quotient is a product with the reciprocal"
-)]
 impl<const D: usize> Div for Jet<D> {
     type Output = Self;
 
