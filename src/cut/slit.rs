@@ -26,8 +26,7 @@ pub enum Branches {
 /// sweep), with shortest branches, if asked for, to whatever remains far from it. It is a tree of at least two edges.
 pub fn slit(sheet: &Sheet, neighbors: &Neighbors, branches: Branches) -> Vec<u32> {
     let sweep = |source: u32| distances(sheet, neighbors, [source], |h| sheet.length(h));
-    let start = sheet.outermost(|_| true).unwrap_or(0);
-    let (a, _) = sweep(start).farthest();
+    let (a, _) = sweep(0).farthest();
     let from_a = sweep(a);
     let (b, _) = from_a.farthest();
     let mut edges: Vec<u32> = from_a.path(sheet, b).collect();

@@ -135,8 +135,8 @@ fn islands_stay_bit_for_bit_and_others_are_packed_around_them() {
         .collect();
     let mean = factors.iter().sum::<f64>() / factors.len() as f64;
     assert!(factors.iter().all(|f| (f / mean - 1.0).abs() < 1e-3));
-    // The largest first, each where it fits, comes to 0.903.
-    assert!(mean > 0.92, "{mean}");
+    // The largest first, each where it fits, comes to 0.934.
+    assert!(mean > 0.96, "{mean}");
 }
 
 #[test]

@@ -35,8 +35,8 @@ fn slit_in_plane(sheet: &Sheet, mirror: &SheetMirror) -> Option<Vec<u32>> {
             .filter(|&(v, d)| is_in_plane(v) && d.is_finite());
         in_plane.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
     };
-    let start = sheet.outermost(is_in_plane)?;
-    let (a, _) = farthest_from(start)?;
+    let any = (0..sheet.positions.len() as u32).find(|&v| is_in_plane(v))?;
+    let (a, _) = farthest_from(any)?;
     let (b, _) = farthest_from(a)?;
     let way = Way::cheapest(sheet, &neighbors, [a], &cost, |v| v == b)?;
     (way.edges.len() > 1).then_some(way.edges)
