@@ -19,7 +19,7 @@ pub trait Density<const D: usize>: Send + Sync {
     /// ∂²ψ/∂σᵢ∂σⱼ.
     fn hessian(&self, sigma: &[f64; D]) -> Matrix<D>;
 
-    /// Gradient and Hessian; a density that has one from the other says so.
+    /// Gradient and Hessian. A density that computes both at once overrides this.
     fn derivatives(&self, sigma: &[f64; D]) -> ([f64; D], Matrix<D>) {
         (self.gradient(sigma), self.hessian(sigma))
     }

@@ -2,8 +2,9 @@
 //!
 //! An isotropic energy does not know directions: what an element contributes is a function ψ of the signed singular values
 //! of its Jacobian J, weighted by its rest size. A density ([`Density`]) gives ψ, ∂ψ and ∂²ψ in σ and nothing else, once
-//! for triangles in the plane and tetrahedra in space; one's own is typed as text or written as a closure ([`Formula`]). A function of det J alone, such as a barrier, joins as a
-//! [`Guard`]; both are summed before the one projection of the Hessian to positive semidefinite, which is in closed form
+//! for triangles in the plane and tetrahedra in space. One's own is typed as text or written as a closure ([`Formula`]).
+//!
+//! A function of det J alone, such as a barrier, joins as a [`Guard`]; both are summed before the one projection of the Hessian to positive semidefinite, which is in closed form
 //! because in the frame of the singular vectors the Hessian is one number for each twist and flip and one D×D block
 //! ([`Modes`]).
 //!

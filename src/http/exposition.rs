@@ -1,8 +1,8 @@
 //! What is measured, in the text format of Prometheus.
 //!
 //! It is asked for, not pushed. The `prometheus` receiver of an OpenTelemetry collector asks as Prometheus does, and pushes over
-//! OTLP. To push from here would take a second registry beside this one and a dozen crates, and gauges such as the depth of the
-//! queue, which are looked up when somebody asks, would have to be looked up for nobody.
+//! OTLP. Pushing from here would take a dozen crates and a second registry. Gauges such as the depth of the queue are looked up
+//! when somebody asks.
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -106,6 +106,13 @@ fn taylor_formulas() {
 }
 
 #[test]
+fn the_deepest_tree_is_walked() {
+    let long = format!("{}{}", "0+".repeat(480), ARAP[0]);
+    let long = Formula::<2>::parse(&long).unwrap();
+    assert_eq!(long.value(&[2.0, 1.0]), 0.5);
+}
+
+#[test]
 fn closures_are_densities() {
     let closure = Formula::new(|&[a, b]: &[Jet<2>; 2]| a.ln() * a.ln() + b.ln() * b.ln()).unwrap();
     let sigma = [1.4, 0.6];

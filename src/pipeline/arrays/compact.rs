@@ -8,8 +8,8 @@ use crate::solver::Control;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// The share of a page that seams must gain which are as long as those there are, or as a side of the surface's square if that is
-/// longer.
+/// The share of a page that new seams must gain if they are as long as those there are. Where those are shorter than the square
+/// root of the surface's area, that counts as their length.
 const PRICE: f64 = 0.04;
 /// A further chart costs as much as a seam of this length, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
@@ -23,7 +23,7 @@ const CHARTS_OF_ONE_CUT: usize = 64;
 pub const MOST_CHARTS: usize = 512;
 /// The words that looking for one more cut counts for.
 const WORDS_PER_CUT: u64 = 1_000_000;
-/// Cuts that are made before what comes of them is looked at, and how often in a row nothing better may come of them for each page.
+/// Cuts that are made before any of them is looked at, and how often in a row, for each page, none of them may be better.
 const BATCH: usize = 4;
 const MOST_IDLE: usize = 2;
 
