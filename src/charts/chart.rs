@@ -1,12 +1,9 @@
 //! Charts: parts of a surface opened to disks.
 
-use super::regions::within_cones::regions;
-use super::symmetry::opening::opened_alike;
 use super::symmetry::plane::MirrorPlane;
-use crate::cut::{Branches, Sheet, isolate_doubled_edges, join_disks};
-use crate::mesh::{CUT, Disk, Surface, UnionFind, next, spread};
+use crate::cut::Sheet;
+use crate::mesh::{Disk, Surface, next, spread};
 use crate::numerics::vec3::{area_vector, norm};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Where a surface is cut.
@@ -42,120 +39,8 @@ pub struct Chart {
     pub mirror: Option<MirrorPlane>,
 }
 
-/// The charts of a surface, ordered by their first triangles. Deterministic, for any number of threads.
-pub fn charts(surface: &Surface, cut: Cut) -> Vec<Chart> {
-    charts_alike(surface, cut, None)
-}
-
-/// The same, opened alike on both sides of a plane.
-pub(super) fn charts_alike(surface: &Surface, cut: Cut, mirror: Option<MirrorPlane>) -> Vec<Chart> {
-    let adjacency = surface.adjacency();
-    let (region, n_regions) = match cut {
-        Cut::Fast => regions(surface),
-        Cut::Auto | Cut::Disk | Cut::Keep | Cut::Seams => {
-            (adjacency.piece.clone(), adjacency.n_pieces)
-        }
-    };
-    let branches = match cut {
-        Cut::Auto | Cut::Keep | Cut::Seams => Branches::None,
-        Cut::Fast | Cut::Disk => Branches::ToLimbs,
-    };
-    let mut twin = opened(surface, &region, n_regions, (branches, mirror));
-    if cut == Cut::Disk && !surface.is_cut() {
-        join_disks(surface, &mut twin);
-    }
-    charts_glued(surface, &twin, mirror)
-}
-
-/// The charts of given regions of a surface, each opened to a disk, alike on both sides of a plane;
-/// `region` labels triangles.
-pub(super) fn charts_of_regions(
-    surface: &Surface,
-    region: &[u32],
-    n_regions: usize,
-    mirror: Option<MirrorPlane>,
-) -> Vec<Chart> {
-    let twin = opened(surface, region, n_regions, (Branches::None, mirror));
-    charts_glued(surface, &twin, mirror)
-}
-
-/// The gluing that is left when regions are parted and opened to disks.
-fn opened(
-    surface: &Surface,
-    region: &[u32],
-    n_regions: usize,
-    (branches, mirror): (Branches, Option<MirrorPlane>),
-) -> Vec<u32> {
-    let adjacency = surface.adjacency();
-    let mesh = (&*surface.triangles, &*surface.positions);
-    let sheets = Sheet::divide(mesh, &adjacency.twin, region, n_regions);
-    let mut twin = glued_within(&adjacency.twin, region);
-    let seams: Vec<Vec<u32>> = sheets
-        .par_iter()
-        .map(|sheet| opened_alike(sheet, branches, mirror.as_ref()))
-        .collect();
-    for (sheet, seams) in sheets.iter().zip(seams) {
-        for h in seams {
-            for side in [h, sheet.twin[h as usize]] {
-                let triangle = sheet.triangles[side as usize / 3];
-                twin[(3 * triangle + side % 3) as usize] = CUT;
-            }
-        }
-    }
-    isolate_doubled_edges(surface, &mut twin);
-    twin
-}
-
-/// The charts that a gluing leaves of some faces, which it does not glue to others.
-pub(super) fn glued_charts(
-    surface: &Surface,
-    twin: &mut [u32],
-    mirror: Option<MirrorPlane>,
-    is_wanted: impl Fn(usize) -> bool,
-) -> Vec<Chart> {
-    isolate_doubled_edges(surface, twin);
-    let mesh = (&*surface.triangles, &*surface.positions);
-    let (label, n_charts) = connected_faces(twin);
-    let sheets = Sheet::divide(mesh, twin, &label, n_charts).into_iter();
-    let wanted = sheets.filter(|sheet| is_wanted(sheet.triangles[0] as usize));
-    let charts = wanted.flat_map(|sheet| open(surface, sheet));
-    charts.map(|chart| Chart { mirror, ..chart }).collect()
-}
-
-/// The charts that a gluing leaves.
-fn charts_glued(surface: &Surface, twin: &[u32], mirror: Option<MirrorPlane>) -> Vec<Chart> {
-    let mesh = (&*surface.triangles, &*surface.positions);
-    let (label, n_charts) = connected_faces(twin);
-    Sheet::divide(mesh, twin, &label, n_charts)
-        .into_par_iter()
-        .flat_map_iter(|sheet| open(surface, sheet))
-        .map(|chart| Chart { mirror, ..chart })
-        .collect()
-}
-
-/// The gluing without what connects different regions.
-fn glued_within(twin: &[u32], region: &[u32]) -> Vec<u32> {
-    (0..)
-        .zip(twin)
-        .map(|(h, &t): (usize, _)| match t {
-            CUT => CUT,
-            t if region[h / 3] != region[t as usize / 3] => CUT,
-            t => t,
-        })
-        .collect()
-}
-
-/// The faces that hang together, labeled.
-pub(super) fn connected_faces(twin: &[u32]) -> (Vec<u32>, usize) {
-    let mut faces = UnionFind::new(twin.len() / 3);
-    for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {
-        faces.unite(h / 3, t / 3);
-    }
-    faces.labels()
-}
-
 /// A sheet as a chart. Sheets are disks by construction; should one not be, its triangles are charts of their own.
-fn open(surface: &Surface, sheet: Sheet) -> Vec<Chart> {
+pub(super) fn open(surface: &Surface, sheet: Sheet) -> Vec<Chart> {
     let corners = consistent_corners(surface, &sheet);
     let triangles = corners
         .iter()

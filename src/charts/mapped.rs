@@ -1,7 +1,7 @@
 //! Charts with their maps.
 
-use super::chart::connected_faces;
 use super::observer::{Observer, Watching};
+use super::opened::connected_faces;
 use super::parts::{parted, parts};
 use super::symmetry::image::cut_alike;
 use super::unfold::overlaps::{lengths, one_side, overlaps};

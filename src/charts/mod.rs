@@ -8,6 +8,8 @@
 //! within a cone, so that each chart is nearly flat and hardly ever overlaps itself. [`Cut::Auto`] opens every piece to a disk
 //! and goes on from there ([`charts_under_bound`]): one sparse solve predicts where a disk would be distorted most, a slit is
 //! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
+//! A closed piece is tried so with openings between several pairs of vertices far apart, and gets the one whose seams promise to be
+//! shortest: where it is opened follows from its shape, not from the order of its vertices.
 //! With a large disk a chart of fewer faces goes that way first, and the disk begins with its slits.
 //!
 //! Before that [`Cut::Auto`] looks for components that consist mostly of planes, such as machine parts and sheet metal (`facets`):
@@ -22,7 +24,7 @@
 //! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
 //!
 //! Few charts are spiky, and spiky charts leave much of a square empty. [`MappedChart::best_split`] says where to cut one so that
-//! its parts fill their convex hulls; whether that pays only a packed atlas can tell.
+//! its parts fill their convex hulls; whether that pays the atlas has to tell.
 //!
 //! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, slight folds are pushed apart; for the others the
 //! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes. Where
@@ -43,6 +45,7 @@ mod mapped;
 mod min_cut;
 mod motion;
 mod observer;
+mod opened;
 mod parts;
 mod regions;
 mod rough;
@@ -52,13 +55,14 @@ mod up;
 
 pub use bound::few_charts::{Symmetry, charts_under_bound};
 pub use bound::quality::{Bound, Bounded, Quality};
-pub use chart::{Chart, Cut, charts};
+pub use chart::{Chart, Cut};
 pub use compact::split::{Split, parted_alike, seam_length};
 pub use give_back::given_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
 pub use min_cut::min_cut;
 pub use observer::{MapUnderway, Observer, Unobserved};
+pub use opened::charts;
 pub use rough::smoothed_where_rough;
 
 #[cfg(doc)]

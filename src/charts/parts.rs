@@ -1,7 +1,7 @@
 //! Parts of a chart.
 
 use super::Chart;
-use super::chart::connected_faces;
+use super::opened::connected_faces;
 use crate::cut::Sheet;
 use crate::mesh::{CUT, Disk};
 

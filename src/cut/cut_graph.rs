@@ -149,7 +149,7 @@ fn best_root(sheet: &Sheet, neighbors: &Neighbors, holes: &Holes) -> u32 {
     let mut candidates: Vec<u32> = Vec::new();
     let mut best = (f64::INFINITY, 0);
     let uncut = vec![false; sheet.twin.len()];
-    let mut root = 0;
+    let mut root = sheet.outermost(|_| true).unwrap_or(0);
     for _ in 0..n_roots {
         on_cut[root as usize] = true;
         let (from_root, loops) = shortest_loops(sheet, neighbors, holes, &on_cut, &uncut);

@@ -2,6 +2,10 @@
 
 use crate::mesh::{CUT, Surface, UnionFind, next, origin};
 use crate::numerics::vec3::distance;
+use std::array::from_fn;
+
+/// Distances that differ by a smaller share are the same but for rounding.
+const SAME: f64 = 1.0 - 1e-6;
 
 /// Some faces of a surface, numbered locally, with the glued edges among them.
 ///
@@ -94,6 +98,20 @@ impl Sheet {
             .zip(&self.twin)
             .filter(|&(h, &t)| t == CUT || h < t)
             .map(|(h, _)| h)
+    }
+
+    /// Of some vertices the one farthest from the mean of all: where to begin, whatever their numbers, the scale and the
+    /// rotation. The first of those that are as far, as on a sphere.
+    pub fn outermost(&self, is_one: impl Fn(u32) -> bool) -> Option<u32> {
+        let mut sum = [0.0; 3];
+        for p in &self.positions {
+            sum = from_fn(|k| sum[k] + p[k]);
+        }
+        let mean = sum.map(|x| x / self.positions.len().max(1) as f64);
+        let reach = |v: u32| distance(self.positions[v as usize], mean);
+        let all = || (0..self.positions.len() as u32).filter(|&v| is_one(v));
+        let farthest = all().map(reach).fold(0.0, f64::max);
+        all().find(|&v| reach(v) >= SAME * farthest)
     }
 
     /// For each vertex whether it lies on the boundary.

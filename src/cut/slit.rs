@@ -2,6 +2,7 @@
 
 use super::Sheet;
 use super::distances::{Neighbors, distances, opposite_end};
+use super::far_pairs::far_pairs;
 use crate::numerics::vec3::{area_vector, norm};
 
 /// A vertex farther from the slit than this share of √area gets a branch. On a round sphere the slit from pole to pole
@@ -20,15 +21,23 @@ pub enum Branches {
     ToLimbs,
 }
 
-/// The edges of a slit that opens a closed sheet of genus 0 to a disk.
+/// The edges of slits each of which opens a closed sheet of genus 0 to a disk, at most so many.
 ///
-/// The slit is a shortest path between two approximately farthest points (the far end of a sweep from the far end of a
-/// sweep), with shortest branches, if asked for, to whatever remains far from it. It is a tree of at least two edges.
-pub fn slit(sheet: &Sheet, neighbors: &Neighbors, branches: Branches) -> Vec<u32> {
-    let sweep = |source: u32| distances(sheet, neighbors, [source], |h| sheet.length(h));
-    let (a, _) = sweep(0).farthest();
-    let from_a = sweep(a);
-    let (b, _) = from_a.farthest();
+/// A slit is a shortest path between two vertices far apart, with shortest branches, if asked for, to whatever
+/// remains far from it. It is a tree of at least two edges.
+pub fn slits(
+    sheet: &Sheet,
+    neighbors: &Neighbors,
+    branches: Branches,
+    most: usize,
+) -> Vec<Vec<u32>> {
+    let ends = far_pairs(sheet, neighbors, &|h| sheet.length(h), &|_| true, most).into_iter();
+    ends.map(|ends| slit(sheet, neighbors, branches, ends))
+        .collect()
+}
+
+fn slit(sheet: &Sheet, neighbors: &Neighbors, branches: Branches, [a, b]: [u32; 2]) -> Vec<u32> {
+    let from_a = distances(sheet, neighbors, [a], |h| sheet.length(h));
     let mut edges: Vec<u32> = from_a.path(sheet, b).collect();
     let mut on_slit = vec![false; sheet.positions.len()];
     on_slit[a as usize] = true;

@@ -1,15 +1,17 @@
 //! Few charts under a bound on their distortion.
 
+use super::best_way::best_opened;
 use super::pending_chart::Piece;
 use super::quality::{Bound, Bounded};
 use super::rounds::{mean_excess, rounds};
 use super::simplified::Simplified;
 use super::slits::Slits;
-use crate::charts::chart::{Chart, Cut, charts, charts_alike};
+use crate::charts::chart::{Chart, Cut};
 use crate::charts::creases::hard_components::Divided;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
 use crate::charts::observer::{Observer, Planning};
+use crate::charts::opened::{charts, charts_alike, charts_in_ways};
 use crate::charts::rough::smoothed_where_rough;
 use crate::charts::symmetry::exact::exact_mirror_planes;
 use crate::charts::symmetry::search::mirror_plane;
@@ -24,6 +26,10 @@ use std::cell::LazyCell;
 /// Triangles of a chart from which on its first slits are planned on a simplification, and the vertices of that.
 const LARGE: usize = 60_000;
 const SIMPLE: usize = 10_000;
+
+/// Ways to open a closed component that are tried, and the triangles of a surface up to which they are.
+const MOST_WAYS: usize = 4;
+const TRIED: usize = 200_000;
 
 /// Newton steps at most on a chart of needles, which go on for hundreds without gaining a shape.
 const STEPS_FOR_NEEDLES: usize = 10;
@@ -42,7 +48,7 @@ pub enum Symmetry {
 
 /// The charts of a surface, mapped, whose mean symmetric Dirichlet energy keeps the bound where that can be had.
 ///
-/// Each component is opened to a disk; disks are slit where the predictor says that they would be distorted most, until the sum
+/// Each component is opened to a disk, a closed one in the way that [promises the shortest seams](best_opened); disks are slit where the predictor says that they would be distorted most, until the sum
 /// promises to keep the bound; then they are mapped, parted where a map overlaps itself, and slit further where the maps were
 /// worse than promised. The bound is one for all charts: a slit is spent where the excess is largest. Where the stretch is too
 /// large the same goes on as for a smaller mean. A surface on which this does not lead below the bound is divided as by
@@ -106,12 +112,19 @@ fn charts_of_surface(
         hard.clear();
     }
     let is_soft = |chart: &Chart| !is_hard[chart.corners[0][0] as usize / 3];
-    let soft = |cut| {
-        let charts = charts_alike(surface, cut, *mirror);
-        charts.into_iter().filter(is_soft).collect()
-    };
+    let soft = |charts: Vec<Chart>| charts.into_iter().filter(is_soft).collect();
     let soft = if is_hard.contains(&false) {
-        soft_charts(surface, &soft, bound, options, observer)
+        let is_tried = surface.triangles.len() <= TRIED;
+        let n_ways = if is_tried { MOST_WAYS } else { 1 };
+        let ways = charts_in_ways(surface, *mirror, n_ways).into_iter();
+        let fast = || soft(charts_alike(surface, Cut::Fast, *mirror));
+        soft_charts(
+            surface,
+            (ways.map(soft).collect(), &fast),
+            bound,
+            options,
+            observer,
+        )
     } else {
         Vec::new()
     };
@@ -122,15 +135,15 @@ fn maps(pieces: Vec<Piece>) -> impl Iterator<Item = MappedChart> {
     pieces.into_iter().filter_map(|piece| piece.map)
 }
 
-/// The charts of those components that are not hard; `divided` cuts them.
+/// The charts of those components that are not hard: each opened in some ways, or divided by [`Cut::Fast`].
 fn soft_charts(
     surface: &Surface,
-    divided: &dyn Fn(Cut) -> Vec<Chart>,
+    (ways, fast): (Vec<Vec<Chart>>, &dyn Fn() -> Vec<Chart>),
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
-    let pieces = divided(Cut::Auto);
+    let pieces = best_opened(ways, bound, observer);
     if pieces.is_empty() {
         return Vec::new();
     }
@@ -139,7 +152,7 @@ fn soft_charts(
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
         return given_back(slit);
     }
-    let divided = map_all(divided(Cut::Fast), options, observer);
+    let divided = map_all(fast(), options, observer);
     let divided: Vec<Piece> = divided.into_iter().map(Piece::of).collect();
     let better = if mean_excess(&divided) < mean_excess(&slit) {
         divided
@@ -172,21 +185,22 @@ fn is_mostly_needles(surface: &Surface) -> bool {
 }
 
 fn slit_and_mapped(
-    pieces: Vec<Chart>,
+    pieces: Vec<Piece>,
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<Piece> {
-    let first = |chart: Chart| {
-        if chart.disk.triangles.len() < LARGE {
-            return vec![Piece::unmapped(chart)];
-        }
+    let (large, mut pieces): (Vec<Piece>, Vec<Piece>) =
+        (pieces.into_iter()).partition(|piece| piece.n_faces() >= LARGE);
+    let large = large.into_par_iter().with_max_len(1);
+    let mapped = large.filter_map(Piece::into_chart).flat_map_iter(|chart| {
         let parts = slit_as_simplified(chart, bound, options, observer).into_iter();
         let maps = parts.flat_map(|part| map_chart(part, options, Folds::Cut, observer));
-        maps.map(Piece::of).collect()
-    };
-    let pieces = pieces.into_par_iter().with_max_len(1).flat_map_iter(first);
-    rounds(pieces.collect(), bound, options, observer, |_| ())
+        maps.map(Piece::of)
+    });
+    let mut all: Vec<Piece> = mapped.collect();
+    all.append(&mut pieces);
+    rounds(all, bound, options, observer, |_| ())
 }
 
 /// A chart with the slits that its simplification needs to keep the bound: large charts are mapped once or twice, not in every round.

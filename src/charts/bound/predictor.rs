@@ -25,7 +25,7 @@ pub struct Predictor {
     area: Vec<f64>,
 }
 
-/// Beyond this a vertex cannot be called more distorted: e⁴ to a side.
+/// What counts at most as the logarithm of a scale in the energy, e⁴ to a side: beyond that a few vertices would outweigh all others.
 const LARGEST: f64 = 4.0;
 
 impl Predictor {
@@ -82,7 +82,7 @@ impl Predictor {
             return vec![0.0; u.len()];
         }
         self.cholesky.solve(&mut u, 1);
-        u.iter().map(|u| u.clamp(-LARGEST, LARGEST)).collect()
+        u
     }
 
     /// The sum of the areas.
@@ -97,7 +97,7 @@ impl Predictor {
             self.area
                 .iter()
                 .zip(log_scale)
-                .map(|(a, &u)| a * f(u))
+                .map(|(a, u)| a * f(u.clamp(-LARGEST, LARGEST)))
                 .sum()
         };
         let mean = weighted(&|u| u) / self.area().max(f64::MIN_POSITIVE);

@@ -91,9 +91,9 @@ fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
         let Some(worst) = worst else {
             return;
         };
-        expected -= pieces[worst].excess;
         // Far from the goal several slits at once do as well as one after the other.
         let is_far = expected > 2.0 * wanted * area;
+        expected -= pieces[worst].excess;
         let n_slits = pieces[worst].n_slits();
         is_done[worst] = !pieces[worst].cut(is_far);
         observer.worked(pieces[worst].n_faces());

@@ -11,7 +11,7 @@ pub const MOST_COST: f64 = 1.0;
 /// What a layout may be less full whose charts are all upright that can be.
 const STRAIGHT: f64 = 0.01;
 /// How candidates are looked at, one look after the other, and how many of the best.
-const LOOKS: [(Look, usize); 3] = [
+pub const LOOKS: [(Look, usize); 3] = [
     (Look::First, usize::MAX),
     (Look::Second, 4),
     (Look::Last, 2),
@@ -83,15 +83,16 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
+    /// For so many charts, which are cut so often at most, and the looks that there are going to be.
     pub fn new(
-        n_charts: usize,
-        most_cuts: usize,
+        (n_charts, most_cuts): (usize, usize),
+        looks: &[(Look, usize)],
         options: &'a AtlasOptions,
         on_read: &'a OnRead<'a>,
     ) -> Self {
         let numbers: Vec<usize> = (n_charts..=n_charts + most_cuts).collect();
         let patience = options.patience as f64;
-        let wanted = patience * wanted_words(&numbers) as f64;
+        let wanted = patience * wanted_words(&numbers, looks) as f64;
         let share = options.search_words as f64 / wanted.max(1.0);
         Self {
             options,
@@ -143,10 +144,10 @@ impl<'a> Search<'a> {
 }
 
 /// The words that looks at candidates of so many charts read, those with most charts being the best.
-pub fn wanted_words(numbers: &[usize]) -> u64 {
-    let words = |(look, n): (Look, usize)| -> u64 {
+pub fn wanted_words(numbers: &[usize], looks: &[(Look, usize)]) -> u64 {
+    let words = |&(look, n): &(Look, usize)| -> u64 {
         let best = &numbers[numbers.len().saturating_sub(n)..];
         best.iter().map(|&n_charts| look.words(n_charts)).sum()
     };
-    LOOKS.into_iter().map(words).sum()
+    looks.iter().map(words).sum()
 }

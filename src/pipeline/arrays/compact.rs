@@ -1,31 +1,23 @@
 //! Charts cut where that makes their atlas fuller.
 
-use super::candidate::{Candidate, MOST_COST, Search, wanted_words};
+use super::candidate::{Candidate, LOOKS, Search, wanted_words};
 use super::chart_maps::chart_maps;
-use crate::atlas::{AtlasError, AtlasOptions, Draft, OnRead, Scale, Texture};
-use crate::charts::{MappedChart, Split, parted_alike, seam_length};
-use crate::solver::Control;
-use rayon::prelude::*;
+use super::cutter::{Cutter, WORDS_PER_CUT};
+use crate::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead, Scale, Texture};
+use crate::charts::MappedChart;
 use std::sync::Arc;
 
-/// The share of a page that new seams must gain if they are as long as those there are. Where those are shorter than the square
-/// root of the surface's area, that counts as their length.
-const PRICE: f64 = 0.04;
-/// A further chart costs as much as a seam of this length, in sides of the surface's square.
-const PER_CHART: f64 = 0.4;
 /// Candidates at most for each page beside the charts as they are, in all and for each chart that there was.
 const MOST_CANDIDATES: usize = 18;
 const MOST_CANDIDATES_PER_CHART: usize = 14;
-/// Candidates differ by one cut, and one more for so many charts beyond so many: of those one cut changes little.
-const CHARTS_PER_CUT: usize = 16;
-const CHARTS_OF_ONE_CUT: usize = 64;
 /// Charts at most that are cut, several small ones counted as one.
 pub const MOST_CHARTS: usize = 512;
-/// The words that looking for one more cut counts for.
-const WORDS_PER_CUT: u64 = 1_000_000;
 /// Cuts that are made before any of them is looked at, and how often in a row, for each page, none of them may be better.
 const BATCH: usize = 4;
 const MOST_IDLE: usize = 2;
+
+/// Cuts that are made after the one after which most is expected.
+const MOST_LATER: usize = 8;
 
 /// Charts and a draft of their layout.
 pub struct Drafted {
@@ -42,8 +34,9 @@ impl Drafted {
 
 /// The charts after as many cuts as pay: what they gain of the square is more than their length costs.
 ///
-/// The cut is made first that is worth most by the hulls and sizes of its parts, which say well where to cut but not when to stop:
-/// that a search for full layouts decides, in which the charts before and after each cut compete. Maps stay as they are.
+/// The cut is made first that is worth most by the hulls and sizes of its parts, which say well where to cut but only about when to
+/// stop: that a search for full layouts decides, in which the charts after a cut less and a cut more compete, or, where the fill
+/// is not to be told from the charts, those before and after each cut. Maps stay as they are.
 /// `seam_price` multiplies the price of a seam: with 0 all cuts that gain anything are made. The
 /// charts may become as many as `most_charts`.
 pub fn compacted(
@@ -59,14 +52,36 @@ pub fn compacted(
     };
     let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
     let most = most_candidates(charts.len(), options).min(wanted.saturating_sub(charts.len()));
-    let search = Search::new(charts.len(), most, options, on_read);
+    let is_foreseeable = is_foreseeable(options) && !draft.is_crowded();
+    let search = Search::new(
+        (charts.len(), most),
+        looks(is_foreseeable),
+        options,
+        on_read,
+    );
     let cutter = Cutter::new(charts, draft, (seam_price, wanted), &search);
-    let candidates = candidates(cutter, most)?;
+    let candidates = if is_foreseeable {
+        expected(cutter, most)?
+    } else {
+        candidates(cutter, most)?
+    };
     let Candidate { charts, draft, .. } = search.fullest(candidates);
     Ok(Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
         draft: Some(draft),
     })
+}
+
+/// Whether the fill can be told from the charts, if they are no crowd: of one square page that is to be filled as well as it can be.
+fn is_foreseeable(options: &AtlasOptions) -> bool {
+    let Texture { resolution, pages } = options.texture;
+    let is_square = resolution.shorter() == resolution.longer();
+    pages == 1 && is_square && options.scale == Scale::Largest
+}
+
+/// The looks that candidates get.
+fn looks(is_foreseeable: bool) -> &'static [(Look, usize)] {
+    &LOOKS[usize::from(is_foreseeable)..]
 }
 
 /// Candidates of so many charts at most, beside the charts as they are.
@@ -78,7 +93,7 @@ fn most_candidates(n_charts: usize, options: &AtlasOptions) -> usize {
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
     let candidates = most_candidates(n_charts, options) / 2;
     let numbers: Vec<usize> = (n_charts..=n_charts + candidates).collect();
-    let words = options.patience * wanted_words(&numbers);
+    let words = options.patience * wanted_words(&numbers, looks(is_foreseeable(options)));
     WORDS_PER_CUT * candidates as u64 + words.min(options.search_words)
 }
 
@@ -109,103 +124,21 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
     Ok(candidates)
 }
 
-/// Cuts charts one by one.
-struct Cutter<'a> {
-    search: &'a Search<'a>,
-    candidate: Candidate,
-    /// For each chart the cut that is worth most.
-    splits: Vec<Option<Split>>,
-    /// The square root of a page's area.
-    of_page: f64,
-    /// What a length of seam costs, as a share of the square, and what a chart costs as a length.
-    price: f64,
-    per_chart: f64,
-    most_charts: usize,
-}
-
-impl<'a> Cutter<'a> {
-    fn new(
-        charts: Vec<MappedChart>,
-        draft: Draft,
-        (seam_price, most_charts): (f64, usize),
-        search: &'a Search<'a>,
-    ) -> Self {
-        let options = search.options;
-        let area = charts.iter().map(MappedChart::area).sum::<f64>();
-        let Texture { resolution, pages } = options.texture;
-        let [shorter, longer] = [resolution.shorter(), resolution.longer()].map(f64::from);
-        let seams = seam_length(&charts).max(area.sqrt()).max(f64::MIN_POSITIVE);
-        // A chart has to fit across a page that is not square, but may be longer than it is wide.
-        let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
-        let charts: Vec<_> = charts.into_iter().map(Arc::new).collect();
-        Self {
-            search,
-            splits: best_splits(&charts, of_page, search.on_read),
-            candidate: Candidate {
-                charts,
-                draft,
-                cost: 0.0,
-                wanted: match options.scale {
-                    Scale::Largest => None,
-                    Scale::TexelsPerUnit(texels) => {
-                        Some(area * texels * texels / (shorter * longer * f64::from(pages)))
-                    }
-                },
-            },
-            of_page,
-            price: PRICE * seam_price / f64::from(pages) / seams,
-            per_chart: PER_CHART * area.sqrt(),
-            most_charts,
+/// The charts after as many cuts as are expected to be worth most, and after one cut less and one more.
+///
+/// What is expected follows from the shapes of the charts alone, and a look at a layout is luck, too: charts of the same shapes get
+/// the same cuts.
+fn expected(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasError> {
+    let mut candidates = vec![cutter.candidate.clone()];
+    let (mut best, mut most_value) = (0, cutter.expected_value());
+    while candidates.len() <= most.min(best + MOST_LATER)
+        && let Some(cut) = cutter.next()?
+    {
+        if cutter.expected_value() > most_value {
+            (best, most_value) = (candidates.len(), cutter.expected_value());
         }
+        candidates.push(cut);
     }
-
-    /// The charts after some more cuts, those that are worth most; none where no chart can be cut, or none is worth it.
-    fn next(&mut self) -> Result<Option<Candidate>, AtlasError> {
-        let n_charts = self.candidate.draft.n_charts();
-        let n_cuts = 1 + n_charts.saturating_sub(CHARTS_OF_ONE_CUT) / CHARTS_PER_CUT;
-        for i in 0..n_cuts {
-            if !self.cut()? {
-                return Ok((i > 0).then(|| self.candidate.clone()));
-            }
-        }
-        Ok(Some(self.candidate.clone()))
-    }
-
-    /// Makes the cut that is worth most; false where there is none.
-    fn cut(&mut self) -> Result<bool, AtlasError> {
-        let on_read = self.search.on_read;
-        let candidate = &mut self.candidate;
-        if candidate.cost >= MOST_COST || on_read(WORDS_PER_CUT) == Control::Finish {
-            return Ok(false);
-        }
-        let Some((chart, split)) = most_worth(&self.splits) else {
-            return Ok(false);
-        };
-        let parted = parted_alike(&candidate.charts, chart, split);
-        let cost = self.price * (split.length + split.n_new() as f64 * self.per_chart);
-        let cut = candidate.cut(parted, cost)?;
-        let Some(cut) = cut.filter(|cut| cut.candidate.charts.len() <= self.most_charts) else {
-            return Ok(false);
-        };
-        for &place in &cut.replaced {
-            self.splits.remove(place);
-        }
-        *candidate = cut.candidate;
-        let new = &candidate.charts[self.splits.len()..];
-        (self.splits).extend(best_splits(new, self.of_page, on_read));
-        Ok(true)
-    }
-}
-
-fn best_splits(charts: &[Arc<MappedChart>], unit: f64, on_read: &OnRead) -> Vec<Option<Split>> {
-    let each = charts.par_iter().with_max_len(1);
-    each.map(|chart| chart.best_split(unit, &|| on_read(0)))
-        .collect()
-}
-
-/// The chart that a cut is worth most for, the first of equals, and the cut.
-fn most_worth(splits: &[Option<Split>]) -> Option<(usize, &Split)> {
-    let cuts = splits.iter().enumerate().rev();
-    let cuts = cuts.filter_map(|(chart, split)| Some((chart, split.as_ref()?)));
-    cuts.max_by(|a, b| a.1.worth.total_cmp(&b.1.worth))
+    candidates.truncate(best + 2);
+    Ok(candidates.split_off(best.saturating_sub(1)))
 }

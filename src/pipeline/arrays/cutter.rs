@@ -1,0 +1,132 @@
+//! Charts cut one by one, where that makes their atlas fuller.
+
+use super::candidate::{Candidate, MOST_COST, Search};
+use super::expected_fill::{Extent, expected_fill};
+use crate::atlas::{AtlasError, Draft, OnRead, Scale, Texture};
+use crate::charts::{MappedChart, Split, parted_alike, seam_length};
+use crate::solver::Control;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// The share of a page that new seams must gain if they are as long as those there are. Where those are shorter than the square
+/// root of the surface's area, that counts as their length.
+const PRICE: f64 = 0.04;
+/// A further chart costs as much as a seam of this length, in sides of the surface's square.
+const PER_CHART: f64 = 0.4;
+/// Candidates differ by one cut, and one more for so many charts beyond so many: of those one cut changes little.
+const CHARTS_PER_CUT: usize = 16;
+const CHARTS_OF_ONE_CUT: usize = 64;
+/// The words that looking for one more cut counts for.
+pub const WORDS_PER_CUT: u64 = 1_000_000;
+
+/// Cuts charts one by one.
+pub struct Cutter<'a> {
+    pub search: &'a Search<'a>,
+    /// The charts as they are by now.
+    pub candidate: Candidate,
+    /// For each chart the cut that is worth most.
+    splits: Vec<Option<Split>>,
+    /// The extent of each chart.
+    extents: Vec<Extent>,
+    /// The square root of a page's area.
+    of_page: f64,
+    /// What a length of seam costs, as a share of the square, and what a chart costs as a length.
+    price: f64,
+    per_chart: f64,
+    most_charts: usize,
+}
+
+impl<'a> Cutter<'a> {
+    pub fn new(
+        charts: Vec<MappedChart>,
+        draft: Draft,
+        (seam_price, most_charts): (f64, usize),
+        search: &'a Search<'a>,
+    ) -> Self {
+        let options = search.options;
+        let area = charts.iter().map(MappedChart::area).sum::<f64>();
+        let Texture { resolution, pages } = options.texture;
+        let [shorter, longer] = [resolution.shorter(), resolution.longer()].map(f64::from);
+        let seams = seam_length(&charts).max(area.sqrt()).max(f64::MIN_POSITIVE);
+        // A chart has to fit across a page that is not square, but may be longer than it is wide.
+        let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
+        let charts: Vec<_> = charts.into_iter().map(Arc::new).collect();
+        Self {
+            search,
+            splits: best_splits(&charts, of_page, search.on_read),
+            extents: charts.iter().map(|chart| Extent::of(chart)).collect(),
+            candidate: Candidate {
+                charts,
+                draft,
+                cost: 0.0,
+                wanted: match options.scale {
+                    Scale::Largest => None,
+                    Scale::TexelsPerUnit(texels) => {
+                        Some(area * texels * texels / (shorter * longer * f64::from(pages)))
+                    }
+                },
+            },
+            of_page,
+            price: PRICE * seam_price / f64::from(pages) / seams,
+            per_chart: PER_CHART * area.sqrt(),
+            most_charts,
+        }
+    }
+
+    /// The share of the square that is expected to be filled, less what the cuts cost.
+    pub fn expected_value(&self) -> f64 {
+        expected_fill(&self.extents) - self.candidate.cost
+    }
+
+    /// The charts after some more cuts, those that are worth most; none where no chart can be cut, or none is worth it.
+    pub fn next(&mut self) -> Result<Option<Candidate>, AtlasError> {
+        let n_charts = self.candidate.draft.n_charts();
+        let n_cuts = 1 + n_charts.saturating_sub(CHARTS_OF_ONE_CUT) / CHARTS_PER_CUT;
+        for i in 0..n_cuts {
+            if !self.cut()? {
+                return Ok((i > 0).then(|| self.candidate.clone()));
+            }
+        }
+        Ok(Some(self.candidate.clone()))
+    }
+
+    /// Makes the cut that is worth most; false where there is none.
+    fn cut(&mut self) -> Result<bool, AtlasError> {
+        let on_read = self.search.on_read;
+        let candidate = &mut self.candidate;
+        if candidate.cost >= MOST_COST || on_read(WORDS_PER_CUT) == Control::Finish {
+            return Ok(false);
+        }
+        let Some((chart, split)) = most_worth(&self.splits) else {
+            return Ok(false);
+        };
+        let parted = parted_alike(&candidate.charts, chart, split);
+        let cost = self.price * (split.length + split.n_new() as f64 * self.per_chart);
+        let cut = candidate.cut(parted, cost)?;
+        let Some(cut) = cut.filter(|cut| cut.candidate.charts.len() <= self.most_charts) else {
+            return Ok(false);
+        };
+        for &place in &cut.replaced {
+            self.splits.remove(place);
+            self.extents.remove(place);
+        }
+        *candidate = cut.candidate;
+        let new = &candidate.charts[self.splits.len()..];
+        (self.splits).extend(best_splits(new, self.of_page, on_read));
+        (self.extents).extend(new.iter().map(|chart| Extent::of(chart)));
+        Ok(true)
+    }
+}
+
+fn best_splits(charts: &[Arc<MappedChart>], unit: f64, on_read: &OnRead) -> Vec<Option<Split>> {
+    let each = charts.par_iter().with_max_len(1);
+    each.map(|chart| chart.best_split(unit, &|| on_read(0)))
+        .collect()
+}
+
+/// The chart that a cut is worth most for, the first of equals, and the cut.
+fn most_worth(splits: &[Option<Split>]) -> Option<(usize, &Split)> {
+    let cuts = splits.iter().enumerate().rev();
+    let cuts = cuts.filter_map(|(chart, split)| Some((chart, split.as_ref()?)));
+    cuts.max_by(|a, b| a.1.worth.total_cmp(&b.1.worth))
+}

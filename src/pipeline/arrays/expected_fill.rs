@@ -1,0 +1,51 @@
+//! How full an atlas is going to be, told by its charts alone.
+
+use crate::charts::MappedChart;
+use crate::numerics::support::{Directions, Support};
+
+/// What the fill changes with: the area of the hulls; by how much the largest square around a chart exceeds what it may; the root of the
+/// sum of the squares of the charts' areas, and the sum of their powers of 3/2, which are less where charts are many and alike.
+/// All areas are shares of that of all charts.
+///
+/// Least squares over 903 layouts of the charts of 58 meshes, differences within each mesh. For meshes that were left out the root
+/// mean square error is 0.028, most of it the luck of a short search.
+const PER_HULL: f64 = -0.1;
+const PER_EXCESS: f64 = -0.058;
+const LARGEST_SQUARE: f64 = 1.2;
+const PER_ROOT_OF_SQUARES: f64 = 1.569;
+const PER_SUM_OF_POWERS: f64 = -1.906;
+
+/// The area of a chart, of its convex hull and of the smallest square around it.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    area: f64,
+    hull: f64,
+    square: f64,
+}
+
+impl Extent {
+    pub fn of(chart: &MappedChart) -> Self {
+        let directions = Directions::default();
+        let mut support = Support::EMPTY;
+        for &p in &chart.embedding.uv {
+            support.add(p, &directions);
+        }
+        Self {
+            area: chart.area(),
+            hull: support.area(),
+            square: support.square(),
+        }
+    }
+}
+
+/// The share of a square page that a layout of such charts fills, but for a constant that is the same however they are cut.
+pub fn expected_fill(extents: &[Extent]) -> f64 {
+    let sum = |of: &dyn Fn(&Extent) -> f64| extents.iter().map(of).sum::<f64>();
+    let area = sum(&|e| e.area).max(f64::MIN_POSITIVE);
+    let largest = extents.iter().map(|e| e.square).fold(0.0, f64::max);
+    let share = |e: &Extent| e.area / area;
+    PER_HULL * sum(&|e| e.hull) / area
+        + PER_EXCESS * (largest / area - LARGEST_SQUARE).max(0.0)
+        + PER_ROOT_OF_SQUARES * sum(&|e| share(e).powi(2)).sqrt()
+        + PER_SUM_OF_POWERS * sum(&|e| share(e) * share(e).sqrt())
+}
