@@ -20,6 +20,7 @@ pub mod cage;
 #[cfg(feature = "files")]
 mod cells;
 mod continuation;
+mod deformation_energy;
 mod flowed;
 mod handles;
 mod history;
@@ -58,10 +59,10 @@ pub use aims::Aim;
 pub use body::{Body, BodyElements};
 pub use bound::Turned;
 pub use boundary::Boundary;
+pub use deformation_energy::DeformationEnergy;
 #[cfg(feature = "files")]
 pub use handles::parse_body_handles;
 pub use handles::{Bound, Handle, bind};
-pub use model::DeformationEnergy;
 #[cfg(feature = "files")]
 pub use numbers::from_json;
 pub use problem::{Model, Problem};

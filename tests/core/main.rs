@@ -56,6 +56,7 @@ mod obj_pipeline;
 mod once;
 #[cfg(feature = "files")]
 mod outline;
+mod own_energy;
 mod packing_mode;
 mod pages;
 #[cfg(feature = "files")]

@@ -85,7 +85,7 @@ pub fn deform(
             } else {
                 Surfaces::Whole
             },
-            model: options.model,
+            model: options.model.clone(),
             format,
             stem: options.caller.stem(upload),
             limits: options.caller.limits,
