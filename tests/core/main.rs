@@ -70,6 +70,7 @@ mod places;
 mod plane;
 #[cfg(feature = "files")]
 mod polygon;
+mod potential;
 #[cfg(feature = "files")]
 mod problem_files;
 mod progress;
