@@ -41,7 +41,7 @@
 //!  http ─► sessions ───────────────────────────────► session child process ─► pipeline, deform::Session
 //!  cli ─► bulk (lists, records, summaries) ────────► compute child process ─► pipeline
 //!  cli  ──────────────────────────────────────────────────────────────────► pipeline
-//!  Python package (`src/python`, a crate of its own) ──────────────────────► pipeline
+//!  Python package (`src/python`, a crate of its own) ──────────────────────► pipeline, deform
 //! ```
 //!
 //! The geometry is a pure library: no I/O, no clock of its own, no logging, no global state. Options, threads and the

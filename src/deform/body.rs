@@ -1,7 +1,8 @@
 //! What is deformed.
 
+use super::problem_error::ProblemError;
 use crate::energy::{RestShape, voronoi_areas};
-use crate::mesh::{PlanarMesh, TetMesh};
+use crate::mesh::{ElementError, PlanarMesh, TetMesh, validate};
 use crate::numerics::square::Square;
 use crate::numerics::vec2::{doubled_area, sub};
 use crate::numerics::vec3;
@@ -73,16 +74,19 @@ impl Body {
         }
     }
 
-    /// A surface whose triangles are laid flat one by one; its rest positions are the first two coordinates. Of a triangle
-    /// without an area the index is the error.
-    pub fn flattened(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, usize> {
+    /// A surface whose triangles are laid flat one by one; its rest positions are the first two coordinates.
+    ///
+    /// # Errors
+    /// For indices out of range, coordinates that are not finite, and triangles without an area.
+    pub fn flattened(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, ElementError> {
+        validate(vertices, triangles, "triangles")?;
         let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
         let is_empty = |t: &[u32; 3]| {
             let [a, b, c] = corners(t);
             vec3::norm(vec3::area_vector(a, b, c)) == 0.0
         };
-        if let Some(triangle) = triangles.iter().position(is_empty) {
-            return Err(triangle);
+        if let Some(element) = triangles.iter().position(is_empty) {
+            return Err(ElementError::ZeroSize { element });
         }
         let shapes = triangles
             .iter()
@@ -107,6 +111,16 @@ impl Body {
     /// Number of vertices.
     pub fn n_vertices(&self) -> usize {
         self.rest.len() / self.dim()
+    }
+
+    /// Are there as many coordinates as the body has?
+    pub fn check(&self, x: &[f64]) -> Result<(), ProblemError> {
+        let (found, expected) = (x.len(), self.rest.len());
+        if found == expected {
+            Ok(())
+        } else {
+            Err(ProblemError::WrongStart { found, expected })
+        }
     }
 
     /// The vertices of each element.

@@ -12,11 +12,12 @@ impl Problem {
     pub fn cells(&self, x: &[f64]) -> Vec<CellData> {
         match &self.body.elements {
             BodyElements::Triangles { corners, rest } => {
-                let density = self.energy.planar_density();
+                let density = self.energy.planar_density().unwrap_or_default();
                 cells_of(&singular_values(corners, rest, x), density)
             }
             BodyElements::Tetrahedra { corners, rest } => {
-                cells_of(&singular_values(corners, rest, x), self.energy.density())
+                let density = self.energy.spatial_density().unwrap_or_default();
+                cells_of(&singular_values(corners, rest, x), density)
             }
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! A [`Body`] is a planar or tetrahedral mesh with rest shapes, a [`Problem`] a body with handles, their targets, a
 //! [`DeformationEnergy`] and a barrier; [`Problem::solve`] moves the handles to their targets over maps that are all valid;
-//! a [`Session`] does so an iteration at a time while handles are added, moved and removed.
+//! a [`Session`] does so an iteration at a time while handles are added, moved and removed. What is minimized is at hand as a
+//! function of positions, with gradient and Hessian ([`Problem::potential`]).
 //! Bodies come from mesh files, from pictures and drawings (`outline`) and from surfaces put into a [`cage`], which carries
 //! them along. Maps of the plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
 #![doc = include_str!("guide.md")]
@@ -20,6 +21,7 @@ pub mod cage;
 #[cfg(feature = "files")]
 mod cells;
 mod continuation;
+mod deformation_energy;
 mod flowed;
 mod handles;
 mod history;
@@ -33,6 +35,7 @@ mod numbers;
 #[cfg(feature = "files")]
 pub mod outline;
 mod paired;
+mod potential;
 mod problem;
 mod problem_error;
 #[cfg(feature = "files")]
@@ -58,12 +61,13 @@ pub use aims::Aim;
 pub use body::{Body, BodyElements};
 pub use bound::Turned;
 pub use boundary::Boundary;
+pub use deformation_energy::DeformationEnergy;
 #[cfg(feature = "files")]
 pub use handles::parse_body_handles;
 pub use handles::{Bound, Handle, bind};
-pub use model::DeformationEnergy;
 #[cfg(feature = "files")]
 pub use numbers::from_json;
+pub use potential::Potential;
 pub use problem::{Model, Problem};
 pub use problem_error::ProblemError;
 #[cfg(feature = "files")]

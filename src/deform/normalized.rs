@@ -40,6 +40,10 @@ impl Frame {
         }
     }
 
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
     pub fn inward(&self, x: &[f64]) -> Vec<f64> {
         let origin = self.origin.iter().cycle();
         x.iter()

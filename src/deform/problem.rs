@@ -4,8 +4,8 @@ use super::aims::Aim;
 use super::body::{Body, BodyElements};
 use super::bound::Turned;
 use super::boundary_barrier::BoundaryBarrier;
+use super::deformation_energy::DeformationEnergy;
 use super::handles::{Bound, Handle, bind};
-use super::model::DeformationEnergy;
 use super::problem_error::ProblemError;
 use super::units::Units;
 use super::untangle::{bad_elements, untangled};
@@ -49,10 +49,11 @@ pub struct Problem {
 
 options! {
     /// Energy and barrier of a deformation, as users specify them.
-    #[derive(Copy)]
     pub struct Model under "Energy and barrier" {
-        /// Deformation energy.
-        pub energy: DeformationEnergy = DeformationEnergy::Arap;
+        /// Deformation energy: a name, or a formula of the signed singular values of an element, s1 and
+        /// s2, in space s3, as `(s1 - 1)^2 + (s2 - 1)^2`. A formula must be symmetric, and smooth and
+        /// minimal at 1.
+        pub energy: DeformationEnergy = DeformationEnergy::Arap, arg(value_parser = crate::options::WordOrText::<DeformationEnergy>::new());
         /// Barrier that keeps elements from inverting; none is for comparison.
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
         /// Barrier strength β. The default is the value of the paper: 100 for green, 0.01 for the
@@ -71,8 +72,9 @@ options! {
 }
 
 impl Model {
-    /// Checks every number against its range.
+    /// Checks every number against its range, and a formula for being an energy.
     pub fn check(&self) -> Result<(), ProblemError> {
+        self.energy.check()?;
         let is_positive = |x: f64| x > 0.0 && x.is_finite();
         for (name, value) in [
             ("barrier_strength", self.barrier_strength),
@@ -138,11 +140,11 @@ impl Problem {
     }
 
     /// A body at rest, and nothing to pull it by yet.
-    pub(super) fn at_rest(body: Body, model: &Model) -> Result<Self, ProblemError> {
+    pub fn at_rest(body: Body, model: &Model) -> Result<Self, ProblemError> {
         let problem = Self {
             start: body.rest.clone(),
             untangled: 0,
-            energy: model.energy,
+            energy: model.energy.clone(),
             barrier: model.barrier(&body, None)?,
             bound: model.max_conformal,
             boundary_barrier: None,

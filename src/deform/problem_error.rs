@@ -1,5 +1,6 @@
 //! Why a problem cannot be solved.
 
+use crate::energy::FormulaError;
 use crate::mesh::ElementError;
 #[cfg(feature = "files")]
 use crate::mesh::io::ReadError;
@@ -100,6 +101,9 @@ pub enum ProblemError {
         /// What it may be.
         range: &'static str,
     },
+    /// The energy is neither one that has a name nor one by a formula that the body's dimension has.
+    #[error("`energy` is neither the name of an energy nor the formula of one: {0}")]
+    Formula(#[from] FormulaError),
     /// The energy is not defined for the body.
     #[error("this energy exists only in the plane")]
     PlanarEnergy,
@@ -123,6 +127,14 @@ pub enum ProblemError {
 }
 
 impl ProblemError {
+    /// The column of a formula that is wrong, from 1.
+    pub fn column(&self) -> Option<usize> {
+        match self {
+            Self::Formula(error) => error.column(),
+            _ => None,
+        }
+    }
+
     /// A word for programs; it does not change.
     pub fn code(&self) -> &'static str {
         match self {
@@ -143,6 +155,7 @@ impl ProblemError {
             }
             Self::InfeasibleStart { .. } => "infeasible_start",
             Self::BadParameter { .. } => "bad_parameter",
+            Self::Formula(_) => "invalid_formula",
             Self::PlanarEnergy => "planar_energy",
             Self::PlanarBijectivity => "planar_bijectivity",
             Self::OverlappingStart => "overlapping_start",

@@ -3,14 +3,13 @@
 use serde::Deserialize;
 
 use super::body::Body;
-use super::model::DeformationEnergy;
+use super::deformation_energy::DeformationEnergy;
 use super::numbers;
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
 use super::problem_handles::ProblemHandles;
 use super::units::Units;
 use crate::barrier::BarrierKind;
-use crate::mesh::ElementError;
 use crate::mesh::io::Elements;
 use crate::solver::LevenbergSettings;
 
@@ -33,7 +32,7 @@ pub struct ProblemFile {
     /// Target sets to go through one after another, the last of them [`targets`](Self::targets).
     #[serde(default)]
     pub sequence: Vec<Vec<Vec<f64>>>,
-    /// The energy.
+    /// The energy: a name, or a formula of the signed singular values s1 and s2, in space s3.
     pub energy: DeformationEnergy,
     /// The barrier.
     pub barrier: BarrierKind,
@@ -106,20 +105,14 @@ impl ProblemFile {
         let body = if !mesh.tets.is_empty() {
             Body::from(&mesh.into_tet_mesh()?)
         } else if self.rest == Rest::Corotated {
-            Body::flattened(&mesh.vertices, &mesh.triangles)
-                .map_err(|element| ElementError::ZeroSize { element })?
+            Body::flattened(&mesh.vertices, &mesh.triangles)?
         } else {
             Body::from(&mesh.into_planar_mesh()?)
         };
         let start = start.unwrap_or_else(|| body.rest.clone());
-        if start.len() != body.rest.len() {
-            return Err(ProblemError::WrongStart {
-                found: start.len(),
-                expected: body.rest.len(),
-            });
-        }
+        body.check(&start)?;
         let model = Model {
-            energy: self.energy,
+            energy: self.energy.clone(),
             barrier: self.barrier,
             barrier_strength: self.barrier_strength,
             barrier_support: self.barrier_support,

@@ -210,7 +210,7 @@ pub(super) fn pulled(
     let problem = Problem {
         start: start.as_flattened().to_vec(),
         untangled: 0,
-        energy: model.energy,
+        energy: model.energy.clone(),
         bound: model.max_conformal,
         boundary_barrier: None,
         barrier: model.barrier(&body, Some(epsilon))?,

@@ -157,9 +157,8 @@ impl Problem {
         Ok(Objective::constrained(n_vertices, terms, points))
     }
 
-    fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
-        let terms = self.energy.terms(&self.body, barrier, self.bound);
-        let mut terms = terms.ok_or(ProblemError::PlanarEnergy)?;
+    pub(super) fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
+        let mut terms = self.energy.terms(&self.body, barrier, self.bound)?;
         terms.extend(self.boundary_term().map(|term| Box::new(term) as _));
         Ok(terms)
     }

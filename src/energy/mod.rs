@@ -34,7 +34,7 @@ mod zero;
 pub use arap::{Arap, FrozenArap};
 pub use density::{Density, Guard};
 pub use foldover_free::FoldoverFree;
-pub use formula::{Formula, FormulaError, Jet};
+pub use formula::{Formula, FormulaError, Jet, OwnEnergy};
 pub use green::{Green, StVenantKirchhoff};
 pub use laplacian::{biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};
 pub use lscm::Lscm;

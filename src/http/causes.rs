@@ -1,7 +1,7 @@
 //! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Code and meaning.
-pub(super) const CAUSES: [(&str, &str); 62] = [
+pub(super) const CAUSES: [(&str, &str); 63] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -173,6 +173,10 @@ pub(super) const CAUSES: [(&str, &str); 62] = [
         "The energy or bound exists only in the plane",
     ),
     ("bad_parameter", "A model parameter is out of range"),
+    (
+        "invalid_formula",
+        "An energy has neither a name nor a formula of its own that the input's dimension has",
+    ),
     ("invalid_setting", "A setting is out of range"),
     ("no_valid_result", "No valid result was found"),
 ];

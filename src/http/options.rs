@@ -64,6 +64,8 @@ fn value(text: String) -> Value {
 /// Checks options, and completes them with defaults.
 pub(super) fn complete(kind: Kind, given: Map<String, Value>) -> Result<Value, Problem> {
     let work = Work::new(kind, Value::Object(given));
-    work.map(Work::into_options)
-        .map_err(|error| Problem::of_failure(&Failure::new(error.code(), error.to_string())))
+    work.map(Work::into_options).map_err(|error| {
+        let failure = Failure::new(error.code(), error.to_string());
+        Problem::of_failure(&failure).with_column(error.column())
+    })
 }

@@ -1,5 +1,7 @@
 //! Errors as RFC 9457 problems with stable codes.
 
+use std::num::NonZeroU16;
+
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -29,6 +31,10 @@ pub(super) struct Problem {
     /// The limit that was exceeded, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<u64>,
+    /// The column of a formula at which it is wrong, from 1, if one is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<u16>, minimum = 1)]
+    column: Option<NonZeroU16>,
     /// Seconds after which it may be tried again; those that are usual if nothing else is known.
     #[serde(skip)]
     retry_after: u32,
@@ -48,6 +54,7 @@ impl Problem {
             detail: detail.into(),
             code: word.to_owned(),
             limit: None,
+            column: None,
             retry_after: USUAL_PAUSE,
         }
     }
@@ -56,6 +63,13 @@ impl Problem {
     pub fn with_limit(mut self, limit: u64) -> Self {
         self.limit = Some(limit);
         self
+    }
+
+    /// Names the column of a formula, if it is known.
+    pub fn with_column(self, column: Option<usize>) -> Self {
+        let column = column.and_then(|column| u16::try_from(column).ok());
+        let column = column.and_then(NonZeroU16::new);
+        Self { column, ..self }
     }
 
     /// Says after how many seconds it may be tried again.
@@ -88,6 +102,7 @@ impl Problem {
             detail: failure.detail.clone(),
             code: failure.code.clone(),
             limit: None,
+            column: None,
             retry_after: USUAL_PAUSE,
         }
     }

@@ -9,6 +9,7 @@ pub mod block;
 pub mod bounds;
 pub mod cholesky;
 pub mod conjugate_gradients;
+pub mod csr;
 pub mod hull;
 pub mod jacobi;
 pub mod lanes;

@@ -46,6 +46,10 @@ pub(crate) use json::{deserialized, taken};
 
 #[cfg(feature = "service")]
 mod typed;
+#[cfg(feature = "service")]
+mod word_or_text;
 
 #[cfg(feature = "service")]
 pub(crate) use typed::{as_typed, help_of, typed};
+#[cfg(feature = "service")]
+pub(crate) use word_or_text::WordOrText;

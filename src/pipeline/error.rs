@@ -129,6 +129,14 @@ impl PipelineError {
         }
     }
 
+    /// The column of a formula that is wrong, from 1.
+    pub fn column(&self) -> Option<usize> {
+        match self {
+            Self::Problem(error) => error.column(),
+            _ => None,
+        }
+    }
+
     /// The exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 1 anything else.
     pub fn exit_code(&self) -> u8 {
         match self {

@@ -70,7 +70,7 @@ pub use deform::pull_report::PullReport;
 #[cfg(feature = "files")]
 pub use deform::solution::{DeformReport, Deformed};
 #[cfg(feature = "files")]
-pub use deform::solve::solve_file;
+pub use deform::solve::{solve_file, solve_problem};
 #[cfg(feature = "files")]
 pub use deform::warp::{WarpReport, WarpedPicture, warp_file};
 #[cfg(feature = "files")]

@@ -46,7 +46,7 @@ fn main() {
     }
     for case in cases {
         for energy in [DeformationEnergy::Green, DeformationEnergy::Arap] {
-            report(&case, energy);
+            report(&case, &energy);
         }
     }
 }
@@ -195,9 +195,9 @@ fn handles(body: &Body) -> Vec<Handle> {
         .collect()
 }
 
-fn report(case: &str, energy: DeformationEnergy) {
+fn report(case: &str, energy: &DeformationEnergy) {
     let model = Model {
-        energy,
+        energy: energy.clone(),
         ..Model::default()
     };
     forget_peak();

@@ -26,7 +26,7 @@ const ENERGIES: [DeformationEnergy; 10] = [
 #[test]
 fn every_energy_meets_its_targets_without_an_inversion() {
     for energy in ENERGIES.into_iter().chain([DeformationEnergy::Lscm]) {
-        let problem = bent_strip(1.0, energy, BarrierKind::InverseSpline);
+        let problem = bent_strip(1.0, energy.clone(), BarrierKind::InverseSpline);
         let smallest = Cell::new(f64::INFINITY);
         let watch = |i: &Iterate| {
             smallest.set(smallest.get().min(i.smallest));
@@ -68,7 +68,7 @@ fn go_on(_: &Iterate) -> Control {
 #[test]
 fn a_bar_twists_by_half_a_turn_in_one_jump() {
     for energy in ENERGIES {
-        let problem = twisted_bar(energy);
+        let problem = twisted_bar(energy.clone());
         let solution = problem
             .solve(&Settings::follow(), &go_on)
             .expect("an energy of space");
@@ -138,7 +138,7 @@ fn the_papers_iteration_ends_in_the_same_minimum() {
         DeformationEnergy::Green,
         DeformationEnergy::Dirichlet,
     ] {
-        let problem = bent_strip(1.0, energy, BarrierKind::InverseSpline);
+        let problem = bent_strip(1.0, energy.clone(), BarrierKind::InverseSpline);
         let ours = problem
             .solve(&Settings::follow(), &go_on)
             .expect("a planar energy");

@@ -56,6 +56,7 @@ mod obj_pipeline;
 mod once;
 #[cfg(feature = "files")]
 mod outline;
+mod own_energy;
 mod packing_mode;
 mod pages;
 #[cfg(feature = "files")]
@@ -69,6 +70,7 @@ mod places;
 mod plane;
 #[cfg(feature = "files")]
 mod polygon;
+mod potential;
 #[cfg(feature = "files")]
 mod problem_files;
 mod progress;

@@ -65,7 +65,7 @@ fn with_a_fixed_border_extreme_moves_are_bijective() {
             .collect();
         let options = WarpOptions {
             model: Model {
-                energy: energies[run % energies.len()],
+                energy: energies[run % energies.len()].clone(),
                 ..Model::default()
             },
             ..options(8, Boundary::Fixed)

@@ -62,6 +62,9 @@ fn bad_problems_have_names() {
         assert_eq!(problem(&with(&rest)).expect_err(code), code, "{rest}");
     }
     assert_eq!(problem("{").expect_err("no JSON"), "malformed_problem");
+    let by_formula = |text| problem(&with(good).replace("arap", text));
+    assert!(by_formula("log(s1)^2 + log(s2)^2").is_ok());
+    assert_eq!(by_formula("s1 - s2").expect_err("less"), "invalid_formula");
 }
 
 #[test]

@@ -57,13 +57,13 @@ pub fn problem(
     Problem {
         untangled: 0,
         start: body.rest.clone(),
-        energy,
         barrier: Barrier {
             kind,
             beta: energy.default_beta(),
             s: 1.0,
             epsilon: 1e-4 * smallest,
         },
+        energy,
         bound: None,
         boundary_barrier: None,
         stations: vec![Handles {

@@ -76,7 +76,7 @@ fn an_edit_goes_on_where_a_session_was() {
         },
     ];
     let mut options = UvEditOptions::edit();
-    let mut session = UvSession::new(&view, options);
+    let mut session = UvSession::new(&view, options.clone());
     for anchor in anchors {
         session.add(anchor).expect("an anchor");
     }

@@ -87,7 +87,7 @@ fn extreme_moves_within_a_fixed_boundary_are_bijective() {
         let options = UvEditOptions {
             rest: [UvRest::Surface, UvRest::Present][run / 3 % 2],
             model: Model {
-                energy: ENERGIES[run / 6 % ENERGIES.len()],
+                energy: ENERGIES[run / 6 % ENERGIES.len()].clone(),
                 ..Model::default()
             },
             ..UvEditOptions::texture()

@@ -65,7 +65,7 @@ fn it_settles_where_an_edit_ends() {
         ..UvEditOptions::edit()
     };
     for options in [UvEditOptions::edit(), UvEditOptions::texture(), bijective] {
-        let mut session = UvSession::new(&view(&mesh), options);
+        let mut session = UvSession::new(&view(&mesh), options.clone());
         let held = session.add(to(0, mesh.uvs[0][0])).expect("an anchor");
         let center = session.add(to(24, [0.2, 0.2])).expect("an anchor");
         for frame in 1..=5 {

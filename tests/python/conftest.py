@@ -4,6 +4,7 @@ import os
 import pathlib
 import sys
 import tempfile
+import time
 
 import numpy as np
 import pytest
@@ -61,3 +62,29 @@ def waves(side):
 @pytest.fixture
 def sheet():
     return waves
+
+
+def in_child(check):
+    """Whether a check holds in a child of this process, which may take a minute."""
+    child = os.fork()
+    if child == 0:
+        try:
+            os._exit(0 if check() else 1)
+        finally:
+            os._exit(2)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        ended, status = os.waitpid(child, os.WNOHANG)
+        if ended:
+            return os.waitstatus_to_exitcode(status) == 0
+        time.sleep(0.01)
+    os.kill(child, 9)
+    os.waitpid(child, 0)
+    pytest.fail("the child hangs")
+
+
+@pytest.fixture
+def forked():
+    if not hasattr(os, "fork"):
+        pytest.skip("no fork here")
+    return in_child

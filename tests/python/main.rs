@@ -54,7 +54,8 @@ macro_rules! pytest {
 }
 
 pytest!(
-    arrays, bake, calls, errors, files, pipelines, readme, trimesh, xatlas
+    arrays, bake, calls, errors, examples, files, leaks, pipelines, problem, readme, session,
+    trimesh, xatlas
 );
 
 #[test]

@@ -93,53 +93,19 @@ def test_threads(sheet):
     assert all((uvs == expected).all() for uvs in found)
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
-def test_after_a_fork(sheet):
+def test_after_a_fork(sheet, forked):
     """No thread outlives a call, so a child has lost nothing."""
     mesh = sheet(30)
     expected = unwrapd.unwrap(*mesh)
     image, _ = unwrapd.bake(expected, mesh[0], 32)
-    child = os.fork()
-    if child == 0:
+
+    def is_same():
         again = unwrapd.unwrap(*mesh)
-        is_same = (again.uvs == expected.uvs).all() and (
-            unwrapd.bake(again, mesh[0], 32)[0] == image
-        ).all()
-        os._exit(0 if is_same else 1)
-    deadline = time.monotonic() + 60
-    while time.monotonic() < deadline:
-        ended, status = os.waitpid(child, os.WNOHANG)
-        if ended:
-            assert os.waitstatus_to_exitcode(status) == 0
-            return
-        time.sleep(0.01)
-    os.kill(child, 9)
-    os.waitpid(child, 0)
-    pytest.fail("the child hangs")
+        baked = unwrapd.bake(again, mesh[0], 32)[0]
+        return (again.uvs == expected.uvs).all() and (baked == image).all()
 
-
-def resident():
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
-@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="no /proc here")
-def test_nothing_leaks(pyramid):
-    """Small calls, of which some fail, leave nothing behind."""
-
-    def call(times):
-        for number in range(times):
-            if number % 10 == 0:
-                with pytest.raises(unwrapd.InvalidInput):
-                    unwrapd.unwrap(pyramid[0], pyramid[1] + 4, threads=1)
-            else:
-                unwrapd.unwrap(*pyramid, cut="fast", threads=1, progress=lambda progress: None)
-
-    call(100)
-    before = resident()
-    call(int(os.environ.get("UNWRAPD_CALLS", 200)))
-    assert resident() - before < 4 << 20
+    assert forked(is_same)
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/task"), reason="no /proc here")

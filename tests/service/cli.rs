@@ -364,7 +364,11 @@ fn handles_pull_meshes_and_outlines() {
     let refused = deform(&outside, &[]);
     assert_status(&refused, 3);
     assert!(last_error(&refused).contains("handle_outside"));
-    assert_status(&deform(&handles, &["--energy", "guesswork"]), 2);
+    let hencky = "log(s1)^2 + log(s2)^2";
+    assert_status(&deform(&handles, &["--energy", hencky]), 0);
+    for wrong in ["guesswork", "s1 - s2"] {
+        assert_status(&deform(&handles, &["--energy", wrong]), 2);
+    }
 }
 
 #[test]

@@ -50,7 +50,7 @@ pub enum UvRest {
 }
 
 /// How UVs are edited.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct UvEditOptions {
     /// The boundaries.
     pub boundary: Boundary,

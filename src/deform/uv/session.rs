@@ -182,7 +182,7 @@ impl UvSession {
         let UvEditOptions {
             boundary,
             rest,
-            model,
+            ref model,
             ..
         } = self.options;
         let positive = self.positive[number as usize];
@@ -191,7 +191,7 @@ impl UvSession {
         let flat = FlatChart::new(&chart, rest)?;
         let grips = flat.grips(&chart, &[], boundary)?;
         let handles = grips.holds.handles(&flat.body, &flat.start)?;
-        let problem = pulled(flat.body.clone(), &flat.start, handles, &model)?;
+        let problem = pulled(flat.body.clone(), &flat.start, handles, model)?;
         Ok(LiveChart {
             live: Live::new(problem)?,
             is_held: false,
@@ -232,7 +232,7 @@ impl UvSession {
     /// # Errors
     /// As [`add`](Self::add), or if the present map is outside the domain of that energy. Then all is as it was.
     pub fn remodel(&mut self, model: &Model) -> Result<(), EditError> {
-        let before = std::mem::replace(&mut self.options.model, *model);
+        let before = std::mem::replace(&mut self.options.model, model.clone());
         match self.rebuilt() {
             Ok(lives) => {
                 for (chart, live) in self.charts.values_mut().zip(lives) {

@@ -20,7 +20,7 @@ const MOST_HANDLES: usize = 1000;
 const FARTHEST: f64 = 1e9;
 
 /// How a picture is warped.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WarpOptions {
     /// Cells along the longer side, 1 to 512.
     pub grid: usize,

@@ -56,4 +56,22 @@ pub enum FormulaError {
         /// Where it is less.
         at: Vec<f64>,
     },
+    /// There is a closure for the other dimension only.
+    #[error("there is no formula of {dim} singular values")]
+    OtherDimension {
+        /// How many singular values there are.
+        dim: usize,
+    },
+}
+
+impl FormulaError {
+    /// The column that it names, if it names one.
+    pub fn column(&self) -> Option<usize> {
+        match self {
+            Self::TooDeep { column, .. }
+            | Self::Unexpected { column, .. }
+            | Self::UnknownName { column, .. } => Some(*column),
+            _ => None,
+        }
+    }
 }

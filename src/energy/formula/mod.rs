@@ -7,10 +7,14 @@
 mod error;
 mod expression;
 mod jet;
+mod own;
 mod parser;
 
 pub use error::FormulaError;
 pub use jet::Jet;
+pub use own::OwnEnergy;
+
+use std::sync::Arc;
 
 use super::Density;
 use crate::numerics::square::Matrix;
@@ -36,10 +40,17 @@ type Function<const D: usize> = dyn Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync;
 /// ```
 /// ψ is what the formula says of σ₁, …, σ_D, the last of them signed. Minimum at the identity, in its neighborhood.
 /// Domain: where the formula is finite, +∞ outside, and only det J > 0 where it or a derivative is not finite at σ_D = 0 or
-/// below. Tests: `formula::*`.
+/// below. Clones share the function, and only they are equal. Tests: `formula::*`.
+#[derive(Clone)]
 pub struct Formula<const D: usize> {
-    function: Box<Function<D>>,
+    function: Arc<Function<D>>,
     floor: f64,
+}
+
+impl<const D: usize> PartialEq for Formula<D> {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.function, &other.function)
+    }
 }
 
 impl<const D: usize> Formula<D> {
@@ -54,9 +65,8 @@ impl<const D: usize> Formula<D> {
     pub fn new(
         function: impl Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync + 'static,
     ) -> Result<Self, FormulaError> {
-        let function = Box::new(function);
         let mut formula = Self {
-            function,
+            function: Arc::new(function),
             floor: f64::NEG_INFINITY,
         };
         formula.check()?;

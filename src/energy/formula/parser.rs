@@ -13,7 +13,7 @@ use super::FormulaError;
 use super::expression::{Expression, Function};
 
 /// The longest text, in bytes; the energies of the field have some 100.
-const LONGEST: usize = 1000;
+pub(super) const LONGEST: usize = 1000;
 
 /// How deep brackets, signs and powers may be nested.
 const DEEPEST: usize = 50;

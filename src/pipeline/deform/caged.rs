@@ -3,8 +3,9 @@
 use super::cage_map::{CageMap, subdivision, widened};
 use super::cage_report::CageReport;
 use super::formats::BodyFormat;
+use super::frames::Frames;
 use super::moved::{check_format, check_frames, moved, moved_frame};
-use super::solution::{Deformed, WriteMap, solve};
+use super::solution::{Deformed, solve};
 use crate::certificate::{Crossings, crossings};
 use crate::deform::cage::{Cage, Caged, CagedSurface};
 use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
@@ -85,7 +86,7 @@ pub fn deform(
             } else {
                 Surfaces::Whole
             },
-            model: options.model,
+            model: options.model.clone(),
             format,
             stem: options.caller.stem(upload),
             limits: options.caller.limits,
@@ -100,8 +101,12 @@ pub fn deform(
         None => caged.start_coarse(tracker),
     }
     let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
-    let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
-    let solved = solve(caged.problem(), options.plan(), tracker, frames)?;
+    let frames = Frames {
+        tracker,
+        file: &file,
+    };
+    let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
+    let solved = solve(caged.problem(), options.plan(), tracker, viewer)?;
     tracker.stage(Stage::Write);
     let (written, cage) = caged.write(&solved.solution)?;
     let mut report = solved.report;

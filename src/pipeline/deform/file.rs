@@ -1,7 +1,8 @@
 //! Meshes, pictures, drawings and surfaces in a cage pulled by handles.
 
 use super::caged;
-use super::solution::{Deformed, WriteMap, solve};
+use super::frames::Frames;
+use super::solution::{Deformed, solve};
 use super::source::Source;
 use crate::deform::{Problem, ProblemError};
 use crate::document::Upload;
@@ -11,6 +12,7 @@ use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, DeformOptions};
 use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
+use crate::solver::Watch;
 
 /// Pulls a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a barrier no
 /// element is inverted in any iterate.
@@ -48,8 +50,12 @@ fn deform_body(
         problem.untangle_start()?;
     }
     let file = |x: &[f64]| source.frame(format, &problem, x);
-    let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
-    let solved = solve(&problem, options.plan(), tracker, frames)?;
+    let frames = Frames {
+        tracker,
+        file: &file,
+    };
+    let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
+    let solved = solve(&problem, options.plan(), tracker, viewer)?;
     tracker.stage(Stage::Write);
     Ok(Deformed {
         files: source.files(

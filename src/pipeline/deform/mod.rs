@@ -5,6 +5,7 @@ pub(super) mod cage_report;
 pub(super) mod caged;
 pub(super) mod file;
 pub(super) mod formats;
+mod frames;
 pub(super) mod held;
 pub(super) mod missed;
 pub(super) mod moved;

@@ -74,9 +74,6 @@ pub struct DeformReport {
     pub cage: Option<CageReport>,
 }
 
-/// Writes a map as the result will be.
-pub type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
-
 /// A solution, its report, its trace.
 pub struct Solved {
     pub solution: Solution,
@@ -84,17 +81,17 @@ pub struct Solved {
     pub trace: String,
 }
 
-/// Solves a problem; `file` serves those who look at every iteration.
+/// Solves a problem; `viewer` sees every iteration once.
 pub fn solve(
     problem: &Problem,
     plan: Plan,
     tracker: &Tracker,
-    file: Option<&WriteMap>,
+    viewer: Option<&dyn Watch>,
 ) -> Result<Solved, PipelineError> {
     let setup_seconds = tracker.elapsed().as_secs_f64();
     let trace = Trace {
         tracker,
-        file,
+        viewer,
         x: RefCell::default(),
         iterates: RefCell::default(),
     };
@@ -170,7 +167,7 @@ fn crossings(problem: &Problem, x: &[f64]) -> Option<u64> {
 /// What happened in every iteration.
 struct Trace<'a> {
     tracker: &'a Tracker<'a>,
-    file: Option<&'a WriteMap<'a>>,
+    viewer: Option<&'a dyn Watch>,
     /// The positions of the iterate that comes next.
     x: RefCell<Vec<f64>>,
     iterates: RefCell<Vec<Iterate>>,
@@ -180,21 +177,25 @@ impl Watch for Trace<'_> {
     fn iterate(&self, iterate: &Iterate) -> Control {
         // Where one stage follows another the last iterate is shown again.
         let mut iterates = self.iterates.borrow_mut();
-        if iterates
+        let is_new = iterates
             .last()
-            .is_none_or(|last| last.iteration < iterate.iteration)
-        {
+            .is_none_or(|last| last.iteration < iterate.iteration);
+        let mut control = Control::Continue;
+        if is_new {
             iterates.push(*iterate);
-            if let Some(file) = self.file {
-                let x = self.x.borrow();
-                self.tracker.frame(iterate.iteration, &|| file(&x));
+            if let Some(viewer) = self.viewer {
+                viewer.positions(iterate, &self.x.borrow());
+                control = viewer.iterate(iterate);
             }
         }
-        Watch::iterate(self.tracker, iterate)
+        match Watch::iterate(self.tracker, iterate) {
+            Control::Continue => control,
+            Control::Finish => Control::Finish,
+        }
     }
 
     fn positions(&self, _: &Iterate, x: &[f64]) {
-        if self.file.is_some() {
+        if self.viewer.is_some() {
             self.x.replace(x.to_vec());
         }
     }

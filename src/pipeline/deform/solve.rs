@@ -1,7 +1,8 @@
-//! Problem files solved.
+//! Problems solved, of files and in memory.
 
-use super::solution::{Deformed, WriteMap, solve};
-use crate::deform::{Problem, ProblemError, ProblemFile};
+use super::frames::Frames;
+use super::solution::{DeformReport, Deformed, solve};
+use crate::deform::{Problem, ProblemError, ProblemFile, Solution};
 use crate::document::{DocumentError, Upload};
 use crate::mesh::io::{ElementFormat, Elements};
 use crate::pipeline::PipelineError;
@@ -10,6 +11,7 @@ use crate::pipeline::limits::Limits;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, SolveOptions};
 use crate::pipeline::tracker::Tracker;
+use crate::solver::Watch;
 
 /// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in any iterate.
 pub fn solve_file(
@@ -24,8 +26,12 @@ pub fn solve_file(
         let (mut problem, elements) = read(upload, &options.caller.limits)?;
         problem.search = options.pulling.search;
         let file = |x: &[f64]| options.format.write(&elements, &problem, x);
-        let frames: Option<&WriteMap> = if options.frames { Some(&file) } else { None };
-        let solved = solve(&problem, options.plan(), &tracker, frames)?;
+        let frames = Frames {
+            tracker: &tracker,
+            file: &file,
+        };
+        let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
+        let solved = solve(&problem, options.plan(), &tracker, viewer)?;
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
         Ok(Deformed {
@@ -36,6 +42,26 @@ pub fn solve_file(
             report: solved.report,
             trace: solved.trace,
         })
+    })?
+}
+
+/// Solves a problem that is in memory, under the options that say nothing of files. `viewer` sees every iterate once, and may end the
+/// work with the present map, too.
+pub fn solve_problem(
+    problem: &Problem,
+    options: &SolveOptions,
+    observer: &dyn Observer,
+    viewer: &(dyn Watch + Sync),
+) -> Result<(Solution, DeformReport), PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        let problem = Problem {
+            search: options.pulling.search,
+            ..problem.clone()
+        };
+        let solved = solve(&problem, options.plan(), &tracker, Some(viewer))?;
+        Ok((solved.solution, solved.report))
     })?
 }
 

@@ -64,7 +64,7 @@ impl EditOptions {
         UvEditOptions {
             boundary: self.boundary.unwrap_or(default.boundary),
             rest: self.rest.unwrap_or(default.rest),
-            model: self.model,
+            model: self.model.clone(),
             search: self.pulling.search,
         }
     }

@@ -49,7 +49,7 @@ impl WarpOptions {
             } else {
                 Boundary::Free
             },
-            model: self.model,
+            model: self.model.clone(),
             search: self.pulling.search,
         }
     }

@@ -57,7 +57,8 @@ pub fn corners<T: Copy + numpy::Element, const N: usize>(
     Ok(self::rows(&rows))
 }
 
-fn rows<T: Copy, const N: usize>(flat: &[T]) -> Vec<[T; N]> {
+/// Rows of N numbers each.
+pub fn rows<T: Copy, const N: usize>(flat: &[T]) -> Vec<[T; N]> {
     flat.as_chunks::<N>().0.to_vec()
 }
 

@@ -9,9 +9,10 @@ use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
 use unwrapd::pipeline::{self, Observer, PipelineError};
-use unwrapd::solver::Control;
+use unwrapd::solver::{Control, Iterate, Watch};
 
 use crate::error::{exception, internal};
+use crate::iterates::{Question, Questions};
 
 /// How often signals are looked for and progress is told.
 const ATTENTION: Duration = Duration::from_millis(20);
@@ -88,6 +89,10 @@ impl Observer for Link {
 }
 
 impl Link {
+    fn abandon(&self) {
+        self.is_abandoned.store(true, Ordering::Relaxed);
+    }
+
     /// Tells of progress, if there is any and anyone listens. One that answers False ends the work with the present map.
     fn tell(&self, py: Python<'_>, listener: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let Some(listener) = listener else {
@@ -113,6 +118,22 @@ pub fn run<T: Send + 'static>(
     listener: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&dyn Observer) -> Result<T, PipelineError> + Send + 'static,
 ) -> PyResult<T> {
+    run_shown(py, listener, None, |observer, _| work(observer))
+}
+
+/// What the thread that works says.
+enum Message<T> {
+    Asked(Question),
+    Ended(Result<T, PipelineError>),
+}
+
+/// The same with work that a watch follows: each iterate is shown by `show`, on the calling thread, before the next.
+pub fn run_shown<T: Send + 'static>(
+    py: Python<'_>,
+    listener: Option<&Bound<'_, PyAny>>,
+    show: Option<&dyn Fn(Question) -> PyResult<()>>,
+    work: impl FnOnce(&dyn Observer, &(dyn Watch + Sync)) -> Result<T, PipelineError> + Send + 'static,
+) -> PyResult<T> {
     let link = Arc::new(Link {
         begin: Instant::now(),
         is_ending: AtomicBool::new(false),
@@ -121,27 +142,37 @@ pub fn run<T: Send + 'static>(
     });
     let (sender, mut receiver) = channel();
     let observer = Arc::clone(&link);
+    let is_shown = show.is_some();
     std::thread::Builder::new()
         .name("unwrapd".to_owned())
         .spawn(move || {
+            let asked = Questions::new(|question| sender.send(Message::Asked(question)).is_ok());
+            let unasked = |_: &Iterate| Control::Continue;
+            let watch: &(dyn Watch + Sync) = if is_shown { &asked } else { &unasked };
+            let ended = work(&*observer, watch);
             // Whoever called may be gone.
-            let _ = sender.send(work(&*observer));
+            let _ = sender.send(Message::Ended(ended));
         })
         .map_err(|error| internal(py, &format!("cannot start a thread: {error}")))?;
     loop {
         let received;
         (received, receiver) = py.detach(move || (receiver.recv_timeout(ATTENTION), receiver));
         match received {
-            Ok(result) => {
+            Ok(Message::Ended(result)) => {
                 link.tell(py, listener)?;
                 return result.map_err(|error| exception(py, &error));
+            }
+            Ok(Message::Asked(question)) => {
+                let shown =
+                    (py.check_signals()).and_then(|()| show.map_or(Ok(()), |show| show(question)));
+                shown.inspect_err(|_| link.abandon())?;
             }
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(internal(py, "the computation ended without a result"));
             }
             Err(RecvTimeoutError::Timeout) => {
                 let attended = (py.check_signals()).and_then(|()| link.tell(py, listener));
-                attended.inspect_err(|_| link.is_abandoned.store(true, Ordering::Relaxed))?;
+                attended.inspect_err(|_| link.abandon())?;
             }
         }
     }

@@ -1,11 +1,24 @@
 //! Errors of the library as exceptions of the package.
 
 use pyo3::prelude::*;
+use unwrapd::deform::ProblemError;
 use unwrapd::pipeline::PipelineError;
 
 /// The exception for an error of the library, with its code.
 pub fn exception(py: Python<'_>, error: &PipelineError) -> PyErr {
-    of(py, error.code(), error.exit_code(), &error.to_string())
+    let column = error.column();
+    of(
+        py,
+        error.code(),
+        error.exit_code(),
+        &error.to_string(),
+        column,
+    )
+}
+
+/// The exception for what cannot be deformed.
+pub fn refused(py: Python<'_>, error: impl Into<ProblemError>) -> PyErr {
+    exception(py, &PipelineError::from(error.into()))
 }
 
 /// The exception for options that are not as they should be.
@@ -15,12 +28,12 @@ pub fn invalid_options(py: Python<'_>, text: String) -> PyErr {
 
 /// The exception for a mistake of this program.
 pub fn internal(py: Python<'_>, text: &str) -> PyErr {
-    of(py, "internal_error", 1, text)
+    of(py, "internal_error", 1, text, None)
 }
 
-fn of(py: Python<'_>, code: &str, exit_code: u8, message: &str) -> PyErr {
+fn of(py: Python<'_>, code: &str, exit_code: u8, message: &str, column: Option<usize>) -> PyErr {
     let made = py
         .import("unwrapd._errors")
-        .and_then(|module| module.call_method1("of", (code, exit_code, message)));
+        .and_then(|module| module.call_method1("of", (code, exit_code, message, column)));
     made.map_or_else(|error| error, PyErr::from_value)
 }

@@ -11,11 +11,15 @@
 
 mod arrays;
 mod bake;
+mod body;
 mod call;
 mod error;
 mod files;
+mod iterates;
 mod meshes;
 mod options;
+mod problem;
+mod session;
 
 use pyo3::prelude::*;
 
@@ -29,9 +33,15 @@ mod unwrapd_native {
     #[pymodule_export]
     use super::files::{measure_document, repack_document, unwrap_document, verify_document};
     #[pymodule_export]
+    use super::iterates::Shown;
+    #[pymodule_export]
     use super::meshes::{measure, repack, unwrap, verify};
     #[pymodule_export]
     use super::options::option_names;
+    #[pymodule_export]
+    use super::problem::Problem;
+    #[pymodule_export]
+    use super::session::Session;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals, reason = "Python's name for it")]

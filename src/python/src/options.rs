@@ -2,8 +2,9 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use unwrapd::deform::Model;
 use unwrapd::options::{Object, OptionSet};
-use unwrapd::pipeline::{MeasureOptions, Options, RepackOptions, VerifyOptions};
+use unwrapd::pipeline::{MeasureOptions, Options, RepackOptions, SolveOptions, VerifyOptions};
 
 use crate::error::invalid_options;
 
@@ -15,6 +16,8 @@ pub fn option_names(function: &str) -> PyResult<Vec<&'static str>> {
         "repack" => Ok(RepackOptions::names()),
         "measure" => Ok(MeasureOptions::names()),
         "verify" => Ok(VerifyOptions::names()),
+        "Problem" => Ok(Model::names()),
+        "solve" => Ok(SolveOptions::names()),
         _ => Err(PyValueError::new_err(format!("no function {function:?}"))),
     }
 }

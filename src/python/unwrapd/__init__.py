@@ -9,7 +9,8 @@
 >>> numpy.array_equal(vertices[atlas.vmapping][atlas.indices], vertices[faces])
 True
 
-`unwrapd.xatlas` has the calls of the package `xatlas`.
+`unwrapd.xatlas` has the calls of the package `xatlas`. `Problem` and `Session` minimize any energy of deformation, on triangles
+and tetrahedra, with handles.
 """
 
 from __future__ import annotations
@@ -19,14 +20,17 @@ from ._arrays import bake, measure, repack, unwrap, verify
 from ._atlas import Atlas
 from ._errors import Error, InvalidInput, InvalidOptions, NoValidResult
 from ._files import measure_file, repack_file, unwrap_bytes, unwrap_file, verify_file
-from ._native import Progress
+from ._native import Iterate, Progress
 from ._options import names as _names
+from ._problem import Problem, Solution
+from ._session import Session
 
 __version__: str = _native.__version__
 
 
 def options(function: str) -> list[str]:
-    """The names of the options of ``"unwrap"``, ``"repack"``, ``"measure"`` or ``"verify"``, for arrays and files."""
+    """The names of the options of a function, for arrays and files: ``"unwrap"``, ``"repack"``, ``"measure"``, ``"verify"``,
+    ``"Problem"`` or ``"solve"``."""
     return _names(function)
 
 
@@ -35,8 +39,12 @@ __all__ = [
     "Error",
     "InvalidInput",
     "InvalidOptions",
+    "Iterate",
     "NoValidResult",
+    "Problem",
     "Progress",
+    "Session",
+    "Solution",
     "bake",
     "measure",
     "measure_file",

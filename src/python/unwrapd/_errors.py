@@ -2,24 +2,34 @@
 
 from __future__ import annotations
 
+from typing import Optional
+
 
 class Error(Exception):
     """Why a mesh could not be worked on.
 
     `code` is a stable name for programs, such as ``"non_finite_position"``, the same as in the problems of the HTTP
-    service. `exit_code` is the exit status of the command line.
+    service. `exit_code` is the exit status of the command line. `column` is where a formula cannot be read, from 1.
     """
 
     code: str
     exit_code: int
+    column: Optional[int]
 
-    def __init__(self, message: str, code: str = "internal_error", exit_code: int = 1) -> None:
+    def __init__(
+        self,
+        message: str,
+        code: str = "internal_error",
+        exit_code: int = 1,
+        column: Optional[int] = None,
+    ) -> None:
         super().__init__(message)
         self.code = code
         self.exit_code = exit_code
+        self.column = column
 
-    def __reduce__(self) -> tuple[type[Error], tuple[str, str, int]]:
-        return type(self), (str(self), self.code, self.exit_code)
+    def __reduce__(self) -> tuple[type[Error], tuple[str, str, int, Optional[int]]]:
+        return type(self), (str(self), self.code, self.exit_code, self.column)
 
 
 class InvalidOptions(Error, ValueError):
@@ -34,7 +44,7 @@ class NoValidResult(Error):
     """No valid result was found."""
 
 
-def of(code: str, exit_code: int, message: str) -> Error:
+def of(code: str, exit_code: int, message: str, column: Optional[int] = None) -> Error:
     """The exception for an error of the library."""
     kind = {2: InvalidOptions, 3: InvalidInput, 4: NoValidResult}.get(exit_code, Error)
-    return kind(message, code, exit_code)
+    return kind(message, code, exit_code, column)

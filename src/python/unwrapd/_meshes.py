@@ -34,13 +34,13 @@ def positions(given: Any, name: str = "vertices") -> np.ndarray:
     return np.ascontiguousarray(found, dtype=_real(found, name))
 
 
-def faces(given: Any, name: str = "faces") -> np.ndarray:
-    """Vertices of triangles (F, 3) as uint32; any integers are taken."""
+def faces(given: Any, name: str = "faces", width: int = 3) -> np.ndarray:
+    """Vertices of triangles (F, 3), or of elements (E, width), as uint32; any integers are taken."""
     found = array(given, name)
     if found.size == 0:
-        return np.zeros((0, 3), dtype=np.uint32)
-    if found.ndim != 2 or found.shape[1] != 3:
-        raise ValueError(f"{name} must have the shape (F, 3), not {found.shape}")
+        return np.zeros((0, width), dtype=np.uint32)
+    if found.ndim != 2 or found.shape[1] != width:
+        raise ValueError(f"{name} must have the shape (F, {width}), not {found.shape}")
     if found.dtype.kind not in "iu":
         raise TypeError(f"{name} must be integers, not {found.dtype}")
     if found.dtype.kind == "i" or found.dtype.itemsize > 4:

@@ -42,6 +42,72 @@ class Progress:
     def smallest(self) -> float:
         """Its smallest element over the rest size."""
 
+class Iterate:
+    """Where a minimization stands."""
+
+    @property
+    def iteration(self) -> int:
+        """0 for the start, then 1, 2, …"""
+    @property
+    def energy(self) -> float:
+        """The energy with its barriers."""
+    @property
+    def barrier(self) -> float:
+        """The barrier's share of it."""
+    @property
+    def smallest(self) -> float:
+        """The smallest element over its rest size; negative if it is inverted."""
+    @property
+    def step(self) -> float:
+        """The length of the step that led here as a share of its direction."""
+    @property
+    def x(self) -> np.ndarray:
+        """Positions, (V, D) float64."""
+
+class Problem:
+    def __init__(
+        self,
+        vertices: np.ndarray,
+        elements: np.ndarray,
+        start: np.ndarray | None,
+        options: str,
+        is_normalized: bool,
+    ) -> None: ...
+    dim: int
+    start: np.ndarray
+    def value(self, x: np.ndarray) -> float: ...
+    def gradient(self, x: np.ndarray) -> np.ndarray: ...
+    def hessian(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+    def elements(self, x: np.ndarray) -> list[tuple[str, np.ndarray]]: ...
+    def solve(
+        self, handles: str, options: str, callback: Callable[[Iterate], Any] | None
+    ) -> tuple[np.ndarray, str]: ...
+
+class Session:
+    def __init__(
+        self,
+        vertices: np.ndarray,
+        elements: np.ndarray,
+        start: np.ndarray | None,
+        options: str,
+        threads: int | None,
+    ) -> None: ...
+    dim: int
+    stage: str
+    x: np.ndarray
+    def add(self, handle: str) -> int: ...
+    def move_to(self, number: int, to: list[float]) -> None: ...
+    def remove(self, number: int) -> None: ...
+    def remodel(self, options: str) -> None: ...
+    def step(self) -> str: ...
+    def settle(self, seconds: float) -> str: ...
+    def worth(self) -> str: ...
+    def summary(self) -> str: ...
+    def remember(self) -> None: ...
+    def undo(self) -> bool: ...
+    def redo(self) -> bool: ...
+    def reset(self) -> None: ...
+
 def option_names(function: str) -> list[str]: ...
 def unwrap(
     meshes: list[Mesh], options: str, progress: Listener | None

@@ -95,3 +95,24 @@ class VerifyOptions(MeasureOptions, total=False):
 
 class VerifyFileOptions(VerifyOptions, MeasureFileOptions, total=False):
     """The same and which UVs of a file."""
+
+class ProblemOptions(TypedDict, total=False):
+    """What a deformation costs."""
+
+    energy: str | None
+    barrier: str | None
+    barrier_strength: float | None
+    barrier_support: float | None
+    max_conformal: float | None
+    bijective: bool | None
+
+class SolveOptions(TypedDict, total=False):
+    """How a problem is solved."""
+
+    method: Literal["projected", "levenberg"] | None
+    barrier_continuation: bool | None
+    bias: bool | None
+    tolerance: float | None
+    search: bool | None
+    threads: int | None
+    time_budget: float | None

@@ -15,6 +15,7 @@ _OF_FILES = frozenset(
         "material_borders",
         "heatmap_measure",
         "format",
+        "frames",
         "source_texcoord",
         "texcoord",
         "overwrite",
@@ -27,7 +28,7 @@ _OF_FILES = frozenset(
 
 
 def names(function: str, of_files: bool = True) -> list[str]:
-    """The options of `unwrap`, `repack`, `measure` or `verify`, for files or for arrays."""
+    """The options of `unwrap`, `repack`, `measure`, `verify`, `Problem` or `solve`, for files or for arrays."""
     return [name for name in _native.option_names(function) if of_files or name not in _OF_FILES]
 
 
@@ -41,7 +42,7 @@ def to_json(function: str, options: Mapping[str, Any], of_files: bool = False) -
     resolution = given.get("resolution")
     if isinstance(resolution, (tuple, list)) and len(resolution) == 2:
         given["resolution"] = f"{resolution[0]}x{resolution[1]}"
-    return json.dumps(given, default=_plain)
+    return json.dumps(given, default=plain)
 
 
 def _unknown(function: str, name: str, known: list[str], of_files: bool) -> str:
@@ -53,8 +54,8 @@ def _unknown(function: str, name: str, known: list[str], of_files: bool) -> str:
     return f"{function}() has no option {name!r}; did you mean {near[0]!r}?"
 
 
-def _plain(value: Any) -> Any:
-    """What NumPy and paths are in JSON."""
+def plain(value: Any) -> Any:
+    """What NumPy's numbers and arrays are in JSON, of options and of handles."""
     if hasattr(value, "tolist"):
         return value.tolist()
-    raise TypeError(f"an option cannot be of type {type(value).__name__}")
+    raise TypeError(f"a value cannot be of type {type(value).__name__}")

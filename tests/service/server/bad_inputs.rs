@@ -217,6 +217,8 @@ async fn bodies_that_cannot_be_pulled_have_codes() {
         ),
         bad("deform", ("bar.tet", bar(2)), one, "bad_target"),
         bad("deform", ("bar.tet", bar(2)), space, "planar_energy").with(&[("energy", "lscm")]),
+        bad("deform", ("bar.tet", bar(2)), space, "invalid_formula")
+            .with(&[("energy", "(s1 - 1)^2 + (s2 - 1)^2")]),
         bad("deform", ("bar.tet", bar(2)), space, "planar_bijectivity")
             .with(&[("bijective", "true")]),
         bad(
@@ -287,8 +289,9 @@ async fn problems_that_cannot_be_solved_have_codes() {
             "solve",
             problem("\"green\"", "\"blue\""),
             "",
-            "malformed_problem",
+            "invalid_formula",
         ),
+        bad("solve", problem("\"green\"", "5"), "", "malformed_problem"),
     ];
     assert_codes(&Server::start(), inputs).await;
 }

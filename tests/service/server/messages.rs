@@ -22,16 +22,25 @@ async fn the_option_that_is_wrong_is_named() {
     for (query, name, why) in [
         ("padding=abc", "`padding`", "invalid type: string \"abc\""),
         ("cut=zigzag", "`cut`", "unknown variant `zigzag`, expected"),
-        (
-            "kind=deform&energy=steam",
-            "`energy`",
-            "unknown variant `steam`",
-        ),
         ("paddings=2", "`paddings`", "unknown option"),
     ] {
         let answer = posted(&server, query).await;
         let said = detail(&assert_problem(answer, 400, "invalid_options").await);
         assert!(said.contains(name) && said.contains(why), "{said}");
+    }
+}
+
+#[tokio::test]
+async fn the_column_of_a_formula_that_is_wrong_is_named() {
+    let server = Server::start();
+    for (energy, column) in [
+        ("steam", Some(1)),
+        ("(s1-1)^2 %2B (s2-1)^", Some(19)),
+        ("(s1-2)^2 %2B (s2-2)^2", None),
+    ] {
+        let answer = posted(&server, &format!("kind=deform&energy={energy}")).await;
+        let problem = assert_problem(answer, 422, "invalid_formula").await;
+        assert_eq!(problem.get("column").and_then(Value::as_u64), column);
     }
 }
 

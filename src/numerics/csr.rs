@@ -1,0 +1,53 @@
+//! Sparse matrices as other programs have them.
+
+use super::cholesky::SymmetricPattern;
+
+/// A sparse matrix by rows: row `i` has the values `data[indptr[i]..indptr[i + 1]]` in the columns `indices[…]`, which ascend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Csr {
+    /// The stored values.
+    pub data: Vec<f64>,
+    /// The column of each.
+    pub indices: Vec<usize>,
+    /// Where each row starts, and where the last ends.
+    pub indptr: Vec<usize>,
+}
+
+impl Csr {
+    /// The whole of a symmetric matrix of which the lower triangle is given by columns, rows ascending.
+    pub fn of_lower(pattern: &SymmetricPattern, values: &[f64]) -> Self {
+        let columns = || (0..pattern.n).map(|c| (c, pattern.col_ptr[c]..pattern.col_ptr[c + 1]));
+        let mut indptr = vec![0; pattern.n + 1];
+        for (column, entries) in columns() {
+            for &row in &pattern.row_idx[entries] {
+                indptr[row + 1] += 1;
+                indptr[column + 1] += usize::from(row != column);
+            }
+        }
+        for row in 0..pattern.n {
+            indptr[row + 1] += indptr[row];
+        }
+        let n_stored = indptr[pattern.n];
+        let (mut data, mut indices) = (vec![0.0; n_stored], vec![0; n_stored]);
+        let mut next = indptr.clone();
+        let mut put = |row: usize, column: usize, value: f64| {
+            (data[next[row]], indices[next[row]]) = (value, column);
+            next[row] += 1;
+        };
+        // When a column is read, its row has been given all that lies left of the diagonal.
+        for (column, entries) in columns() {
+            for k in entries {
+                let row = pattern.row_idx[k];
+                put(column, row, values[k]);
+                if row != column {
+                    put(row, column, values[k]);
+                }
+            }
+        }
+        Self {
+            data,
+            indices,
+            indptr,
+        }
+    }
+}

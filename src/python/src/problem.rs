@@ -1,0 +1,187 @@
+//! Problems of deformation: their energies at any point, and their solutions.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use unwrapd::deform::{self, Bound as Held, Handle, Model, Potential, ProblemError, Units, bind};
+use unwrapd::pipeline::{SolveOptions, solve_problem};
+
+use crate::body::body;
+use crate::call::run_shown;
+use crate::error::refused;
+use crate::files::json;
+use crate::iterates::Question;
+use crate::options::parsed;
+
+/// A body with an energy and a barrier, without handles. Positions are flat arrays of float64.
+#[pyclass(frozen, module = "unwrapd._native")]
+pub struct Problem {
+    problem: deform::Problem,
+    potential: Mutex<Potential>,
+}
+
+/// A sparse matrix by rows: data, columns, and where rows start.
+type Matrix<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<usize>>,
+    Bound<'py, PyArray1<usize>>,
+);
+
+/// What each element has, one row per element, with its name.
+type Column<'py> = (&'static str, Bound<'py, PyArray2<f64>>);
+
+#[pymethods]
+impl Problem {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        vertices: PyReadonlyArray2<'_, f64>,
+        elements: PyReadonlyArray2<'_, u32>,
+        start: Option<PyReadonlyArray1<'_, f64>>,
+        options: &str,
+        is_normalized: bool,
+    ) -> PyResult<Self> {
+        let start = start.as_ref().map(|start| start.as_slice()).transpose()?;
+        let body = body(py, &vertices, &elements, start)?;
+        let model: Model = parsed(py, options)?;
+        let made = problem(body, start, &model, is_normalized);
+        let (problem, potential) = made.map_err(|error| refused(py, error))?;
+        Ok(Self {
+            problem,
+            potential: Mutex::new(potential),
+        })
+    }
+
+    /// Coordinates of a position.
+    #[getter]
+    fn dim(&self) -> usize {
+        self.problem.body.dim()
+    }
+
+    /// Where a solution starts.
+    #[getter]
+    fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.problem.start)
+    }
+
+    /// The sum of energy and barriers.
+    fn value(&self, py: Python<'_>, x: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
+        let x = x.as_slice()?;
+        let value = py.detach(|| self.potential().value(x));
+        value.map_err(|error| refused(py, error))
+    }
+
+    /// Its gradient.
+    fn gradient<'py>(
+        &self,
+        py: Python<'py>,
+        x: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let x = x.as_slice()?;
+        let gradient = py.detach(|| self.potential().gradient(x));
+        let gradient = gradient.map_err(|error| refused(py, error))?;
+        Ok(PyArray1::from_vec(py, gradient))
+    }
+
+    /// Its Hessian.
+    fn hessian<'py>(
+        &self,
+        py: Python<'py>,
+        x: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Matrix<'py>> {
+        let x = x.as_slice()?;
+        let hessian = py.detach(|| self.potential().hessian(x));
+        let hessian = hessian.map_err(|error| refused(py, error))?;
+        Ok((
+            PyArray1::from_vec(py, hessian.data),
+            PyArray1::from_vec(py, hessian.indices),
+            PyArray1::from_vec(py, hessian.indptr),
+        ))
+    }
+
+    /// What each element has at positions.
+    fn elements<'py>(
+        &self,
+        py: Python<'py>,
+        x: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Vec<Column<'py>>> {
+        let x = x.as_slice()?;
+        let checked = self.problem.body.check(x);
+        checked.map_err(|error| refused(py, error))?;
+        let cells = self.problem.cells(x);
+        let table = |values: Vec<f64>, width: usize| {
+            let n_rows = values.len() / width;
+            PyArray1::from_vec(py, values).reshape([n_rows, width])
+        };
+        cells
+            .into_iter()
+            .map(|cell| Ok((cell.name, table(cell.values, cell.components)?)))
+            .collect()
+    }
+
+    /// Pulls handles to their targets: positions, and the report as JSON.
+    fn solve<'py>(
+        &self,
+        py: Python<'py>,
+        handles: &str,
+        options: &str,
+        callback: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, String)> {
+        let problem = self.held(py, handles)?;
+        let options: SolveOptions = parsed(py, options)?;
+        let dim = problem.body.dim();
+        let show = callback
+            .as_ref()
+            .map(|callback| move |question: Question| question.put(py, dim, callback));
+        let show = show.as_ref().map(|show| show as &dyn Fn(_) -> _);
+        let (solution, report) = run_shown(py, None, show, move |observer, watch| {
+            solve_problem(&problem, &options, observer, watch)
+        })?;
+        Ok((PyArray1::from_vec(py, solution.x), json(py, &report)?))
+    }
+}
+
+impl Problem {
+    fn potential(&self) -> MutexGuard<'_, Potential> {
+        self.potential
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The problem with handles, as files of handles name them.
+    fn held(&self, py: Python<'_>, handles: &str) -> PyResult<deform::Problem> {
+        let handles: Vec<Handle> = serde_json::from_str(handles)
+            .map_err(|error| refused(py, ProblemError::MalformedHandles(error.to_string())))?;
+        let held = bind(&self.problem.body, &handles).map_err(|error| refused(py, error))?;
+        let Held {
+            stations,
+            aims,
+            turns,
+        } = held;
+        Ok(deform::Problem {
+            stations,
+            aims,
+            turned: turns,
+            ..self.problem.clone()
+        })
+    }
+}
+
+fn problem(
+    body: deform::Body,
+    start: Option<&[f64]>,
+    model: &Model,
+    is_normalized: bool,
+) -> Result<(deform::Problem, Potential), ProblemError> {
+    let mut problem = deform::Problem::at_rest(body, model)?;
+    if !is_normalized {
+        problem.units = Units::Given;
+    }
+    if let Some(start) = start {
+        problem.start = start.to_vec();
+        problem.untangle_start()?;
+    }
+    let potential = problem.potential()?;
+    Ok((problem, potential))
+}

@@ -1,0 +1,177 @@
+//! Bodies that are pulled while someone watches.
+
+use std::num::NonZeroUsize;
+use std::time::{Duration, Instant};
+
+use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use unwrapd::deform::{self, Handle, HandleId, Model, ProblemError};
+use unwrapd::pipeline::{Workers, in_pool};
+use unwrapd::solver::Stage;
+
+use crate::body::body;
+use crate::error::{exception, refused};
+use crate::files::json;
+use crate::options::parsed;
+
+/// How long a session works before signals are looked for.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// The library's session. Positions are flat arrays of float64.
+#[pyclass(module = "unwrapd._native")]
+pub struct Session {
+    inner: deform::Session,
+    workers: Workers,
+    dim: usize,
+    /// By number, in the order of adding.
+    ids: Vec<HandleId>,
+}
+
+#[pymethods]
+impl Session {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        vertices: PyReadonlyArray2<'_, f64>,
+        elements: PyReadonlyArray2<'_, u32>,
+        start: Option<PyReadonlyArray1<'_, f64>>,
+        options: &str,
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<Self> {
+        let start = start.as_ref().map(|start| start.as_slice()).transpose()?;
+        let body = body(py, &vertices, &elements, start)?;
+        let model: Model = parsed(py, options)?;
+        let dim = body.dim();
+        let workers = Workers {
+            threads: threads.map(NonZeroUsize::get),
+        };
+        let made = pooled(py, workers, || deform::Session::new(body, &model))?;
+        Ok(Self {
+            inner: made.map_err(|error| refused(py, error))?,
+            workers,
+            dim,
+            ids: Vec::new(),
+        })
+    }
+
+    /// Coordinates of a position.
+    #[getter]
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// Takes hold; the number of the handle.
+    fn add(&mut self, py: Python<'_>, handle: &str) -> PyResult<usize> {
+        let handle: Handle = serde_json::from_str(handle)
+            .map_err(|error| refused(py, ProblemError::MalformedHandles(error.to_string())))?;
+        let id = self.inner.add(handle);
+        self.ids.push(id.map_err(|error| refused(py, error))?);
+        Ok(self.ids.len() - 1)
+    }
+
+    /// Gives a handle another target.
+    fn move_to(&mut self, py: Python<'_>, number: u32, to: Vec<f64>) -> PyResult<()> {
+        let moved = (self.id(number)).and_then(|id| self.inner.move_handle(id, &to));
+        moved.map_err(|error| refused(py, error))
+    }
+
+    /// Lets go.
+    fn remove(&mut self, py: Python<'_>, number: u32) -> PyResult<()> {
+        let removed = (self.id(number)).and_then(|id| self.inner.remove(id));
+        removed.map_err(|error| refused(py, error))
+    }
+
+    /// Exchanges energy and barrier.
+    fn remodel(&mut self, py: Python<'_>, options: &str) -> PyResult<()> {
+        let model: Model = parsed(py, options)?;
+        let remodeled = pooled(py, self.workers, || self.inner.remodel(&model))?;
+        remodeled.map_err(|error| refused(py, error))
+    }
+
+    /// One iteration, and where the handles stand.
+    fn step(&mut self, py: Python<'_>) -> PyResult<&'static str> {
+        pooled(py, self.workers, || self.inner.step()).map(word)
+    }
+
+    /// Iterations until nothing is left to do or the time is over, and where the handles stand.
+    fn settle(&mut self, py: Python<'_>, seconds: f64) -> PyResult<&'static str> {
+        let begin = Instant::now();
+        while self.inner.stage() == Stage::Moving && begin.elapsed().as_secs_f64() < seconds {
+            let slice = Instant::now();
+            let in_time = |_: &deform::Session| {
+                slice.elapsed() < SLICE && begin.elapsed().as_secs_f64() < seconds
+            };
+            pooled(py, self.workers, || self.inner.step_while(in_time))?;
+            py.check_signals()?;
+        }
+        Ok(word(self.inner.stage()))
+    }
+
+    /// Where the handles stand.
+    #[getter]
+    fn stage(&self) -> &'static str {
+        word(self.inner.stage())
+    }
+
+    /// Where the vertices are.
+    #[getter]
+    fn x<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.inner.positions())
+    }
+
+    /// What the map is worth, as JSON.
+    fn worth(&self, py: Python<'_>) -> PyResult<String> {
+        json(py, &self.inner.worth())
+    }
+
+    /// What the solver did, as JSON.
+    fn summary(&self, py: Python<'_>) -> PyResult<String> {
+        json(py, self.inner.summary())
+    }
+
+    /// Remembers positions and handles.
+    fn remember(&mut self) {
+        self.inner.remember();
+    }
+
+    /// Returns to what was remembered last, if anything was.
+    fn undo(&mut self) -> bool {
+        self.inner.undo()
+    }
+
+    /// Takes an undo back, if there is one.
+    fn redo(&mut self) -> bool {
+        self.inner.redo()
+    }
+
+    /// Returns to rest, without handles.
+    fn reset(&mut self) {
+        self.inner.reset();
+    }
+}
+
+impl Session {
+    fn id(&self, number: u32) -> Result<HandleId, ProblemError> {
+        let id = self.ids.get(number as usize);
+        id.copied()
+            .ok_or(ProblemError::RemovedHandle { handle: number })
+    }
+}
+
+/// Works on threads that end with the call: none is missed in a process that was forked.
+fn pooled<T: Send>(
+    py: Python<'_>,
+    workers: Workers,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let done = py.detach(|| in_pool(workers, work));
+    done.map_err(|error| exception(py, &error))
+}
+
+fn word(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Moving => "moving",
+        Stage::Settled => "settled",
+        Stage::Unreachable => "unreachable",
+    }
+}
