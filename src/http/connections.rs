@@ -1,7 +1,8 @@
 //! Connections: how many there are, how long they may be silent, and how they end.
 //!
 //! Whoever is silent loses the connection: without headers, between two requests, within a body that
-//! comes or goes. So a client that holds connections open and says nothing keeps nobody out.
+//! comes or goes. Until then it has a place, for which others wait when all are taken; that one
+//! address takes them all is for a limit of each address to prevent (`gate.rs`).
 
 use std::pin::pin;
 
