@@ -16,7 +16,7 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 
 use super::settings::Connections;
-use super::{connections, observation};
+use super::{connections, counted, observation};
 use crate::jobs::{Jobs, StoreResult, meters};
 use crate::sessions::Sessions;
 
@@ -50,7 +50,7 @@ const GAUGES: [(&str, &str); 16] = [
         SESSIONS_LIMIT,
         "Live sessions that this process may have at the same time",
     ),
-    (connections::OPEN, "Connections of this process"),
+    (counted::OPEN, "Connections of this process"),
 ];
 const BUILD_INFO: &str = "unwrapd_build_info";
 const JOBS: &str = "unwrapd_jobs";
@@ -86,10 +86,10 @@ pub fn measure() -> Result<PrometheusHandle, BuildError> {
         describe_gauge!(name, meaning);
     }
     gauge!(BUILD_INFO, "version" => env!("CARGO_PKG_VERSION")).set(1.0);
-    gauge!(connections::OPEN).set(0.0);
+    gauge!(counted::OPEN).set(0.0);
     meters::describe();
     observation::describe();
-    connections::describe();
+    counted::describe();
     Ok(measured)
 }
 

@@ -10,6 +10,7 @@ mod assets;
 mod causes;
 mod code;
 mod connections;
+mod counted;
 mod create;
 mod crowds;
 mod download;
@@ -18,6 +19,7 @@ mod events;
 mod exposition;
 mod extract;
 mod framing;
+mod gate;
 mod handling;
 mod held;
 mod inputs;
@@ -38,7 +40,9 @@ mod probes;
 mod problem;
 mod received;
 mod receiver;
+mod refused;
 mod results;
+mod router;
 mod schemas;
 mod scopes;
 mod security;
@@ -55,40 +59,26 @@ mod view;
 mod windows;
 mod wishes;
 
-use std::any::Any;
 use std::net::IpAddr;
 use std::sync::Arc;
 
-use axum::extract::DefaultBodyLimit;
-use axum::http::{HeaderValue, StatusCode, header};
-use axum::middleware::{from_fn, from_fn_with_state};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::{Router, routing::get};
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
-use tower_http::catch_panic::CatchPanicLayer;
-use tower_http::csrf::ConfigError;
-use tower_http::set_header::SetResponseHeaderLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 pub use self::exposition::{Exposition, measure};
 pub use self::origins::origin;
-use self::problem::{Code, Problem};
+use self::problem::Problem;
 pub use self::settings::{Connections, Settings};
 use self::windows::Windows;
 use crate::jobs::Jobs;
 use crate::jobs::access::{KeyRing, Owner};
 use crate::sessions::Sessions;
-
-/// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
-/// itself made: pictures inside meshes.
-const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; \
-    img-src 'self' blob: data:; connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
-/// What answers to callers say to caches: others must not get them, and nor must whoever signed out.
-const NOT_SHARED: &str = "private, no-cache";
 
 /// What every handler may use.
 struct App {
@@ -196,7 +186,7 @@ pub async fn serve(
         stop: stop.clone(),
         sockets: TaskTracker::new(),
     });
-    let router = router(Arc::clone(&app)).map_err(std::io::Error::other)?;
+    let router = router::router(Arc::clone(&app)).map_err(std::io::Error::other)?;
     let (stopping, sessions) = (stop.clone(), Arc::clone(&app.sessions));
     let ended = tokio::spawn(async move {
         stopping.cancelled().await;
@@ -207,39 +197,6 @@ pub async fn serve(
     app.sockets.close();
     app.sockets.wait().await;
     Ok(())
-}
-
-fn router(app: Arc<App>) -> Result<Router, ConfigError> {
-    let header =
-        |name, value| SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value));
-    let settings = app.settings.clone();
-    let admitted = from_fn_with_state(Arc::clone(&app), admission::admit);
-    let answering = Router::from(routes())
-        .route_layer(admitted)
-        .route_layer(header(header::CACHE_CONTROL, NOT_SHARED))
-        .merge(Router::from(open_routes()))
-        .merge(pages())
-        .fallback(async || Problem::new(Code::NotFound, "there is nothing at this path"))
-        .method_not_allowed_fallback(async || {
-            Problem::new(Code::MethodNotAllowed, "Allow lists what this path answers")
-        })
-        // Uploads count their bytes themselves.
-        .layer(DefaultBodyLimit::disable())
-        .layer(CatchPanicLayer::custom(panicked))
-        .with_state(app);
-    Ok(origins::guarded(answering, &settings)?
-        .layer(header(
-            header::CONTENT_SECURITY_POLICY,
-            CONTENT_SECURITY_POLICY,
-        ))
-        .layer(header(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
-        .layer(header(header::REFERRER_POLICY, "no-referrer"))
-        .layer(from_fn(observation::observe)))
-}
-
-#[allow(clippy::needless_pass_by_value, reason = "the layer hands it over")]
-fn panicked(_: Box<dyn Any + Send>) -> Response {
-    Problem::new(Code::InternalError, "a bug of the service").into_response()
 }
 
 /// An answer with a JSON body.

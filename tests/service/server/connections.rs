@@ -1,20 +1,30 @@
 //! Clients that are silent, slow, or many.
 
+use std::net::{Ipv4Addr, SocketAddr};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio::net::TcpStream;
+use tokio::net::{TcpSocket, TcpStream};
 
 use crate::cli::assert_status;
 use crate::harness::program;
 use crate::meshes;
+use crate::server::watchable::{metrics, value};
 use crate::server::{SOON, Server};
 
 /// A connection that has sent so much.
 async fn connected(server: &Server, sent: &str) -> TcpStream {
+    connected_from(Ipv4Addr::LOCALHOST, server, sent).await
+}
+
+async fn connected_from(source: Ipv4Addr, server: &Server, sent: &str) -> TcpStream {
     let address = server.url("").replace("http://", "");
-    let mut stream = TcpStream::connect(address).await.expect("a connection");
+    let socket = TcpSocket::new_v4().expect("a socket");
+    let bound = socket.bind(SocketAddr::from((source, 0)));
+    bound.expect("an address of this machine");
+    let connected = socket.connect(address.parse().expect("an address"));
+    let mut stream = connected.await.expect("a connection");
     let written = stream.write_all(sent.as_bytes()).await;
     written.expect("it takes what is sent");
     stream
@@ -107,6 +117,24 @@ async fn an_address_has_no_more_connections_than_it_may() {
     {
         assert!(start.elapsed() < SOON, "their places are not free");
     }
+}
+
+#[tokio::test]
+async fn who_is_refused_keeps_nobody_waiting() {
+    let server = Server::with(&[
+        ("UNWRAPD_MAX_CONNECTIONS", "4"),
+        ("UNWRAPD_MAX_ADDRESS_CONNECTIONS", "2"),
+    ]);
+    let mut others = Vec::new();
+    for _ in 0..200 {
+        others.push(connected_from(Ipv4Addr::new(127, 0, 0, 2), &server, "").await);
+    }
+    let asked = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+    let answered = answer(connected(&server, asked).await).await;
+    assert!(answered.starts_with("HTTP/1.1 200"), "{answered}");
+    // Two that may stay, ours, and the last of those that are refused.
+    let open = value(&metrics(&server).await, "unwrapd_connections");
+    assert!(open.is_some_and(|open| open < 40.0), "{open:?}");
 }
 
 #[tokio::test]

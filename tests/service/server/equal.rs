@@ -1,12 +1,14 @@
 //! Equal submissions: computed once, unless a client wants it otherwise.
 
 use std::path::Path;
+use std::time::Instant;
 
 use serde_json::Value;
 
 use super::{Server, json};
+use crate::harness::program;
 use crate::meshes;
-use crate::server::assert_problem;
+use crate::server::{SOON, assert_problem};
 
 fn path(job: &Value) -> &str {
     job["links"]["self"].as_str().expect("a link")
@@ -117,6 +119,26 @@ async fn a_call_gets_the_result_of_an_equal_job() {
     let result = format!("{}/result", path(&job));
     let result = server.get(&result).send().await.expect("an answer");
     assert_eq!(result.bytes().await.expect("a mesh"), bytes);
+}
+
+/// Bytes that the server has read so far.
+fn bytes_read(server: &Server) -> u64 {
+    let counts = Path::new("/proc").join(server.process_id().to_string());
+    let counts = std::fs::read_to_string(counts.join("io")).expect("counts");
+    let mut lines = counts.lines();
+    let read = lines.find_map(|line| line.strip_prefix("rchar: "));
+    read.expect("a line").parse().expect("a number")
+}
+
+#[test]
+fn the_program_is_read_before_the_first_job_comes() {
+    let server = Server::start();
+    let size = std::fs::metadata(program()).expect("a file").len();
+    let start = Instant::now();
+    while bytes_read(&server) < size {
+        assert!(start.elapsed() < SOON, "{} bytes", bytes_read(&server));
+        std::thread::yield_now();
+    }
 }
 
 /// The inode of the first output: a copy is another name of the same file.

@@ -13,14 +13,14 @@ use crate::harness::process::{Process, Role};
 use crate::meshes;
 use crate::places;
 
-async fn metrics(server: &Server) -> String {
+pub async fn metrics(server: &Server) -> String {
     let answer = server.get("/metrics").send().await.expect("an answer");
     assert_eq!(answer.status(), 200);
     answer.text().await.expect("text")
 }
 
 /// The value of a series.
-fn value(metrics: &str, series: &str) -> Option<f64> {
+pub fn value(metrics: &str, series: &str) -> Option<f64> {
     let mut lines = metrics.lines();
     let text = lines.find_map(|line| line.strip_prefix(series)?.strip_prefix(' '))?;
     text.parse().ok()

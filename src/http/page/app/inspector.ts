@@ -102,7 +102,7 @@ function verdict(job: Job): HTMLElement {
 function gates({ accept, accepted }: Job): HTMLElement | null {
   if (accept === null || accepted === null) return null;
   return element("section", { className: `verdict ${accepted ? "certified" : "open"}` }, element("h2", { textContent: accepted ? "Accepted" : "Not accepted" }),
-    element("p", { textContent: `The job ${accepted ? "meets" : "does not meet"} its gates: ${accept.replaceAll(",", ", ")}.` }));
+    element("p", { textContent: `The job ${accepted ? "meets" : "does not meet"} every gate: ${accept.replaceAll(",", ", ")}.` }));
 }
 
 /** What the client noted of a job. */
