@@ -107,7 +107,7 @@ fn assert_near(uv: [f64; 2], expected: [f64; 2]) {
 fn islands_stay_bit_for_bit_and_others_are_packed_around_them() {
     let input = spot(Resolution::square(1024), 1);
     let ids = island_ids(&input);
-    let locked = [1, 3].map(|id| {
+    let locked = [0, 1].map(|id| {
         ids.iter()
             .position(|&other| other == id)
             .expect("an island")
@@ -116,7 +116,7 @@ fn islands_stay_bit_for_bit_and_others_are_packed_around_them() {
     let outcome = repacked(&input, &options(islands));
     assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
     let (before, after) = (uvs(&input), uvs(&written(&outcome)));
-    let stays = |id: u32| id == 1 || id == 3;
+    let stays = |id: u32| id == 0 || id == 1;
     let same = |face: usize| before[face] == after[face];
     assert!((0..ids.len()).all(|face| !stays(ids[face]) || same(face)));
     let moved = (0..ids.len()).filter(|&face| !same(face)).count();
@@ -135,7 +135,7 @@ fn islands_stay_bit_for_bit_and_others_are_packed_around_them() {
         .collect();
     let mean = factors.iter().sum::<f64>() / factors.len() as f64;
     assert!(factors.iter().all(|f| (f / mean - 1.0).abs() < 1e-3));
-    // The largest first, each where it fits, comes to 0.934.
+    // The largest first, each where it fits, comes to 0.906.
     assert!(mean > 0.96, "{mean}");
 }
 
