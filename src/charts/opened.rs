@@ -45,8 +45,8 @@ pub(super) fn charts_of_regions(
     charts_glued(surface, &twin, mirror)
 }
 
-/// The charts of a surface's components, each opened to a disk, in several ways, at most so many: closed components of genus 0
-/// are slit between different vertices.
+/// The charts of a surface whose components are opened to disks, in several ways, at most so many: in each way closed components of
+/// genus 0 are slit between other vertices.
 pub(super) fn charts_in_ways(
     surface: &Surface,
     mirror: Option<MirrorPlane>,

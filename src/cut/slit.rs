@@ -21,7 +21,7 @@ pub enum Branches {
     ToLimbs,
 }
 
-/// The edges of slits each of which opens a closed sheet of genus 0 to a disk, at most so many.
+/// At most so many slits that each open a closed sheet of genus 0 to a disk; the edges of each.
 ///
 /// A slit is a shortest path between two vertices far apart, with shortest branches, if asked for, to whatever
 /// remains far from it. It is a tree of at least two edges.

@@ -16,10 +16,11 @@ const SIMPLE: usize = 2_500;
 /// Boundaries that differ in length by a smaller share are the same.
 const SAME: f64 = 1e-9;
 
-/// The charts of a surface opened in several ways: of each component the chart that needs the shortest seams to keep the bound.
+/// The charts of a surface that is opened in several ways: of each component the chart that promises to keep the bound with the
+/// shortest seams.
 ///
-/// Slits are planned in each as the predictor says. Their whole length times the excess that is left then tells the ways apart:
-/// a longer seam is not worse if it leaves less.
+/// Slits are planned in each chart as the predictor says. The best has the least length of seams times the excess that they
+/// leave: a longer seam is not worse if it leaves less.
 pub fn best_opened(
     mut ways: Vec<Vec<Chart>>,
     bound: &Bound,
@@ -42,7 +43,8 @@ pub fn best_opened(
         .collect()
 }
 
-/// The best of some ways to open a component; with its slits if they were planned on all of its vertices, and it `is_whole`.
+/// The best of some ways to open a component. It keeps its slits if they were planned on all of its vertices and the component
+/// `is_whole`: all that there is.
 fn best_of(
     mut ways: Vec<Chart>,
     is_whole: bool,
@@ -72,7 +74,7 @@ fn best_of(
     best.map(|(_, piece)| piece)
 }
 
-/// The length of the seams of a chart that is slit until it keeps the bound, times the excess that is left.
+/// Slits a chart until it is expected to keep the bound: the length of its seams times the excess that is left.
 fn price(piece: &mut Piece, bound: &Bound, observer: &dyn Observer) -> f64 {
     let allowed = bound.budget() * piece.area;
     while piece.excess > allowed && observer.control() == Control::Continue {

@@ -27,7 +27,7 @@ use std::cell::LazyCell;
 const LARGE: usize = 60_000;
 const SIMPLE: usize = 10_000;
 
-/// Ways to open a closed component that are tried, and the triangles of a surface up to which they are.
+/// How many ways to open a closed component are tried, on surfaces of at most so many triangles.
 const MOST_WAYS: usize = 4;
 const TRIED: usize = 200_000;
 
@@ -48,8 +48,8 @@ pub enum Symmetry {
 
 /// The charts of a surface, mapped, whose mean symmetric Dirichlet energy keeps the bound where that can be had.
 ///
-/// Each component is opened to a disk, a closed one in the way that [promises the shortest seams](best_opened); disks are slit where the predictor says that they would be distorted most, until the sum
-/// promises to keep the bound; then they are mapped, parted where a map overlaps itself, and slit further where the maps were
+/// Each component is opened to a disk, a closed one in the way that [promises the shortest seams](best_opened); disks are slit where
+/// the predictor says that they would be distorted most, until the sum promises to keep the bound; then they are mapped, parted where a map overlaps itself, and slit further where the maps were
 /// worse than promised. The bound is one for all charts: a slit is spent where the excess is largest. Where the stretch is too
 /// large the same goes on as for a smaller mean. A surface on which this does not lead below the bound is divided as by
 /// [`Cut::Fast`] if that does better. At last small charts are [given back](given_back). A surface of needles, of which no map keeps the

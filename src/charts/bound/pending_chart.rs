@@ -93,7 +93,7 @@ impl Piece {
         self.slits().map_or(0, |slits| slits.lines.len())
     }
 
-    /// How long the slits are that are planned.
+    /// The length of the slits that are planned.
     pub fn slits_length(&self) -> f64 {
         let lines = self.slits().into_iter().flat_map(|slits| &slits.lines);
         lines.map(|line| length(line)).sum()

@@ -25,7 +25,7 @@ pub struct Predictor {
     area: Vec<f64>,
 }
 
-/// What counts at most as the logarithm of a scale in the energy, e⁴ to a side: beyond that a few vertices would outweigh all others.
+/// The largest logarithm of a scale that counts in the energy: beyond e⁴ a few vertices would outweigh all others.
 const LARGEST: f64 = 4.0;
 
 impl Predictor {

@@ -16,7 +16,7 @@ pub const MOST_CHARTS: usize = 512;
 const BATCH: usize = 4;
 const MOST_IDLE: usize = 2;
 
-/// Cuts that are made after the one after which most is expected.
+/// So many cuts further nothing better must be expected before the search for more cuts ends.
 const MOST_LATER: usize = 8;
 
 /// Charts and a draft of their layout.
@@ -34,9 +34,9 @@ impl Drafted {
 
 /// The charts after as many cuts as pay: what they gain of the square is more than their length costs.
 ///
-/// The cut is made first that is worth most by the hulls and sizes of its parts, which say well where to cut but only about when to
-/// stop: that a search for full layouts decides, in which the charts after a cut less and a cut more compete, or, where the fill
-/// is not to be told from the charts, those before and after each cut. Maps stay as they are.
+/// The cut that is worth most by the hulls and sizes of its parts is made first. These say well where to cut, but only roughly when to
+/// stop. That a search for full layouts decides: one cut less, one more and the expected number compete; where the fill cannot
+/// be told from the charts, all numbers do. Maps stay as they are.
 /// `seam_price` multiplies the price of a seam: with 0 all cuts that gain anything are made. The
 /// charts may become as many as `most_charts`.
 pub fn compacted(
@@ -72,7 +72,7 @@ pub fn compacted(
     })
 }
 
-/// Whether the fill can be told from the charts, if they are no crowd: of one square page that is to be filled as well as it can be.
+/// Whether the fill can be told from the charts, unless they are a crowd: on one square page, at no given scale.
 fn is_foreseeable(options: &AtlasOptions) -> bool {
     let Texture { resolution, pages } = options.texture;
     let is_square = resolution.shorter() == resolution.longer();
@@ -126,8 +126,8 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
 
 /// The charts after as many cuts as are expected to be worth most, and after one cut less and one more.
 ///
-/// What is expected follows from the shapes of the charts alone, and a look at a layout is luck, too: charts of the same shapes get
-/// the same cuts.
+/// The expected fill follows from the shapes of the charts alone, while what a short search finds is partly luck: charts of the same
+/// shapes get the same cuts.
 fn expected(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasError> {
     let mut candidates = vec![cutter.candidate.clone()];
     let (mut best, mut most_value) = (0, cutter.expected_value());
