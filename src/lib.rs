@@ -150,12 +150,13 @@
 //! - A surface of noise has no unfolding: a chart of it is cut where the smoothed surface needs it, and mapped as it is. The bound
 //!   is one on the smoothed surface then, and the report gives both distortions; a bound that a caller gives stays one on the
 //!   surface itself, however many charts that takes.
-//! - A closed surface is opened between each of up to four pairs of vertices far apart, slits are planned in each by prediction, and the
-//!   opening is taken whose seams times what is left of the distortion are least. Where it was opened had been the luck of its first
-//!   vertex: seams of one mesh in several orders, scales and rotations differed by 11 % at the median, now by 4 %.
+//! - A closed surface is opened in up to four ways, each between two vertices far apart. Slits are planned for each way by prediction,
+//!   and the best has the least length of seams times the distortion that is left. The seams of four meshes in several orders,
+//!   scales and rotations differ by 4 % at the median; opened at the first vertex, they differed by 11 %
+//!   (`tests/bench/invariance.py`).
 //! - Few charts pack badly: those that do not fill their convex hulls are cut, after they are mapped, as long as the atlas
 //!   gains more from it than the seam costs. That takes back a part of what slits saved, and the price is the user's.
-//!   How many cuts pay is told from hulls and sizes, fitted to 903 layouts of 58 meshes, then by layouts of one cut less and one more.
+//!   Hulls and sizes tell about how many cuts pay, by a fit to layouts; one cut less, that many and one more are then laid out.
 //! - A surface that is its own mirror image, exactly or nearly, is cut alike on both sides. It is not halved: seams are planned on the
 //!   whole, and each is drawn once more along the cheapest edges near its mirror image, so that it does not matter whether
 //!   the triangles are mirrored, too. Planes are joined in pairs that are mirror images of each other.

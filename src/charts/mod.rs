@@ -9,7 +9,7 @@
 //! and goes on from there ([`charts_under_bound`]): one sparse solve predicts where a disk would be distorted most, a slit is
 //! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
 //! A closed piece is tried so with openings between several pairs of vertices far apart, and gets the one whose seams promise to be
-//! shortest: where it is opened follows from its shape, not from the order of its vertices.
+//! shortest: where it is opened follows from its shape and, but for ties, not from the order of its vertices.
 //! With a large disk a chart of fewer faces goes that way first, and the disk begins with its slits.
 //!
 //! Before that [`Cut::Auto`] looks for components that consist mostly of planes, such as machine parts and sheet metal (`facets`):

@@ -34,6 +34,11 @@ pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     norm(sub(a, b))
 }
 
+/// The length of a line from point to point.
+pub fn polyline_length(line: &[[f64; 3]]) -> f64 {
+    line.windows(2).map(|of| distance(of[0], of[1])).sum()
+}
+
 /// (b − a) × (c − a): the triangle's normal, as long as twice its area.
 pub fn area_vector(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> [f64; 3] {
     cross(sub(b, a), sub(c, a))

@@ -7,7 +7,7 @@ use crate::charts::Chart;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
 use crate::charts::observer::Observer;
 use crate::embed;
-use crate::numerics::vec3::distance;
+use crate::numerics::vec3::polyline_length;
 
 /// Mapped excess over predicted, before a chart has been mapped: a map trades angles for areas and does better than the
 /// conformal flattening it is predicted by. Measured on 14 meshes: 0.1 to 0.3.
@@ -96,7 +96,7 @@ impl Piece {
     /// The length of the slits that are planned.
     pub fn slits_length(&self) -> f64 {
         let lines = self.slits().into_iter().flat_map(|slits| &slits.lines);
-        lines.map(|line| length(line)).sum()
+        lines.map(|line| polyline_length(line)).sum()
     }
 
     /// The chart that is slit or mapped, without its slits.
@@ -151,8 +151,4 @@ impl Piece {
     pub fn n_faces(&self) -> usize {
         self.chart().map_or(0, |chart| chart.disk.triangles.len())
     }
-}
-
-fn length(line: &[[f64; 3]]) -> f64 {
-    line.windows(2).map(|of| distance(of[0], of[1])).sum()
 }

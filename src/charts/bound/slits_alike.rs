@@ -3,7 +3,7 @@
 use super::slits::Slits;
 use crate::charts::symmetry::sheet_mirror::SheetMirror;
 use crate::charts::symmetry::way::{Way, along, vertices_at};
-use crate::numerics::vec3::distance;
+use crate::numerics::vec3::{distance, polyline_length};
 
 /// A slit begins in the plane if its tip is nearer to it than this share of its length: two slits side by side would part a
 /// strip.
@@ -85,8 +85,7 @@ impl Slits {
         let from = vertices_at(&self.sheet, *line.last()?, is_start);
         let &first = from.first()?;
         let astray = distance(self.sheet.positions[first as usize], *line.last()?);
-        let lengths = line.windows(2).map(|of| distance(of[0], of[1]));
-        let edge = lengths.sum::<f64>() / (line.len() as f64 - 1.0).max(1.0);
+        let edge = polyline_length(line) / (line.len() as f64 - 1.0).max(1.0);
         let own = self.seam[first as usize];
         (astray <= ASTRAY * edge).then(|| self.way(from, own, along(&self.sheet, line)))?
     }

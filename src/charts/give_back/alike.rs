@@ -8,7 +8,7 @@ use crate::charts::mapped::MappedChart;
 use crate::charts::symmetry::counterpart::moment;
 use crate::charts::symmetry::own_image::Moment;
 use crate::charts::symmetry::plane::MirrorPlane;
-use crate::numerics::vec3::distance;
+use crate::numerics::vec3::{distance, polyline_length};
 
 /// How far the mirror image of a border may lie from the border of the other chart, in mean lengths of its edges.
 const ASTRAY: f64 = 1.5;
@@ -102,8 +102,7 @@ impl Giving<'_> {
 
 /// The part of a run that lies along a line.
 fn part_along(run: &Run, line: &[[f64; 3]], positions: &[[f64; 3]]) -> Option<Run> {
-    let lengths = line.windows(2).map(|of| distance(of[0], of[1]));
-    let reach = ASTRAY * lengths.sum::<f64>() / (line.len() as f64 - 1.0).max(1.0);
+    let reach = ASTRAY * polyline_length(line) / (line.len() as f64 - 1.0).max(1.0);
     let nearest = |point: [f64; 3]| {
         let away = |&i: &usize| distance(positions[run.vertices[i][0] as usize], point);
         let place = (0..run.vertices.len()).min_by(|a, b| away(a).total_cmp(&away(b)))?;

@@ -8,7 +8,7 @@ use super::sheet_mirror::SheetMirror;
 use super::way::{Way, along, vertices_at};
 use crate::charts::chart::Chart;
 use crate::cut::{Neighbors, Sheet};
-use crate::numerics::vec3::distance;
+use crate::numerics::vec3::{distance, polyline_length};
 
 /// How far the ends of an image may lie from their places, in mean lengths of the edges.
 const ASTRAY: f64 = 3.0;
@@ -207,6 +207,6 @@ impl<'a> Canvas<'a> {
     fn length(&self, chain: &Chain) -> f64 {
         let positions = chain.iter().map(|&v| self.sheet.positions[v as usize]);
         let positions: Vec<[f64; 3]> = positions.collect();
-        positions.windows(2).map(|of| distance(of[0], of[1])).sum()
+        polyline_length(&positions)
     }
 }

@@ -32,8 +32,8 @@ fn is_sphere(sheet: &Sheet) -> bool {
 /// The edges of slits along a plane, each of which opens a closed sheet of genus 0 to a disk; none if the plane meets no two edges of
 /// it.
 ///
-/// As [`ways_to_open`] does it, a slit leads from one of two vertices far apart to the other, but both lie in the plane, and so does
-/// the slit where the edges allow it.
+/// A slit joins two vertices far apart, as those of [`ways_to_open`] do. Both vertices lie in the plane, and so does the slit where
+/// the edges allow it.
 fn slits_in_plane(sheet: &Sheet, mirror: &SheetMirror, most: usize) -> Vec<Vec<u32>> {
     let neighbors = Neighbors::new(sheet);
     let cost = mirror.within(sheet, |h| sheet.length(h));

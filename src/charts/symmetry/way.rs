@@ -1,7 +1,7 @@
 //! Ways along the edges of a sheet, and their mirror images.
 
 use crate::cut::{Neighbors, Sheet, distances_until, opposite_end};
-use crate::numerics::vec3::{add_scaled, distance, dot, sub};
+use crate::numerics::vec3::{add_scaled, distance, dot, polyline_length, sub};
 
 /// What an edge costs that lies on the mirrored way, as a share of one that lies an edge's length away.
 const ALONG: f64 = 0.1;
@@ -63,8 +63,7 @@ impl Way {
 
 /// Costs of edges that lead along a polyline.
 pub fn along<'a>(sheet: &'a Sheet, line: &'a [[f64; 3]]) -> impl Fn(u32) -> f64 + 'a {
-    let length: f64 = line.windows(2).map(|of| distance(of[0], of[1])).sum();
-    let unit = (length / (line.len() as f64 - 1.0).max(1.0)).max(f64::MIN_POSITIVE);
+    let unit = (polyline_length(line) / (line.len() as f64 - 1.0).max(1.0)).max(f64::MIN_POSITIVE);
     move |h| {
         let away = distance_from(line, sheet.middle(h)) / unit;
         sheet.length(h) * (ALONG + away * away)
