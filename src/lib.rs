@@ -126,6 +126,13 @@
 //! `"units": "normalized"`. Faces of zero area get a rest shape of bounded aspect. ε of a chart is
 //! min(10⁻⁵ · smallest rest area, 0.1 · smallest area of the start).
 //!
+//! # The order of the input
+//!
+//! Every surface is cut and mapped in canonical order ([`mesh::canonical_order`]): breadth first from a halfedge that its shape singles
+//! out. So a mesh gets the same UVs whatever order a file has its vertices and faces in, and ties are broken by its shape, not by
+//! the tool that wrote it. Moved, rotated and scaled meshes get the same cut but for rounding: maps are cut for fill in coordinates of
+//! their own.
+//!
 //! # Where this differs from what one might expect
 //!
 //! - Indices are plain `u32` in plain arrays, not typed ids: researchers hand in and take out their own arrays, and a

@@ -11,7 +11,7 @@
 //!                                                 56  faces u32; u and v of three corners each, f32 or f64
 //! ```
 //!
-//! Faces are those of the welded surface. Where there are too many to be drawn, every 2ⁿ-th follows. Seams of large charts are
+//! Faces are those of the welded surface in the order in which it is cut. Where there are too many to be drawn, every 2ⁿ-th follows. Seams of large charts are
 //! planned on a simplification: each face of a plan stands for one near it.
 
 use crate::charts::MapUnderway;

@@ -78,6 +78,26 @@ impl Adjacency {
         self.turned = consistent_winding(triangles, &self.twin);
     }
 
+    /// The same for faces in another order.
+    pub(super) fn reordered(&self, order: &[u32]) -> Self {
+        let mut place = vec![0; order.len()];
+        for (new, &old) in (0u32..).zip(order) {
+            place[old as usize] = new;
+        }
+        let anew = |t: u32| match t {
+            CUT => CUT,
+            t => 3 * place[t as usize / 3] + t % 3,
+        };
+        let of_face = |f: &u32| [0, 1, 2].map(|c| anew(self.twin[3 * *f as usize + c]));
+        Self {
+            twin: order.iter().flat_map(of_face).collect(),
+            turned: order.iter().map(|&f| self.turned[f as usize]).collect(),
+            piece: relabeled(&self.piece, self.n_pieces, order),
+            component: relabeled(&self.component, self.n_components, order),
+            ..*self
+        }
+    }
+
     /// Whether a glued halfedge and its twin disagree even after the faces in [`turned`](Self::turned) are turned over:
     /// only on pieces that are not orientable, such as a Möbius strip.
     pub fn is_twisted(&self, triangles: &[[u32; 3]], h: u32) -> bool {
@@ -94,6 +114,21 @@ fn pieces(twin: &[u32]) -> (Vec<u32>, usize) {
         pieces.unite(h / 3, t / 3);
     }
     pieces.labels()
+}
+
+/// The labels of faces in another order, numbered by their first face again.
+fn relabeled(labels: &[u32], n_labels: usize, order: &[u32]) -> Vec<u32> {
+    let mut number = vec![u32::MAX; n_labels];
+    let mut n = 0;
+    let mut anew = |&face: &u32| {
+        let number = &mut number[labels[face as usize] as usize];
+        if *number == u32::MAX {
+            *number = n;
+            n += 1;
+        }
+        *number
+    };
+    order.iter().map(&mut anew).collect()
 }
 
 fn glue(twin: &mut [u32], a: u32, b: u32) {

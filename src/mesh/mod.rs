@@ -10,6 +10,7 @@
 //! sides of what they share, or it is refused with the element that is at fault.
 
 mod adjacency;
+mod canonical;
 mod corner_uvs;
 mod defects;
 mod disk;
@@ -31,6 +32,7 @@ mod vertex_faces;
 mod weld;
 
 pub use adjacency::Adjacency;
+pub use canonical::canonical_order;
 pub use corner_uvs::{CornerUvs, VAxis};
 pub use defects::{Defects, has_zero_area};
 pub use disk::{Disk, NotADisk};

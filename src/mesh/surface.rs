@@ -5,11 +5,12 @@ use super::{Adjacency, Defects, edges::Edges, weld::weld};
 /// Triangles over distinct positions, with what is wrong with them counted.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Distinct positions, in the order in which the input first has them. Vertices that no triangle uses are kept.
+    /// Distinct positions, in the order in which the input first has them. Vertices that no triangle uses are kept until the
+    /// surface is [reordered](Self::reordered).
     pub positions: Vec<[f64; 3]>,
     /// Three different vertices each, wound as in the input.
     pub triangles: Vec<[u32; 3]>,
-    /// For each triangle its face in the input; increasing.
+    /// For each triangle its face in the input; increasing until the surface is reordered.
     pub faces: Vec<u32>,
     /// What the input's faces suffer from.
     pub defects: Defects,
@@ -89,6 +90,30 @@ impl Surface {
     /// Whether it was cut along given edges.
     pub fn is_cut(&self) -> bool {
         self.is_cut
+    }
+
+    /// The same with its triangles in another order, of which each is named once, and its vertices in that in which these have them.
+    pub fn reordered(&self, order: &[u32]) -> Self {
+        let mut number = vec![u32::MAX; self.positions.len()];
+        let mut positions = Vec::with_capacity(self.positions.len());
+        let mut numbered = |v: u32| {
+            if number[v as usize] == u32::MAX {
+                number[v as usize] = positions.len() as u32;
+                positions.push(self.positions[v as usize]);
+            }
+            number[v as usize]
+        };
+        let triangles = order
+            .iter()
+            .map(|&t| self.triangles[t as usize].map(&mut numbered));
+        Self {
+            triangles: triangles.collect(),
+            faces: order.iter().map(|&t| self.faces[t as usize]).collect(),
+            positions,
+            defects: self.defects,
+            adjacency: self.adjacency.reordered(order),
+            is_cut: self.is_cut,
+        }
     }
 
     /// Which triangles are glued to which.

@@ -16,6 +16,7 @@ pub mod lanes;
 pub mod linear_solver;
 pub mod point_tree;
 pub mod predicates;
+pub mod principal_axes;
 pub mod random;
 pub mod roots;
 pub mod rotation;

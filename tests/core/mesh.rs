@@ -2,7 +2,7 @@
 
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
-use unwrapd::mesh::{CUT, Defects, MeshError, Surface, next, origin};
+use unwrapd::mesh::{CUT, Defects, MeshError, Surface, canonical_order, next, origin};
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
@@ -137,6 +137,65 @@ fn the_copies_of_a_wall_are_two_sheets() {
     let n = 3 * wall.triangles.len() as u32;
     for h in (0..n).filter(|&h| interior(h)) {
         assert!(doubled.adjacency().twin[h as usize] < n, "halfedge {h}");
+    }
+}
+
+/// A surface in canonical order, as positions and triangles.
+fn canonical(surface: &Surface) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let ordered = surface.reordered(&canonical_order(surface));
+    (ordered.positions, ordered.triangles)
+}
+
+#[test]
+fn canonical_order_forgets_the_order_of_the_input() {
+    for mesh in [zoo::sphere(12, 9), zoo::grid(4, 3), zoo::tube(9, 2.0)].map(Mesh::lopsided) {
+        let shuffled = mesh.shuffled();
+        assert_ne!(mesh.triangles, shuffled.triangles);
+        assert_eq!(canonical(&surface(&mesh)), canonical(&surface(&shuffled)));
+    }
+}
+
+#[test]
+fn canonical_order_turns_with_the_mesh() {
+    let mesh = zoo::sphere(12, 9).lopsided();
+    let turned = Mesh {
+        positions: mesh
+            .positions
+            .iter()
+            .map(|&[x, y, z]| [2.0 * z, 2.0 * x, 2.0 * y])
+            .collect(),
+        ..mesh.clone()
+    };
+    assert_eq!(
+        canonical_order(&surface(&mesh)),
+        canonical_order(&surface(&turned))
+    );
+}
+
+#[test]
+fn reordered_faces_are_glued_as_before() {
+    for mesh in zoo::zoo() {
+        let surface = surface(&mesh);
+        let order = canonical_order(&surface);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert!(
+            sorted.into_iter().eq(0..surface.triangles.len() as u32),
+            "{}",
+            mesh.name
+        );
+        let reordered = surface.reordered(&order);
+        check_gluing(&reordered);
+        let (old, new) = (surface.adjacency(), reordered.adjacency());
+        assert_eq!(
+            (old.n_pieces, old.n_components),
+            (new.n_pieces, new.n_components)
+        );
+        for (h, &t) in (0u32..).zip(&new.twin) {
+            let before = |h: u32| 3 * order[h as usize / 3] + h % 3;
+            let expected = if t == CUT { CUT } else { before(t) };
+            assert_eq!(old.twin[before(h) as usize], expected, "{}", mesh.name);
+        }
     }
 }
 

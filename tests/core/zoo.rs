@@ -34,6 +34,40 @@ impl Mesh {
         self
     }
 
+    /// With its vertices and triangles in another order.
+    pub fn shuffled(&self) -> Self {
+        let order = |n: usize| {
+            let mut order: Vec<usize> = (0..n).collect();
+            for i in (1..n).rev() {
+                order.swap(i, (i * 7919 + 13) % (i + 1));
+            }
+            order
+        };
+        let of_vertices = order(self.positions.len());
+        let mut place = vec![0; of_vertices.len()];
+        for (new, &old) in (0..).zip(&of_vertices) {
+            place[old] = new;
+        }
+        let of_triangles = order(self.triangles.len()).into_iter();
+        Self {
+            name: format!("{}, shuffled", self.name),
+            positions: of_vertices.iter().map(|&v| self.positions[v]).collect(),
+            triangles: of_triangles
+                .map(|t| self.triangles[t].map(|v| place[v as usize]))
+                .collect(),
+        }
+    }
+
+    /// Bent so that it is nowhere its own image.
+    pub fn lopsided(mut self) -> Self {
+        for [x, y, z] in &mut self.positions {
+            *x += 0.3 * *x * *x + 0.1 * *y;
+            *y += 0.2 * (*x + *z).sin();
+            *z *= 1.5 + 0.1 * *x;
+        }
+        self
+    }
+
     pub fn reversed(mut self) -> Self {
         for t in &mut self.triangles {
             t.swap(1, 2);

@@ -11,7 +11,7 @@ use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::{Piece, Soup};
 use crate::charts::MappedChart;
-use crate::mesh::{Defects, Surface};
+use crate::mesh::{Defects, Surface, canonical_order};
 use crate::pipeline::PipelineError;
 use crate::pipeline::tracker::Tracker;
 
@@ -92,18 +92,29 @@ impl<'a> Divided<'a> {
         chart
     }
 
-    /// The charts of the first piece of each shape; none of the others.
+    /// The charts of the first piece of each shape, cut and mapped in canonical order; none of the others.
     fn mapped(&self, plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
         let is_first = |&piece: &usize| self.shapes[piece].first == piece;
         let firsts: Vec<usize> = (0..self.pieces.len()).filter(is_first).collect();
-        let surfaces: Vec<&Surface> = firsts.iter().map(|&piece| &self.surfaces[piece]).collect();
+        let ordered = firsts.par_iter().map(|&piece| {
+            let surface = &self.surfaces[piece];
+            let order = canonical_order(surface);
+            (surface.reordered(&order), order)
+        });
+        let (surfaces, orders): (Vec<Surface>, Vec<Vec<u32>>) = ordered.unzip();
         let seams: Vec<&Seams> = firsts
             .iter()
             .map(|&piece| &*self.pieces[piece].seams)
             .collect();
         let mut mapped = vec![Vec::new(); self.pieces.len()];
         let charts = mapped_charts(&surfaces, &seams, plan, tracker);
-        for (piece, charts) in firsts.into_iter().zip(charts) {
+        for ((piece, order), mut charts) in firsts.into_iter().zip(orders).zip(charts) {
+            for corner in charts
+                .iter_mut()
+                .flat_map(|map| map.chart.corners.as_flattened_mut())
+            {
+                *corner = 3 * order[*corner as usize / 3] + *corner % 3;
+            }
             mapped[piece] = charts;
         }
         mapped

@@ -18,7 +18,7 @@ const SQUARE: Resolution = Resolution::square(1);
 
 /// The charts of every surface with their maps.
 pub fn mapped_charts(
-    surfaces: &[&Surface],
+    surfaces: &[Surface],
     seams: &[&Seams],
     plan: &Plan,
     tracker: &Tracker,
@@ -42,7 +42,7 @@ pub fn mapped_charts(
     let kept = |mesh: usize, chart: &Chart| {
         let uvs = plan.reads_uvs().then_some(seams[mesh].uvs.as_ref());
         let texture = seams[mesh].texture.unwrap_or(SQUARE);
-        Some(uvs_of(chart, surfaces[mesh], (uvs.flatten()?, texture)))
+        Some(uvs_of(chart, &surfaces[mesh], (uvs.flatten()?, texture)))
     };
     let maps = map_charts(charts, kept, plan, tracker);
     if plan.refinement != Refinement::GivenBack {
