@@ -46,7 +46,6 @@ mod stays;
 mod texture;
 mod tight;
 mod turned;
-mod upright;
 
 pub use around::pack_around;
 pub use clear::cleared;

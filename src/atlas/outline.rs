@@ -2,8 +2,8 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::upright::Straightness;
 use super::{AtlasError, ChartMap};
+use crate::plane::Straightness;
 
 /// A chart's outline, turned to the angle at which it is packed.
 #[derive(Clone, Debug)]

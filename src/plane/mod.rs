@@ -13,10 +13,12 @@ mod apart;
 mod box_index;
 mod polygons;
 mod segments;
+mod straightness;
 mod triangles;
 
 pub use apart::keep_apart;
 pub use box_index::{BoxIndex, Visit, search_budget};
 pub use polygons::{doubled_polygon_area, meeting_point};
 pub use segments::{Segment, segment_distance};
+pub use straightness::Straightness;
 pub use triangles::{are_disjoint, interiors_intersect, overlapping_pairs};

@@ -3,6 +3,7 @@
 pub(super) mod best_split;
 mod chord;
 mod clusters;
+mod own_axes;
 mod planes;
 pub(super) mod split;
 mod splitter;

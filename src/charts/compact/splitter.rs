@@ -2,6 +2,7 @@
 
 use super::chord::Chord;
 use super::clusters::Clusters;
+use super::own_axes::along_own_axes;
 use super::planes::Planes;
 use super::split::Split;
 use crate::charts::MappedChart;
@@ -65,6 +66,7 @@ impl<'a> Splitter<'a> {
         for (&v, &of_chart) in sheet.vertex.iter().zip(corners) {
             uv[v as usize] = mapped.embedding.uv[of_chart as usize];
         }
+        let uv = along_own_axes(sheet, &uv);
         let directions = Directions::default();
         let square = unit * unit / HOPE;
         let hull = hull_of(sheet, &uv, &directions, |_| true);

@@ -1,4 +1,4 @@
-//! The axes of charts that have some.
+//! The axes of outlines that have some.
 
 /// Widths of the classes into which directions are sorted, over a quarter turn.
 const CLASSES: usize = 180;
@@ -8,9 +8,9 @@ const CLASSES: usize = 180;
 const UPRIGHT: f64 = 0.5;
 const LEANING: f64 = 0.25;
 
-/// The axes of a chart.
+/// The axes of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Straightness {
+pub enum Straightness {
     /// Most of its outline runs along this unit vector or at a right angle to it: a rectangle's does.
     Upright([f64; 2]),
     /// A good part of it does: of a hexagon's a third.
@@ -21,7 +21,7 @@ pub(super) enum Straightness {
 
 impl Straightness {
     /// Of an outline that consists of these edges.
-    pub(super) fn of(edges: &[[[f64; 2]; 2]]) -> Self {
+    pub fn of(edges: &[[[f64; 2]; 2]]) -> Self {
         match main_axis(edges) {
             Some((axis, share)) if share >= UPRIGHT => Self::Upright(axis),
             Some((axis, share)) if share >= LEANING => Self::Leaning(axis),
