@@ -112,6 +112,7 @@ impl Draft {
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         found.dedup_by_key(|state| self.key(state));
         found.truncate(course.squeezed);
+        let fullest = found.first().cloned();
         let each = (squeezing / course.squeezed as f64) as u64;
         let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
             .map(|state| self.settled(state, each, on_read))
@@ -120,6 +121,12 @@ impl Draft {
             if squeezed_side(&draft.pages) < squeezed_side(&self.pages) {
                 *self = draft;
             }
+        }
+        // Where squeezing fails, the arrangement is still a plan.
+        if self.pages.is_empty()
+            && let Some(fullest) = fullest.filter(|state| state.cost < self.state.cost)
+        {
+            self.state = fullest;
         }
         if moving > 0.0 {
             self.relocate(moving as u64, look.seed(), on_read);
