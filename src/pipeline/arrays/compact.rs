@@ -19,6 +19,10 @@ const MOST_IDLE: usize = 2;
 /// So many cuts further nothing better must be expected before the search for more cuts ends.
 const MOST_LATER: usize = 8;
 
+/// What a number of cuts has to be worth more, as a share of the square, to be better than another: what is expected and what a
+/// search finds differ by as much where nothing but rounding does.
+const LEEWAY: f64 = 0.005;
+
 /// Charts and a draft of their layout.
 pub struct Drafted {
     pub charts: Vec<MappedChart>,
@@ -124,20 +128,28 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
     Ok(candidates)
 }
 
-/// The charts after as many cuts as are expected to be worth most, and after one cut less and one more.
+/// The charts after the fewest cuts that are expected to be worth most, within [`LEEWAY`], and after one cut less and one more, which
+/// have to be better by that.
 ///
 /// The expected fill follows from the shapes of the charts alone, while what a short search finds is partly luck: charts of the same
 /// shapes get the same cuts.
 fn expected(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasError> {
     let mut candidates = vec![cutter.candidate.clone()];
-    let (mut best, mut most_value) = (0, cutter.expected_value());
+    let mut values = vec![cutter.expected_value()];
+    let mut best = 0;
     while candidates.len() <= most.min(best + MOST_LATER)
         && let Some(cut) = cutter.next()?
     {
-        if cutter.expected_value() > most_value {
-            (best, most_value) = (candidates.len(), cutter.expected_value());
-        }
+        values.push(cutter.expected_value());
         candidates.push(cut);
+        if values[values.len() - 1] > values[best] {
+            best = values.len() - 1;
+        }
+    }
+    let is_enough = |value: &f64| *value >= values[best] - LEEWAY;
+    let best = values.iter().position(is_enough).unwrap_or(best);
+    for (_, other) in (0..).zip(&mut candidates).filter(|(n, _)| *n != best) {
+        other.cost += LEEWAY;
     }
     candidates.truncate(best + 2);
     Ok(candidates.split_off(best.saturating_sub(1)))
