@@ -2,7 +2,7 @@
 
 use crate::energy::RestShape;
 use crate::numerics::vec2;
-use crate::numerics::vec3::{area_vector, cross, distance, dot, norm, sub};
+use crate::numerics::vec3::{area_vector, distance, dot, norm, sub};
 
 /// A triangle whose altitude is a smaller part of its longest edge is given this altitude: below it, a map that keeps
 /// the shape would have to hold coordinates to ten digits to stay unflipped.
@@ -55,25 +55,28 @@ pub(super) struct Least {
 /// Any finite coordinates are welcome, from 1e-40 to 1e40 in the same mesh.
 pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes {
     let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
+    let longest_edges: Vec<(usize, f64)> =
+        triangles.iter().map(|t| longest_edge(corners(t))).collect();
     // Lengths relative to the longest edge: no square overflows, and what underflows is enlarged anyway.
-    let longest = (triangles.iter().map(|t| longest_edge(corners(t)).1))
-        .fold(0.0, f64::max)
-        .max(f64::MIN_POSITIVE);
+    let longest = (longest_edges.iter()).fold(f64::MIN_POSITIVE, |longest, &(_, length)| {
+        longest.max(length)
+    });
     let relative = |t: &[u32; 3]| corners(t).map(|p| p.map(|x| x / longest));
-    let aspect = least_aspect(triangles.iter().map(relative));
-    let size = (triangles.iter())
-        .map(|t| {
-            let edge = longest_edge(relative(t)).1;
-            area(relative(t)).max(0.5 * aspect * edge * edge)
-        })
+    let measures: Vec<Measure> = (triangles.iter().zip(longest_edges))
+        .map(|(t, (first, length))| Measure::along(relative(t), first, length / longest))
+        .collect();
+    let aspect = least_aspect(&measures);
+    let size = (measures.iter())
+        .map(|m| m.area.max(0.5 * aspect * m.length * m.length))
         .sum::<f64>()
         .sqrt();
     let least = Least {
         size: SMALLEST_SIZE * size,
         aspect,
     };
-    let mut shapes: Vec<_> = (triangles.iter())
-        .map(|t| rest_shape(relative(t), least))
+    let measured = triangles.iter().zip(&measures);
+    let mut shapes: Vec<_> = measured
+        .map(|(t, measure)| measure.rest_shape(relative(t), least))
         .collect();
     let total: f64 = shapes.iter().map(|shape| shape.size).sum();
     let unit = (total / triangles.len().max(1) as f64).sqrt();
@@ -84,7 +87,7 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
             weight: shape.weight / (unit * unit),
         };
     }
-    let true_area: f64 = triangles.iter().map(|t| area(relative(t))).sum();
+    let true_area: f64 = measures.iter().map(|m| m.area).sum();
     RestShapes {
         shapes,
         scale: unit * longest,
@@ -98,14 +101,12 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
 }
 
 /// The aspect below which shapes get a substitute.
-fn least_aspect(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> f64 {
+fn least_aspect(triangles: &[Measure]) -> f64 {
     let (mut all, mut thin) = (0.0, 0.0);
     for triangle in triangles {
-        let area = area(triangle);
-        all += area;
-        let is_thin = is_thinner(triangle, SMALLEST_ASPECT);
-        if is_thin && !is_thinner(triangle, THINNEST_ASPECT) {
-            thin += area;
+        all += triangle.area;
+        if triangle.is_thinner(SMALLEST_ASPECT) && !triangle.is_thinner(THINNEST_ASPECT) {
+            thin += triangle.area;
         }
     }
     if thin > 0.5 * all {
@@ -115,48 +116,76 @@ fn least_aspect(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> f64 {
     }
 }
 
-/// Whether the altitude of a triangle on its longest edge is a smaller part of it.
-fn is_thinner(p: [[f64; 3]; 3], aspect: f64) -> bool {
-    let length = longest_edge(p).1;
-    2.0 * area(p) < aspect * length * length
-}
-
-/// The triangle laid on its longest edge, no shorter than the least and with a bounded aspect.
+/// The rest shape of one triangle.
 pub(super) fn rest_shape(p: [[f64; 3]; 3], least: Least) -> RestShape {
-    let smallest = least.size;
-    let (first, length) = longest_edge(p);
-    let [a, b, c] = [first, (first + 1) % 3, (first + 2) % 3];
-    let (base, foot, altitude) = if length < smallest {
-        (smallest, 0.5 * smallest, 0.75_f64.sqrt() * smallest)
-    } else {
-        let (edge, side) = (sub(p[b], p[a]), sub(p[c], p[a]));
-        let altitude = norm(cross(edge, side)) / length;
-        let floor = (least.aspect * length).max(0.5 * smallest);
-        (length, dot(edge, side) / length, altitude.max(floor))
-    };
-    let mut corners = [[0.0; 2]; 3];
-    corners[b] = [base, 0.0];
-    corners[c] = [foot, altitude];
-    let true_area = area(p);
-    let shape = RestShape::from_edges(
-        vec2::sub(corners[1], corners[0]),
-        vec2::sub(corners[2], corners[0]),
-    );
-    let is_substitute = shape.size > 1.01 * true_area;
-    let extra = if is_substitute {
-        SUBSTITUTE_WEIGHT * shape.size
-    } else {
-        0.0
-    };
-    RestShape {
-        weight: true_area + extra,
-        ..shape
-    }
+    Measure::of(p).rest_shape(p, least)
 }
 
 /// Whether a triangle is so thin that it gets a substitute wherever it is: no map that is made here keeps its shape.
 pub fn is_needle(p: [[f64; 3]; 3]) -> bool {
-    is_thinner(p, THINNEST_ASPECT)
+    Measure::of(p).is_thinner(THINNEST_ASPECT)
+}
+
+/// A triangle's longest edge and its area.
+struct Measure {
+    /// The corner that the edge starts from.
+    first: usize,
+    length: f64,
+    area: f64,
+}
+
+impl Measure {
+    fn of(p: [[f64; 3]; 3]) -> Self {
+        let (first, length) = longest_edge(p);
+        Self::along(p, first, length)
+    }
+
+    /// Of a triangle of which the longest edge is known. The area is measured from the corner opposite to it: there the rounding is
+    /// least.
+    fn along(p: [[f64; 3]; 3], first: usize, length: f64) -> Self {
+        let [a, b, apex] = [first, (first + 1) % 3, (first + 2) % 3];
+        Self {
+            first,
+            length,
+            area: 0.5 * norm(area_vector(p[apex], p[a], p[b])),
+        }
+    }
+
+    /// Whether the altitude on the longest edge is a smaller part of it.
+    fn is_thinner(&self, aspect: f64) -> bool {
+        2.0 * self.area < aspect * self.length * self.length
+    }
+
+    /// The triangle laid on its longest edge, no shorter than the least and with a bounded aspect.
+    fn rest_shape(&self, p: [[f64; 3]; 3], least: Least) -> RestShape {
+        let (smallest, length) = (least.size, self.length);
+        let [a, b, c] = [self.first, (self.first + 1) % 3, (self.first + 2) % 3];
+        let (base, foot, altitude) = if length < smallest {
+            (smallest, 0.5 * smallest, 0.75_f64.sqrt() * smallest)
+        } else {
+            let (edge, side) = (sub(p[b], p[a]), sub(p[c], p[a]));
+            let altitude = 2.0 * self.area / length;
+            let floor = (least.aspect * length).max(0.5 * smallest);
+            (length, dot(edge, side) / length, altitude.max(floor))
+        };
+        let mut corners = [[0.0; 2]; 3];
+        corners[b] = [base, 0.0];
+        corners[c] = [foot, altitude];
+        let shape = RestShape::from_edges(
+            vec2::sub(corners[1], corners[0]),
+            vec2::sub(corners[2], corners[0]),
+        );
+        let is_substitute = shape.size > 1.01 * self.area;
+        let extra = if is_substitute {
+            SUBSTITUTE_WEIGHT * shape.size
+        } else {
+            0.0
+        };
+        RestShape {
+            weight: self.area + extra,
+            ..shape
+        }
+    }
 }
 
 /// The corner the longest edge starts from, and its length.
@@ -167,10 +196,4 @@ fn longest_edge(p: [[f64; 3]; 3]) -> (usize, f64) {
             (0, 0.0),
             |best, edge| if edge.1 > best.1 { edge } else { best },
         )
-}
-
-/// Area of a triangle in space, from the corner opposite to the longest edge: there the rounding is least.
-fn area(p: [[f64; 3]; 3]) -> f64 {
-    let apex = (longest_edge(p).0 + 2) % 3;
-    0.5 * norm(area_vector(p[apex], p[(apex + 1) % 3], p[(apex + 2) % 3]))
 }
