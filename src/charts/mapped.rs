@@ -8,7 +8,7 @@ use super::unfold::overlaps::{lengths, one_side, overlaps};
 use super::unfold::push_apart::pushed_apart;
 use super::{Chart, halves};
 use crate::barrier::BarrierKind;
-use crate::embed::{self, Embedding};
+use crate::embed::{self, Embedding, RestShapes, rest_shapes};
 use crate::numerics::vec2::doubled_area;
 use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::{Control, Iterate, Summary};
@@ -223,6 +223,11 @@ impl MappedChart {
         if let Some(plane) = &mut self.chart.mirror {
             plane.offset *= size;
         }
+    }
+
+    /// What the faces are like on the surface.
+    pub(super) fn rest_shapes(&self) -> RestShapes {
+        rest_shapes(&self.chart.positions, &self.chart.disk.triangles)
     }
 
     /// The area of the map.

@@ -16,6 +16,14 @@ const SIMPLE: usize = 2_500;
 /// Boundaries that differ in length by a smaller share are the same.
 const SAME: f64 = 1e-9;
 
+/// A chart that was chosen.
+pub enum Opened {
+    /// Nothing is planned in it.
+    Whole(Chart),
+    /// With the slits that decided for it.
+    Slit(Piece),
+}
+
 /// The charts of a surface that is opened in several ways: of each component the chart that promises to keep the bound with the
 /// shortest seams.
 ///
@@ -25,7 +33,7 @@ pub fn best_opened(
     mut ways: Vec<Vec<Chart>>,
     bound: &Bound,
     observer: &dyn Observer,
-) -> Vec<Piece> {
+) -> Vec<Opened> {
     let n = ways.first().map_or(0, Vec::len);
     ways.retain(|charts| charts.len() == n);
     let mut of_each: Vec<Vec<Chart>> = (0..n).map(|_| Vec::new()).collect();
@@ -37,8 +45,8 @@ pub fn best_opened(
         }
     }
     let is_whole = n == 1;
-    let pieces = of_each.into_par_iter().with_max_len(1);
-    pieces
+    let components = of_each.into_par_iter().with_max_len(1);
+    components
         .flat_map_iter(|ways| best_of(ways, is_whole, bound, observer))
         .collect()
 }
@@ -50,9 +58,9 @@ fn best_of(
     is_whole: bool,
     bound: &Bound,
     observer: &dyn Observer,
-) -> Option<Piece> {
+) -> Option<Opened> {
     if ways.len() < 2 {
-        return ways.pop().map(Piece::unmapped);
+        return ways.pop().map(Opened::Whole);
     }
     let tried = ways.into_par_iter().with_max_len(1).map(|chart| {
         let simple = (chart.positions.len() > LARGE)
@@ -62,16 +70,16 @@ fn best_of(
         let mut piece =
             Piece::unmapped(simple.map_or_else(|| chart.clone(), |simple| simple.chart));
         let price = price(&mut piece, bound, observer);
-        let piece = if is_whole && !is_simple {
-            piece
+        let opened = if is_whole && !is_simple {
+            Opened::Slit(piece)
         } else {
-            Piece::unmapped(chart)
+            Opened::Whole(chart)
         };
-        (price, piece)
+        (price, opened)
     });
-    let tried: Vec<(f64, Piece)> = tried.collect();
+    let tried: Vec<(f64, Opened)> = tried.collect();
     let best = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-    best.map(|(_, piece)| piece)
+    best.map(|(_, opened)| opened)
 }
 
 /// Slits a chart until it is expected to keep the bound: the length of its seams times the excess that is left.

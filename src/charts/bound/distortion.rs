@@ -1,7 +1,7 @@
 //! What a map costs of the distortion budget.
 
 use crate::charts::MappedChart;
-use crate::embed::rest_shapes;
+use crate::embed::RestShapes;
 use crate::energy::{Density, RestShape, SymmetricDirichlet};
 use crate::numerics::square::{Square, times};
 use crate::numerics::vec2::{doubled_area, sub};
@@ -11,25 +11,24 @@ use crate::numerics::vec2::{doubled_area, sub};
 const LARGEST: f64 = 1e6;
 
 /// By how much the symmetric Dirichlet energy of a map exceeds its minimum of 4 per area, summed over the area, and that area.
-pub fn excess_and_area(mapped: &MappedChart) -> [f64; 2] {
-    summed(mapped, |sigma| {
+pub fn excess_and_area(mapped: &MappedChart, rest: &RestShapes) -> [f64; 2] {
+    summed(mapped, rest, |sigma| {
         let halved = SymmetricDirichlet.value(&sigma);
         (2.0 * halved - 4.0).clamp(0.0, LARGEST)
     })
 }
 
 /// The area of the faces whose stretch, max(σ₁, 1/σ₂), is more than this.
-pub fn stretched_area(mapped: &MappedChart, most: f64) -> f64 {
-    summed(mapped, |[first, second]| {
+pub fn stretched_area(mapped: &MappedChart, rest: &RestShapes, most: f64) -> f64 {
+    summed(mapped, rest, |[first, second]| {
         let is_stretched = first > most || second * most < 1.0;
         f64::from(u8::from(is_stretched))
     })[0]
 }
 
 /// The sum over the area of a function of the singular values σ₁ ≥ σ₂, and that area.
-fn summed(mapped: &MappedChart, of: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
+fn summed(mapped: &MappedChart, rest: &RestShapes, of: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     let triangles = &mapped.chart.disk.triangles;
-    let rest = rest_shapes(&mapped.chart.positions, triangles);
     let (mut sum, mut weight) = (0.0, 0.0);
     for (triangle, shape) in triangles.iter().zip(&rest.shapes) {
         let corners = triangle.map(|v| mapped.embedding.uv[v as usize].map(|x| x / rest.scale));

@@ -1,6 +1,6 @@
 //! Few charts under a bound on their distortion.
 
-use super::best_way::best_opened;
+use super::best_way::{Opened, best_opened};
 use super::pending_chart::Piece;
 use super::quality::{Bound, Bounded};
 use super::rounds::{mean_excess, rounds};
@@ -143,11 +143,11 @@ fn soft_charts(
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
-    let pieces = best_opened(ways, bound, observer);
-    if pieces.is_empty() {
+    let opened = best_opened(ways, bound, observer);
+    if opened.is_empty() {
         return Vec::new();
     }
-    let slit = slit_and_mapped(pieces, bound, options, observer);
+    let slit = slit_and_mapped(opened, bound, options, observer);
     let given_back = |pieces| given_back(surface, maps(pieces).collect(), bound, options, observer);
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
         return given_back(slit);
@@ -185,22 +185,21 @@ fn is_mostly_needles(surface: &Surface) -> bool {
 }
 
 fn slit_and_mapped(
-    pieces: Vec<Piece>,
+    opened: Vec<Opened>,
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<Piece> {
-    let (large, mut pieces): (Vec<Piece>, Vec<Piece>) =
-        (pieces.into_iter()).partition(|piece| piece.n_faces() >= LARGE);
-    let large = large.into_par_iter().with_max_len(1);
-    let mapped = large.filter_map(Piece::into_chart).flat_map_iter(|chart| {
-        let parts = slit_as_simplified(chart, bound, options, observer).into_iter();
-        let maps = parts.flat_map(|part| map_chart(part, options, Folds::Cut, observer));
-        maps.map(Piece::of)
+    let pieces = (opened.into_par_iter().with_max_len(1)).flat_map_iter(|opened| match opened {
+        Opened::Whole(chart) if chart.disk.triangles.len() >= LARGE => {
+            let parts = slit_as_simplified(chart, bound, options, observer).into_iter();
+            let maps = parts.flat_map(|part| map_chart(part, options, Folds::Cut, observer));
+            maps.map(Piece::of).collect()
+        }
+        Opened::Whole(chart) => vec![Piece::unmapped(chart)],
+        Opened::Slit(piece) => vec![piece],
     });
-    let mut all: Vec<Piece> = mapped.collect();
-    all.append(&mut pieces);
-    rounds(all, bound, options, observer, |_| ())
+    rounds(pieces.collect(), bound, options, observer, |_| ())
 }
 
 /// A chart with the slits that its simplification needs to keep the bound: large charts are mapped once or twice, not in every round.

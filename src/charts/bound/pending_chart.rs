@@ -43,7 +43,7 @@ impl Piece {
 
     /// A chart that is mapped.
     pub fn of(map: MappedChart) -> Self {
-        let [excess, area] = excess_and_area(&map);
+        let [excess, area] = excess_and_area(&map, &map.rest_shapes());
         Self {
             slits: None,
             map: Some(map),
@@ -97,14 +97,6 @@ impl Piece {
     pub fn slits_length(&self) -> f64 {
         let lines = self.slits().into_iter().flat_map(|slits| &slits.lines);
         lines.map(|line| polyline_length(line)).sum()
-    }
-
-    /// The chart that is slit or mapped, without its slits.
-    pub fn into_chart(self) -> Option<Chart> {
-        let mapped = self.map.map(|map| map.chart);
-        self.slits
-            .map(|predicted| predicted.slits.into_chart())
-            .or(mapped)
     }
 
     /// The chart that is slit or mapped.

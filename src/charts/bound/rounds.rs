@@ -132,6 +132,8 @@ fn is_stretched(pieces: &[Piece], bound: &Bound) -> bool {
         return false;
     };
     let maps = pieces.iter().filter_map(|piece| piece.map.as_ref());
-    let stretched: f64 = maps.map(|map| stretched_area(map, most)).sum();
+    let stretched: f64 = maps
+        .map(|map| stretched_area(map, &map.rest_shapes(), most))
+        .sum();
     stretched > Bound::stretched_budget() * total_area(pieces)
 }

@@ -71,11 +71,6 @@ impl Slits {
         &self.chart
     }
 
-    /// The chart itself.
-    pub fn into_chart(self) -> Chart {
-        self.chart
-    }
-
     /// For each slit a corner of the surface where it was begun.
     pub fn tips(&self) -> impl Iterator<Item = u32> {
         let corners = self.chart.corners.as_flattened();

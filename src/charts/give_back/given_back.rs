@@ -10,7 +10,7 @@ use crate::charts::observer::Observer;
 use crate::charts::unfold::local_minimum::Local;
 use crate::charts::unfold::overlaps::overlaps;
 use crate::charts::unfold::push_apart::pushed_apart;
-use crate::embed;
+use crate::embed::{self, RestShapes};
 use crate::mesh::Surface;
 use crate::plane::keep_apart;
 use crate::solver::{Control, Iterate};
@@ -92,9 +92,9 @@ pub(super) struct Cost {
 }
 
 impl Cost {
-    fn of(map: &MappedChart, bound: &Bound) -> Self {
-        let [excess, area] = excess_and_area(map);
-        let stretched = |most| stretched_area(map, most);
+    fn of(map: &MappedChart, rest: &RestShapes, bound: &Bound) -> Self {
+        let [excess, area] = excess_and_area(map, rest);
+        let stretched = |most| stretched_area(map, rest, most);
         Self {
             area,
             excess,
@@ -112,7 +112,8 @@ impl<'a> Giving<'a> {
         observer: &'a dyn Observer,
     ) -> Self {
         let charts: BTreeMap<u32, MappedChart> = (0..).zip(charts).collect();
-        let costs = charts.iter().map(|(&n, map)| (n, Cost::of(map, bound)));
+        let cost = |map: &MappedChart| Cost::of(map, &map.rest_shapes(), bound);
+        let costs = charts.iter().map(|(&n, map)| (n, cost(map)));
         let costs: BTreeMap<u32, Cost> = costs.collect();
         let sum = |of: fn(&Cost) -> f64| costs.values().map(of).sum::<f64>();
         let area = sum(|cost| cost.area);
@@ -216,8 +217,10 @@ impl<'a> Giving<'a> {
         let Some(joint) = self.pushed_apart(joint) else {
             return false;
         };
-        let joint = self.settled(joint, run).facing_front();
-        let cost = Cost::of(&joint, self.bound);
+        let rest = joint.rest_shapes();
+        let joint = self.settled(joint, &rest, run);
+        let cost = Cost::of(&joint, &rest, self.bound);
+        let joint = joint.facing_front();
         if !self.allows(&cost, [number, run.neighbor])
             || !keep_apart(&joint.chart.disk.boundary_in(&joint.embedding.uv), APART)
         {
@@ -258,9 +261,9 @@ impl<'a> Giving<'a> {
     }
 
     /// Minimized around the seam, if that leaves no overlap.
-    fn settled(&self, map: MappedChart, run: &Run) -> MappedChart {
+    fn settled(&self, map: MappedChart, rest: &RestShapes, run: &Run) -> MappedChart {
         let watch = |_: &Iterate| self.iterated(&map);
-        let local = Local::new(&map.chart, self.options, &watch);
+        let local = Local::new(&map.chart, rest, self.options, &watch);
         let mut uv = local.in_unit(&map.embedding.uv);
         let seam = run.vertices.iter().map(|&[_, v]| v);
         local.minimize(&mut uv, seam, &[]);

@@ -2,7 +2,7 @@
 
 use super::surroundings::Surroundings;
 use crate::charts::Chart;
-use crate::embed::{self, RestShapes, map_term, rest_shapes};
+use crate::embed::{self, RestShapes, map_term};
 use crate::energy::{Positional, RestShape};
 use crate::mesh::VertexFaces;
 use crate::solver::{Objective, Settings, Watch, minimize};
@@ -17,7 +17,7 @@ const STEPS: usize = 12;
 pub struct Local<'a> {
     pub chart: &'a Chart,
     of_vertex: VertexFaces,
-    rest: RestShapes,
+    rest: &'a RestShapes,
     options: &'a embed::Options,
     watch: &'a dyn Watch,
 }
@@ -26,10 +26,16 @@ pub struct Local<'a> {
 pub type Constraint = ([(u32, f64); 3], [f64; 2]);
 
 impl<'a> Local<'a> {
-    pub fn new(chart: &'a Chart, options: &'a embed::Options, watch: &'a dyn Watch) -> Self {
+    /// A chart whose faces have these rest shapes.
+    pub fn new(
+        chart: &'a Chart,
+        rest: &'a RestShapes,
+        options: &'a embed::Options,
+        watch: &'a dyn Watch,
+    ) -> Self {
         Self {
             of_vertex: VertexFaces::new(chart.disk.n_vertices, &chart.disk.triangles),
-            rest: rest_shapes(&chart.positions, &chart.disk.triangles),
+            rest,
             chart,
             options,
             watch,

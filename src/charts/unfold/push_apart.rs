@@ -4,7 +4,7 @@ use super::contact::Contacts;
 use super::local_minimum::Local;
 use super::overlaps::{overlaps, overlaps_after};
 use crate::charts::Chart;
-use crate::embed;
+use crate::embed::{self, rest_shapes};
 use crate::mesh::{CUT, UnionFind};
 use crate::solver::Watch;
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,7 +41,8 @@ pub fn pushed_apart(
     if folds.len() > MOST_FOLDS {
         return (uv.to_vec(), pairs);
     }
-    let local = Local::new(chart, options, watch);
+    let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
+    let local = Local::new(chart, &rest, options, watch);
     let mut pushing = Pushing {
         settled: Contacts::new(chart, &twin),
         deepest: DEEPEST * (chart.disk.triangles.len() as f64).sqrt(),
