@@ -13,6 +13,8 @@ mod arrays;
 mod bake;
 mod body;
 mod call;
+#[cfg(unix)]
+mod command;
 mod error;
 mod files;
 mod iterates;
@@ -30,6 +32,9 @@ mod unwrapd_native {
     use super::bake::bake;
     #[pymodule_export]
     use super::call::Progress;
+    #[cfg(unix)]
+    #[pymodule_export]
+    use super::command::run_command;
     #[pymodule_export]
     use super::files::{measure_document, repack_document, unwrap_document, verify_document};
     #[pymodule_export]

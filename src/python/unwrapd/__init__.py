@@ -15,23 +15,51 @@ and tetrahedra, with handles.
 
 from __future__ import annotations
 
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from . import _native
-from ._arrays import bake, measure, repack, unwrap, verify
-from ._atlas import Atlas
-from ._errors import Error, InvalidInput, InvalidOptions, NoValidResult
-from ._files import measure_file, repack_file, unwrap_bytes, unwrap_file, verify_file
-from ._native import Iterate, Progress
-from ._options import names as _names
-from ._problem import Problem, Solution
-from ._session import Session
+
+if TYPE_CHECKING:
+    from ._arrays import bake, measure, repack, unwrap, verify
+    from ._atlas import Atlas
+    from ._errors import Error, InvalidInput, InvalidOptions, NoValidResult
+    from ._files import measure_file, repack_file, unwrap_bytes, unwrap_file, verify_file
+    from ._native import Iterate, Progress
+    from ._problem import Problem, Solution
+    from ._session import Session
 
 __version__: str = _native.__version__
+
+#: Where names are: a module is imported when the first of its names is used, and NumPy with the first that needs it.
+_MODULES = {
+    "_arrays": ("bake", "measure", "repack", "unwrap", "verify"),
+    "_atlas": ("Atlas",),
+    "_errors": ("Error", "InvalidInput", "InvalidOptions", "NoValidResult"),
+    "_files": ("measure_file", "repack_file", "unwrap_bytes", "unwrap_file", "verify_file"),
+    "_native": ("Iterate", "Progress"),
+    "_problem": ("Problem", "Solution"),
+    "_session": ("Session",),
+}
 
 
 def options(function: str) -> list[str]:
     """The names of the options of a function, for arrays and files: ``"unwrap"``, ``"repack"``, ``"measure"``, ``"verify"``,
     ``"Problem"`` or ``"solve"``."""
-    return _names(function)
+    return importlib.import_module("._options", __name__).names(function)
+
+
+def __getattr__(name: str) -> Any:
+    for module, names in _MODULES.items():
+        if name in names:
+            value = getattr(importlib.import_module(f".{module}", __name__), name)
+            globals()[name] = value
+            return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
 
 
 __all__ = [
