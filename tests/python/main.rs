@@ -54,7 +54,7 @@ macro_rules! pytest {
 }
 
 pytest!(
-    arrays, bake, calls, command, errors, examples, files, leaks, pipelines, problem, readme,
+    arrays, bake, calls, client, command, errors, examples, files, leaks, pipelines, problem, readme,
     session, trimesh, xatlas
 );
 

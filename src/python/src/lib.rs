@@ -36,7 +36,9 @@ mod unwrapd_native {
     #[pymodule_export]
     use super::command::run_command;
     #[pymodule_export]
-    use super::files::{measure_document, repack_document, unwrap_document, verify_document};
+    use super::files::{
+        measure_document, references, repack_document, unwrap_document, verify_document,
+    };
     #[pymodule_export]
     use super::iterates::Shown;
     #[pymodule_export]

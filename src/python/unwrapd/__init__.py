@@ -23,10 +23,13 @@ from . import _native
 if TYPE_CHECKING:
     from ._arrays import bake, measure, repack, unwrap, verify
     from ._atlas import Atlas
-    from ._errors import Error, InvalidInput, InvalidOptions, NoValidResult
+    from ._client import Client, Outcome
+    from ._errors import Error, InvalidInput, InvalidOptions, NoValidResult, ServiceError
     from ._files import measure_file, repack_file, unwrap_bytes, unwrap_file, verify_file
+    from ._job import Job
     from ._native import Iterate, Progress
     from ._problem import Problem, Solution
+    from ._progress import JobProgress
     from ._session import Session
 
 __version__: str = _native.__version__
@@ -35,10 +38,13 @@ __version__: str = _native.__version__
 _MODULES = {
     "_arrays": ("bake", "measure", "repack", "unwrap", "verify"),
     "_atlas": ("Atlas",),
-    "_errors": ("Error", "InvalidInput", "InvalidOptions", "NoValidResult"),
+    "_client": ("Client", "Outcome"),
+    "_errors": ("Error", "InvalidInput", "InvalidOptions", "NoValidResult", "ServiceError"),
     "_files": ("measure_file", "repack_file", "unwrap_bytes", "unwrap_file", "verify_file"),
+    "_job": ("Job",),
     "_native": ("Iterate", "Progress"),
     "_problem": ("Problem", "Solution"),
+    "_progress": ("JobProgress",),
     "_session": ("Session",),
 }
 
@@ -46,7 +52,9 @@ _MODULES = {
 def options(function: str) -> list[str]:
     """The names of the options of a function, for arrays and files: ``"unwrap"``, ``"repack"``, ``"measure"``, ``"verify"``,
     ``"Problem"`` or ``"solve"``."""
-    return importlib.import_module("._options", __name__).names(function)
+    from ._options import names
+
+    return names(function)
 
 
 def __getattr__(name: str) -> Any:
@@ -64,13 +72,18 @@ def __dir__() -> list[str]:
 
 __all__ = [
     "Atlas",
+    "Client",
     "Error",
     "InvalidInput",
     "InvalidOptions",
     "Iterate",
+    "Job",
+    "JobProgress",
     "NoValidResult",
+    "Outcome",
     "Problem",
     "Progress",
+    "ServiceError",
     "Session",
     "Solution",
     "bake",
