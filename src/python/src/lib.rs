@@ -20,6 +20,7 @@ mod files;
 mod iterates;
 mod meshes;
 mod options;
+mod pool;
 mod problem;
 mod session;
 
