@@ -110,7 +110,6 @@ def test_progress(client, mesh, sheet):
 
 
 def test_a_bar(client, mesh, capsys):
-    pytest.importorskip("tqdm")
     client.unwrap(mesh, progress=True, padding=7)
     list(client.map([mesh], progress=True, padding=7))
     assert "1/1" in capsys.readouterr().err
