@@ -144,23 +144,27 @@ def cell(found):
     return f"{found['charts']} / {found['slivers']} / {stretched} / {seconds} / {valid}"
 
 
+def median(values):
+    return statistics.median(values) if values else float("nan")
+
+
 def summary(rows):
     """What the tools are worth where xatlas gave an answer, a line each."""
     accepted = [row for row in rows if "charts" in row.get("xatlas", {})]
     print(f"\nOf {len(rows)} meshes xatlas accepts {len(accepted)}. There:")
     for tool in accepted[0] if accepted else []:
-        all_found = [row[tool] for row in accepted]
-        made = [found for found in all_found if "charts" in found]
-        pairs = [(row[tool]["charts"], row["xatlas"]["charts"]) for row in accepted if "charts" in row[tool]]
-        ratios = [charts / others for charts, others in pairs if others]
+        answered = [row for row in accepted if "charts" in row[tool]]
+        made = [row[tool] for row in answered]
+        theirs = [row["xatlas"]["charts"] for row in answered]
+        ratios = [found["charts"] / others for found, others in zip(made, theirs) if others]
         total = sum(found["charts"] for found in made)
         print(
             f"- {tool}: {len(made)} answers, {sum(found['valid'] for found in made)} valid,"
             f" {sum(found['same'] for found in made)} with attributes kept to the byte,"
-            f" {statistics.median(ratios):.3f} of xatlas' charts at the median, {total} charts,"
+            f" {median(ratios):.3f} of xatlas' charts at the median, {total} charts,"
             f" {sum(found['slivers'] for found in made)} slivers,"
-            f" {statistics.median(found['seconds'] for found in made):.2f} s at the median"
-            f" ({statistics.median(found['cpu'] for found in made):.2f} s of processors),"
+            f" {median([found['seconds'] for found in made]):.2f} s at the median"
+            f" ({median([found['cpu'] for found in made]):.2f} s of processors),"
             f" {sum(found['seconds'] for found in made):.0f} s in all"
         )
 
