@@ -16,11 +16,14 @@ and tetrahedra, with handles.
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
 
 from . import _native
 
+# What type checkers take for true. `typing` itself would be most of the time that the import takes.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from ._arrays import bake, measure, repack, unwrap, verify
     from ._atlas import Atlas
     from ._client import Client, Outcome
