@@ -69,3 +69,5 @@ def test_equal_jobs_and_live_sessions(tmp_path, pyramid):
         assert service.job(pyramid)["cached"]
         session = "/v1/sessions?kind=deform&cage=4&filename=mesh.obj"
         assert service.call("POST", session, obj(*pyramid).encode())["kind"] == "deform"
+        service.process.send_signal(signal.SIGINT)
+        assert service.process.wait(timeout=60) == 0
