@@ -41,12 +41,12 @@
 //!  http ─► sessions ───────────────────────────────► session child process ─► pipeline, deform::Session
 //!  cli ─► bulk (lists, records, summaries) ────────► compute child process ─► pipeline
 //!  cli  ──────────────────────────────────────────────────────────────────► pipeline
-//!  Python package (`src/python`, a crate of its own) ──────────────────────► pipeline, deform
+//!  Python package (`src/python`, a crate of its own) ──────────────────────► pipeline, deform, cli
 //! ```
 //!
 //! The geometry is a pure library: no I/O, no clock of its own, no logging, no global state. Options, threads and the
 //! observer, which also tells the time, are arguments; a time limit only ends the work early. The server does no geometry: every
-//! computation runs in a child process of the same binary, with a memory limit and a wall-clock limit of its own, so
+//! computation runs in a child process of the same program, with a memory limit and a wall-clock limit of its own, so
 //! that a mesh that exhausts memory or finds a bug ends its own job with a cause and never the service.
 //!
 //! # Modules, and who may import whom

@@ -10,9 +10,9 @@ use super::bulk_args::{BulkArgs, Work};
 use super::bulk_display::BulkDisplay;
 use super::console::{self, Lines, print_json, say};
 use super::failure::Failure;
-use super::work_args::{JOB_MEMORY, machine_memory, seconds};
+use super::work_args::{JOB_MEMORY, cores, machine_memory, seconds};
 use crate::bulk::{self, Extra, Local, Order, Place, Row, Totals, Worker};
-use crate::jobs::{Contained, Pictures};
+use crate::jobs::{Contained, Pictures, Program};
 
 /// The arguments of `batch`.
 #[derive(clap::Args)]
@@ -35,13 +35,12 @@ pub(super) struct Args {
 }
 
 impl Args {
-    fn contained(&self, extras: &[Extra]) -> Result<Contained, Failure> {
+    fn contained(&self, extras: &[Extra], program: Program) -> Contained {
         let n_jobs = self.concurrency() as u64;
         let memory = self.asset_memory_mib.map(|mib| mib.saturating_mul(1 << 20));
         let is_drawn = extras.iter().any(|extra| *extra != Extra::Report);
-        let program = std::env::current_exe();
-        Ok(Contained {
-            program: program.map_err(|error| Failure::other(error.to_string()))?,
+        Contained {
+            program,
             threads: (cores() / self.concurrency()).max(1),
             time: Duration::from_secs_f64(self.asset_seconds),
             memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory() / n_jobs)),
@@ -50,7 +49,7 @@ impl Args {
             } else {
                 Pictures::LeftOut
             },
-        })
+        }
     }
 
     fn concurrency(&self) -> usize {
@@ -58,15 +57,11 @@ impl Args {
     }
 }
 
-fn cores() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
-}
-
 /// Runs the command.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args, program: Program) -> Result<(), Failure> {
     let options = args.bulk.options()?;
     let worker = Local {
-        contained: args.contained(&args.bulk.extras())?,
+        contained: args.contained(&args.bulk.extras(), program),
         options: serde_json::to_value(&options)
             .map_err(|error| Failure::other(error.to_string()))?,
     };

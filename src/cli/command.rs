@@ -1,5 +1,7 @@
 //! The commands as clap knows them.
 
+use std::ffi::OsString;
+
 use clap::builder::StyledStr;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -120,9 +122,9 @@ pub(super) enum Command {
 
 /// The command that was typed, and how it was. Ends the process on a usage error, or after printing
 /// help.
-pub(super) fn typed() -> (Command, ArgMatches) {
+pub(super) fn typed(arguments: Vec<OsString>) -> (Command, ArgMatches) {
     let short = command().mut_subcommands(|command| command.mut_args(hidden_if_special));
-    let mut matches = short.get_matches();
+    let mut matches = short.get_matches_from(arguments);
     let cli = Cli::from_arg_matches(&matches);
     let command = cli.unwrap_or_else(|error| error.exit()).command;
     let typed = matches.remove_subcommand();

@@ -39,7 +39,7 @@ struct Row {
 /// Runs the command, whose arguments were typed as these matches.
 pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> Result<(), Failure> {
     let serve = program.find_subcommand("serve");
-    let derived = args.serve.derived().map_err(Failure::other)?;
+    let derived = args.serve.derived();
     let options = serve.into_iter().flat_map(clap::Command::get_arguments);
     let rows: Vec<Row> = options
         .filter(|option| option.get_env().is_some())

@@ -1,7 +1,5 @@
 //! Why a command ended, in one line, and its exit status.
 
-use std::process::ExitCode;
-
 use crate::bulk::{ListError, RemoteError};
 use crate::deform::ProblemError;
 use crate::deform::uv::EditError;
@@ -61,9 +59,9 @@ impl Failure {
     }
 
     /// Prints the line and gives the exit status.
-    pub(super) fn report(self) -> ExitCode {
+    pub(super) fn report(self) -> u8 {
         eprintln!("unwrapd: {}", self.message);
-        ExitCode::from(self.exit_code)
+        self.exit_code
     }
 }
 

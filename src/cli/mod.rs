@@ -51,34 +51,42 @@ mod webhook_secret;
 mod work_args;
 mod worker;
 
+use std::ffi::OsString;
 use std::path::Path;
-use std::process::ExitCode;
 
 use clap::ArgMatches;
 use command::Command;
 use failure::Failure;
 
-/// Runs the command line of this process and returns its exit code.
-pub fn run() -> ExitCode {
+use crate::jobs::Program;
+
+/// Runs a command line, which begins with the name of the program, and returns the exit code of the
+/// process. Children are instances of `program`.
+///
+/// A usage error, and help, end the process.
+pub fn run(arguments: Vec<OsString>, program: std::io::Result<Program>) -> u8 {
     // `compute FOLDER` is one job of the service, `session FOLDER` one live session, started by `serve` with the folder of it: no
     // help, suggestion or completion knows them.
-    let mut arguments = std::env::args_os().skip(1);
-    if let (Some(word), Some(folder)) = (arguments.next(), arguments.next()) {
+    if let [_, word, folder, ..] = &arguments[..] {
         if word == "compute" {
-            return crate::jobs::compute::run(Path::new(&folder));
+            return crate::jobs::compute::run(Path::new(folder));
         }
         if word == "session" {
-            return crate::sessions::run(Path::new(&folder));
+            return crate::sessions::run(Path::new(folder));
         }
     }
-    let (command, typed) = command::typed();
-    match run_typed(command, &typed) {
-        Ok(()) => ExitCode::SUCCESS,
+    let (command, typed) = command::typed(arguments);
+    match run_typed(command, &typed, program) {
+        Ok(()) => 0,
         Err(failure) => failure.report(),
     }
 }
 
-fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
+fn run_typed(
+    command: Command,
+    typed: &ArgMatches,
+    program: std::io::Result<Program>,
+) -> Result<(), Failure> {
     match command {
         Command::Unwrap(args) => unwrap::run(&args),
         Command::Measure(args) => measure::run(&args),
@@ -89,10 +97,10 @@ fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
         Command::Deform(args) => deform::run(&args),
         Command::Solve(args) => solve::run(&args),
         Command::Warp(args) => warp::run(&args),
-        Command::Batch(args) => batch::run(&args),
+        Command::Batch(args) => batch::run(&args, own(program)?),
         Command::Submit(args) => submit::run(&args),
-        Command::Serve(args) => serve::run(&args).map_err(Failure::other),
-        Command::Worker(args) => worker::run(&args).map_err(Failure::other),
+        Command::Serve(args) => serve::run(&args, own(program)?).map_err(Failure::other),
+        Command::Worker(args) => worker::run(&args, own(program)?).map_err(Failure::other),
         Command::Keys(args) => keys::run(&args),
         Command::Queue(args) => queue::run(&args),
         Command::Drain(args) => drain::run(&args),
@@ -109,4 +117,9 @@ fn run_typed(command: Command, typed: &ArgMatches) -> Result<(), Failure> {
         }
         Command::Man(args) => man::run(&args, command::command()),
     }
+}
+
+/// What children are instances of.
+fn own(program: std::io::Result<Program>) -> Result<Program, Failure> {
+    program.map_err(|error| Failure::other(format!("no children can be started: {error}")))
 }

@@ -12,7 +12,7 @@ use super::process;
 use super::webhook_args::WebhookArgs;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
-use crate::jobs;
+use crate::jobs::{self, Program};
 use crate::sessions::{self, Sessions};
 use crate::webhooks;
 
@@ -91,25 +91,24 @@ const DAY_SECONDS: f64 = 86_400.0;
 
 impl Args {
     /// What is in force where nothing was said and the machine decides.
-    pub fn derived(&self) -> Result<Vec<(&'static str, String)>, String> {
-        let jobs = self.job_settings().map_err(|error| error.to_string())?;
+    pub fn derived(&self) -> Vec<(&'static str, String)> {
         let connections = self.exposure.connections().most;
-        Ok(vec![
-            ("workers", jobs.workers.to_string()),
-            ("job_memory_mib", (jobs.memory >> 20).to_string()),
+        vec![
+            ("workers", self.work.workers().to_string()),
+            ("job_memory_mib", (self.work.memory() >> 20).to_string()),
             ("max_connections", connections.to_string()),
             ("owner_sessions", self.sessions.to_string()),
-        ])
+        ]
     }
 
-    fn job_settings(&self) -> std::io::Result<jobs::Settings> {
-        Ok(jobs::Settings {
+    fn job_settings(&self, program: Program) -> jobs::Settings {
+        jobs::Settings {
             queue_depth: self.queue_depth,
             quota: self.quota_mib.map(|mib| mib.saturating_mul(1 << 20)),
             of_owner: self.owner.quotas(),
             retention: Some(Duration::from_secs_f64(self.retain_days * DAY_SECONDS)),
-            ..self.work.settings()?
-        })
+            ..self.work.settings(program)
+        }
     }
 
     fn session_settings(&self) -> sessions::Settings {
@@ -137,13 +136,13 @@ impl Args {
 }
 
 /// Serves until SIGTERM or SIGINT.
-pub(super) fn run(args: &Args) -> Result<(), String> {
-    process::run(&args.work, serve(args))
+pub(super) fn run(args: &Args, program: Program) -> Result<(), String> {
+    process::run(&args.work, serve(args, program))
 }
 
-async fn serve(args: &Args) -> Result<(), String> {
+async fn serve(args: &Args, program: Program) -> Result<(), String> {
     let text = |error: &dyn std::fmt::Display| error.to_string();
-    let settings = args.job_settings().map_err(|e| text(&e))?;
+    let settings = args.job_settings(program);
     let grace = settings.grace;
     let sessions = Arc::new(Sessions::new(args.session_settings(), settings.clone()));
     let stop = process::stop_on_signals()?;

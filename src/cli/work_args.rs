@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::store_args::StoreArgs;
 use super::watch_args::WatchArgs;
-use crate::jobs::{self, Deployment, Rules};
+use crate::jobs::{self, Deployment, Program, Rules};
 
 /// Default memory of a job, in bytes.
 pub(super) const JOB_MEMORY: u64 = 8 << 30;
@@ -109,12 +109,20 @@ fn seconds_or_none(text: &str) -> Result<f64, String> {
 }
 
 impl WorkArgs {
-    /// The settings of a process that computes jobs, accepts none and removes none.
-    pub fn settings(&self) -> std::io::Result<jobs::Settings> {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let workers = self.workers.map_or(cores, usize::from);
+    /// Number of jobs computed at the same time.
+    pub fn workers(&self) -> usize {
+        self.workers.map_or_else(cores, usize::from)
+    }
+
+    /// Memory of a job, in bytes.
+    pub fn memory(&self) -> u64 {
         let memory = self.job_memory_mib.map(|mib| mib.saturating_mul(1 << 20));
-        Ok(jobs::Settings {
+        memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory()))
+    }
+
+    /// The settings of a process that computes jobs, accepts none and removes none.
+    pub fn settings(&self, program: Program) -> jobs::Settings {
+        jobs::Settings {
             deployment: match self.store.database {
                 None => Deployment::Embedded,
                 Some(_) => Deployment::Shared,
@@ -124,22 +132,27 @@ impl WorkArgs {
                 ..Rules::default()
             },
             scratch: self.store.data.join("scratch"),
-            program: std::env::current_exe()?,
-            workers,
-            cores,
+            program,
+            workers: self.workers(),
+            cores: cores(),
             owner_running: self.owner_running,
             small: (0 < self.small_kib).then(|| u64::from(self.small_kib) << 10),
             queue_depth: 0,
             time: Duration::from_secs_f64(self.job_seconds),
-            memory: memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory())),
+            memory: self.memory(),
             triangles: self.max_triangles,
             quota: None,
             of_owner: jobs::OwnerQuotas::default(),
             min_free: self.min_free_mib.saturating_mul(1 << 20),
             retention: None,
             grace: Duration::from_secs_f64(self.grace_seconds),
-        })
+        }
     }
+}
+
+/// Cores of the machine, or of the container.
+pub(super) fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Memory of the machine or of the container, in bytes; `u64::MAX` if neither can be read.

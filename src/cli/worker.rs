@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::process;
 use super::work_args::WorkArgs;
+use crate::jobs::Program;
 
 /// The arguments of `worker`. Each has an environment variable.
 #[derive(clap::Args)]
@@ -13,7 +14,7 @@ pub(super) struct Args {
 }
 
 /// Works until SIGTERM or SIGINT.
-pub(super) fn run(args: &Args) -> Result<(), String> {
+pub(super) fn run(args: &Args, program: Program) -> Result<(), String> {
     if args.work.store.database.is_none() {
         let why = "a worker needs a database that it shares: --database and --blobs";
         return Err(why.to_owned());
@@ -21,11 +22,11 @@ pub(super) fn run(args: &Args) -> Result<(), String> {
     if args.work.workers == Some(0) {
         return Err("--workers must be at least 1".to_owned());
     }
-    process::run(&args.work, work(args))
+    process::run(&args.work, work(args, program))
 }
 
-async fn work(args: &Args) -> Result<(), String> {
-    let settings = args.work.settings().map_err(|error| error.to_string())?;
+async fn work(args: &Args, program: Program) -> Result<(), String> {
+    let settings = args.work.settings(program);
     let grace = settings.grace;
     let (jobs, _) = process::queue(&args.work, settings).await?;
     let stop = process::stop_on_signals()?;

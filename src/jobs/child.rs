@@ -8,10 +8,11 @@ use std::time::Duration;
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use tokio::io::{AsyncBufReadExt, AsyncReadExt, AsyncWriteExt, BufReader, Lines};
-use tokio::process::{ChildStdin, ChildStdout, Command};
+use tokio::process::{ChildStdin, ChildStdout};
 use tokio::task::JoinHandle;
 
 use super::job::Failure;
+use super::program::Program;
 use super::task::Message;
 
 /// Between a request to end and the end by force.
@@ -39,12 +40,15 @@ pub(super) enum Exit {
     OutOfMemory,
 }
 
-/// Starts `program WORD FOLDER` in a process group of its own, with pipes, and with an empty environment but for the
+/// Starts the program with `WORD FOLDER` in a process group of its own, with pipes, and with an empty environment but for the
 /// allocator's setting: address space that was freed must not count against the memory limit. Dropping it kills the process.
-pub fn spawn(program: &Path, word: &str, folder: &Path) -> std::io::Result<tokio::process::Child> {
-    Command::new(program)
-        .arg(word)
-        .arg(folder)
+pub fn spawn(
+    program: &Program,
+    word: &str,
+    folder: &Path,
+) -> std::io::Result<tokio::process::Child> {
+    program
+        .command(word, folder)
         .env_clear()
         .env("_RJEM_MALLOC_CONF", "retain:false")
         .stdin(Stdio::piped())
@@ -56,8 +60,8 @@ pub fn spawn(program: &Path, word: &str, folder: &Path) -> std::io::Result<tokio
 }
 
 impl Child {
-    /// Starts `program compute FOLDER`.
-    pub fn start(program: &Path, folder: &Path) -> std::io::Result<Self> {
+    /// Starts the program with `compute FOLDER`.
+    pub fn start(program: &Program, folder: &Path) -> std::io::Result<Self> {
         let mut process = spawn(program, "compute", folder)?;
         let gone = || std::io::Error::other("a pipe of the compute child is missing");
         let stdout = process.stdout.take().ok_or_else(gone)?;

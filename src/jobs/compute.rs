@@ -6,7 +6,6 @@
 
 use std::io::Read;
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -25,14 +24,14 @@ use super::work::Work;
 use crate::pipeline::PipelineError;
 
 /// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
-pub fn run(folder: &Path) -> ExitCode {
+pub fn run(folder: &Path) -> u8 {
     match attempt(folder) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err((exit_code, failure)) => {
             eprintln!("{}: {}", failure.code, failure.detail);
             match task::write_json(folder, ERROR, &failure) {
-                Ok(()) => ExitCode::from(exit_code),
-                Err(error) => ExitCode::from(unwritten(error).0),
+                Ok(()) => exit_code,
+                Err(error) => unwritten(error).0,
             }
         }
     }

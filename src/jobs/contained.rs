@@ -1,11 +1,12 @@
 //! One computation in a child process of its own, without a queue: for commands that have many to do.
 
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use super::child::{Child, Exit};
 use super::deadline::{given_up_after, timed_out};
+use super::program::Program;
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::{Failure, Kind, OutputFile};
 use crate::document::Upload;
@@ -14,8 +15,8 @@ use crate::pipeline::Limits;
 /// What contains a computation: a process that ends with its own failure, and limits.
 #[derive(Clone, Debug)]
 pub struct Contained {
-    /// The binary that is started as compute child.
-    pub program: PathBuf,
+    /// What is started as compute child.
+    pub program: Program,
     /// Threads at most.
     pub threads: usize,
     /// Wall-clock time, after which the present valid map becomes the result.

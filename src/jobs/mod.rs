@@ -17,8 +17,8 @@
 //! that the former worker says changes the record, and its files have names of their own.
 //! One process or many, it is the same four operations: claim, beat, sweep, end.
 //!
-//! The worker itself computes nothing. Every attempt runs in a child process of the same binary
-//! (`unwrapd compute`), which gets a folder with the input and writes its results there. A mesh
+//! The worker itself computes nothing. Every attempt runs in a child process of the same program
+//! (`unwrapd compute`, [`Program`]), which gets a folder with the input and writes its results there. A mesh
 //! that exhausts memory, overflows a stack or finds a bug ends its own attempt; memory goes back to
 //! the system; a cancel always works, because it is a signal. The child ends when its standard
 //! input closes, so a killed worker leaves no orphans. A worker that cannot renew its lease in time
@@ -72,6 +72,7 @@ pub mod meters;
 mod outbox;
 mod output;
 mod pace;
+mod program;
 mod progress;
 mod queue;
 mod quotas;
@@ -115,6 +116,7 @@ pub use listing::{Listing, Order};
 pub use metadata::{Metadata, MetadataError};
 pub use outbox::{Notice, Outbox};
 pub use pace::Pace;
+pub use program::Program;
 pub use progress::{Event, Progress, Saying};
 pub use queue::{Ended, Jobs};
 pub use quotas::{Capacity, OwnerQuota, OwnerQuotas};

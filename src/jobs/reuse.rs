@@ -10,8 +10,8 @@ use super::store_error::StoreResult;
 impl Jobs {
     /// What computes: the checksum of the program, since results of another build may differ.
     pub(super) async fn engine(&self) -> StoreResult<&str> {
-        let program = &self.settings.program;
-        let engine = self.engine.get_or_try_init(|| checksum::of(program));
+        let file = &self.settings.program.engine;
+        let engine = self.engine.get_or_try_init(|| checksum::of(file));
         engine.await.map(String::as_str)
     }
 

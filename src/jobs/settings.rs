@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::lease::Rules;
+use super::program::Program;
 use super::quotas::OwnerQuotas;
 
 /// Whether there are other processes on the same records.
@@ -45,8 +46,8 @@ pub struct Settings {
     /// Folder for what is in the making: uploads being received and the folders of attempts. It is
     /// of this process alone, and emptied at the start.
     pub scratch: PathBuf,
-    /// The binary that is started as compute child.
-    pub program: PathBuf,
+    /// What is started as compute child.
+    pub program: Program,
     /// Jobs that this process computes at the same time.
     pub workers: usize,
     /// Cores that they share.

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::os::fd::AsFd;
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, sync_channel};
 
 use serde::Serialize;
@@ -25,18 +24,18 @@ enum Said {
     Bake,
 }
 
-/// Runs the session in `folder` until standard input ends.
-pub fn run(folder: &Path) -> ExitCode {
+/// Runs the session in `folder` until standard input ends, and returns the exit code of the process.
+pub fn run(folder: &Path) -> u8 {
     // Not buffered by lines, as standard output is.
     let out = match std::io::stdout().as_fd().try_clone_to_owned() {
         Ok(out) => File::from(out),
-        Err(_) => return ExitCode::FAILURE,
+        Err(_) => return 1,
     };
     let Err(failure) = session(folder, &out) else {
-        return ExitCode::SUCCESS;
+        return 0;
     };
     tell(&out, FAILED, &json(&failure));
-    ExitCode::from(3)
+    3
 }
 
 fn session(folder: &Path, out: &File) -> Result<(), Failure> {

@@ -54,8 +54,8 @@ macro_rules! pytest {
 }
 
 pytest!(
-    arrays, bake, calls, errors, examples, files, leaks, pipelines, problem, readme, session,
-    trimesh, xatlas
+    arrays, bake, calls, client, command, errors, examples, files, leaks, pipelines, problem,
+    readme, session, trimesh, xatlas
 );
 
 #[test]

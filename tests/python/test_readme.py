@@ -4,18 +4,31 @@ import ast
 import inspect
 import pathlib
 import re
+import subprocess
+import sys
 
 import pytest
 import unwrapd
+from service import Service, obj
 from unwrapd._options import names
 
 README = pathlib.Path(__file__).resolve().parents[2] / "src/python/README.md"
 
 
-def test_the_readme_runs(monkeypatch):
+def test_the_readme_runs(monkeypatch, tmp_path, pyramid):
     pytest.importorskip("trimesh")
+    monkeypatch.chdir(tmp_path)
+    for name in ("chair", "table"):
+        (tmp_path / f"{name}.obj").write_text(obj(*pyramid))
+        unwrapd.unwrap_file(f"{name}.obj", f"{name}.glb")
+    with Service(tmp_path / "data") as service:
+        check_blocks(monkeypatch, README.read_text().replace("http://127.0.0.1:8080", service.url))
+    assert unwrapd.verify_file("out/chair.glb", padding=8)["certified"]
+
+
+def check_blocks(monkeypatch, text):
     scope = {}
-    blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     monkeypatch.setitem(__import__("sys").modules, "xatlas", None)
     for block in blocks:
         exec(compile(block, str(README), "exec"), scope)
@@ -33,6 +46,15 @@ def test_docstrings_are_true():
 @pytest.mark.parametrize("name", unwrapd.__all__)
 def test_everything_is_documented(name):
     assert inspect.getdoc(getattr(unwrapd, name))
+
+
+def test_names_come_when_they_are_used():
+    assert set(unwrapd.__all__) == {"options"}.union(*unwrapd._MODULES.values())
+    assert set(unwrapd.__all__) <= set(dir(unwrapd))
+    check = "import sys, unwrapd; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", check]).returncode == 0
+    with pytest.raises(AttributeError, match="unwarp"):
+        unwrapd.unwarp
 
 
 def test_version():

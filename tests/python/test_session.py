@@ -1,5 +1,6 @@
 """Bodies that are pulled an iteration at a time."""
 
+import os
 import time
 
 import numpy as np
@@ -8,8 +9,8 @@ import unwrapd
 from test_problem import grid
 
 
-def held(side=10):
-    session = unwrapd.Session(*grid(side), energy="log(s1)^2 + log(s2)^2")
+def held(side=10, **more):
+    session = unwrapd.Session(*grid(side), energy="log(s1)^2 + log(s2)^2", **more)
     session.add({"center": (0, 0.5), "radius": 0.4, "to": (0, 0.5)})
     return session, session.add({"vertex": side * side - 1, "to": (1, 1)})
 
@@ -118,3 +119,21 @@ def test_the_docstring_is_true():
     import doctest
 
     assert doctest.testmod(unwrapd._session) == (0, 7)
+
+
+def test_threads_stay_with_the_session():
+    def threads():
+        return set(os.listdir("/proc/self/task"))
+
+    before = threads()
+    session, corner = held(5, threads=2)
+    mine = threads() - before
+    assert len(mine) == 2
+    session.move(corner, (5, 5))
+    session.step()
+    assert threads() - before == mine
+    del session
+    deadline = time.monotonic() + 60
+    while threads() & mine and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not threads() & mine

@@ -45,6 +45,15 @@ impl File<'_> {
     }
 }
 
+/// The files that a file refers to, by the names that it has for them; those that are not there are left out.
+#[pyfunction]
+pub fn references<'py>(py: Python<'py>, file: File<'py>) -> Vec<(String, Bound<'py, PyBytes>)> {
+    let resources = file.upload().resources.into_iter();
+    resources
+        .map(|(name, bytes)| (name, PyBytes::new(py, &bytes)))
+        .collect()
+}
+
 /// The written files by name, the main one first, and the report.
 type Written<'py> = (Vec<(String, Bound<'py, PyBytes>)>, String);
 

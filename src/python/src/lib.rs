@@ -13,11 +13,14 @@ mod arrays;
 mod bake;
 mod body;
 mod call;
+#[cfg(unix)]
+mod command;
 mod error;
 mod files;
 mod iterates;
 mod meshes;
 mod options;
+mod pool;
 mod problem;
 mod session;
 
@@ -30,8 +33,13 @@ mod unwrapd_native {
     use super::bake::bake;
     #[pymodule_export]
     use super::call::Progress;
+    #[cfg(unix)]
     #[pymodule_export]
-    use super::files::{measure_document, repack_document, unwrap_document, verify_document};
+    use super::command::run_command;
+    #[pymodule_export]
+    use super::files::{
+        measure_document, references, repack_document, unwrap_document, verify_document,
+    };
     #[pymodule_export]
     use super::iterates::Shown;
     #[pymodule_export]

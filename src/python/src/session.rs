@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use unwrapd::deform::{self, Handle, HandleId, Model, ProblemError};
-use unwrapd::pipeline::{Workers, in_pool};
 use unwrapd::solver::Stage;
 
 use crate::body::body;
 use crate::error::{exception, refused};
 use crate::files::json;
 use crate::options::parsed;
+use crate::pool::Pool;
 
 /// How long a session works before signals are looked for.
 const SLICE: Duration = Duration::from_millis(20);
@@ -21,7 +21,7 @@ const SLICE: Duration = Duration::from_millis(20);
 #[pyclass(module = "unwrapd._native")]
 pub struct Session {
     inner: deform::Session,
-    workers: Workers,
+    pool: Pool,
     dim: usize,
     /// By number, in the order of adding.
     ids: Vec<HandleId>,
@@ -42,13 +42,11 @@ impl Session {
         let body = body(py, &vertices, &elements, start)?;
         let model: Model = parsed(py, options)?;
         let dim = body.dim();
-        let workers = Workers {
-            threads: threads.map(NonZeroUsize::get),
-        };
-        let made = pooled(py, workers, || deform::Session::new(body, &model))?;
+        let mut pool = Pool::new(threads);
+        let made = pooled(py, &mut pool, || deform::Session::new(body, &model))?;
         Ok(Self {
             inner: made.map_err(|error| refused(py, error))?,
-            workers,
+            pool,
             dim,
             ids: Vec::new(),
         })
@@ -84,13 +82,13 @@ impl Session {
     /// Exchanges energy and barrier.
     fn remodel(&mut self, py: Python<'_>, options: &str) -> PyResult<()> {
         let model: Model = parsed(py, options)?;
-        let remodeled = pooled(py, self.workers, || self.inner.remodel(&model))?;
+        let remodeled = pooled(py, &mut self.pool, || self.inner.remodel(&model))?;
         remodeled.map_err(|error| refused(py, error))
     }
 
     /// One iteration, and where the handles stand.
     fn step(&mut self, py: Python<'_>) -> PyResult<&'static str> {
-        pooled(py, self.workers, || self.inner.step()).map(word)
+        pooled(py, &mut self.pool, || self.inner.step()).map(word)
     }
 
     /// Iterations until nothing is left to do or the time is over, and where the handles stand.
@@ -101,7 +99,7 @@ impl Session {
             let in_time = |_: &deform::Session| {
                 slice.elapsed() < SLICE && begin.elapsed().as_secs_f64() < seconds
             };
-            pooled(py, self.workers, || self.inner.step_while(in_time))?;
+            pooled(py, &mut self.pool, || self.inner.step_while(in_time))?;
             py.check_signals()?;
         }
         Ok(word(self.inner.stage()))
@@ -158,13 +156,13 @@ impl Session {
     }
 }
 
-/// Works on threads that end with the call: none is missed in a process that was forked.
+/// Works with the interpreter released.
 fn pooled<T: Send>(
     py: Python<'_>,
-    workers: Workers,
+    pool: &mut Pool,
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
-    let done = py.detach(|| in_pool(workers, work));
+    let done = py.detach(|| pool.run(work));
     done.map_err(|error| exception(py, &error))
 }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Optional
+from typing import Any, Optional
 
 
 class Error(Exception):
@@ -28,7 +28,7 @@ class Error(Exception):
         self.exit_code = exit_code
         self.column = column
 
-    def __reduce__(self) -> tuple[type[Error], tuple[str, str, int, Optional[int]]]:
+    def __reduce__(self) -> tuple[type[Error], tuple[Any, ...]]:
         return type(self), (str(self), self.code, self.exit_code, self.column)
 
 
@@ -42,6 +42,27 @@ class InvalidInput(Error, ValueError):
 
 class NoValidResult(Error):
     """No valid result was found."""
+
+
+class ServiceError(Error):
+    """A service did not do it, for a reason of its own: it refuses the key, is full, cannot be reached, or the job needs more
+    memory than it may have. `status` is that of HTTP, if there was an answer."""
+
+    status: Optional[int]
+
+    def __init__(
+        self,
+        message: str,
+        code: str = "internal_error",
+        exit_code: int = 1,
+        column: Optional[int] = None,
+        status: Optional[int] = None,
+    ) -> None:
+        super().__init__(message, code, exit_code, column)
+        self.status = status
+
+    def __reduce__(self) -> tuple[type[Error], tuple[Any, ...]]:
+        return type(self), (str(self), self.code, self.exit_code, self.column, self.status)
 
 
 def of(code: str, exit_code: int, message: str, column: Optional[int] = None) -> Error:

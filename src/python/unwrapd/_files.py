@@ -64,13 +64,15 @@ def repack_file(
 def measure_file(input: Path, **options: Unpack[MeasureFileOptions]) -> dict[str, Any]:
     """Measure the UVs of a file, as ``unwrapd measure --json`` does."""
     return _parsed(
-        _native.measure_document(_file(input), to_json("measure", options, of_files=True))
+        _native.measure_document(file_of(input), to_json("measure", options, of_files=True))
     )
 
 
 def verify_file(input: Path, **options: Unpack[VerifyFileOptions]) -> dict[str, Any]:
     """Prove in exact arithmetic what the UVs of a file are, as ``unwrapd verify --json`` does."""
-    return _parsed(_native.verify_document(_file(input), to_json("verify", options, of_files=True)))
+    return _parsed(
+        _native.verify_document(file_of(input), to_json("verify", options, of_files=True))
+    )
 
 
 def unwrap_bytes(
@@ -128,10 +130,10 @@ def _converted(
     if os.path.exists(output) and os.path.samefile(source, output):
         raise InvalidOptions(f"{name} would replace the input", "invalid_options", 2)
     given = to_json(function, {**options, "format": written_as}, of_files=True)
-    (main, *others), report = make(_file(source), given, stem, progress)
+    (main, *others), report = make(file_of(source), given, stem, progress)
     for relative, content in others:
-        _write(os.path.join(folder, relative), content)
-    _write(os.fspath(output), main[1])
+        write(os.path.join(folder, relative), content)
+    write(os.fspath(output), main[1])
     return _parsed(report)
 
 
@@ -140,7 +142,8 @@ def _parsed(report: str) -> dict[str, Any]:
     return found
 
 
-def _file(path: Path) -> _native.File:
+def file_of(path: Path) -> _native.File:
+    """A file as it is, with the folder of those that it refers to."""
     path = os.fspath(path)
     folder, name = os.path.split(path)
     with open(path, "rb") as file:
@@ -148,7 +151,7 @@ def _file(path: Path) -> _native.File:
     return {"name": name, "bytes": content, "resources": {}, "folder": folder or "."}
 
 
-def _write(path: str, content: bytes) -> None:
+def write(path: str, content: bytes) -> None:
     """A file is whole or not there."""
     os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
     partial = f"{path}.{os.getpid()}.part"

@@ -3,6 +3,7 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
+use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
@@ -32,7 +33,7 @@ async fn served() -> SocketAddr {
         deployment: Deployment::Embedded,
         rules: Rules::default(),
         scratch: data.join("scratch"),
-        program: "/bin/false".into(),
+        program: PathBuf::from("/bin/false").into(),
         workers: 0,
         cores: 1,
         owner_running: None,

@@ -118,7 +118,7 @@ fn settings(deployment: Deployment, scratch: PathBuf, workers: usize) -> Setting
         deployment,
         rules: RULES,
         scratch,
-        program: program(),
+        program: program().into(),
         workers,
         cores: 1,
         owner_running: None,
