@@ -93,9 +93,9 @@ fn most_candidates(n_charts: usize, options: &AtlasOptions) -> usize {
     options.texture.pages as usize * MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts)
 }
 
-/// The words that are read where so many charts are cut and half of the cuts are looked at, about.
+/// The words that are read where so many charts are cut and a quarter of the cuts are made, about.
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
-    let candidates = most_candidates(n_charts, options) / 2;
+    let candidates = most_candidates(n_charts, options) / 4;
     let numbers: Vec<usize> = (n_charts..=n_charts + candidates).collect();
     let words = options.patience * wanted_words(&numbers, looks(is_foreseeable(options)));
     WORDS_PER_CUT * candidates as u64 + words.min(options.search_words)
