@@ -1,0 +1,101 @@
+//! The npm package, with the addon that cargo builds for these tests: each file of tests here is one of Node's runner, beside
+//! the package as it would be installed.
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A file or folder of the repository.
+fn repository(path: &str) -> PathBuf {
+    let package = std::env::var_os("CARGO_MANIFEST_DIR").expect("tests are run by cargo");
+    PathBuf::from(package).join("../..").join(path)
+}
+
+/// The addon, which lies beside this program.
+fn addon() -> PathBuf {
+    let program = std::env::current_exe().expect("a path");
+    let name = format!(
+        "{}unwrapd_node{}",
+        std::env::consts::DLL_PREFIX,
+        std::env::consts::DLL_SUFFIX
+    );
+    program.with_file_name(name)
+}
+
+/// Puts what the package consists of, and what the tests need beside it, into a folder.
+fn install(folder: &Path) {
+    let (package, modules) = (repository("src/node"), folder.join("node_modules"));
+    let installed = modules.join("unwrapd");
+    fs::create_dir_all(&installed).expect("a folder");
+    let manifest = fs::read_to_string(package.join("package.json")).expect("text");
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).expect("JSON");
+    let named = manifest["files"].as_array().expect("an array");
+    let files = named.iter().map(|name| name.as_str().expect("a name"));
+    for name in files.chain(["package.json", "README.md"]) {
+        if package.join(name).is_file() {
+            fs::copy(package.join(name), installed.join(name)).expect("a copy");
+        }
+    }
+    symlink(addon(), installed.join("unwrapd.node")).expect("a link");
+    for entry in fs::read_dir(repository("tests/node/node_modules")).expect("npm install") {
+        let path = entry.expect("an entry").path();
+        symlink(&path, modules.join(path.file_name().expect("a name"))).expect("a link");
+    }
+    for entry in fs::read_dir(repository("tests/node")).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_file() {
+            fs::copy(&path, folder.join(path.file_name().expect("a name"))).expect("a copy");
+        }
+    }
+}
+
+/// Asserts that all tests in a file pass.
+fn passes(file: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    install(folder.path());
+    let output = Command::new("node")
+        .args(["--test", "--test-reporter=tap"])
+        .arg(format!("{file}.test.mjs"))
+        .current_dir(folder.path())
+        .env("UNWRAPD_REPOSITORY", repository(""))
+        .env("UNWRAPD_VERSION", env!("CARGO_PKG_VERSION"))
+        .output()
+        .expect("Node");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success(),
+        "{text}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(
+        text.contains("\n# skipped 0\n") && !text.contains("\n# pass 0\n"),
+        "{text}"
+    );
+}
+
+macro_rules! node_tests {
+    ($($file:ident),*) => {
+        const FILES: &[&str] = &[$(stringify!($file)),*];
+
+        mod addon {
+            $(#[test]
+            fn $file() {
+                super::passes(stringify!($file));
+            })*
+        }
+    };
+}
+
+node_tests!(atlas, bytes, document, types);
+
+#[test]
+fn no_file_is_left_out() {
+    let entries = fs::read_dir(repository("tests/node")).expect("a folder");
+    let names = entries.map(|entry| entry.expect("an entry").file_name());
+    let mut found: Vec<String> = names
+        .filter_map(|name| Some(name.to_str()?.strip_suffix(".test.mjs")?.to_owned()))
+        .collect();
+    found.sort_unstable();
+    assert_eq!(found, FILES);
+}
