@@ -1,6 +1,6 @@
 // The options of the package `watlas`, and what their values are here.
 
-/** Texels between charts that filtering needs; the side if none is given; the share of a texture that is filled at least. */
+/** Texels between charts that filtering needs, the side if none is given, and the share of a texture that is filled. */
 const FILTERED = 2;
 const SIDE = 1024;
 const FILL = 0.45;
@@ -37,7 +37,7 @@ export function layoutAsked(options, area) {
   };
 }
 
-/** More room for a density that does not fit, if there can be any: a page more where its size is fixed, else a larger one. */
+/** More room for a density that does not fit, if any: a page more where its size is fixed, else a larger one. */
 export function enlarged(layout, isFixed) {
   const larger = isFixed
     ? { ...layout, pages: layout.pages + 1 }

@@ -1,4 +1,4 @@
-// A transform of glTF-Transform: a document goes through the library as a glTF, and what changed of its meshes comes back.
+// A transform of glTF-Transform: a document goes through the library as a glTF; what changed of its meshes comes back.
 
 import { NodeIO } from '@gltf-transform/core';
 import { unwrapBytes } from './bytes.js';
