@@ -54,7 +54,7 @@ macro_rules! pytest {
 }
 
 pytest!(
-    arrays, bake, calls, errors, examples, files, leaks, pipelines, problem, readme, session,
+    arrays, bake, calls, comfyui, errors, examples, files, leaks, pipelines, problem, readme, session,
     trimesh, xatlas
 );
 
