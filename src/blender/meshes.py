@@ -62,6 +62,6 @@ def placed(positions, matrix):
 
 
 def selected(context):
-    """The meshes of the selected objects, each once though several objects share it; those without faces are left out."""
+    """The meshes of the selected objects, each once however many share it; those without faces are left out."""
     things = {thing.data: thing for thing in context.selected_objects if thing.type == "MESH"}
     return [Mesh(thing) for data, thing in things.items() if len(data.polygons) > 0]

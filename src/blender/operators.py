@@ -59,7 +59,7 @@ class Operator(bpy.types.Operator):
 
 
 class UNWRAPD_OT_unwrap(Operator):
-    """Unwrap the selected objects into one atlas: few islands, and no face flipped. Marked seams are cut, and islands with
+    """Unwrap the selected objects into one atlas: few islands, and no face flipped. Marked seams are cut. Islands with
     pinned vertices stay as they are"""
 
     bl_idname = "unwrapd.unwrap"

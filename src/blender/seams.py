@@ -1,5 +1,8 @@
-"""Seams along edges of polygons. The library sees triangles and may cut a polygon between them, which UVs of loops cannot say:
-such a seam is led around the polygon instead."""
+"""Seams along edges of polygons.
+
+The library sees triangles and may cut a polygon between them, which UVs of loops cannot say: such a seam is led around
+the polygon instead.
+"""
 
 import numpy as np
 

@@ -1,27 +1,15 @@
 //! The npm package, with the addon that cargo builds for these tests: each file of tests here is one of Node's runner, beside
 //! the package as it would be installed.
 
+#[path = "../native.rs"]
+mod native;
+
 use std::fs;
 use std::os::unix::fs::symlink;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-/// A file or folder of the repository.
-fn repository(path: &str) -> PathBuf {
-    let package = std::env::var_os("CARGO_MANIFEST_DIR").expect("tests are run by cargo");
-    PathBuf::from(package).join("../..").join(path)
-}
-
-/// The addon, which lies beside this program.
-fn addon() -> PathBuf {
-    let program = std::env::current_exe().expect("a path");
-    let name = format!(
-        "{}unwrapd_node{}",
-        std::env::consts::DLL_PREFIX,
-        std::env::consts::DLL_SUFFIX
-    );
-    program.with_file_name(name)
-}
+use native::{module, passed, repository};
 
 /// Puts what the package consists of, and what the tests need beside it, into a folder.
 fn install(folder: &Path) {
@@ -37,7 +25,7 @@ fn install(folder: &Path) {
             fs::copy(package.join(name), installed.join(name)).expect("a copy");
         }
     }
-    symlink(addon(), installed.join("unwrapd.node")).expect("a link");
+    symlink(module("unwrapd_node"), installed.join("unwrapd.node")).expect("a link");
     for entry in fs::read_dir(repository("tests/node/node_modules")).expect("npm install") {
         let path = entry.expect("an entry").path();
         symlink(&path, modules.join(path.file_name().expect("a name"))).expect("a link");
@@ -62,40 +50,16 @@ fn passes(file: &str) {
         .env("UNWRAPD_VERSION", env!("CARGO_PKG_VERSION"))
         .output()
         .expect("Node");
-    let text = String::from_utf8_lossy(&output.stdout);
-    assert!(
-        output.status.success(),
-        "{text}{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    let text = passed(&output);
     assert!(
         text.contains("\n# skipped 0\n") && !text.contains("\n# pass 0\n"),
         "{text}"
     );
 }
 
-macro_rules! node_tests {
-    ($($file:ident),*) => {
-        const FILES: &[&str] = &[$(stringify!($file)),*];
-
-        mod addon {
-            $(#[test]
-            fn $file() {
-                super::passes(stringify!($file));
-            })*
-        }
-    };
-}
-
-node_tests!(atlas, bytes, document, types);
-
-#[test]
-fn no_file_is_left_out() {
-    let entries = fs::read_dir(repository("tests/node")).expect("a folder");
-    let names = entries.map(|entry| entry.expect("an entry").file_name());
-    let mut found: Vec<String> = names
-        .filter_map(|name| Some(name.to_str()?.strip_suffix(".test.mjs")?.to_owned()))
-        .collect();
-    found.sort_unstable();
-    assert_eq!(found, FILES);
-}
+native::tests_of_files!(
+    addon,
+    crate::passes,
+    native::files("tests/node", "", ".test.mjs"),
+    [atlas, bytes, document, types]
+);
