@@ -1,6 +1,5 @@
 // A transform of glTF-Transform: a document goes through the library as a glTF; what changed of its meshes comes back.
 
-import { NodeIO } from '@gltf-transform/core';
 import { unwrapBytes } from './bytes.js';
 import { InvalidOptions } from './errors.js';
 
@@ -14,7 +13,7 @@ export function unwrapd({ onReport, ...options } = {}) {
     throw new InvalidOptions(`\`${refused}\` concerns files: unwrapBytes takes it`, 'invalid_options', 2);
   }
   async function transform(document) {
-    const io = ioOf(document);
+    const io = await ioOf(document);
     const { json, resources } = await io.writeJSON(document, { basename: 'document' });
     const named = Object.entries(resources).map(([uri, bytes]) => [decodeURIComponent(uri), bytes]);
     const { bytes, report } = await unwrapBytes(new TextEncoder().encode(JSON.stringify(json)), {
@@ -30,7 +29,9 @@ export function unwrapd({ onReport, ...options } = {}) {
 }
 
 /** Input and output with all extensions of a document but those that only compress, which need encoders. */
-function ioOf(document) {
+async function ioOf(document) {
+  // Not before it is needed: files are unwrapped without it.
+  const { NodeIO } = await import('@gltf-transform/core');
   const used = document.getRoot().listExtensionsUsed();
   const others = used.filter((extension) => extension.writeDependencies.length === 0);
   const io = new NodeIO().registerExtensions(others.map((extension) => extension.constructor));

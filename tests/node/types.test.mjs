@@ -33,6 +33,15 @@ test('they name the options that there are', async () => {
   assert.deepEqual([...named].sort(), [...new Set(known)].sort());
 });
 
+test('nothing but Node is needed to load it', async () => {
+  const { files } = require('unwrapd/package.json');
+  for (const name of files.filter((file) => file.endsWith('.js'))) {
+    const text = await readFile(new URL(name, folder), 'utf8');
+    const imported = [...text.matchAll(/ from '(.*)';/g)].map((match) => match[1]);
+    assert.ok(imported.every((module) => /^(\.|node:)/.test(module)), `${name}: ${imported}`);
+  }
+});
+
 test('the version is that of the library', () => {
   const manifest = require('unwrapd/package.json');
   assert.equal(manifest.version, process.env.UNWRAPD_VERSION);
