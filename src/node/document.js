@@ -1,7 +1,8 @@
 // A transform of glTF-Transform: a document goes through the library as a glTF; what changed of its meshes comes back.
 
+import { createRequire } from 'node:module';
 import { unwrapBytes } from './bytes.js';
-import { InvalidOptions } from './errors.js';
+import { InvalidInput, InvalidOptions } from './errors.js';
 
 /** Options that change more of a document than its meshes. */
 const OF_FILES = ['rebake', 'bakeSize', 'imageFormat', 'format', 'name', 'resources'];
@@ -30,12 +31,21 @@ export function unwrapd({ onReport, ...options } = {}) {
 
 /** Input and output with all extensions of a document but those that only compress, which need encoders. */
 async function ioOf(document) {
-  // Not before it is needed: files are unwrapped without it.
-  const { NodeIO } = await import('@gltf-transform/core');
+  const { NodeIO } = await coreOf(document);
   const used = document.getRoot().listExtensionsUsed();
   const others = used.filter((extension) => extension.writeDependencies.length === 0);
   const io = new NodeIO().registerExtensions(others.map((extension) => extension.constructor));
   return io.setLogger(document.getLogger());
+}
+
+/** The copy of glTF-Transform that a document is of: that for `import` or that for `require`. */
+async function coreOf(document) {
+  // Not before it is needed: files are unwrapped without it.
+  const imported = await import('@gltf-transform/core');
+  if (document instanceof imported.Document) return imported;
+  const required = createRequire(import.meta.url)('@gltf-transform/core');
+  if (document instanceof required.Document) return required;
+  throw new InvalidInput('the document is of another copy of @gltf-transform/core', 'invalid_document', 3);
 }
 
 /** Gives the primitives of a document the attributes, morph targets and indices that those of another have. */

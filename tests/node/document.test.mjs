@@ -1,6 +1,7 @@
 // The transform: what it changes of a document, and that it changes nothing else.
 
 import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
 import { test } from 'node:test';
 import { Document, Logger } from '@gltf-transform/core';
 import { KHRDracoMeshCompression, KHRMaterialsClearcoat } from '@gltf-transform/extensions';
@@ -99,6 +100,15 @@ test('what is shared stays shared', async () => {
   await unwrapped(document, { groupBy: 'primitive' });
   for (const primitive of primitivesOf(document)) assert.ok(primitive.getAttribute('TEXCOORD_0'));
   for (const accessor of document.getRoot().listAccessors()) assert.ok(accessor.listParents().length > 1);
+});
+
+test('a document of the copy for require', async () => {
+  const core = createRequire(import.meta.url)('@gltf-transform/core');
+  const document = await new core.NodeIO().read(asset('Box.glb'));
+  assert.ok(!(document instanceof Document));
+  assert.equal((await unwrapped(document)).certified, true);
+  assert.ok(primitivesOf(document)[0].getAttribute('TEXCOORD_0'));
+  await assert.rejects(unwrapped({ transform: (apply) => apply({}), setLogger() {} }), { code: 'invalid_document' });
 });
 
 test('an empty document is refused, as the library refuses it', async () => {
