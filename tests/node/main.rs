@@ -20,6 +20,8 @@ fn install(folder: &Path) {
     let manifest: serde_json::Value = serde_json::from_str(&manifest).expect("JSON");
     let named = manifest["files"].as_array().expect("an array");
     let files = named.iter().map(|name| name.as_str().expect("a name"));
+    // Another addon may be there: one that was built to be published.
+    let files = files.filter(|name| *name != "unwrapd.node");
     for name in files.chain(["package.json", "README.md"]) {
         if package.join(name).is_file() {
             fs::copy(package.join(name), installed.join(name)).expect("a copy");
