@@ -13,12 +13,17 @@ const load = (name) => import(pathToFileURL(modules.resolve(name)));
 const [library, input, output] = process.argv.slice(2);
 const { NodeIO } = await load('@gltf-transform/core');
 const { ALL_EXTENSIONS } = await load('@gltf-transform/extensions');
-const { dequantize, unwrap } = await load('@gltf-transform/functions');
+const { dequantize, unpartition, unwrap } = await load('@gltf-transform/functions');
 const { MeshoptDecoder } = await load('meshoptimizer').catch(() => ({}));
 
-const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({ 'meshopt.decoder': MeshoptDecoder });
+const { default: draco } = await load('draco3dgltf').catch(() => ({}));
+
+const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({
+  'draco3d.decoder': await draco?.createDecoderModule(),
+  'meshopt.decoder': MeshoptDecoder,
+});
 const document = await io.read(input);
-await document.transform(dequantize());
+await document.transform(dequantize(), unpartition());
 const { unwrapd } = library === 'transform' ? await load('unwrapd') : {};
 const transform = unwrapd
   ? unwrapd({ texcoord: 0, overwrite: true, groupBy: 'mesh' })

@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import statistics
 import subprocess
 import sys
@@ -34,19 +35,20 @@ def judged(library, path, arguments):
         except subprocess.TimeoutExpired:
             return {"failed": "timeout"}
         if made.returncode != 0:
-            lines = [line for line in made.stderr.splitlines() if "Error" in line]
+            lines = [line for line in made.stderr.splitlines() if re.match(r"\w*Error: ", line)]
             return {"failed": lines[0][:60] if lines else f"exit {made.returncode}"}
         judge = [sys.executable, arguments.metrics / "uvmetrics.py", out, "--group-by", "mesh", "--json"]
-        found = subprocess.run([*judge, "--res", "512"], **kept)
-        if found.returncode != 0:
+        try:
+            found = subprocess.run([*judge, "--res", "512"], timeout=arguments.timeout, check=True, **kept)
+        except subprocess.SubprocessError:
             return {"failed": "not judged"}
         return {**json.loads(found.stdout), "seconds": float(made.stdout.split()[-1])}
 
 
 def groups(found):
-    """The judgments of the meshes."""
-    inside = found.get("groups")
-    return list(inside.values() if isinstance(inside, dict) else inside) if inside else [found]
+    """The judgments of the meshes that have faces."""
+    every = [found] if "faces" in found else [group for group in found.values() if isinstance(group, dict)]
+    return [group for group in every if "flipped" in group]
 
 
 def cell(found):
@@ -66,7 +68,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--packages", required=True, type=pathlib.Path)
     parser.add_argument("--metrics", required=True, type=pathlib.Path)
-    parser.add_argument("--timeout", type=float, default=120.0, help="seconds for a call")
+    parser.add_argument("--timeout", type=float, default=120.0, help="seconds for a call, and for its judgment")
     parser.add_argument("files", nargs="+")
     arguments = parser.parse_args()
     print(f"| file | {' | '.join(LIBRARIES.values())} |\n|---|{'---|' * len(LIBRARIES)}")
