@@ -120,7 +120,7 @@ def main() -> None:
         one = 'exec "$0" unwrap "$1" -o "$2/$(basename "$1" .obj).glb" -q --threads 1'
         xargs = f"find {root}/in -name '*.obj' | sort | xargs -P2 -I@ sh -c '{one}' {unwrapd} @ {root}/xargs"
         engine = lambda name: [sys.executable, str(EXAMPLES / f"on_{name}.py"), str(root / "in")]
-        batch, mapped = f"{unwrapd} batch", "ray::Map(unwrapped)"
+        batch, mapped = f"{unwrapd} batch", "ray::ReadBinary->Map(unwrapped)"
         (root / "xargs").mkdir()
         runs = {
             "xargs": (["sh", "-c", xargs], None),
