@@ -5,6 +5,7 @@
 
 HyperQueue and Ray come from PyPI (`pip install hyperqueue 'ray[data]'`); one that is absent is left out, and so is the
 last, the Python package on Ray, where that is not installed.
+RAY_worker_niceness=0 gives its workers the priority of the others. Of those the CPU column knows nothing.
 Every file is another closed surface of 80 (RINGS − 1) triangles. The baseline is `xargs -P2 unwrapd unwrap`.
 """
 
