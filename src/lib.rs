@@ -42,6 +42,7 @@
 //!  cli ─► bulk (lists, records, summaries) ────────► compute child process ─► pipeline
 //!  cli  ──────────────────────────────────────────────────────────────────► pipeline
 //!  Python package (`src/python`, a crate of its own) ──────────────────────► pipeline, deform, cli
+//!  npm package (`src/node`, a crate of its own) ──────────────────────────► pipeline
 //! ```
 //!
 //! The geometry is a pure library: no I/O, no clock of its own, no logging, no global state. Options, threads and the

@@ -1,19 +1,23 @@
-"""Writes THIRD-PARTY-NOTICES.md: the crates in the extension, their licenses and the texts of those, equal ones once."""
+"""Writes THIRD-PARTY-NOTICES.md: the crates in a native module, their licenses and the texts of those, equal ones once.
+
+    python3 notices.py [CRATE FOLDER]
+"""
 
 import json
 import pathlib
 import subprocess
+import sys
 
 HERE = pathlib.Path(__file__).parent
 HEAD = """# Third-party notices
 
-The extension module of `unwrapd` contains the crates listed here. Each is used under the terms that it names; the texts
+The native module of `unwrapd` contains the crates listed here. Each is used under the terms that it names; the texts
 that come with them follow.
 """
 
 
-def packages() -> list[dict]:
-    """The crates that are linked, as cargo resolves them."""
+def packages(crate: str) -> list[dict]:
+    """The crates that are linked into one, as cargo resolves them."""
     command = [
         "cargo",
         "metadata",
@@ -28,7 +32,7 @@ def packages() -> list[dict]:
         "cargo",
         "tree",
         "-p",
-        "unwrapd-python",
+        crate,
         "-e",
         "normal",
         "--prefix",
@@ -57,9 +61,9 @@ def texts(package: dict) -> list[str]:
     return [path.read_text(errors="replace").strip() for path in sorted(files)]
 
 
-def main() -> None:
+def main(crate: str = "unwrapd-python", folder: str = str(HERE)) -> None:
     parts, owners = [HEAD], {}
-    for package in sorted(packages(), key=lambda package: package["name"]):
+    for package in sorted(packages(crate), key=lambda package: package["name"]):
         link = package["repository"] or ""
         parts.append(
             f"- {package['name']} {package['version']}: {package['license']} {link}".rstrip()
@@ -68,8 +72,8 @@ def main() -> None:
             owners.setdefault(text, []).append(package["name"])
     for text, names in owners.items():
         parts.append(f"\n## {', '.join(names)}\n\n```text\n{text}\n```")
-    (HERE / "THIRD-PARTY-NOTICES.md").write_text("\n".join(parts) + "\n")
+    (pathlib.Path(folder) / "THIRD-PARTY-NOTICES.md").write_text("\n".join(parts) + "\n")
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

@@ -1,0 +1,64 @@
+// The options of `unwrapd unwrap`, which `unwrapd unwrap --help` explains, in camel case.
+
+/** How charts are laid out. */
+interface Layout {
+  /** The side of a texture in texels, or `WIDTHxHEIGHT`. */
+  resolution?: number | string;
+  padding?: number;
+  pages?: number;
+  texelsPerUnit?: number;
+  packing?: 'fast' | 'tight';
+  threads?: number;
+}
+
+/** Where to cut, how to map and how to pack. */
+export interface AtlasOptions extends Layout {
+  preset?: 'material' | 'lightmap';
+  mips?: number;
+  cut?: 'auto' | 'fast' | 'disk' | 'keep' | 'seams';
+  quality?: 'smooth' | 'balanced' | 'few';
+  keptMaps?: 'optimized' | 'as-given';
+  maxCharts?: number;
+  maxDistortion?: number;
+  maxStretch?: number;
+  seamWeight?: number;
+  symmetry?: 'auto' | 'off';
+  energy?: 'arap' | 'lscm' | 'symmetric-dirichlet';
+  barrier?: string;
+  barrierStrength?: number;
+  barrierSupport?: number;
+  pin?: 0 | 2;
+  quantizationSafe?: 12 | 14 | 16;
+  timeBudget?: number;
+}
+
+interface CalledOptions extends AtlasOptions {
+  seams?: 'normals' | number[][];
+  groupBy?: 'mesh' | 'scene' | 'material' | 'primitive';
+  sourceTexcoord?: number;
+  texcoord?: number;
+  overwrite?: boolean;
+  texelWeight?: string[];
+  materialBorders?: boolean;
+  heatmapMeasure?: 'conformal' | 'area' | 'symmetric-dirichlet';
+  /** Ends the work. */
+  signal?: AbortSignal;
+}
+
+/** Options of the transform. */
+export interface UnwrapDocumentOptions extends CalledOptions {
+  /** Is called with the report. */
+  onReport?: (report: import('./index.js').Report) => void;
+}
+
+/** Options of a file, and what belongs to it. */
+export interface UnwrapFileOptions extends CalledOptions {
+  /** The file's name, which tells the format where the bytes do not. */
+  name?: string;
+  /** The files that it refers to, by relative path. */
+  resources?: Record<string, Uint8Array>;
+  format?: 'glb' | 'gltf' | 'obj';
+  rebake?: boolean;
+  bakeSize?: number;
+  imageFormat?: 'source' | 'png' | 'jpeg';
+}

@@ -1,0 +1,123 @@
+//! Meshes given as arrays, on the thread that calls: those who call wait for the result.
+
+use napi::bindgen_prelude::{Either, Float32Array, Uint32Array};
+use napi_derive::napi;
+use serde::de::DeserializeOwned;
+use unwrapd::pipeline::{
+    self, MeshArrays, Observer, Options, PipelineError, RepackOptions, UnwrappedMeshes, WeldedUvs,
+};
+
+use crate::call::{Cancellation, Failure, run};
+use crate::options::{json, parsed};
+
+/// A mesh: arrays of three positions, UVs and normals for each vertex, and of the vertices of triangles.
+#[napi(object, object_to_js = false)]
+pub struct Mesh {
+    /// Three coordinates for each vertex.
+    pub positions: Float32Array,
+    /// Three vertices for each triangle.
+    pub indices: Uint32Array,
+    /// Two coordinates for each vertex, v up.
+    pub uvs: Option<Float32Array>,
+    /// Three coordinates for each vertex.
+    pub normals: Option<Float32Array>,
+}
+
+impl Mesh {
+    fn taken(&self) -> Result<MeshArrays, Failure> {
+        let triangles = self.indices.as_chunks::<3>().0.to_vec();
+        Ok(MeshArrays {
+            positions: rows(&self.positions),
+            uvs: (self.uvs.as_deref())
+                .map(|uvs| corners(&triangles, &rows(uvs)))
+                .transpose()?,
+            normals: (self.normals.as_deref())
+                .map(|normals| corners(&triangles, &rows(normals)))
+                .transpose()?,
+            triangles,
+        })
+    }
+}
+
+/// Rows of N numbers each.
+fn rows<const N: usize>(flat: &[f32]) -> Vec<[f64; N]> {
+    let rows = flat.as_chunks::<N>().0.iter();
+    rows.map(|row| row.map(f64::from)).collect()
+}
+
+/// What the corners of triangles have of what the vertices have.
+fn corners<const N: usize>(
+    triangles: &[[u32; 3]],
+    of_vertices: &[[f64; N]],
+) -> Result<Vec<[[f64; N]; 3]>, Failure> {
+    let at = |v: u32| of_vertices.get(v as usize).copied();
+    let found = triangles
+        .iter()
+        .map(|triangle| Some([at(triangle[0])?, at(triangle[1])?, at(triangle[2])?]));
+    (found.collect::<Option<_>>()).ok_or_else(|| Failure::internal("a vertex has no UV or normal"))
+}
+
+/// A mesh in which every vertex has one UV.
+#[napi(object, object_from_js = false)]
+pub struct Welded {
+    /// For each vertex that of the given mesh.
+    pub origins: Uint32Array,
+    /// Three vertices for each triangle, in the given order.
+    pub indices: Uint32Array,
+    /// Two coordinates for each vertex, v up.
+    pub uvs: Float32Array,
+    /// For each triangle its chart, counted over all meshes.
+    pub charts: Uint32Array,
+}
+
+/// Meshes that share an atlas.
+#[napi(object, object_from_js = false)]
+pub struct Atlas {
+    /// In the given order.
+    pub meshes: Vec<Welded>,
+    /// The report as JSON.
+    pub report: String,
+}
+
+/// Unwraps meshes into one atlas.
+#[napi]
+pub fn unwrap_meshes(meshes: Vec<Mesh>, options: String) -> Either<Atlas, Failure> {
+    let made = made::<Options>(&meshes, &options, pipeline::unwrap_meshes);
+    made.map_or_else(Either::B, Either::A)
+}
+
+/// Packs the UV islands of meshes into one atlas.
+#[napi]
+pub fn repack_meshes(meshes: Vec<Mesh>, options: String) -> Either<Atlas, Failure> {
+    let made = made::<RepackOptions>(&meshes, &options, pipeline::repack_meshes);
+    made.map_or_else(Either::B, Either::A)
+}
+
+fn made<O: DeserializeOwned>(
+    meshes: &[Mesh],
+    options: &str,
+    make: fn(&[MeshArrays], &O, &dyn Observer) -> Result<UnwrappedMeshes, PipelineError>,
+) -> Result<Atlas, Failure> {
+    let meshes = (meshes.iter().map(Mesh::taken)).collect::<Result<Vec<_>, _>>()?;
+    let options = parsed::<O>(options)?;
+    let unwrapped = run(Cancellation::default(), |observer| {
+        make(&meshes, &options, observer)
+    })?;
+    let all = meshes.iter().zip(unwrapped.uvs).zip(unwrapped.charts);
+    let welded = all.map(|((mesh, uvs), charts)| {
+        let welded = WeldedUvs::new(&mesh.triangles, &uvs);
+        let uvs: Vec<f32> = (welded.uvs.as_flattened().iter())
+            .map(|x| *x as f32)
+            .collect();
+        Welded {
+            origins: welded.origins.into(),
+            indices: welded.triangles.into_flattened().into(),
+            uvs: uvs.into(),
+            charts: charts.into(),
+        }
+    });
+    Ok(Atlas {
+        meshes: welded.collect(),
+        report: json(&unwrapped.report)?,
+    })
+}
