@@ -12,6 +12,7 @@ fn passes(file: &str) {
     let output = Command::new(repository("tests/.venv/bin/python"))
         .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
         .arg(repository("tests/python").join(format!("test_{file}.py")))
+        .current_dir(repository("tests/python"))
         .env("UNWRAPD_NATIVE", module("unwrapd_native"))
         .output()
         .expect("a Python");
@@ -27,7 +28,7 @@ native::tests_of_files!(
     crate::passes,
     native::files("tests/python", "test_", ".py"),
     [
-        arrays, bake, calls, client, command, comfyui, errors, examples, files, leaks, pipelines,
+        arrays, bake, calls, client, comfyui, command, errors, examples, files, leaks, pipelines,
         problem, readme, session, trimesh, xatlas
     ]
 );
