@@ -1,5 +1,7 @@
 //! Vertices that stay where the start has them.
 
+use crate::numerics::hull::convex_hull;
+
 /// Which vertices stay where the start has them, exactly, while the others move (Schüller et al. 2013).
 ///
 /// [`EnergyKind::Lscm`](crate::energy::EnergyKind::Lscm) falls when a map shrinks: without pins only the barrier keeps it from
@@ -16,17 +18,26 @@ pub enum Pins {
     Two,
 }
 
-/// Two vertices of a loop that are far apart in a map: the one farthest from the first, and the one farthest from that.
+/// Corners of a convex hull that are compared with each other; of more, as on a circle, a part will do.
+const MOST_CORNERS: usize = 2_048;
+
+/// The two vertices of a loop that are farthest apart in a map. O(n log n).
 pub(super) fn far_pair(boundary: &[u32], uv: &[[f64; 2]]) -> [u32; 2] {
-    let farthest = |from: u32| {
-        let farther = |a: u32, b: u32| {
-            let is_farther = distance(uv, [from, b]) > distance(uv, [from, a]);
-            if is_farther { b } else { a }
-        };
-        boundary.iter().copied().fold(from, farther)
-    };
-    let first = farthest(boundary.first().copied().unwrap_or_default());
-    [first, farthest(first)]
+    let hull = convex_hull(boundary.iter().map(|&v| uv[v as usize]));
+    let step = hull.len().div_ceil(MOST_CORNERS).max(1);
+    let hull: Vec<[f64; 2]> = hull.into_iter().step_by(step).collect();
+    let mut farthest = ([0.0; 2], [0.0; 2], 0.0);
+    for (i, &p) in hull.iter().enumerate() {
+        for &q in &hull[i + 1..] {
+            let apart = (q[0] - p[0]).hypot(q[1] - p[1]);
+            if apart > farthest.2 {
+                farthest = (p, q, apart);
+            }
+        }
+    }
+    let vertex = |p: [f64; 2]| boundary.iter().copied().find(|&v| uv[v as usize] == p);
+    let first = boundary.first().copied().unwrap_or_default();
+    [farthest.0, farthest.1].map(|p| vertex(p).unwrap_or(first))
 }
 
 /// How far two vertices of a map are apart.
