@@ -93,6 +93,7 @@ impl Surface {
     }
 
     /// The same with its triangles in another order, of which each is named once, and its vertices in that in which these have them.
+    #[must_use]
     pub fn reordered(&self, order: &[u32]) -> Self {
         let mut number = vec![u32::MAX; self.positions.len()];
         let mut positions = Vec::with_capacity(self.positions.len());

@@ -147,9 +147,12 @@ fn positions_may_have_either_precision() {
     assert_eq!(certificate.degenerate, 0);
 }
 
+/// The corners of a face, by the bits of their positions, and its UVs.
+type Placed = ([[u32; 3]; 3], [[i32; 2]; 3]);
+
 #[test]
 fn the_order_of_the_input_does_not_show() {
-    let unwrapped = |mesh: &Mesh| -> Vec<([[u32; 3]; 3], [[i32; 2]; 3])> {
+    let unwrapped = |mesh: &Mesh| -> Vec<Placed> {
         let done = unwrap(
             &mesh.positions,
             &mesh.triangles,

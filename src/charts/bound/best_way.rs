@@ -21,7 +21,7 @@ pub enum Opened {
     /// Nothing is planned in it.
     Whole(Chart),
     /// With the slits that decided for it.
-    Slit(Piece),
+    Slit(Box<Piece>),
 }
 
 /// The charts of a surface that is opened in several ways: of each component the chart that promises to keep the bound with the
@@ -71,7 +71,7 @@ fn best_of(
             Piece::unmapped(simple.map_or_else(|| chart.clone(), |simple| simple.chart));
         let price = price(&mut piece, bound, observer);
         let opened = if is_whole && !is_simple {
-            Opened::Slit(piece)
+            Opened::Slit(Box::new(piece))
         } else {
             Opened::Whole(chart)
         };

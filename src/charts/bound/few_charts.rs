@@ -197,7 +197,7 @@ fn slit_and_mapped(
             maps.map(Piece::of).collect()
         }
         Opened::Whole(chart) => vec![Piece::unmapped(chart)],
-        Opened::Slit(piece) => vec![piece],
+        Opened::Slit(piece) => vec![*piece],
     });
     rounds(pieces.collect(), bound, options, observer, |_| ())
 }
