@@ -28,7 +28,7 @@ async fn the_jobs_of_a_killed_worker_go_to_another() {
     let cluster = Cluster::start();
     let api = cluster.api();
     let mut worker = cluster.worker();
-    let job = api.submit(meshes::hills(250), "cut=disk").await;
+    let job = api.submit(meshes::hills(350), "cut=disk").await;
     let small = submitted(&api, 256..258).await;
     api.mapping(&job).await;
     worker.kill();
@@ -136,7 +136,7 @@ async fn a_worker_that_is_told_to_stop_hands_its_job_back() {
     let cluster = Cluster::start();
     let api = cluster.api();
     let mut worker = cluster.worker();
-    let job = api.submit(meshes::hills(250), "cut=disk").await;
+    let job = api.submit(meshes::hills(350), "cut=disk").await;
     api.mapping(&job).await;
     worker.signal(Signal::SIGTERM);
     worker.stopped();

@@ -46,7 +46,7 @@ async fn a_backup_of_a_running_service_has_every_accepted_job() {
     for job in &jobs {
         server.ended(job).await;
     }
-    let running = server.submit(meshes::hills(250), "cut=disk").await;
+    let running = server.submit(meshes::hills(350), "cut=disk").await;
     server.mapping(&running).await;
     let waiting = server.submit(meshes::small(), "resolution=500").await;
 

@@ -13,7 +13,7 @@ async fn drain(server: &Server, method: &str) -> serde_json::Value {
 #[tokio::test]
 async fn a_drained_service_ends_what_runs_and_starts_nothing() {
     let server = Server::with(&[("UNWRAPD_WORKERS", "1")]);
-    let running = server.submit(meshes::hills(250), "cut=disk").await;
+    let running = server.submit(meshes::hills(350), "cut=disk").await;
     let waiting = server.submit(meshes::small(), "").await;
     server.mapping(&running).await;
     let state = drain(&server, "PUT").await;
@@ -43,7 +43,7 @@ async fn a_drained_service_ends_what_runs_and_starts_nothing() {
 async fn a_drained_service_removes_nothing() {
     // Two seconds.
     let server = Server::with(&[("UNWRAPD_RETAIN_DAYS", "0.000023")]);
-    let job = server.submit(meshes::hills(250), "cut=disk").await;
+    let job = server.submit(meshes::hills(350), "cut=disk").await;
     server.mapping(&job).await;
     drain(&server, "PUT").await;
     let path = job["links"]["self"].as_str().expect("a link");
