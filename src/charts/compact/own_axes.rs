@@ -5,8 +5,8 @@ use crate::mesh::CUT;
 use crate::numerics::vec2::{doubled_area, sub};
 use crate::plane::Straightness;
 
-/// The vertices of a sheet along the axes of its map and from its center, so that where it is cut does not depend on how it was
-/// turned and moved, but for quarter turns.
+/// The vertices of a sheet along the axes of its map and from its center. So a map that is turned or moved is cut in the same
+/// places, but for quarter turns.
 ///
 /// The axes are those along which most of the outline runs, or else the principal axes of the area.
 pub(super) fn along_own_axes(sheet: &Sheet, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
