@@ -32,8 +32,13 @@ impl Giving<'_> {
             return self.join(number, laid, run);
         };
         let line = self.image_of_run(number, run, &plane);
-        // Where the image has no place, the chart need not be minimized in its own.
-        if self.laid_along(image, &line).is_none() {
+        // Where the image has no place beside it, the chart need not be minimized in its own.
+        let Some((other, other_run)) = self.laid_along(image, &line) else {
+            return false;
+        };
+        if other_run.neighbor == run.neighbor
+            && laid.n_overlaps(&Ground::new(&other.map), MOST_PAIRS) > MOST_PAIRS
+        {
             return false;
         }
         let mut before = self.saved([number, run.neighbor]);

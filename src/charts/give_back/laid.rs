@@ -9,8 +9,7 @@ use crate::mesh::Disk;
 
 /// A chart moved to where it might be glued to another.
 pub struct Laid {
-    chart: Chart,
-    uv: Vec<[f64; 2]>,
+    pub map: MappedChart,
     /// The common vertices: its own, and the other's.
     seam: Vec<[u32; 2]>,
 }
@@ -35,23 +34,29 @@ impl Laid {
             uv[v as usize] = neighbor.embedding.uv[w as usize];
         }
         embed::is_positive(&chart.disk.triangles, &uv).then(|| Self {
-            chart,
-            uv,
+            map: MappedChart {
+                chart,
+                embedding: Embedding {
+                    uv,
+                    summary: map.embedding.summary,
+                },
+                seconds: map.seconds,
+            },
             seam: run.vertices.clone(),
         })
     }
 
     /// How many pairs of its faces and the neighbor's overlap, counted up to about this many.
     pub fn n_overlaps(&self, ground: &Ground, most: usize) -> usize {
-        ground.n_overlaps(&self.chart.disk.triangles, &self.uv, most)
+        ground.n_overlaps(&self.map.chart.disk.triangles, &self.map.embedding.uv, most)
     }
 
     /// The neighbor, its map as it is, with the chart glued to it; none if that is no disk.
     pub fn glued(self, neighbor: &MappedChart) -> Option<MappedChart> {
-        let (chart, number) = glued(&self.chart, &neighbor.chart, &self.seam)?;
+        let (chart, number) = glued(&self.map.chart, &neighbor.chart, &self.seam)?;
         let mut uv = neighbor.embedding.uv.clone();
         uv.resize(chart.disk.n_vertices, [0.0; 2]);
-        for (&n, &p) in number.iter().zip(&self.uv) {
+        for (&n, &p) in number.iter().zip(&self.map.embedding.uv) {
             uv[n as usize] = p;
         }
         Some(MappedChart {
