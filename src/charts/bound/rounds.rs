@@ -28,6 +28,9 @@ const MOST_ROUNDS: usize = 8;
 /// not help: a sponge of a thousand handles stays one.
 const HOPELESS: [f64; 2] = [0.7, 4.0];
 
+/// So many times more than there may be shows it in the first round.
+const HOPELESS_AT_ONCE: f64 = 1_000.0;
+
 /// Slits and maps pieces in rounds until their maps keep the bound, or that is hopeless; `see` is shown what is slit.
 pub fn rounds(
     mut pieces: Vec<Piece>,
@@ -52,7 +55,8 @@ pub fn rounds(
             .flat_map_iter(|piece| piece.mapped(options, observer))
             .collect();
         let reached = mean_excess(&pieces);
-        let is_hopeless = reached > HOPELESS[0] * before && reached > HOPELESS[1] * budget;
+        let is_hopeless = reached > HOPELESS_AT_ONCE * budget
+            || reached > HOPELESS[0] * before && reached > HOPELESS[1] * budget;
         if is_hopeless || observer.control() == Control::Finish {
             break;
         }

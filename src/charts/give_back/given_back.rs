@@ -216,7 +216,8 @@ impl<'a> Giving<'a> {
         let neighbor = &self.charts[&run.neighbor];
         let n_faces = |map: &MappedChart| map.chart.disk.triangles.len();
         let n_glued = n_faces(neighbor) + n_faces(&self.charts[&number]);
-        if n_glued > self.left || !self.may_settle(number, &laid.map) {
+        let added = self.added(number, &laid.map);
+        if n_glued > self.left || SETTLED * added > self.spare() {
             return false;
         }
         self.left -= n_glued;
@@ -254,13 +255,16 @@ impl<'a> Giving<'a> {
         excess <= self.most.excess && stretched <= self.most.stretched
     }
 
-    /// Whether minimizing may bring a chart as it is laid within the bound.
-    fn may_settle(&self, number: u32, laid: &MappedChart) -> bool {
-        let mut cost = Cost::of(laid, &laid.rest_shapes(), self.bound);
-        let before = self.costs[&number];
-        cost.excess = before.excess + SETTLED * (cost.excess - before.excess);
-        cost.stretched = 0.0;
-        self.allows(&cost, [number; 2])
+    /// The excess that a chart has more as it is laid.
+    fn added(&self, number: u32, laid: &MappedChart) -> f64 {
+        let [excess, _] = excess_and_area(laid, &laid.rest_shapes());
+        excess - self.costs[&number].excess
+    }
+
+    /// The excess that all may have more.
+    fn spare(&self) -> f64 {
+        let costs = self.costs.values();
+        self.most.excess - costs.map(|cost| cost.excess).sum::<f64>()
     }
 
     fn pushed_apart(&self, mut map: MappedChart) -> Option<MappedChart> {
