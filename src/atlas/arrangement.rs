@@ -7,6 +7,9 @@ use super::sheet::Sheet;
 use super::spot::{Corner, Window};
 use crate::numerics::random::Random;
 
+/// How many poses are tried to fit a chart to its place.
+const FITTED: usize = 12;
+
 /// An order and a pose for every chart, and what comes of it.
 #[derive(Clone)]
 pub(super) struct Arrangement {
@@ -63,13 +66,47 @@ impl Arrangement {
         Some(())
     }
 
-    /// Another place among the first `n` of the order, or another pose, for one chart; returns the first place that is concerned.
-    pub(super) fn change(&mut self, n: usize, poses: &[Arc<Poses>], random: &mut Random) -> usize {
+    /// Turns the chart at a place of the order to the pose, of a few, in which it reaches least far on a sheet that holds the
+    /// charts before it.
+    pub(super) fn fit(
+        &mut self,
+        place: usize,
+        poses: &[Arc<Poses>],
+        sheet: &mut Sheet,
+        random: &mut Random,
+    ) {
+        let chart = self.order[place];
+        let distinct = poses[chart].distinct();
+        let mut least = u64::MAX;
+        for _ in 0..FITTED {
+            let pose = distinct[random.below(distinct.len())];
+            let mask = poses[chart].mask(pose);
+            let Some((_, spot)) = sheet.find(std::slice::from_ref(mask), Window::ALL) else {
+                continue;
+            };
+            let [width, height] = mask.size;
+            let far = [spot.corner.x + width, spot.corner.y + height];
+            let side = sheet.form.side(far).max(sheet.side());
+            let reach = u64::from(side) << 32 | u64::from(far[0] + far[1]);
+            if reach < least {
+                (least, self.pose[chart]) = (reach, pose);
+            }
+        }
+    }
+
+    /// Another place among the first `n` of the order, or another pose, for one chart; returns the first place that is concerned,
+    /// and whether the chart there is to be [fitted](Self::fit).
+    pub(super) fn change(
+        &mut self,
+        n: usize,
+        poses: &[Arc<Poses>],
+        random: &mut Random,
+    ) -> (usize, bool) {
         let [i, j] = [random.below(n), random.below(n)];
         let chart = self.order[i];
         let of_chart = &poses[chart];
         let pose = &mut self.pose[chart];
-        match random.below(4) {
+        match random.below(5) {
             0 => self.order.swap(i, j),
             1 => {
                 self.order.remove(i);
@@ -77,14 +114,15 @@ impl Arrangement {
             }
             2 => {
                 *pose = of_chart.next_angle(*pose, random.below(2) == 0);
-                return i;
+                return (i, false);
             }
+            3 => return (i, true),
             _ => {
                 let distinct = of_chart.distinct();
                 *pose = distinct[random.below(distinct.len())];
-                return i;
+                return (i, false);
             }
         }
-        i.min(j)
+        (i.min(j), false)
     }
 }

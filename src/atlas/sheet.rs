@@ -59,6 +59,11 @@ impl Sheet {
         }
     }
 
+    /// The side of the largest used part of a page.
+    pub(super) fn side(&self) -> u32 {
+        self.side
+    }
+
     /// Takes the same cells as another of its form and size.
     pub(super) fn restore(&mut self, other: &Self) {
         let stride = self.words * WIDTHS;

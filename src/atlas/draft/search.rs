@@ -176,7 +176,12 @@ impl Draft {
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
             let mut trial = state.clone();
-            let first = trial.change(large, &self.poses, random);
+            let (first, is_fitted) = trial.change(large, &self.poses, random);
+            if is_fitted {
+                prefixes.hold(&mut sheet, &state, &self.poses, first);
+                sheet.capacity = largest;
+                trial.fit(first, &self.poses, &mut sheet, random);
+            }
             if !known.insert(self.key(&trial)) {
                 sheet.work += WORDS_IF_KNOWN;
                 continue;
