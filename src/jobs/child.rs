@@ -40,8 +40,8 @@ pub(super) enum Exit {
     OutOfMemory,
 }
 
-/// Starts the program with `WORD FOLDER` in a process group of its own, with pipes, and with an empty environment but for the
-/// allocator's setting: address space that was freed must not count against the memory limit. Dropping it kills the process.
+/// Starts the program with `WORD FOLDER` in a process group of its own, with pipes, and with the allocator's setting in its
+/// environment: address space that was freed must not count against the memory limit. Dropping it kills the process.
 pub fn spawn(
     program: &Program,
     word: &str,
@@ -49,7 +49,6 @@ pub fn spawn(
 ) -> std::io::Result<tokio::process::Child> {
     program
         .command(word, folder)
-        .env_clear()
         .env("_RJEM_MALLOC_CONF", "retain:false")
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

@@ -5,6 +5,7 @@ use unwrapd::charts::Cut;
 use unwrapd::pipeline::{Cutting, Layout, PackingMode, Settings, Unobserved, unwrap};
 
 use crate::random::Random;
+use crate::zoo::voxels;
 
 /// Plane stars that do not touch, each of so many corners: one chart each.
 fn stars(corners: &[u32]) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
@@ -107,4 +108,16 @@ fn a_hundred_crosses_are_cut_until_they_fill_the_page() {
         whole.scale,
         cut.scale
     );
+}
+
+#[test]
+fn a_cube_becomes_two_charts() {
+    let cube = voxels(&[[0, 0, 0]]);
+    let settings = Settings::default();
+    let unwrapped =
+        unwrap(&cube.positions, &cube.triangles, &settings, &Unobserved).expect("a cube");
+    // More would not fill more: a square holds six smaller ones only where it would hold nine.
+    assert_eq!(unwrapped.charts.len(), 2);
+    let fill = 6.0 * unwrapped.scale * unwrapped.scale;
+    assert!((0.65..2.0 / 3.0).contains(&fill), "{fill}");
 }

@@ -17,10 +17,10 @@ def obj(vertices, faces):
 class Service:
     """Runs until the end of the block."""
 
-    def __init__(self, folder, *arguments, listen="127.0.0.1:0"):
+    def __init__(self, folder, *arguments, listen="127.0.0.1:0", command=COMMAND, environment=None):
         options = ["serve", "--listen", listen, "--data", folder, *arguments]
-        command = [*COMMAND, *map(str, options)]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        command = [*command, *map(str, options)]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
         self.url = self.process.stdout.readline().split()[-1]
 
     def call(self, method, path, body=None):

@@ -1,7 +1,9 @@
 """The command in the package: files, signals, and the service, whose jobs are computed by interpreters."""
 
+import os
 import signal
 import subprocess
+import sys
 
 import pytest
 import unwrapd
@@ -61,6 +63,18 @@ def test_a_job_over_its_memory_limit(tmp_path, pyramid, sheet):
         assert service.job(pyramid)["state"] == "succeeded"
         service.process.send_signal(signal.SIGTERM)
         assert service.process.wait(timeout=60) == 0
+
+
+def test_a_python_that_finds_its_library_by_the_path_of_libraries(tmp_path, pyramid):
+    # As the dynamic linker does it: without the path the interpreter does not start.
+    python, path = tmp_path / "python", str(tmp_path / "lib")
+    python.write_text(f'#!/bin/sh\n[ "$LD_LIBRARY_PATH" = {path} ] && exec {sys.executable} "$@"\nexit 127\n')
+    python.chmod(0o755)
+    main = f"import sys; sys.executable = {str(python)!r}; from unwrapd.__main__ import main; sys.exit(main())"
+    environment = {**os.environ, "LD_LIBRARY_PATH": path}
+    command = [sys.executable, "-c", main]
+    with Service(tmp_path / "data", command=command, environment=environment) as service:
+        assert service.job(pyramid)["state"] == "succeeded"
 
 
 def test_equal_jobs_and_live_sessions(tmp_path, pyramid):

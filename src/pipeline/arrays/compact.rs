@@ -19,6 +19,9 @@ const MOST_IDLE: usize = 2;
 /// So many cuts further nothing better must be expected before the search for more cuts ends.
 const MOST_LATER: usize = 8;
 
+/// So many charts are few: what they fill is a matter of how they fit each other, which a search finds soon and no sum tells.
+const FEW: usize = 6;
+
 /// What a number of cuts has to be worth more, as a share of the square, to be better than another: what is expected and what a
 /// search finds differ by as much where nothing but rounding does.
 const LEEWAY: f64 = 0.005;
@@ -129,11 +132,12 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
 }
 
 /// The charts after the fewest cuts that are expected to be worth most, within [`LEEWAY`], and after one cut less and one more, which
-/// have to be better by that.
+/// have to be better by that. Where these are [`FEW`] charts all smaller numbers of cuts compete, too, after a look at each.
 ///
 /// The expected fill follows from the shapes of the charts alone, while what a short search finds is partly luck: charts of the same
 /// shapes get the same cuts.
 fn expected(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasError> {
+    let search = cutter.search;
     let mut candidates = vec![cutter.candidate.clone()];
     let mut values = vec![cutter.expected_value()];
     let mut best = 0;
@@ -152,5 +156,9 @@ fn expected(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasErro
         other.cost += LEEWAY;
     }
     candidates.truncate(best + 2);
+    if candidates[best].draft.n_charts() <= FEW {
+        search.most_valued(&mut candidates);
+        return Ok(candidates);
+    }
     Ok(candidates.split_off(best.saturating_sub(1)))
 }
