@@ -1,7 +1,8 @@
 //! Charts given back on both sides of a mirror plane, or on neither.
 
 use super::border::Run;
-use super::given_back::{Cost, Giving, MOST_PAIRS};
+use super::cost::Cost;
+use super::given_back::{Giving, MOST_PAIRS};
 use super::laid::Laid;
 use super::occupied::Ground;
 use crate::charts::mapped::MappedChart;

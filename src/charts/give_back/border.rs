@@ -144,3 +144,18 @@ fn goes_on(last: &Run, run: &Run) -> bool {
     (last.neighbor, last.is_turned, last.vertices.last())
         == (run.neighbor, run.is_turned, run.vertices.first())
 }
+
+/// Runs of a half, a quarter and so on of the edges of some, besides these, the longest first.
+pub fn parts_of_runs(runs: &[Run], uv: &[[f64; 2]]) -> Vec<Run> {
+    let mut parts = Vec::new();
+    for run in runs {
+        let mut n_edges = run.vertices.len() - 1;
+        while n_edges > 0 {
+            let starts = (0..run.vertices.len() - n_edges).step_by(n_edges.div_ceil(2));
+            parts.extend(starts.map(|start| run.part(start..start + n_edges)));
+            n_edges /= 2;
+        }
+    }
+    parts.sort_by(|a, b| b.length(uv).total_cmp(&a.length(uv)));
+    parts
+}

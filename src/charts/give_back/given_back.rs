@@ -1,9 +1,9 @@
 //! Small charts given back to their neighbors.
 
-use super::border::{Borders, Run};
+use super::border::{Borders, Run, parts_of_runs};
+use super::cost::Cost;
 use super::laid::Laid;
 use super::occupied::Ground;
-use crate::charts::bound::distortion::{excess_and_area, stretched_area};
 use crate::charts::bound::quality::Bound;
 use crate::charts::mapped::MappedChart;
 use crate::charts::observer::Observer;
@@ -90,26 +90,6 @@ pub(super) struct Giving<'a> {
     left: usize,
     options: &'a embed::Options,
     observer: &'a dyn Observer,
-}
-
-/// What a chart takes of the bound.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Cost {
-    area: f64,
-    excess: f64,
-    stretched: f64,
-}
-
-impl Cost {
-    fn of(map: &MappedChart, rest: &RestShapes, bound: &Bound) -> Self {
-        let [excess, area] = excess_and_area(map, rest);
-        let stretched = |most| stretched_area(map, rest, most);
-        Self {
-            area,
-            excess,
-            stretched: bound.stretch.map_or(0.0, stretched),
-        }
-    }
 }
 
 impl<'a> Giving<'a> {
@@ -257,8 +237,8 @@ impl<'a> Giving<'a> {
 
     /// The excess that a chart has more as it is laid.
     fn added(&self, number: u32, laid: &MappedChart) -> f64 {
-        let [excess, _] = excess_and_area(laid, &laid.rest_shapes());
-        excess - self.costs[&number].excess
+        let cost = Cost::of(laid, &laid.rest_shapes(), self.bound);
+        cost.excess - self.costs[&number].excess
     }
 
     /// The excess that all may have more.
@@ -297,19 +277,4 @@ impl<'a> Giving<'a> {
         }
         self.pushed_apart(settled).unwrap_or(map)
     }
-}
-
-/// Runs of a half, a quarter and so on of the edges of some, besides these, the longest first.
-fn parts_of_runs(runs: &[Run], uv: &[[f64; 2]]) -> Vec<Run> {
-    let mut parts = Vec::new();
-    for run in runs {
-        let mut n_edges = run.vertices.len() - 1;
-        while n_edges > 0 {
-            let starts = (0..run.vertices.len() - n_edges).step_by(n_edges.div_ceil(2));
-            parts.extend(starts.map(|start| run.part(start..start + n_edges)));
-            n_edges /= 2;
-        }
-    }
-    parts.sort_by(|a, b| b.length(uv).total_cmp(&a.length(uv)));
-    parts
 }

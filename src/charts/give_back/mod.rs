@@ -2,6 +2,7 @@
 
 mod alike;
 pub(super) mod border;
+mod cost;
 pub(super) mod given_back;
 pub(super) mod laid;
 pub(super) mod occupied;
