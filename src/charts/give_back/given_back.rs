@@ -73,6 +73,10 @@ pub fn some_given_back(
     giving.charts.into_values().collect()
 }
 
+/// Where a chart was laid on a neighbor: its number and its faces, the neighbor's, the first halfedge of the run and its edges.
+/// With more faces either is another chart.
+type Place = [u32; 6];
+
 pub(super) struct Giving<'a> {
     pub(super) borders: Borders<'a>,
     pub(super) charts: BTreeMap<u32, MappedChart>,
@@ -84,8 +88,10 @@ pub(super) struct Giving<'a> {
     is_given: &'a dyn Fn(&MappedChart) -> bool,
     /// The faces of charts on which others were laid.
     pub(super) grounds: BTreeMap<u32, Ground>,
-    /// Those that were pushed in vain, once for each.
-    in_vain: BTreeSet<u32>,
+    /// Those that were pushed, once for each.
+    were_pushed: BTreeSet<u32>,
+    /// Where charts were laid in vain.
+    in_vain: BTreeSet<Place>,
     /// Faces that may still be glued.
     left: usize,
     options: &'a embed::Options,
@@ -118,6 +124,7 @@ impl<'a> Giving<'a> {
             bound,
             is_given: &|_| true,
             grounds: BTreeMap::new(),
+            were_pushed: BTreeSet::new(),
             in_vain: BTreeSet::new(),
             left: MOST_GLUED * surface.triangles.len(),
             options,
@@ -161,20 +168,26 @@ impl<'a> Giving<'a> {
             if self.observer.control() == Control::Finish {
                 return None;
             }
-            let neighbor = &self.charts[&run.neighbor];
-            let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run) else {
+            let place = self.place(number, &run);
+            if self.in_vain.contains(&place) {
                 continue;
-            };
-            let ground = self.grounds.entry(run.neighbor);
-            let ground = ground.or_insert_with(|| Ground::new(neighbor));
-            match laid.n_overlaps(ground, most_pairs) {
-                0 if self.join_alike(number, laid, &run) => return Some(run.neighbor),
-                0 => {}
-                n if n <= most_pairs => pushed.push((n, run)),
-                _ => {}
             }
+            let neighbor = &self.charts[&run.neighbor];
+            if let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run) {
+                let ground = self.grounds.entry(run.neighbor);
+                let ground = ground.or_insert_with(|| Ground::new(neighbor));
+                match laid.n_overlaps(ground, most_pairs) {
+                    0 if self.join_alike(number, laid, &run) => return Some(run.neighbor),
+                    n if n > 0 && n <= most_pairs => {
+                        pushed.push((n, run));
+                        continue;
+                    }
+                    _ => {}
+                }
+            }
+            self.in_vain.insert(place);
         }
-        if most_pushed == 0 || !self.in_vain.insert(number) {
+        if most_pushed == 0 || !self.were_pushed.insert(number) {
             return None;
         }
         pushed.sort_by_key(|(n, _)| *n);
@@ -189,6 +202,18 @@ impl<'a> Giving<'a> {
             }
         }
         None
+    }
+
+    fn place(&self, number: u32, run: &Run) -> Place {
+        let faces = |number: u32| self.charts[&number].chart.disk.triangles.len() as u32;
+        [
+            number,
+            faces(number),
+            run.neighbor,
+            faces(run.neighbor),
+            run.halfedges[0],
+            run.halfedges.len() as u32,
+        ]
     }
 
     /// Glues a chart to a neighbor, if they can be kept from overlapping within the bound.
