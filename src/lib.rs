@@ -150,6 +150,9 @@
 //!   texel density.
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
 //! - The pages of an atlas are the first row of UDIM tiles, at most ten: v stays in the unit interval, where floating point is finest.
+//! - More pages never give less density: a layout is looked for on one page, then on two, and so on, each time from the charts of the
+//!   fullest so far, which stays unless a fuller one is found. Nothing of that depends on how many pages there may be, and each costs
+//!   about as much as the first.
 //! - Charts come from the top down: disks are slit until they keep a bound on the distortion, rather than regions grown or
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
 //! - What consists of planes is put together instead: each plane is laid into the page as it is, and they are joined along straight

@@ -46,6 +46,7 @@ mod layouts;
 mod left_out;
 mod measure;
 mod mesh;
+mod more_pages;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;
@@ -56,6 +57,7 @@ mod obj_pipeline;
 mod once;
 #[cfg(feature = "files")]
 mod outline;
+mod own_axes;
 mod own_energy;
 mod packing_mode;
 mod pages;

@@ -16,6 +16,18 @@ use crate::zoo;
 #[derive(Default)]
 struct Memory(RefCell<Vec<Vec<f64>>>);
 
+impl Memory {
+    /// The vertices that were at one place in all iterates, of which there were several.
+    fn stayed(self) -> Vec<usize> {
+        let iterates = self.0.into_inner();
+        assert!(iterates.len() > 2);
+        let at = |x: &[f64], v: usize| [x[2 * v], x[2 * v + 1]];
+        (0..iterates[0].len() / 2)
+            .filter(|&v| iterates.iter().all(|x| at(x, v) == at(&iterates[0], v)))
+            .collect()
+    }
+}
+
 impl Watch for Memory {
     fn iterate(&self, _: &Iterate) -> Control {
         Control::Continue
@@ -63,20 +75,30 @@ fn pinned_vertices_stay_where_they_are_and_no_others() {
         let memory = Memory::default();
         let embedding = parameterize(&disk, &positions, &options(energy), &memory);
         assert!(is_positive(&disk.triangles, &embedding.uv), "{energy:?}");
-        let iterates = memory.0.into_inner();
-        let stayed: Vec<usize> = (0..disk.n_vertices)
-            .filter(|v| {
-                let at = |x: &[f64]| [x[2 * v], x[2 * v + 1]];
-                iterates.iter().all(|x| at(x) == at(&iterates[0]))
-            })
-            .collect();
+        let stayed = memory.stayed();
         let on_boundary = |v: &usize| disk.loops[0].contains(&(*v as u32));
-        assert!(iterates.len() > 2, "{energy:?}");
         assert!(
             stayed.len() == 2 && stayed.iter().all(on_boundary),
             "{stayed:?}"
         );
     }
+}
+
+/// From two corners of a parallelogram the other end of the shorter diagonal is what is farthest.
+#[test]
+fn it_does_not_matter_where_the_border_begins() {
+    let (mut disk, positions) = sheet(|[x, y, _]| [x + 0.05 * y, y, (x / 6.0).cos()]);
+    let n = disk.loops[0].len();
+    let pins: Vec<Vec<usize>> = (0..n / 4)
+        .map(|_| {
+            disk.loops[0].rotate_left(4);
+            let memory = Memory::default();
+            parameterize(&disk, &positions, &options(EnergyKind::Arap), &memory);
+            memory.stayed()
+        })
+        .collect();
+    let ends = vec![0, disk.n_vertices - 1];
+    assert_eq!(pins, vec![ends; n / 4]);
 }
 
 /// The map of a surface that can be laid flat is that without any distortion, up to its size.

@@ -22,10 +22,11 @@ use super::{AtlasError, AtlasOptions, ChartMap, Turns};
 /// Cells along the side of the square page that the charts are expected to need. With 64 worse cuts are chosen; with 256 a trial
 /// costs four times as much, and less is found in the same time.
 const RASTER: u32 = 96;
-/// The same of more charts than so many, each of which has fewer cells.
+/// The same of more charts than so many for each page, each of which has fewer cells.
 const FINE_RASTER: u32 = 256;
 const FEW: usize = 64;
-/// Several small charts count as one; a layout of more than so many is not searched: a trial takes too long to find anything in time.
+/// Several small charts count as one; a layout of more than so many for each page is not searched: a trial takes too long to find
+/// anything in time.
 const CROWD: usize = 64;
 /// A chart is small whose rectangle has less than such a half perimeter, as a share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
@@ -86,7 +87,7 @@ impl Draft {
     fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
         let area = plan.area().max(f64::MIN_POSITIVE);
         let texture = options.texture;
-        let side = if plan.order.len() > FEW {
+        let side = if plan.order.len() > FEW * texture.pages as usize {
             FINE_RASTER
         } else {
             RASTER
@@ -173,7 +174,7 @@ impl Draft {
 
     /// Whether there are so many charts that only the first layout is known.
     pub fn is_crowded(&self) -> bool {
-        self.n_charts() > CROWD
+        self.n_charts() > CROWD * self.raster.texture.pages as usize
     }
 
     /// Whether it has been improved.

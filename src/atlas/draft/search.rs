@@ -10,6 +10,7 @@ use crate::atlas::OnRead;
 use crate::atlas::arrangement::Arrangement;
 use crate::atlas::read_limit::ReadLimit;
 use crate::atlas::squeeze::Body;
+use crate::atlas::tight::Page;
 use crate::numerics::random::Random;
 
 /// Larger pages that a search accepts at its begin and at its end, in cells: about half a cell of a raster of 256 and a tenth.
@@ -219,13 +220,21 @@ impl Draft {
         })
     }
 
-    /// Lets charts look for other places while about so many words are read.
+    /// Lets charts of the largest page look for other places, and of that which is the largest then, while about so many words are
+    /// read.
     fn relocate(&mut self, words: u64, seed: u64, on_read: &OnRead) {
         let mut pages = std::mem::take(&mut self.pages);
-        let each = words / pages.len().max(1) as u64;
-        for page in &mut pages {
-            let bodies = self.bodies(&page.charts);
-            page.squeezed.search(&bodies, each, seed, on_read);
+        let n = pages.len();
+        for round in 0..n as u64 {
+            let largest = |(_, a): &(usize, &Page), (_, b): &(usize, &Page)| {
+                a.squeezed.side.total_cmp(&b.squeezed.side)
+            };
+            if let Some((index, _)) = pages.iter().enumerate().max_by(largest) {
+                let page = &mut pages[index];
+                let bodies = self.bodies(&page.charts);
+                let each = words / n as u64;
+                page.squeezed.search(&bodies, each, seed + round, on_read);
+            }
         }
         self.pages = pages;
     }

@@ -16,6 +16,12 @@ pub const LOOKS: [(Look, usize); 3] = [
     (Look::Second, 4),
     (Look::Last, 2),
 ];
+/// The same where charts were cut for fewer pages before.
+pub const LOOKS_FURTHER: [(Look, usize); 3] = [
+    (Look::First, usize::MAX),
+    (Look::Second, 4),
+    (Look::Last, 1),
+];
 
 /// Charts after some cuts.
 #[derive(Clone)]
@@ -78,6 +84,7 @@ pub struct Cut {
 pub struct Search<'a> {
     pub options: &'a AtlasOptions,
     pub on_read: &'a OnRead<'a>,
+    looks: &'static [(Look, usize)],
     /// The multiple of the words that looks usually read.
     effort: f64,
 }
@@ -86,7 +93,7 @@ impl<'a> Search<'a> {
     /// For so many charts, which are cut so often at most, and the looks that there are going to be.
     pub fn new(
         (n_charts, most_cuts): (usize, usize),
-        looks: &[(Look, usize)],
+        looks: &'static [(Look, usize)],
         options: &'a AtlasOptions,
         on_read: &'a OnRead<'a>,
     ) -> Self {
@@ -97,6 +104,7 @@ impl<'a> Search<'a> {
         Self {
             options,
             on_read,
+            looks,
             effort: patience * share.min(1.0),
         }
     }
@@ -119,7 +127,8 @@ impl<'a> Search<'a> {
     pub fn fullest(&self, mut candidates: Vec<Candidate>) -> Candidate {
         let by_value = |a: &Candidate, b: &Candidate| b.value().total_cmp(&a.value());
         candidates.sort_by(by_value);
-        for (look, n) in LOOKS.into_iter().skip(1) {
+        let again = |&&(look, _): &&(Look, usize)| look != Look::First;
+        for &(look, n) in self.looks.iter().filter(again) {
             candidates.truncate(n);
             let each = candidates.par_iter_mut().with_max_len(1);
             each.for_each(|candidate| self.look(candidate, look));

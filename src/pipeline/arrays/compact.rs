@@ -1,6 +1,6 @@
 //! Charts cut where that makes their atlas fuller.
 
-use super::candidate::{Candidate, LOOKS, Search, wanted_words};
+use super::candidate::{Candidate, LOOKS, LOOKS_FURTHER, Search, wanted_words};
 use super::chart_maps::chart_maps;
 use super::cutter::{Cutter, WORDS_PER_CUT};
 use crate::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead, Scale, Texture};
@@ -10,6 +10,8 @@ use std::sync::Arc;
 /// Candidates at most for each page beside the charts as they are, in all and for each chart that there was.
 const MOST_CANDIDATES: usize = 18;
 const MOST_CANDIDATES_PER_CHART: usize = 14;
+/// The same on one page more than they were cut for before.
+const MOST_FURTHER: usize = 8;
 /// Charts at most that are cut, several small ones counted as one.
 pub const MOST_CHARTS: usize = 512;
 /// Cuts that are made before any of them is looked at, and how often in a row, for each page, none of them may be better.
@@ -25,6 +27,13 @@ const FEW: usize = 6;
 /// What a number of cuts has to be worth more, as a share of the square, to be better than another: what is expected and what a
 /// search finds differ by as much where nothing but rounding does.
 const LEEWAY: f64 = 0.005;
+
+/// What charts were cut for before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Before {
+    Nothing,
+    FewerPages,
+}
 
 /// Charts and a draft of their layout.
 pub struct Drafted {
@@ -47,7 +56,7 @@ impl Drafted {
 /// `seam_price` multiplies the price of a seam: with 0 all cuts that gain anything are made. The
 /// charts may become as many as `most_charts`.
 pub fn compacted(
-    charts: Vec<MappedChart>,
+    (charts, before): (Vec<MappedChart>, Before),
     options: &AtlasOptions,
     (seam_price, most_charts): (f64, Option<u32>),
     on_read: &OnRead,
@@ -58,11 +67,12 @@ pub fn compacted(
         draft => return Ok(Drafted { charts, draft }),
     };
     let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
-    let most = most_candidates(charts.len(), options).min(wanted.saturating_sub(charts.len()));
+    let most =
+        most_candidates(charts.len(), options, before).min(wanted.saturating_sub(charts.len()));
     let is_foreseeable = is_foreseeable(options) && !draft.is_crowded();
     let search = Search::new(
         (charts.len(), most),
-        looks(is_foreseeable),
+        looks(is_foreseeable, before),
         options,
         on_read,
     );
@@ -87,20 +97,28 @@ fn is_foreseeable(options: &AtlasOptions) -> bool {
 }
 
 /// The looks that candidates get.
-fn looks(is_foreseeable: bool) -> &'static [(Look, usize)] {
-    &LOOKS[usize::from(is_foreseeable)..]
+fn looks(is_foreseeable: bool, before: Before) -> &'static [(Look, usize)] {
+    match before {
+        Before::Nothing => &LOOKS[usize::from(is_foreseeable)..],
+        Before::FewerPages => &LOOKS_FURTHER,
+    }
 }
 
 /// Candidates of so many charts at most, beside the charts as they are.
-fn most_candidates(n_charts: usize, options: &AtlasOptions) -> usize {
-    options.texture.pages as usize * MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts)
+fn most_candidates(n_charts: usize, options: &AtlasOptions, before: Before) -> usize {
+    let pages = options.texture.pages as usize;
+    match before {
+        Before::Nothing => pages * MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts),
+        Before::FewerPages => MOST_FURTHER,
+    }
 }
 
-/// The words that are read where so many charts are cut and a quarter of the cuts are made, about.
+/// The words that are read where so many charts are cut for one page and a quarter of the cuts are made, about.
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
-    let candidates = most_candidates(n_charts, options) / 4;
+    let candidates = MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts) / 4;
     let numbers: Vec<usize> = (n_charts..=n_charts + candidates).collect();
-    let words = options.patience * wanted_words(&numbers, looks(is_foreseeable(options)));
+    let looks = looks(is_foreseeable(options), Before::Nothing);
+    let words = options.patience * wanted_words(&numbers, looks);
     WORDS_PER_CUT * candidates as u64 + words.min(options.search_words)
 }
 

@@ -4,11 +4,12 @@ use rayon::prelude::*;
 
 use super::chart_maps::chart_maps;
 use super::clearance::open_charts;
-use super::compact::{Drafted, compacted};
+use super::compact::{Before, Drafted, MOST_CHARTS, compacted};
 use super::plan::Plan;
 use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale, Turns};
 use crate::charts::{Folds, MappedChart};
 use crate::pipeline::PipelineError;
+use crate::solver::Control;
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
 /// another scale rounds it differently.
@@ -19,10 +20,14 @@ const OPENINGS: usize = 4;
 
 /// The share of pages that charts are hoped to fill at a scale that is given.
 const HOPE: f64 = 0.85;
-/// The search on fewer pages than there may be costs such a part of the search on all.
-const FEWER_PAGES: u64 = 4;
+/// The search for a layout on more than one page may read such a part of what the one on a single page may: there is one for each
+/// number of pages.
+const PER_PAGE: u64 = 4;
 
 /// The charts of one mesh in an atlas, at a scale that is given on as few pages as were found to do.
+///
+/// Each number of pages is tried in turn, and begins with the charts that were cut for the one before. What is tried does not
+/// depend on how many there may be, so more pages never give less.
 pub fn packed(
     mut charts: Vec<MappedChart>,
     options: &AtlasOptions,
@@ -32,14 +37,51 @@ pub fn packed(
     if options.turns == Turns::Any {
         charts.par_iter_mut().for_each(MappedChart::turn_up);
     }
-    let Scale::TexelsPerUnit(texels) = options.scale else {
-        return Ok(settled(
-            drafted(charts, options, plan, on_read)?,
-            options,
-            plan,
-            on_read,
-        )?);
+    match options.scale {
+        Scale::Largest => Ok(largest(charts, (options, plan), on_read)?),
+        Scale::TexelsPerUnit(texels) => fewest(charts, texels, (options, plan), on_read),
+    }
+}
+
+/// The largest layout on any number of pages.
+fn largest(
+    charts: Vec<MappedChart>,
+    (options, plan): (&AtlasOptions, &Plan),
+    on_read: &OnRead,
+) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
+    let most = options.texture.pages;
+    // Of a crowd the fill grows evenly with the pages.
+    let least = if charts.len() > MOST_CHARTS { most } else { 1 };
+    let on = |pages: u32, charts: (Vec<MappedChart>, Before)| {
+        let on = on_pages(pages, options);
+        settled(drafted(charts, &on, plan, on_read)?, &on, plan, on_read)
     };
+    if least == most {
+        return on(most, (charts, Before::Nothing));
+    }
+    let mut best = on(least, (charts.clone(), Before::Nothing));
+    for pages in least + 1..=most {
+        if on_read(0) == Control::Finish {
+            break;
+        }
+        best = match best {
+            Err(_) => on(pages, (charts.clone(), Before::Nothing)),
+            Ok(best) => match on(pages, (best.0.clone(), Before::FewerPages)) {
+                Ok(next) if next.1.scale > best.1.scale => Ok(next),
+                _ => Ok(best),
+            },
+        };
+    }
+    best
+}
+
+/// A layout on the fewest pages on which one is found at a scale that is given.
+fn fewest(
+    charts: Vec<MappedChart>,
+    texels: f64,
+    (options, plan): (&AtlasOptions, &Plan),
+    on_read: &OnRead,
+) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
     if atlas::fits(&chart_maps(&charts), options)? {
         let whole = Drafted {
             charts,
@@ -47,48 +89,50 @@ pub fn packed(
         };
         return Ok(settled(whole, options, plan, on_read)?);
     }
-    let mut last = Vec::new();
-    for pages in page_numbers(&charts, texels, options) {
-        let mut tried = options.clone();
-        tried.texture.pages = pages;
-        if pages < options.texture.pages {
-            tried.search_words /= FEWER_PAGES;
-        }
-        let drafted = drafted(charts.clone(), &tried, plan, on_read)?;
-        last.clone_from(&drafted.charts);
-        match settled(drafted, &tried, plan, on_read) {
+    let least = least_pages(&charts, texels, options);
+    let mut last = (charts, Before::Nothing);
+    for pages in least..=options.texture.pages {
+        let on = on_pages(pages, options);
+        let drafted = drafted(last, &on, plan, on_read)?;
+        last = (drafted.charts.clone(), Before::FewerPages);
+        match settled(drafted, &on, plan, on_read) {
             Err(AtlasError::TextureTooSmall) => {}
             done => return Ok(done?),
         }
     }
-    let enough = atlas::enough(&chart_maps(&last), options)?;
+    let enough = atlas::enough(&chart_maps(&last.0), options)?;
     Err(PipelineError::TextureTooSmall(enough))
 }
 
-/// The numbers of pages to be tried: the least that could do, one more, and all.
-fn page_numbers(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> Vec<u32> {
+/// How to pack on so many pages.
+fn on_pages(pages: u32, options: &AtlasOptions) -> AtlasOptions {
+    let mut on = options.clone();
+    on.texture.pages = pages;
+    if pages > 1 {
+        on.search_words /= PER_PAGE;
+    }
+    on
+}
+
+/// The least number of pages that could do.
+fn least_pages(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> u32 {
     let area: f64 = charts.iter().map(MappedChart::area).sum();
     let resolution = options.texture.resolution;
     let page = HOPE * f64::from(resolution.width) * f64::from(resolution.height);
     let most = options.texture.pages;
-    let least = (texels * texels * area / page).min(f64::from(most)) as u32;
-    let mut numbers = [least + 1, least + 2, most]
-        .map(|pages| pages.min(most))
-        .to_vec();
-    numbers.dedup();
-    numbers
+    ((texels * texels * area / page).min(f64::from(most)) as u32 + 1).min(most)
 }
 
 /// Cut where that makes the atlas fuller.
 fn drafted(
-    charts: Vec<MappedChart>,
+    charts: (Vec<MappedChart>, Before),
     options: &AtlasOptions,
     plan: &Plan,
     on_read: &OnRead,
 ) -> Result<Drafted, AtlasError> {
     match plan.compaction {
         Some(seam_price) => compacted(charts, options, (seam_price, plan.most_charts), on_read),
-        None => Drafted::new(charts, options),
+        None => Drafted::new(charts.0, options),
     }
 }
 

@@ -68,11 +68,13 @@ pub fn likely_words(of: (&Settings, &Plan), n_meshes: usize, n_faces: usize) -> 
 
 /// About how many words packing so many charts reads.
 pub fn expected_words(plan: &Plan, options: &AtlasOptions, n_charts: usize) -> u64 {
-    if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
+    let of_page = if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
         compact::expected_words(n_charts, options)
     } else {
         options.patience * Look::Last.words(n_charts)
-    }
+    };
+    // On all numbers of pages, one after the other.
+    u64::from(options.texture.pages) * of_page
 }
 
 /// The padding asked for, or what keeps charts apart when UVs are rounded.
