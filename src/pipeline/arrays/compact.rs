@@ -7,11 +7,10 @@ use crate::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead, Scale, Texture
 use crate::charts::MappedChart;
 use std::sync::Arc;
 
-/// Candidates at most for each page beside the charts as they are, in all and for each chart that there was.
+/// Candidates at most for each page beside the charts as they are, in all and for each chart that there was. There are as many in
+/// all where the charts were cut for one page less before.
 const MOST_CANDIDATES: usize = 18;
 const MOST_CANDIDATES_PER_CHART: usize = 14;
-/// The same on one page more than they were cut for before.
-const MOST_FURTHER: usize = 8;
 /// Charts at most that are cut, several small ones counted as one.
 pub const MOST_CHARTS: usize = 512;
 /// Cuts that are made before any of them is looked at, and how often in a row, for each page, none of them may be better.
@@ -109,7 +108,7 @@ fn most_candidates(n_charts: usize, options: &AtlasOptions, before: Before) -> u
     let pages = options.texture.pages as usize;
     match before {
         Before::Nothing => pages * MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts),
-        Before::FewerPages => MOST_FURTHER,
+        Before::FewerPages => MOST_CANDIDATES,
     }
 }
 
