@@ -151,8 +151,9 @@
 //! - The geometry library (`default-features = false`) has neither files nor JSON; the feature `files` adds them.
 //! - The pages of an atlas are the first row of UDIM tiles, at most ten: v stays in the unit interval, where floating point is finest.
 //! - More pages never give less density: a layout is looked for on one page, then on two, and so on, each time from the charts of the
-//!   fullest so far, which stays unless a fuller one is found. Nothing of that depends on how many pages there may be, and each costs
-//!   about as much as the first.
+//!   fullest so far, which stays unless a fuller one is found. Nothing of that depends on how many pages there may be. A page costs
+//!   more than the one before where there are more charts by then: Spot takes .3 s on one page and 28 s on ten. More than 512
+//!   charts, of which the fill grows evenly with the pages, are laid out on all pages at once.
 //! - Charts come from the top down: disks are slit until they keep a bound on the distortion, rather than regions grown or
 //!   merged. Slits are seams but make no charts, so there are a tenth as many charts, and the seams are a third as long.
 //! - What consists of planes is put together instead: each plane is laid into the page as it is, and they are joined along straight

@@ -48,12 +48,12 @@ pub enum Symmetry {
 
 /// The charts of a surface, mapped, whose mean symmetric Dirichlet energy keeps the bound where that can be had.
 ///
-/// Each component is opened to a disk, a closed one in the way that promises the shortest seams. Disks are slit where the predictor
-/// says that they would be distorted most, until the sum promises to keep the bound. Then they are mapped, parted where a map
-/// overlaps itself, and slit further where the maps were worse than promised. The bound is one for all charts: a slit is spent where
-/// the excess is largest. Where the stretch is too large the same goes on as for a smaller mean. A surface on which this does not
-/// lead below the bound is divided as by [`Cut::Fast`] if that does better. At last small charts are [given back](given_back). A surface of needles, of which no map keeps the
-/// shape, is not slit.
+/// Each component is opened to a disk, a closed one in the way that promises the shortest seams. Disks are slit where the
+/// predictor says that they would be distorted most, until the sum promises to keep the bound. Then they are mapped,
+/// parted where a map overlaps itself, and slit further where the maps were worse than promised. The bound is one for all
+/// charts: a slit is spent where the excess is largest. Where the stretch is too large the same goes on as for a smaller
+/// mean. A surface on which this does not lead below the bound is divided as by [`Cut::Fast`] if that does better. At
+/// last small charts are [given back](given_back). A surface of needles, of which no map keeps the shape, is not slit.
 ///
 /// `seam_price` is what a seam costs, over its usual price: planes are joined along shorter borders where it is higher. With
 /// [`Bounded::Smoothed`] the charts of a rough component are those of the smoothed one, mapped on to the true one.
