@@ -182,8 +182,9 @@
 //! - Unwrapping minimizes the symmetric Dirichlet energy by default ([`pipeline::Mapping`]), in which the bound is stated:
 //!   at the bound of 4.1 it needs fewer charts than ARAP (1 against 3 on a closed surface with four handles), and folds
 //!   over itself less often. [`embed::Options`] and the deformations of [`deform`] default to ARAP, as in the paper.
-//! - A large disk is slit as its simplification is, from the same tips: slits are what is decided there, maps and overlaps are not, so
-//!   nothing has to be carried over but vertices.
+//! - A large disk is parted as its simplification is, small charts given back included: what takes rounds is done there. The seams
+//!   are carried over as the collapsed vertices are put back, then drawn anew along the cheapest ways nearby, and each chart is
+//!   mapped once. Planned so, koala has 10 charts and not 14, and seams a fifth shorter.
 //! - A lightmap needs a region for each instance, and glTF has no offset and scale of UVs per node: each node gets its own copy of
 //!   the mesh, which every engine reads.
 //! - Meshes of one shape are mapped once, and what is asked is not whether they share a name or an accessor but whether their triangles

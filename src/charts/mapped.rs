@@ -13,6 +13,9 @@ use crate::numerics::vec2::doubled_area;
 use crate::numerics::vec3::{area_vector, norm};
 use crate::solver::{Control, Iterate, Summary};
 
+/// Triangles of a part of a chart from which on it stays as it lies: what little it gains from being minimized again takes seconds.
+const RELAXED: usize = 60_000;
+
 /// A chart, its map and how long the map took.
 #[derive(Clone, Debug)]
 pub struct MappedChart {
@@ -156,7 +159,13 @@ impl MappedChart {
         }
         (self.parted_until_free(pairs, &|| asked(observer, faces)))
             .into_iter()
-            .map(|part| part.relaxed(options, observer))
+            .map(|part| {
+                if part.chart.disk.triangles.len() < RELAXED {
+                    part.relaxed(options, observer)
+                } else {
+                    part
+                }
+            })
             .collect()
     }
 

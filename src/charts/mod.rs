@@ -10,7 +10,7 @@
 //! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
 //! A closed piece is tried so with openings between several pairs of vertices far apart, and gets the one whose seams promise to be
 //! shortest: where it is opened follows from its shape and, but for ties, not from the order of its vertices.
-//! With a large disk a chart of fewer faces goes that way first, and the disk begins with its slits.
+//! With a large disk a chart of fewer faces goes that way first, and the disk is parted as that is.
 //!
 //! Before that [`Cut::Auto`] looks for components that consist mostly of planes, such as machine parts and sheet metal (`facets`):
 //! each plane is laid into the page as it is, and they are joined where a seam would cost most (`creases`).

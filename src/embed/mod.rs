@@ -41,6 +41,6 @@ pub use pins::Pins;
 pub use positive::is_positive;
 pub(crate) use rest::is_needle;
 pub use rest::{RestShapes, rest_shapes};
-pub use simplify::simplified;
+pub use simplify::Simplification;
 pub use star::{Corners, Star};
 pub use start::{hierarchical_start, start, tutte_start};

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use std::sync::Mutex;
 use unwrapd::barrier::{BarrierKind, NoBarrier};
 use unwrapd::embed::{
-    Corners, InvalidStart, Options, Star, hierarchical_start, optimize, parameterize, rest_shapes,
-    simplified, start,
+    Corners, InvalidStart, Options, Simplification, Star, hierarchical_start, optimize,
+    parameterize, rest_shapes, start,
 };
 use unwrapd::energy::{EnergyKind, RestShape, SymmetricDirichlet, Term, Triangles};
 use unwrapd::mesh::Disk;
@@ -175,7 +175,11 @@ fn a_simplified_disk_keeps_its_holes_and_area() {
     let is_hole = |x, y| [20, 60].contains(&x) && (40..50).contains(&y);
     let plane = |x, y| [x as f64, y as f64, 0.0];
     let (disk, positions) = grid(80, is_hole, plane);
-    let (simple, vertices) = simplified(&disk, &positions, 200).expect("a disk");
+    let Simplification {
+        disk: simple,
+        vertices,
+        ..
+    } = Simplification::new(&disk, &positions, 200).expect("a disk");
     assert!(simple.n_vertices < 400, "{}", simple.n_vertices);
     assert_eq!(vertices.len(), simple.n_vertices);
     assert_eq!(simple.loops.len(), 3);

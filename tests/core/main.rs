@@ -85,6 +85,7 @@ mod session;
 mod session_model;
 #[cfg(feature = "files")]
 mod simple_polygons;
+mod simplification;
 mod solver;
 mod symmetry;
 mod taylor;

@@ -2,15 +2,14 @@
 
 use super::best_way::{Opened, best_opened};
 use super::pending_chart::Piece;
+use super::planned::parted_as_simplified;
 use super::quality::{Bound, Bounded};
 use super::rounds::{mean_excess, rounds};
-use super::simplified::Simplified;
-use super::slits::Slits;
 use crate::charts::chart::{Chart, Cut};
 use crate::charts::creases::hard_components::Divided;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
-use crate::charts::observer::{Observer, Planning};
+use crate::charts::observer::Observer;
 use crate::charts::opened::{charts, charts_alike, charts_in_ways};
 use crate::charts::rough::smoothed_where_rough;
 use crate::charts::symmetry::exact::exact_mirror_planes;
@@ -23,9 +22,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::cell::LazyCell;
 
-/// Triangles of a chart from which on its first slits are planned on a simplification, and the vertices of that.
+/// Triangles of a chart from which on it is first parted as a simplification is.
 const LARGE: usize = 60_000;
-const SIMPLE: usize = 10_000;
 
 /// How many ways to open a closed component are tried, on surfaces of at most so many triangles.
 const MOST_WAYS: usize = 4;
@@ -128,11 +126,7 @@ fn charts_of_surface(
     } else {
         Vec::new()
     };
-    maps(hard).chain(soft).collect()
-}
-
-fn maps(pieces: Vec<Piece>) -> impl Iterator<Item = MappedChart> {
-    pieces.into_iter().filter_map(|piece| piece.map)
+    Piece::maps(hard).chain(soft).collect()
 }
 
 /// The charts of those components that are not hard: each opened in some ways, or divided by [`Cut::Fast`].
@@ -148,7 +142,15 @@ fn soft_charts(
         return Vec::new();
     }
     let slit = slit_and_mapped(opened, bound, options, observer);
-    let given_back = |pieces| given_back(surface, maps(pieces).collect(), bound, options, observer);
+    let given_back = |pieces| {
+        given_back(
+            surface,
+            Piece::maps(pieces).collect(),
+            bound,
+            options,
+            observer,
+        )
+    };
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
         return given_back(slit);
     }
@@ -192,37 +194,11 @@ fn slit_and_mapped(
 ) -> Vec<Piece> {
     let pieces = (opened.into_par_iter().with_max_len(1)).flat_map_iter(|opened| match opened {
         Opened::Whole(chart) if chart.disk.triangles.len() >= LARGE => {
-            let parts = slit_as_simplified(chart, bound, options, observer).into_iter();
-            let maps = parts.flat_map(|part| map_chart(part, options, Folds::Cut, observer));
-            maps.map(Piece::of).collect()
+            let parts = parted_as_simplified(chart, bound, options, observer);
+            (map_all(parts, options, observer).into_iter().map(Piece::of)).collect()
         }
         Opened::Whole(chart) => vec![Piece::unmapped(chart)],
         Opened::Slit(piece) => vec![*piece],
     });
-    rounds(pieces.collect(), bound, options, observer, |_| ())
-}
-
-/// A chart with the slits that its simplification needs to keep the bound: large charts are mapped once or twice, not in every round.
-fn slit_as_simplified(
-    chart: Chart,
-    bound: &Bound,
-    options: &embed::Options,
-    observer: &dyn Observer,
-) -> Vec<Chart> {
-    let Some(simple) = Simplified::new(&chart, SIMPLE) else {
-        return vec![chart];
-    };
-    let mut tips = Vec::new();
-    let pieces = vec![Piece::unmapped(simple.chart.clone())];
-    let planning = Planning {
-        observer,
-        faces: simple.faces(&chart),
-    };
-    let mapped = rounds(pieces, bound, options, &planning, |slits| {
-        tips.extend(slits.tips().map(|corner| simple.vertex(corner)));
-    });
-    // Only those of the chart itself count.
-    let n_mapped = mapped.len() as isize;
-    observer.charted(-n_mapped, -n_mapped);
-    Slits::from_tips(chart, &tips).opened()
+    rounds(pieces.collect(), bound, options, observer)
 }

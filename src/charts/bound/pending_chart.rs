@@ -53,6 +53,11 @@ impl Piece {
         }
     }
 
+    /// The maps of those that are mapped.
+    pub fn maps(pieces: Vec<Self>) -> impl Iterator<Item = MappedChart> {
+        pieces.into_iter().filter_map(|piece| piece.map)
+    }
+
     /// Plans a slit, or several; false if there is nothing to slit.
     pub fn cut(&mut self, is_far: bool) -> bool {
         self.planned(|slits| slits.cut(is_far))

@@ -3,7 +3,6 @@
 use super::distortion::stretched_area;
 use super::pending_chart::Piece;
 use super::quality::Bound;
-use super::slits::Slits;
 use crate::charts::chart::Chart;
 use crate::charts::observer::Observer;
 use crate::charts::symmetry::counterpart::counterparts;
@@ -31,13 +30,12 @@ const HOPELESS: [f64; 2] = [0.7, 4.0];
 /// So many times more than there may be shows it in the first round.
 const HOPELESS_AT_ONCE: f64 = 1_000.0;
 
-/// Slits and maps pieces in rounds until their maps keep the bound, or that is hopeless; `see` is shown what is slit.
+/// Slits and maps pieces in rounds until their maps keep the bound, or that is hopeless.
 pub fn rounds(
     mut pieces: Vec<Piece>,
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
-    mut see: impl FnMut(&Slits),
 ) -> Vec<Piece> {
     let n_faces: usize = pieces.iter().map(Piece::n_faces).sum();
     let budget = bound.budget();
@@ -46,7 +44,6 @@ pub fn rounds(
     observer.charted(0, pieces.len() as isize);
     for round in 0..MOST_ROUNDS {
         slit(&mut pieces, wanted, observer);
-        pieces.iter().filter_map(Piece::slits).for_each(&mut see);
         let again = pieces.iter().filter(|piece| piece.is_mapped_again());
         observer.charted(-(again.count() as isize), 0);
         pieces = pieces

@@ -1,34 +1,33 @@
-//! A chart with fewer faces, on which slits are planned.
+//! A chart with fewer faces, on which its seams are planned.
 
 use crate::charts::Chart;
-use crate::embed::simplified;
-use crate::mesh::VertexFaces;
+use crate::embed::Simplification;
+use crate::mesh::{CUT, Surface, VertexFaces, next};
 use std::collections::HashSet;
 
 /// A chart with fewer faces.
 pub struct Simplified {
     /// The chart; its corners are numbered in its own triangles.
     pub chart: Chart,
-    /// For each corner of its triangles the vertex of the chart it was made from.
-    vertex: Vec<u32>,
+    simplification: Simplification,
 }
 
 impl Simplified {
     /// A chart of about so many vertices, if that is fewer and its shape allows it.
     pub fn new(chart: &Chart, n_vertices: usize) -> Option<Self> {
-        let (disk, vertices) = simplified(&chart.disk, &chart.positions, n_vertices)?;
-        let corners = disk.triangles.as_flattened().iter();
-        let position = |&v: &u32| chart.positions[v as usize];
+        let simplification = Simplification::new(&chart.disk, &chart.positions, n_vertices)?;
+        let disk = simplification.disk.clone();
+        let vertices = simplification.vertices.iter();
         Some(Self {
-            vertex: corners.map(|&v| vertices[v as usize]).collect(),
             chart: Chart {
-                positions: vertices.iter().map(position).collect(),
+                positions: vertices.map(|&v| chart.positions[v as usize]).collect(),
                 corners: (0..disk.triangles.len() as u32)
                     .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
                     .collect(),
                 mirror: chart.mirror,
                 disk,
             },
+            simplification,
         })
     }
 
@@ -36,20 +35,44 @@ impl Simplified {
     pub fn faces(&self, chart: &Chart) -> Vec<u32> {
         let around = VertexFaces::new(chart.positions.len(), &chart.disk.triangles);
         let mut taken = HashSet::new();
+        let of_chart = |v: u32| self.simplification.vertices[v as usize];
         let mut near = |vertices: &[u32; 3]| {
-            let mut near = vertices.iter().flat_map(|&v| around.of(v));
+            let mut near = vertices.iter().flat_map(|&v| around.of(of_chart(v)));
             let first = near.clone().next().copied();
             near.find(|&&face| taken.insert(face)).copied().or(first)
         };
         let of_surface = |face: u32| chart.corners[face as usize][0] / 3;
-        let triangles = self.vertex.as_chunks().0.iter();
+        let triangles = self.chart.disk.triangles.iter();
         triangles
             .filter_map(|vertices| near(vertices).map(of_surface))
             .collect()
     }
 
-    /// The vertex of the chart at a corner.
-    pub fn vertex(&self, corner: u32) -> u32 {
-        self.vertex[corner as usize]
+    /// The chart as a surface, cut where the chart ends. None if a triangle has two corners in one place.
+    pub fn surface(&self) -> Option<Surface> {
+        let disk = &self.chart.disk;
+        let mut surface = Surface::new(&self.chart.positions, &disk.triangles).ok()?;
+        let twin = disk.twins();
+        surface.cut_along(|h, t| twin[h as usize] != t);
+        (surface.triangles.len() == disk.triangles.len()).then_some(surface)
+    }
+
+    /// The edges of the chart it is made of, each as its two vertices in ascending order, that part that as this is parted into some
+    /// charts.
+    pub fn carried_back<'a>(&self, parts: impl Iterator<Item = &'a Chart>) -> HashSet<[u32; 2]> {
+        let twin = self.chart.disk.twins();
+        let mut is_glued = vec![false; twin.len()];
+        for part in parts {
+            for (h, _) in (0..).zip(part.disk.twins()).filter(|&(_, t)| t != CUT) {
+                is_glued[part.surface_halfedge(h) as usize] = true;
+            }
+        }
+        let vertex = |h: u32| self.chart.disk.triangles[h as usize / 3][h as usize % 3];
+        let seams: Vec<[u32; 2]> = (0u32..)
+            .zip(&twin)
+            .filter(|&(h, &t)| t != CUT && h < t && !is_glued[h as usize])
+            .map(|(h, _)| [h, next(h)].map(vertex))
+            .collect();
+        self.simplification.carried_back(&seams)
     }
 }

@@ -17,8 +17,6 @@ pub struct Slits {
     pub(super) cost: Vec<f64>,
     /// For each vertex of the sheet the loop of the boundary that it lies on, or whose slits it lies on; that with most edges is 0.
     pub(super) seam: Vec<Option<u32>>,
-    /// Where slits were begun, in their order: a vertex inside, or one of a hole.
-    pub(super) tips: Vec<u32>,
     /// Halfedges along the slits.
     edges: Vec<u32>,
     /// Their vertices, each from the seam that it was drawn to.
@@ -39,7 +37,6 @@ impl Slits {
             neighbors: Neighbors::new(&sheet),
             cost: edge_costs(&sheet),
             seam: boundary_loops(&chart, &sheet),
-            tips: Vec::new(),
             edges: Vec::new(),
             lines: Vec::new(),
             chart,
@@ -47,36 +44,9 @@ impl Slits {
         }
     }
 
-    /// Slits from some vertices of the chart, one after the other.
-    pub fn from_tips(chart: Chart, tips: &[u32]) -> Self {
-        let mut slits = Self::new(chart);
-        let mut in_sheet = vec![0; slits.chart.disk.n_vertices];
-        let corners = slits.chart.disk.triangles.as_flattened();
-        for (&v, &numbered_anew) in corners.iter().zip(&slits.sheet.vertex) {
-            in_sheet[v as usize] = numbered_anew;
-        }
-        for &tip in tips {
-            let tip = in_sheet[tip as usize];
-            if let Some(hole) = slits.seam[tip as usize] {
-                slits.slit_from(hole);
-            } else {
-                slits.slit_to(tip);
-            }
-        }
-        slits
-    }
-
     /// The chart without them.
     pub fn chart(&self) -> &Chart {
         &self.chart
-    }
-
-    /// For each slit a corner of the surface where it was begun.
-    pub fn tips(&self) -> impl Iterator<Item = u32> {
-        let corners = self.chart.corners.as_flattened();
-        let first = |tip: &u32| self.sheet.vertex.iter().position(|v| v == tip);
-        let first = self.tips.iter().filter_map(first);
-        first.map(|corner| corners[corner])
     }
 
     /// The chart's triangles, in vertices numbered anew, and the positions of these.
@@ -97,7 +67,6 @@ impl Slits {
             return self.slit_alike(tip, &mirror);
         }
         let way = self.way([tip], None, |h| self.cost[h as usize])?;
-        self.tips.push(tip);
         self.draw(&way);
         Some(way.length(&self.sheet))
     }
@@ -110,18 +79,7 @@ impl Slits {
         let holes = 1..self.chart.disk.loops.len() as u32;
         let has_edges = |hole: &u32| self.chart.disk.loops[*hole as usize].len();
         let hole = holes.rev().max_by_key(has_edges);
-        hole.is_some_and(|hole| self.slit_from(hole))
-    }
-
-    /// The same from this hole; false if there is nothing to do.
-    fn slit_from(&mut self, hole: u32) -> bool {
-        let of_hole = |seam: &Option<u32>| *seam == Some(hole);
-        let tip = self.seam.iter().position(of_hole);
-        let is_new = self.open(hole);
-        if is_new {
-            self.tips.extend(tip.map(|v| v as u32));
-        }
-        is_new
+        hole.is_some_and(|hole| self.open(hole))
     }
 
     /// Plans slits on from a hole until it hangs together with the outer boundary; false if there is nothing to do.

@@ -19,7 +19,6 @@ impl Slits {
     pub(super) fn slit_alike(&mut self, tip: u32, mirror: &SheetMirror) -> Option<f64> {
         let way = self.way_beside(tip, mirror)?;
         if let Some(way) = self.way_in_plane(tip, &way, mirror) {
-            self.tips.push(way.start());
             self.draw(&way);
             return Some(way.length(&self.sheet));
         }
@@ -32,7 +31,6 @@ impl Slits {
             Some(other) if other.cost < way.cost => other,
             _ => way,
         };
-        self.tips.push(way.start());
         self.draw(&way);
         if !mirror.has(&self.sheet, tip) {
             let image = self.way_along(&self.image_of(&way, mirror), |v| self.is_inside(v));
@@ -93,7 +91,6 @@ impl Slits {
     /// Plans a slit near a line, which leads from a seam.
     pub(super) fn slit_along(&mut self, line: &[[f64; 3]]) {
         if let Some(way) = self.way_along(line, |v| self.is_inside(v)) {
-            self.tips.push(way.start());
             self.draw(&way);
         }
     }

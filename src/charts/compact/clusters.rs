@@ -41,12 +41,13 @@ impl Clusters {
             })
             .collect();
         let cell = area.iter().sum::<f64>().max(f64::MIN_POSITIVE).sqrt() / CELLS;
-        let place = |f: usize| centre(corners(f)).map(|x| (x / cell).floor() as i64);
+        let places = (0..n_faces).map(|f| centre(corners(f)).map(|x| (x / cell).floor() as i64));
+        let places: Vec<[i64; 2]> = places.collect();
         let has_planes = (0u32..).zip(cost).any(|(h, &cost)| cost > sheet.length(h));
         let is_crease = |h: u32| has_planes && cost[h as usize] < CREASE * sheet.length(h);
         let mut sets = UnionFind::new(n_faces);
         for (h, &t) in (0u32..).zip(&sheet.twin).filter(|(_, t)| **t != CUT) {
-            let is_near = !is_crease(h) && place(h as usize / 3) == place(t as usize / 3);
+            let is_near = !is_crease(h) && places[h as usize / 3] == places[t as usize / 3];
             if is_near || planes.keep(cost[h as usize], sheet.length(h)) {
                 sets.unite(h / 3, t / 3);
             }

@@ -69,7 +69,8 @@ impl<'a> Splitter<'a> {
         let uv = along_own_axes(sheet, &uv);
         let directions = Directions::default();
         let square = unit * unit / HOPE;
-        let hull = hull_of(sheet, &uv, &directions, |_| true);
+        let whole = vec![0; sheet.triangles.len()];
+        let hull = hulls_of(sheet, &uv, &directions, (&whole, 1)).swap_remove(0);
         let cost = edge_costs(sheet);
         let planes = Planes::of(sheet, &uv, &cost, hull.area());
         let clusters = Clusters::new(sheet, &uv, &cost, planes);
@@ -130,7 +131,8 @@ impl<'a> Splitter<'a> {
         if n_parts < 2 || areas.iter().any(|&area| area < self.crumb) {
             return None;
         }
-        let rooms = (0..n_parts as u32).map(|of| self.room_of(|f| part[f] == of));
+        let hulls = hulls_of(self.sheet, &self.uv, &self.directions, (&part, n_parts));
+        let rooms = hulls.iter().map(|hull| hull.room(self.square));
         let gain = self.room - rooms.sum::<f64>();
         let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
         let length = seam().map(|(h, _)| cost(h)).sum();
@@ -182,7 +184,10 @@ impl<'a> Splitter<'a> {
         control: &dyn Fn() -> Control,
     ) -> Vec<bool> {
         let band = BAND * self.area.sqrt();
-        let is_near = |f: u32| (self.reach(f, chord.direction) - chord.offset).abs() < band;
+        let is_near: Vec<bool> = (0..is_piece.len() as u32)
+            .map(|f| (self.reach(f, chord.direction) - chord.offset).abs() < band)
+            .collect();
+        let is_near = |f: u32| is_near[f as usize];
         let sheet = self.sheet;
         let touches = |f: u32, what: &dyn Fn(u32) -> bool| {
             (3 * f..3 * f + 3)
@@ -241,27 +246,23 @@ impl<'a> Splitter<'a> {
         let corners = self.corners(face as usize);
         corners.iter().map(|&p| dot(p, direction)).sum::<f64>() / 3.0
     }
-
-    /// The room that some faces take up.
-    fn room_of(&self, is_in: impl Fn(usize) -> bool) -> f64 {
-        hull_of(self.sheet, &self.uv, &self.directions, is_in).room(self.square)
-    }
 }
 
-/// The hull of some faces, from the edges at which they end.
-fn hull_of(
+/// The hull of each part of the faces, from the edges at which it ends.
+fn hulls_of(
     sheet: &Sheet,
     uv: &[[f64; 2]],
     directions: &Directions,
-    is_in: impl Fn(usize) -> bool,
-) -> Support {
-    let mut hull = Support::EMPTY;
+    (part, n_parts): (&[u32], usize),
+) -> Vec<Support> {
+    let mut hulls = vec![Support::EMPTY; n_parts];
     for (h, &t) in (0u32..).zip(&sheet.twin) {
-        if is_in(h as usize / 3) && (t == CUT || !is_in(t as usize / 3)) {
+        let of = part[h as usize / 3];
+        if t == CUT || part[t as usize / 3] != of {
             for v in sheet.ends(h) {
-                hull.add(uv[v as usize], directions);
+                hulls[of as usize].add(uv[v as usize], directions);
             }
         }
     }
-    hull
+    hulls
 }

@@ -94,7 +94,7 @@ impl<'a> Divided<'a> {
         let curved = curved.filter(|chart| self.is_curved(chart));
         flat.par_extend(curved.flat_map_iter(|chart| {
             let pieces = vec![Piece::unmapped(chart)];
-            let pieces = rounds(pieces, bound, options, observer, |_| ());
+            let pieces = rounds(pieces, bound, options, observer);
             pieces.into_iter().filter_map(|piece| piece.map)
         }));
         let charts = joining.joined(flat, mirror, options);

@@ -8,7 +8,7 @@ use crate::charts::bound::quality::Bound;
 use crate::charts::mapped::MappedChart;
 use crate::charts::observer::Observer;
 use crate::charts::unfold::local_minimum::Local;
-use crate::charts::unfold::overlaps::overlaps;
+use crate::charts::unfold::overlaps::overlaps_with;
 use crate::charts::unfold::push_apart::pushed_apart;
 use crate::embed::{self, RestShapes};
 use crate::mesh::Surface;
@@ -227,10 +227,12 @@ impl<'a> Giving<'a> {
         }
         self.left -= n_glued;
         self.observer.worked(n_glued);
+        let n_before = n_faces(neighbor) as u32;
         let Some(joint) = laid.glued(neighbor) else {
             return false;
         };
-        let Some(joint) = self.pushed_apart(joint) else {
+        let new: Vec<u32> = (n_before..n_faces(&joint) as u32).collect();
+        let Some(joint) = self.pushed_apart(joint, &new) else {
             return false;
         };
         let rest = joint.rest_shapes();
@@ -272,8 +274,9 @@ impl<'a> Giving<'a> {
         self.most.excess - costs.map(|cost| cost.excess).sum::<f64>()
     }
 
-    fn pushed_apart(&self, mut map: MappedChart) -> Option<MappedChart> {
-        let pairs = overlaps(&map.chart.disk, &map.embedding.uv);
+    /// A map of which only these faces may overlap others, with these pushed out of them, if that can be done.
+    fn pushed_apart(&self, mut map: MappedChart, these: &[u32]) -> Option<MappedChart> {
+        let pairs = overlaps_with(&map.chart.disk, &map.embedding.uv, these);
         let uv = &map.embedding.uv;
         let watch = |_: &Iterate| self.iterated(&map);
         let (uv, left) = pushed_apart(&map.chart, uv, pairs, self.options, &watch);
@@ -294,12 +297,12 @@ impl<'a> Giving<'a> {
         let local = Local::new(&map.chart, rest, self.options, &watch);
         let mut uv = local.in_unit(&map.embedding.uv);
         let seam = run.vertices.iter().map(|&[_, v]| v);
-        local.minimize(&mut uv, seam, &[]);
+        let moved = local.minimize(&mut uv, seam, &[]);
         let mut settled = map.clone();
         settled.embedding.uv = local.in_mesh_unit(&uv);
         if !embed::is_positive(&map.chart.disk.triangles, &settled.embedding.uv) {
             return map;
         }
-        self.pushed_apart(settled).unwrap_or(map)
+        self.pushed_apart(settled, &moved).unwrap_or(map)
     }
 }

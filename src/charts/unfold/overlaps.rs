@@ -14,16 +14,29 @@ use crate::solver::Control;
 /// simple and apart and all but one of them turn clockwise. (Then they turn as often as the disk's Euler number says, so no
 /// interior vertex is wound around twice, and how often a point is covered, the sum of their windings, is 0 or 1.)
 pub fn overlaps(disk: &Disk, uv: &[[f64; 2]]) -> Vec<[u32; 2]> {
+    if is_simple(disk, uv) {
+        return Vec::new();
+    }
+    let faces: Vec<u32> = (0..disk.triangles.len() as u32).collect();
+    overlaps_among(disk, uv, &faces)
+}
+
+/// The same where none of the faces but these overlaps another.
+pub fn overlaps_with(disk: &Disk, uv: &[[f64; 2]], these: &[u32]) -> Vec<[u32; 2]> {
+    if is_simple(disk, uv) {
+        return Vec::new();
+    }
+    overlaps_after(disk, uv, &[], these)
+}
+
+/// Whether the boundary loops are simple and apart and all but one of them turn clockwise.
+fn is_simple(disk: &Disk, uv: &[[f64; 2]]) -> bool {
     let loops = disk.boundary_in(uv);
     let outer = loops
         .iter()
         .filter(|l| doubled_polygon_area(l) > 0.0)
         .count();
-    if outer == 1 && meeting_point(&loops).is_none() {
-        return Vec::new();
-    }
-    let faces: Vec<u32> = (0..disk.triangles.len() as u32).collect();
-    overlaps_among(disk, uv, &faces)
+    outer == 1 && meeting_point(&loops).is_none()
 }
 
 /// The same once some faces have moved, given the pairs before; the others are where they were.
