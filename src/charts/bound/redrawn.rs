@@ -102,7 +102,9 @@ impl Drawing {
             for &h in self.seams_at(end) {
                 if !is_done[h as usize] {
                     let line = self.line(end, h);
-                    line.edges.iter().for_each(|&h| is_done[h as usize] = true);
+                    for &h in &line.edges {
+                        is_done[h as usize] = true;
+                    }
                     lines.push(line);
                 }
             }
@@ -139,7 +141,9 @@ impl Drawing {
         if first == last {
             return;
         }
-        line.edges.iter().for_each(|&h| self.mark(h, false));
+        for &h in &line.edges {
+            self.mark(h, false);
+        }
         let near = self.near(line, most_off);
         let cost = |h: u32| {
             let is_free = !self.is_cut[h as usize] && self.sheet.twin[h as usize] != CUT;
@@ -151,7 +155,9 @@ impl Drawing {
         };
         let way = Way::cheapest(&self.sheet, &self.neighbors, [first], cost, |v| v == last);
         let edges = way.map_or(line.edges.clone(), |way| way.edges);
-        edges.iter().for_each(|&h| self.mark(h, true));
+        for h in edges {
+            self.mark(h, true);
+        }
     }
 
     /// The vertices at most so many edges off a line that no other seam and no boundary touches, and its ends.
