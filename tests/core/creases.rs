@@ -271,3 +271,18 @@ fn what_is_round_is_not_taken_to_be_hard() {
         assert_round(&unfolded(&zoo::torus(n, m)), 8);
     }
 }
+
+/// A shallow dome over a square of `n` × `n` squares.
+fn dome(n: u32) -> Mesh {
+    let mut dome = zoo::grid(n, n);
+    for [x, y, z] in &mut dome.positions {
+        [*x, *y] = [*x, *y].map(|at| at / n as f32 - 0.5);
+        *z = -0.25 * (*x * *x + *y * *y);
+    }
+    dome
+}
+
+#[test]
+fn what_is_round_is_not_taken_to_be_hard_however_fine_it_is() {
+    assert_round(&unfolded(&dome(120)), 1);
+}

@@ -24,8 +24,15 @@ const COARSE_DEFECT: f64 = 0.7;
 /// rounding to `f32` leaves of a flat one is less.
 const LEAST_DEFECT: f64 = 1e-4;
 
+/// The area between the normals of the facets at a vertex, on the unit sphere, from which on it cannot
+/// be laid flat either, and that area over the square of the largest turn: where faces are so fine that
+/// hardly an angle is missing at any one vertex, facets still are a degree apart in all directions.
+/// Those of a cylinder are in one only, but for rounding.
+const LEAST_IMAGE: f64 = 1e-5;
+const LEAST_WIDTH: f64 = 0.1;
+
 /// For each vertex whether it lies inside, three facets or more meet there without a crease, and
-/// their angles are not those of a plane. O(n).
+/// their angles or normals are not those of a surface that can be laid flat. O(n).
 pub fn curved_vertices(
     faces: &Faces,
     facets: &Facets,
@@ -42,6 +49,7 @@ pub fn curved_vertices(
             Some(&other) if other == facet => continue,
             Some(&other) => {
                 let [a, b] = [facet, other].map(|facet| facets.normals[facet as usize]);
+                around[here].take_turn(a, b);
                 dot(a, b)
             }
         };
@@ -63,6 +71,8 @@ struct Around {
     areas: [f64; 2],
     /// The least cosine of the angles between the normals across its edges; -1 on the boundary.
     least_cos: f64,
+    /// The area vector of the polygon of the normals.
+    image: [f64; 3],
 }
 
 impl Default for Around {
@@ -72,6 +82,7 @@ impl Default for Around {
             facets: [CUT; 3],
             areas: [f64::INFINITY, 0.0],
             least_cos: 1.0,
+            image: [0.0; 3],
         }
     }
 }
@@ -88,10 +99,23 @@ impl Around {
         }
     }
 
+    /// Takes an edge between facets with these normals.
+    fn take_turn(&mut self, a: [f64; 3], b: [f64; 3]) {
+        let turn = cross(a, b);
+        self.image = [0, 1, 2].map(|k| self.image[k] + turn[k] / 2.0);
+    }
+
     fn is_curved(&self) -> bool {
         let is_smooth =
             self.least_cos >= CREASE_COS || self.least_cos >= COARSE_COS && self.is_coarse();
-        is_smooth && self.facets[2] != CUT && self.missing.abs() > LEAST_DEFECT
+        let is_bent = self.missing.abs() > LEAST_DEFECT || self.is_wide();
+        is_smooth && self.facets[2] != CUT && is_bent
+    }
+
+    /// Whether the normals are those of facets that are bent towards each other in all directions.
+    fn is_wide(&self) -> bool {
+        let squared_turn = 2.0 * (1.0 - self.least_cos);
+        norm(self.image) > LEAST_IMAGE.max(LEAST_WIDTH * squared_turn)
     }
 
     /// Whether facets of a size meet here, as where a round surface has few.
