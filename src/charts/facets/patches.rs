@@ -1,21 +1,15 @@
 //! Curved patches: facets that only sample a surface which is bent two ways.
 
+use super::curved_vertices::curved_vertices;
 use super::faces::Faces;
 use super::planar::Facets;
-use crate::mesh::{CUT, UnionFind, next};
-use crate::numerics::vec3::{cross, dot, norm, sub};
-use std::f64::consts::TAU;
+use crate::mesh::{CUT, UnionFind};
 
-/// The cosine of the angle between the normals of two facets from which on their edge is a crease:
-/// 30°.
-const CREASE_COS: f64 = 0.866;
-
-/// The angle that is missing at a vertex, or too much, from which on it cannot be laid flat: what
-/// rounding to `f32` leaves of a flat one is less.
-const LEAST_DEFECT: f64 = 1e-4;
-
-/// A facet of this share of the area of all is a plane, whatever it touches.
+/// A facet of this share of the area of all is a plane if it has so many times the area of any other
+/// that it meets at curved vertices, strips aside: the facets of a coarse sphere are as large as the
+/// planes of a machine part, but alike.
 const PLANE: f64 = 0.01;
+const LARGER: f64 = 4.0;
 
 /// The longest edge of a strip, which is of a cylinder or of a fillet, is so many times its mean
 /// width. It is also so many times the longest edge of the small facets that it meets at curved
@@ -70,24 +64,47 @@ fn flat_facets(faces: &Faces, facets: &Facets, vertex: &[u32], is_curved: &[bool
     let lengths = lengths(faces, facets);
     let [long, longer] = STRIP;
     let is_long = |f: usize| lengths[f] * lengths[f] > long * facets.areas[f];
-    let corners = || {
-        let of_face = |corner: usize| facets.of_face[corner / 3] as usize;
-        let corners = vertex.iter().enumerate();
-        (corners.map(move |(corner, &v)| (of_face(corner), v as usize)))
-            .filter(|&(_, v)| is_curved[v])
-    };
-    // The longest edge of what is neither plane nor long at a vertex, then at a facet's vertices.
-    let mut met = vec![0.0; is_curved.len()];
-    for (facet, v) in corners().filter(|&(f, _)| facets.areas[f] < least && !is_long(f)) {
-        met[v] = lengths[facet].max(met[v]);
-    }
-    let mut meets: Vec<f64> = vec![0.0; facets.len()];
-    for (facet, v) in corners() {
-        meets[facet] = meets[facet].max(met[v]);
-    }
+    let corners: Vec<(usize, usize)> = (vertex.iter().enumerate())
+        .filter(|&(_, &v)| is_curved[v as usize])
+        .map(|(corner, &v)| (facets.of_face[corner / 3] as usize, v as usize))
+        .collect();
+    let small = |f: usize| facets.areas[f] < least && !is_long(f);
+    let longest = largest_beside(&corners, &lengths, is_curved.len(), small);
+    let areas = largest_beside(&corners, &facets.areas, is_curved.len(), |f| !is_long(f));
     (0..facets.len())
-        .map(|f| facets.areas[f] >= least || is_long(f) && lengths[f] > longer * meets[f])
+        .map(|f| {
+            let is_plane = facets.areas[f] >= least.max(LARGER * areas[f]);
+            is_plane || is_long(f) && lengths[f] > longer * longest[f]
+        })
         .collect()
+}
+
+/// For each facet the largest value of another that counts and has a corner, a facet and a vertex, at
+/// one of its vertices; zero if there is none.
+fn largest_beside(
+    corners: &[(usize, usize)],
+    value: &[f64],
+    n_vertices: usize,
+    counts: impl Fn(usize) -> bool,
+) -> Vec<f64> {
+    // Of the two that are largest at a vertex one is another.
+    let mut largest = vec![[(0.0, usize::MAX); 2]; n_vertices];
+    for &(facet, v) in corners.iter().filter(|&&(facet, _)| counts(facet)) {
+        let [first, second] = &mut largest[v];
+        let here = (value[facet], facet);
+        if facet != first.1 && here.0 > first.0 {
+            (*first, *second) = (here, *first);
+        } else if facet != first.1 && here.0 > second.0 {
+            *second = here;
+        }
+    }
+    let mut beside: Vec<f64> = vec![0.0; value.len()];
+    for &(facet, v) in corners {
+        let [first, second] = largest[v];
+        let other = if first.1 == facet { second } else { first };
+        beside[facet] = beside[facet].max(other.0);
+    }
+    beside
 }
 
 /// The longest edge of each facet's border.
@@ -101,42 +118,4 @@ fn lengths(faces: &Faces, facets: &Facets) -> Vec<f64> {
         }
     }
     lengths
-}
-
-/// For each vertex whether it lies inside, three facets or more meet there without a crease, and
-/// their angles are not those of a plane.
-fn curved_vertices(faces: &Faces, facets: &Facets, vertex: &[u32], n_vertices: usize) -> Vec<bool> {
-    let mut missing = vec![TAU; n_vertices];
-    let mut is_smooth = vec![true; n_vertices];
-    let mut has_facets = vec![[CUT; 3]; n_vertices];
-    for (h, &t) in (0u32..).zip(&*faces.across) {
-        let v = vertex[h as usize] as usize;
-        let facet = facets.of_face[h as usize / 3];
-        missing[v] -= angle(faces, h);
-        let known = &mut has_facets[v];
-        if !known.contains(&facet)
-            && let Some(free) = known.iter_mut().find(|known| **known == CUT)
-        {
-            *free = facet;
-        }
-        if t == CUT || is_crease(facets, facet, facets.of_face[t as usize / 3]) {
-            is_smooth[v] = false;
-            is_smooth[vertex[next(h) as usize] as usize] = false;
-        }
-    }
-    (0..n_vertices)
-        .map(|v| is_smooth[v] && has_facets[v][2] != CUT && missing[v].abs() > LEAST_DEFECT)
-        .collect()
-}
-
-fn is_crease(facets: &Facets, a: u32, b: u32) -> bool {
-    let [of_a, of_b] = [a, b].map(|facet| facets.normals[facet as usize]);
-    a != b && dot(of_a, of_b) < CREASE_COS
-}
-
-/// The angle of a face at the corner where a halfedge begins.
-fn angle(faces: &Faces, h: u32) -> f64 {
-    let at = |h: u32| faces.corners[h as usize / 3][h as usize % 3];
-    let (to, from) = (sub(at(next(h)), at(h)), sub(at(next(next(h))), at(h)));
-    norm(cross(to, from)).atan2(dot(to, from))
 }
