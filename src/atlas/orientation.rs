@@ -20,7 +20,7 @@ const PAGE_ANGLES: u32 = 360;
 pub(super) fn direction(hull: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
     match bounds {
         Bounds::Rectangle => smallest_rectangle(hull),
-        Bounds::Page(halvings) => smallest_page(hull, halvings),
+        Bounds::Page(halvings) => smallest_page(hull, halvings).0,
         Bounds::Given => [1.0, 0.0],
     }
 }
@@ -44,7 +44,8 @@ fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
     best.0
 }
 
-fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> [f64; 2] {
+/// The direction for the smallest page that encloses a hull, and its longer side.
+pub(super) fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> ([f64; 2], f64) {
     let [u, v] = halvings.map(|times| f64::from(1_u32 << times));
     let mut best = ([1.0, 0.0], f64::INFINITY);
     for step in 0..PAGE_ANGLES {
@@ -60,7 +61,7 @@ fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> [f64; 2] {
             }
         }
     }
-    best.0
+    best
 }
 
 fn extent(hull: &[[f64; 2]], [c, s]: [f64; 2]) -> [f64; 2] {

@@ -3,9 +3,11 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::{Arc, OnceLock};
 
 use super::mask::{Distances, Mask};
+use super::orientation::smallest_page;
 use super::outline::Outline;
 use super::squeeze::Body;
 use super::turned::Turned;
+use crate::numerics::hull::convex_hull;
 
 /// Angles within a quarter turn.
 const ANGLES: usize = 16;
@@ -22,6 +24,7 @@ pub(super) struct Poses {
     /// Poses of which no two look alike.
     distinct: OnceLock<Vec<usize>>,
     body: OnceLock<Arc<Body>>,
+    least_page: OnceLock<f64>,
     scale: f64,
     distances: Distances,
 }
@@ -35,6 +38,7 @@ impl Poses {
             masks: (0..4 * angles).map(|_| OnceLock::new()).collect(),
             distinct: OnceLock::new(),
             body: OnceLock::new(),
+            least_page: OnceLock::new(),
             scale,
             distances,
         }
@@ -91,6 +95,13 @@ impl Poses {
     pub(super) fn body(&self) -> Arc<Body> {
         let new = || Body::new(self.outline(0), self.scale, self.distances.padding + ROOM);
         self.body.get_or_init(|| Arc::new(new())).clone()
+    }
+
+    /// The longer side of the smallest page around it, without borders, in mesh units; of pages whose sides along u and v are the
+    /// longer one halved so often.
+    pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
+        let least = || smallest_page(&convex_hull(self.outline(0).corners()), halvings).1;
+        *self.least_page.get_or_init(least)
     }
 
     pub(super) fn mask(&self, pose: usize) -> &Turned {

@@ -64,6 +64,7 @@ pub use min_cut::min_cut;
 pub use observer::{MapUnderway, Observer, Unobserved};
 pub use opened::charts;
 pub use rough::smoothed_where_rough;
+pub use symmetry::plane::MirrorPlane;
 
 #[cfg(doc)]
 use crate::mesh::Disk;

@@ -8,12 +8,12 @@ use unwrapd::charts::{
 use unwrapd::embed::Options;
 use unwrapd::mesh::Surface;
 
-fn surface(mesh: &Mesh) -> Surface {
+pub fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
 }
 
 /// The charts of a surface cut where faces differ in what `region` says of the middle.
-fn regions(surface: &Surface, region: impl Fn([f64; 3]) -> usize) -> Vec<Chart> {
+pub fn regions(surface: &Surface, region: impl Fn([f64; 3]) -> usize) -> Vec<Chart> {
     let of_face: Vec<usize> = (0..surface.triangles.len())
         .map(|t| {
             let corners = surface.corners(t);
@@ -25,19 +25,19 @@ fn regions(surface: &Surface, region: impl Fn([f64; 3]) -> usize) -> Vec<Chart> 
     charts(&cut, Cut::Seams)
 }
 
-fn mapped(chart: Chart) -> MappedChart {
+pub fn mapped(chart: Chart) -> MappedChart {
     let parts = map_chart(chart, &options(), Folds::Cut, &Unobserved);
     <[MappedChart; 1]>::try_from(parts).expect("a chart that does not fold")[0].clone()
 }
 
-fn options() -> Options {
+pub fn options() -> Options {
     Options {
         energy: unwrapd::energy::EnergyKind::SymmetricDirichlet,
         ..Options::default()
     }
 }
 
-fn balanced() -> Bound {
+pub fn balanced() -> Bound {
     Bound {
         mean: 4.1,
         stretch: None,
@@ -188,8 +188,9 @@ fn what_would_cover_its_neighbor_stays_apart() {
     assert_eq!(checked(&surface, maps, &balanced()).len(), 2);
 }
 
-/// A square of 6 by 6 cells with a notch of 2 by 4, and a flap that stands on the bottom of the notch and is a little wider above.
-fn flap_and_notch() -> Mesh {
+/// A square of 6 by 6 cells with a notch of 2 by 4, and a flap that stands on the bottom of the notch and is wider above, by such a
+/// share for each cell.
+pub fn flap_and_notch(widening: f32) -> Mesh {
     let mut mesh = zoo::grid(6, 6);
     let positions = mesh.positions.clone();
     let is_of_flap = |t: &[u32; 3]| {
@@ -204,7 +205,7 @@ fn flap_and_notch() -> Mesh {
     }
     for p in &mut flap.positions {
         let height = p[1] - 2.0;
-        *p = [3.0 + (p[0] - 3.0) * (1.0 + 0.02 * height), 2.0, height];
+        *p = [3.0 + (p[0] - 3.0) * (1.0 + widening * height), 2.0, height];
     }
     mesh = plane.with(&flap);
     mesh
@@ -212,7 +213,7 @@ fn flap_and_notch() -> Mesh {
 
 #[test]
 fn the_bound_decides_what_is_given_back() {
-    let surface = surface(&flap_and_notch());
+    let surface = surface(&flap_and_notch(0.02));
     let given = |bound: &Bound| {
         let charts = regions(&surface, |[_, _, z]| usize::from(z > 0.0));
         checked(&surface, charts.into_iter().map(mapped).collect(), bound).len()

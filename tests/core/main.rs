@@ -47,6 +47,7 @@ mod left_out;
 mod measure;
 mod mesh;
 mod more_pages;
+mod not_given_back;
 mod numerics;
 #[cfg(feature = "files")]
 mod obj_document;

@@ -172,6 +172,15 @@ impl Draft {
         HOPE * ratio * ratio
     }
 
+    /// The scale, in UV units to the mesh unit along the longer side, that no layout of these charts exceeds: each has to fit on a
+    /// page by itself.
+    pub fn most_scale(&self) -> f64 {
+        let halvings = self.raster.texture.resolution.halvings();
+        let sides = self.poses.iter().map(|poses| poses.least_page(halvings));
+        let longest = sides.fold(f64::MIN_POSITIVE, f64::max);
+        (1.0 - self.raster.padding / self.raster.cells()) / longest
+    }
+
     /// Whether there are so many charts that only the first layout is known.
     pub fn is_crowded(&self) -> bool {
         self.n_charts() > CROWD * self.raster.texture.pages as usize

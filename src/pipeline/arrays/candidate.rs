@@ -23,6 +23,9 @@ pub const LOOKS_FURTHER: [(Look, usize); 3] = [
     (Look::Last, 1),
 ];
 
+/// By how much a layout has to exceed the scale that was reached on fewer pages to be worth looking for.
+const WORTHWHILE: f64 = 1.005;
+
 /// Charts after some cuts.
 #[derive(Clone)]
 pub struct Candidate {
@@ -44,6 +47,11 @@ impl Candidate {
             Some(wanted) if fill < wanted => fill - wanted - MOST_COST,
             Some(_) => -self.cost,
         }
+    }
+
+    /// Whether its charts may be larger than at this scale by what is worth looking for.
+    fn may_exceed(&self, scale: f64) -> bool {
+        self.draft.most_scale() >= WORTHWHILE * scale
     }
 
     /// With the parts of some charts in place of them, the last first, at this cost each; none if no layout holds them.
@@ -85,15 +93,17 @@ pub struct Search<'a> {
     pub options: &'a AtlasOptions,
     pub on_read: &'a OnRead<'a>,
     looks: &'static [(Look, usize)],
+    /// The scale that was reached before.
+    reached: f64,
     /// The multiple of the words that looks usually read.
     effort: f64,
 }
 
 impl<'a> Search<'a> {
-    /// For so many charts, which are cut so often at most, and the looks that there are going to be.
+    /// For so many charts, which are cut so often at most, the looks that there are going to be, and a scale that was reached before.
     pub fn new(
         (n_charts, most_cuts): (usize, usize),
-        looks: &'static [(Look, usize)],
+        (looks, reached): (&'static [(Look, usize)], f64),
         options: &'a AtlasOptions,
         on_read: &'a OnRead<'a>,
     ) -> Self {
@@ -105,6 +115,7 @@ impl<'a> Search<'a> {
             options,
             on_read,
             looks,
+            reached,
             effort: patience * share.min(1.0),
         }
     }
@@ -115,16 +126,17 @@ impl<'a> Search<'a> {
         candidate.draft.improve(look, words as u64, self.on_read);
     }
 
-    /// Looks at some candidates for the first time; the value of the best.
-    pub fn most_valued(&self, candidates: &mut [Candidate]) -> f64 {
+    /// Looks at some candidates for the first time, but for those that cannot exceed the scale that was reached; the value of the best.
+    pub fn most_valued(&self, candidates: &mut Vec<Candidate>) -> f64 {
+        candidates.retain(|candidate| candidate.may_exceed(self.reached));
         let each = candidates.par_iter_mut().with_max_len(1);
         each.for_each(|candidate| self.look(candidate, Look::First));
         let values = candidates.iter().map(Candidate::value);
         values.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The candidate of most value of some that were looked at once, and a full layout of it.
-    pub fn fullest(&self, mut candidates: Vec<Candidate>) -> Candidate {
+    /// The candidate of most value of some that were looked at once, and a full layout of it; none of none.
+    pub fn fullest(&self, mut candidates: Vec<Candidate>) -> Option<Candidate> {
         let by_value = |a: &Candidate, b: &Candidate| b.value().total_cmp(&a.value());
         candidates.sort_by(by_value);
         let again = |&&(look, _): &&(Look, usize)| look != Look::First;
@@ -134,9 +146,9 @@ impl<'a> Search<'a> {
             each.for_each(|candidate| self.look(candidate, look));
             candidates.sort_by(by_value);
         }
-        let best = candidates.swap_remove(0);
+        let best = candidates.into_iter().next()?;
         let straight = self.straightened(&best);
-        straight.unwrap_or(best)
+        Some(straight.unwrap_or(best))
     }
 
     /// The same charts with those upright that lean, if that leaves the layout as full, about.

@@ -28,10 +28,11 @@ const FEW: usize = 6;
 const LEEWAY: f64 = 0.005;
 
 /// What charts were cut for before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Before {
     Nothing,
-    FewerPages,
+    /// Fewer pages, on which they reached this scale; 0 where they do not fit there at one that is given.
+    FewerPages(f64),
 }
 
 /// Charts and a draft of their layout.
@@ -53,17 +54,17 @@ impl Drafted {
 /// stop. That a search for full layouts decides: one cut less, one more and the expected number compete; where the fill cannot
 /// be told from the charts, all numbers do. Maps stay as they are.
 /// `seam_price` multiplies the price of a seam: with 0 all cuts that gain anything are made. The
-/// charts may become as many as `most_charts`.
+/// charts may become as many as `most_charts`. None where no number of cuts leads beyond the scale that was reached on fewer pages.
 pub fn compacted(
     (charts, before): (Vec<MappedChart>, Before),
     options: &AtlasOptions,
     (seam_price, most_charts): (f64, Option<u32>),
     on_read: &OnRead,
-) -> Result<Drafted, AtlasError> {
+) -> Result<Option<Drafted>, AtlasError> {
     let Drafted { charts, draft } = Drafted::new(charts, options)?;
     let draft = match draft {
         Some(draft) if draft.n_charts() <= MOST_CHARTS => draft,
-        draft => return Ok(Drafted { charts, draft }),
+        draft => return Ok(Some(Drafted { charts, draft })),
     };
     let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
     let most =
@@ -81,11 +82,11 @@ pub fn compacted(
     } else {
         candidates(cutter, most)?
     };
-    let Candidate { charts, draft, .. } = search.fullest(candidates);
-    Ok(Drafted {
+    let fullest = search.fullest(candidates);
+    Ok(fullest.map(|Candidate { charts, draft, .. }| Drafted {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
         draft: Some(draft),
-    })
+    }))
 }
 
 /// Whether the fill can be told from the charts, unless they are a crowd: on one square page, at no given scale.
@@ -95,11 +96,11 @@ fn is_foreseeable(options: &AtlasOptions) -> bool {
     pages == 1 && is_square && options.scale == Scale::Largest
 }
 
-/// The looks that candidates get.
-fn looks(is_foreseeable: bool, before: Before) -> &'static [(Look, usize)] {
+/// The looks that candidates get, and the scale that they have to exceed.
+fn looks(is_foreseeable: bool, before: Before) -> (&'static [(Look, usize)], f64) {
     match before {
-        Before::Nothing => &LOOKS[usize::from(is_foreseeable)..],
-        Before::FewerPages => &LOOKS_FURTHER,
+        Before::Nothing => (&LOOKS[usize::from(is_foreseeable)..], 0.0),
+        Before::FewerPages(reached) => (&LOOKS_FURTHER, reached),
     }
 }
 
@@ -108,7 +109,7 @@ fn most_candidates(n_charts: usize, options: &AtlasOptions, before: Before) -> u
     let pages = options.texture.pages as usize;
     match before {
         Before::Nothing => pages * MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts),
-        Before::FewerPages => MOST_CANDIDATES,
+        Before::FewerPages(_) => MOST_CANDIDATES,
     }
 }
 
@@ -116,7 +117,7 @@ fn most_candidates(n_charts: usize, options: &AtlasOptions, before: Before) -> u
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
     let candidates = MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts) / 4;
     let numbers: Vec<usize> = (n_charts..=n_charts + candidates).collect();
-    let looks = looks(is_foreseeable(options), Before::Nothing);
+    let (looks, _) = looks(is_foreseeable(options), Before::Nothing);
     let words = options.patience * wanted_words(&numbers, looks);
     WORDS_PER_CUT * candidates as u64 + words.min(options.search_words)
 }
@@ -127,14 +128,15 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
     let search = cutter.search;
     let mut candidates = vec![cutter.candidate.clone()];
     let mut best = search.most_valued(&mut candidates);
-    let mut idle = 0;
+    let (mut tried, mut idle) = (1, 0);
     let most_idle = MOST_IDLE * search.options.texture.pages as usize;
     while idle < most_idle || cutter.candidate.draft.is_crowded() {
         let mut batch = Vec::new();
         while batch.len() < BATCH
-            && candidates.len() + batch.len() <= most
+            && tried <= most
             && let Some(cut) = cutter.next()?
         {
+            tried += 1;
             batch.push(cut);
         }
         if batch.is_empty() {

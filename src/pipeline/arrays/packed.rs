@@ -54,20 +54,27 @@ fn largest(
     let least = if charts.len() > MOST_CHARTS { most } else { 1 };
     let on = |pages: u32, charts: (Vec<MappedChart>, Before)| {
         let on = on_pages(pages, options);
-        settled(drafted(charts, &on, plan, on_read)?, &on, plan, on_read)
+        let drafted = drafted(charts, &on, plan, on_read)?;
+        let settled = drafted.map(|drafted| settled(drafted, &on, plan, on_read));
+        settled.transpose()
+    };
+    let first = |pages: u32, charts: Vec<MappedChart>| {
+        let first = on(pages, (charts, Before::Nothing))?;
+        // There is one: any scale exceeds none.
+        first.ok_or(AtlasError::TextureTooSmall)
     };
     if least == most {
-        return on(most, (charts, Before::Nothing));
+        return first(most, charts);
     }
-    let mut best = on(least, (charts.clone(), Before::Nothing));
+    let mut best = first(least, charts.clone());
     for pages in least + 1..=most {
         if on_read(0) == Control::Finish {
             break;
         }
         best = match best {
-            Err(_) => on(pages, (charts.clone(), Before::Nothing)),
-            Ok(best) => match on(pages, (best.0.clone(), Before::FewerPages)) {
-                Ok(next) if next.1.scale > best.1.scale => Ok(next),
+            Err(_) => first(pages, charts.clone()),
+            Ok(best) => match on(pages, (best.0.clone(), Before::FewerPages(best.1.scale))) {
+                Ok(Some(next)) if next.1.scale > best.1.scale => Ok(next),
                 _ => Ok(best),
             },
         };
@@ -93,8 +100,8 @@ fn fewest(
     let mut last = (charts, Before::Nothing);
     for pages in least..=options.texture.pages {
         let on = on_pages(pages, options);
-        let drafted = drafted(last, &on, plan, on_read)?;
-        last = (drafted.charts.clone(), Before::FewerPages);
+        let drafted = drafted(last, &on, plan, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
+        last = (drafted.charts.clone(), Before::FewerPages(0.0));
         match settled(drafted, &on, plan, on_read) {
             Err(AtlasError::TextureTooSmall) => {}
             done => return Ok(done?),
@@ -123,16 +130,16 @@ fn least_pages(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> u
     ((texels * texels * area / page).min(f64::from(most)) as u32 + 1).min(most)
 }
 
-/// Cut where that makes the atlas fuller.
+/// Cut where that makes the atlas fuller; none where no cut leads beyond the scale that was reached before.
 fn drafted(
     charts: (Vec<MappedChart>, Before),
     options: &AtlasOptions,
     plan: &Plan,
     on_read: &OnRead,
-) -> Result<Drafted, AtlasError> {
+) -> Result<Option<Drafted>, AtlasError> {
     match plan.compaction {
         Some(seam_price) => compacted(charts, options, (seam_price, plan.most_charts), on_read),
-        None => Drafted::new(charts.0, options),
+        None => Drafted::new(charts.0, options).map(Some),
     }
 }
 
