@@ -39,6 +39,8 @@ pub enum Look {
 struct Course {
     /// Words of all, for [`CHARTS`].
     words: f64,
+    /// Fewer charts than so many get the words of so many.
+    fewest: usize,
     /// Annealings from different seeds, and how many of the best are squeezed.
     starts: u32,
     squeezed: usize,
@@ -48,24 +50,26 @@ struct Course {
 
 impl Look {
     fn course(self) -> Course {
-        let of = |words, starts: u32, squeezed, shares| Course {
+        let of = |words, fewest, starts: u32, squeezed, shares| Course {
             words,
+            fewest,
             starts,
             squeezed,
             shares,
         };
         match self {
-            Self::First => of(1.5e6, 1, 1, [0.7, 0.3, 0.0]),
-            Self::Second => of(3e6, 2, 2, [0.6, 0.4, 0.0]),
-            Self::Last => of(30e6, 4, 3, [0.5, 0.25, 0.25]),
+            Self::First => of(1.5e6, 4, 1, 1, [0.7, 0.3, 0.0]),
+            Self::Second => of(3e6, 1, 2, 2, [0.6, 0.4, 0.0]),
+            Self::Last => of(30e6, 1, 4, 3, [0.5, 0.25, 0.25]),
         }
     }
 
     /// The words that this look at so many charts reads, about.
     pub fn words(self, n_charts: usize) -> u64 {
-        let n = n_charts as f64 / CHARTS;
+        let course = self.course();
+        let n = n_charts.max(course.fewest) as f64 / CHARTS;
         // Rounded alike everywhere, unlike a power.
-        (self.course().words * n * n.sqrt()) as u64
+        (course.words * n * n.sqrt()) as u64
     }
 
     fn seed(self) -> u64 {
