@@ -229,12 +229,12 @@ fn a_draft_becomes_fuller_when_a_chart_is_cut() {
     // The bar lies across the square, whose side is 5 / √2: 6 of 12.5.
     assert!((0.46..0.48).contains(&draft.fill()), "{}", draft.fill());
     let parts = [bar(2), bar(2)];
-    let mut cut = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
+    let mut cut = draft.replaced(1, &maps(&parts)).unwrap();
     cut.improve(Look::Last, 20_000_000, &|_| Control::Continue);
     // 6 of 9.
     assert!(cut.fill() > 0.55, "{}", cut.fill());
     let again = {
-        let mut again = draft.replaced(1, &maps(&parts)).unwrap().unwrap();
+        let mut again = draft.replaced(1, &maps(&parts)).unwrap();
         again.improve(Look::Last, 20_000_000, &|_| Control::Continue);
         again.fill()
     };

@@ -105,11 +105,13 @@ impl Draft {
             return None;
         }
         let poses = plan.outlines.iter().map(|o| raster.poses(o)).collect();
-        Self::laid_out(poses, raster)
+        let mut draft = Self::largest_first(poses, raster);
+        draft.lay_out().then_some(draft)
     }
 
-    /// The same with some parts, which come last among the charts, in place of one chart, laid out anew.
-    pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Option<Self>, AtlasError> {
+    /// The same with some parts, which come last among the charts, in place of one chart. They are laid out when that is
+    /// [improved](Self::improve): until then it fills nothing.
+    pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Self, AtlasError> {
         let mut poses = self.poses.clone();
         poses.remove(chart);
         let page = HOPE * (self.raster.cells() / self.raster.scale).powi(2);
@@ -119,10 +121,10 @@ impl Draft {
             .iter()
             .map(|outline| level(outline, page * texture.share(), texture));
         poses.extend(leveled.map(|outline| self.raster.poses(&outline)));
-        Ok(Self::laid_out(poses, self.raster))
+        Ok(Self::largest_first(poses, self.raster))
     }
 
-    /// The same with charts upright that lean, laid out anew; none where no chart does.
+    /// The same with charts upright that lean, to be laid out anew; none where no chart does.
     pub fn straightened(&self) -> Option<Self> {
         let straight = |poses: &Arc<Poses>| poses.outline(0).straightened();
         let straight: Vec<Option<Outline>> = self.poses.iter().map(straight).collect();
@@ -132,38 +134,47 @@ impl Draft {
             Some(outline) => self.raster.poses(&outline),
             None => poses.clone(),
         });
-        Self::laid_out(poses.collect(), self.raster)
+        Some(Self::largest_first(poses.collect(), self.raster))
     }
 
-    /// All charts placed, the largest first, in a square as large as that takes within reason.
-    fn laid_out(poses: Vec<Arc<Poses>>, raster: Raster) -> Option<Self> {
+    /// The charts in the order of their sizes, not yet placed.
+    fn largest_first(poses: Vec<Arc<Poses>>, raster: Raster) -> Self {
         let level: Vec<&Outline> = poses.iter().map(|poses| poses.outline(0)).collect();
         let by_size = by_size(&level);
-        let mut state = Arrangement {
-            order: by_size.clone(),
-            pose: vec![0; poses.len()],
-            corners: vec![Corner::default(); poses.len()],
-            side: 0,
-            cost: f64::INFINITY,
-        };
-        SIDES.into_iter().find_map(|side| {
-            let largest = raster.largest(side);
-            let mut sheet = raster.sheet(largest);
-            state.lay_out(&poses, &mut sheet, 0..by_size.len(), largest)
-        })?;
         let is_large = |&&chart: &&usize| {
             let [width, height] = poses[chart].outline(0).extent;
             (width + height) * raster.scale > SMALL * raster.cells()
         };
-        Some(Self {
+        Self {
             n_large: by_size.iter().take_while(is_large).count().max(1),
             kind: kinds(&poses),
+            state: Arrangement {
+                order: by_size.clone(),
+                pose: vec![0; poses.len()],
+                corners: vec![Corner::default(); poses.len()],
+                side: 0,
+                cost: f64::INFINITY,
+            },
             poses,
             raster,
-            state,
             pages: Vec::new(),
             by_size,
+        }
+    }
+
+    /// Places all charts in their order, in a square as large as that takes within reason; false if that is too small.
+    fn lay_out(&mut self) -> bool {
+        let n = self.state.order.len();
+        SIDES.into_iter().any(|side| {
+            let largest = self.raster.largest(side);
+            let mut sheet = self.raster.sheet(largest);
+            let laid_out = self.state.lay_out(&self.poses, &mut sheet, 0..n, largest);
+            laid_out.is_some()
         })
+    }
+
+    fn is_laid_out(&self) -> bool {
+        self.state.cost.is_finite()
     }
 
     /// The share of the page that is filled, about.

@@ -98,7 +98,8 @@ impl Draft {
     }
 
     fn improve_within(&mut self, look: Look, words: u64, on_read: &OnRead) {
-        if self.state.order.is_empty() || self.is_crowded() {
+        let is_laid_out = self.is_laid_out() || self.lay_out();
+        if self.state.order.is_empty() || !is_laid_out || self.is_crowded() {
             return;
         }
         let course = look.course();

@@ -54,28 +54,25 @@ impl Candidate {
         self.draft.most_scale() >= WORTHWHILE * scale
     }
 
-    /// With the parts of some charts in place of them, the last first, at this cost each; none if no layout holds them.
+    /// With the parts of some charts in place of them, the last first, at this cost each.
     pub fn cut(
         &self,
         parted: Vec<(usize, Vec<MappedChart>)>,
         cost: f64,
-    ) -> Result<Option<Cut>, AtlasError> {
+    ) -> Result<Cut, AtlasError> {
         let mut candidate = self.clone();
         let mut replaced = Vec::new();
         for (place, parts) in parted {
-            let Some(draft) = candidate.draft.replaced(place, &chart_maps(&parts))? else {
-                return Ok(None);
-            };
-            candidate.draft = draft;
+            candidate.draft = candidate.draft.replaced(place, &chart_maps(&parts))?;
             candidate.cost += cost;
             candidate.charts.remove(place);
             candidate.charts.extend(parts.into_iter().map(Arc::new));
             replaced.push(place);
         }
-        Ok(Some(Cut {
+        Ok(Cut {
             candidate,
             replaced,
-        }))
+        })
     }
 }
 

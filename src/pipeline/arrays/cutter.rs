@@ -103,9 +103,9 @@ impl<'a> Cutter<'a> {
         let parted = parted_alike(&candidate.charts, chart, split);
         let cost = self.price * (split.length + split.n_new() as f64 * self.per_chart);
         let cut = candidate.cut(parted, cost)?;
-        let Some(cut) = cut.filter(|cut| cut.candidate.charts.len() <= self.most_charts) else {
+        if cut.candidate.charts.len() > self.most_charts {
             return Ok(false);
-        };
+        }
         for &place in &cut.replaced {
             self.splits.remove(place);
             self.extents.remove(place);
