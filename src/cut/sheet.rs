@@ -1,6 +1,6 @@
 //! A part of a surface and how its faces are glued.
 
-use crate::mesh::{CUT, Surface, UnionFind, next, origin};
+use crate::mesh::{CUT, Disk, Surface, UnionFind, next, origin};
 use crate::numerics::vec3::distance;
 use std::array::from_fn;
 
@@ -23,6 +23,25 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// All of a disk with vertices at some positions. Vertices are numbered in the order of the triangles' corners. O(n log n).
+    pub fn of_disk(disk: &Disk, positions: &[[f64; 3]]) -> Self {
+        let mut number = vec![CUT; disk.n_vertices];
+        let mut sheet = Self {
+            triangles: (0..disk.triangles.len() as u32).collect(),
+            twin: disk.twins(),
+            vertex: Vec::with_capacity(3 * disk.triangles.len()),
+            positions: Vec::with_capacity(disk.n_vertices),
+        };
+        for &v in disk.triangles.as_flattened() {
+            if number[v as usize] == CUT {
+                number[v as usize] = sheet.positions.len() as u32;
+                sheet.positions.push(positions[v as usize]);
+            }
+            sheet.vertex.push(number[v as usize]);
+        }
+        sheet
+    }
+
     /// The sheets into which labels divide triangles over some positions, glued by `twin`; label `i` makes sheet `i`.
     pub fn divide(
         (surface, positions): (&[[u32; 3]], &[[f64; 3]]),

@@ -1,6 +1,6 @@
 //! A surface proven to be one disk, possibly with holes.
 
-use super::edges::{CUT, Edges};
+use super::edges::{CUT, Edges, same_direction};
 use super::spread::spread;
 use thiserror::Error;
 
@@ -56,7 +56,7 @@ impl Disk {
     /// Proves that the triangles form a disk with holes, and finds its boundary loops. O(n log n).
     pub fn new(n_vertices: usize, triangles: Vec<[u32; 3]>) -> Result<Self, NotADisk> {
         check_indices(n_vertices, &triangles)?;
-        let opposite = opposite_halfedges(&triangles)?;
+        let opposite = opposite_halfedges(n_vertices, &triangles)?;
         check_connected(&opposite)?;
         let next = boundary_successors(n_vertices, &triangles, &opposite);
         check_umbrellas(n_vertices, &triangles, &opposite)?;
@@ -126,26 +126,20 @@ fn next_in_triangle(halfedge: usize) -> usize {
     halfedge - halfedge % 3 + (halfedge + 1) % 3
 }
 
-fn opposite_halfedges(triangles: &[[u32; 3]]) -> Result<Vec<u32>, NotADisk> {
-    let mut edges: Vec<(u32, u32, u32)> = (0..3 * triangles.len())
-        .map(|h| {
-            let (a, b) = ends(triangles, h);
-            (a.min(b), a.max(b), h as u32)
-        })
-        .collect();
-    edges.sort_unstable();
+fn opposite_halfedges(n_vertices: usize, triangles: &[[u32; 3]]) -> Result<Vec<u32>, NotADisk> {
     let mut opposite = vec![CUT; 3 * triangles.len()];
-    for same in edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
-        match *same {
+    for edge in Edges::new(n_vertices, triangles).iter() {
+        let (a, b) = ends(triangles, edge[0] as usize);
+        match *edge {
             [_] => {}
-            [(a, b, g), (_, _, h)] => {
-                if ends(triangles, g as usize) == ends(triangles, h as usize) {
-                    return Err(NotADisk::Inconsistent(a, b));
-                }
+            [g, h] if same_direction(triangles, g, h) => {
+                return Err(NotADisk::Inconsistent(a.min(b), a.max(b)));
+            }
+            [g, h] => {
                 opposite[g as usize] = h;
                 opposite[h as usize] = g;
             }
-            _ => return Err(NotADisk::NonManifoldEdge(same[0].0, same[0].1)),
+            _ => return Err(NotADisk::NonManifoldEdge(a.min(b), a.max(b))),
         }
     }
     Ok(opposite)

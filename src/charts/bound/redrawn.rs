@@ -49,24 +49,20 @@ struct Line {
 
 impl Drawing {
     fn new(chart: &Chart, edges: &HashSet<[u32; 2]>) -> Self {
-        let twin = chart.disk.twins();
-        let mesh = (&*chart.disk.triangles, &*chart.positions);
-        let label = vec![0; chart.disk.triangles.len()];
-        let sheet = Sheet::divide(mesh, &twin, &label, 1).swap_remove(0);
+        let sheet = Sheet::of_disk(&chart.disk, &chart.positions);
         let vertex = |h: u32| chart.disk.triangles[h as usize / 3][h as usize % 3];
         let mut drawing = Self {
             neighbors: Neighbors::new(&sheet),
             cost: edge_costs(&sheet),
-            is_cut: vec![false; twin.len()],
+            is_cut: vec![false; sheet.twin.len()],
             is_on_boundary: sheet.on_boundary(),
             n_at: vec![0; sheet.positions.len()],
             sheet,
         };
-        for h in (0..)
-            .zip(&twin)
-            .filter(|&(h, &t)| t != CUT && h < t)
-            .map(|(h, _)| h)
-        {
+        let inner: Vec<u32> = (drawing.sheet.edges())
+            .filter(|&h| drawing.sheet.twin[h as usize] != CUT)
+            .collect();
+        for h in inner {
             let [a, b] = [h, next(h)].map(vertex);
             if edges.contains(&[a.min(b), a.max(b)]) {
                 drawing.mark(h, true);

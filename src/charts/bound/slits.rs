@@ -28,10 +28,7 @@ pub struct Slits {
 impl Slits {
     /// No slit yet.
     pub fn new(chart: Chart) -> Self {
-        let twin = chart.disk.twins();
-        let label = vec![0; chart.disk.triangles.len()];
-        let mesh = (&*chart.disk.triangles, &*chart.positions);
-        let sheet = Sheet::divide(mesh, &twin, &label, 1).swap_remove(0);
+        let sheet = Sheet::of_disk(&chart.disk, &chart.positions);
         Self {
             mirror: (chart.mirror.as_ref()).and_then(|plane| SheetMirror::of(&sheet, plane)),
             neighbors: Neighbors::new(&sheet),

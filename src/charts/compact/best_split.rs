@@ -21,10 +21,7 @@ impl MappedChart {
         if !goes_on() {
             return None;
         }
-        let disk = &self.chart.disk;
-        let mesh = (&*disk.triangles, &*self.chart.positions);
-        let labels = vec![0; disk.triangles.len()];
-        let sheet = Sheet::divide(mesh, &disk.twins(), &labels, 1).pop()?;
+        let sheet = Sheet::of_disk(&self.chart.disk, &self.chart.positions);
         let splitter = Splitter::new(self, &sheet, unit);
         let best = best_of(&splitter, control).or_else(|| {
             let splitter = splitter.cutting_planes()?;

@@ -3,6 +3,7 @@
 use super::faces::Faces;
 use crate::mesh::{CUT, spread};
 use crate::numerics::vec3::{dot, sub};
+use std::cmp::Reverse;
 
 /// The cosine of the angle within which the faces of a facet lie: 1°.
 const FLAT_COS: f64 = 0.999_85;
@@ -37,16 +38,14 @@ impl Facets {
             areas: Vec::new(),
             n_faces: Vec::new(),
         };
-        let mut seeds: Vec<u32> = (0..faces.len() as u32)
-            .filter(|&f| faces.normals[f as usize].is_some())
-            .collect();
-        seeds.sort_by(|&a, &b| {
-            let [of_a, of_b] = [a, b].map(|f| faces.areas[f as usize]);
-            of_b.total_cmp(&of_a).then(a.cmp(&b))
-        });
+        // The bits of numbers that are not negative have their order.
+        let key = |f: u32| (Reverse(faces.areas[f as usize].to_bits()), f);
+        let seeds = (0..faces.len() as u32).filter(|&f| faces.normals[f as usize].is_some());
+        let mut seeds: Vec<(Reverse<u64>, u32)> = seeds.map(key).collect();
+        seeds.sort_unstable();
         let reach = FLAT * faces.diagonal();
         let mut queue = Vec::new();
-        for seed in seeds {
+        for (_, seed) in seeds {
             if facets.of_face[seed as usize] == CUT {
                 facets.grow(faces, seed, reach, &mut queue);
             }

@@ -17,7 +17,7 @@ const ASTRAY: f64 = 3.0;
 /// that; none if it is not, or if the image cannot be drawn.
 pub fn cut_alike(chart: &Chart, is_inside: &[bool]) -> Option<Vec<u32>> {
     let plane = chart.mirror?;
-    let sheet = sheet_of(chart)?;
+    let sheet = sheet_of(chart);
     Canvas::new(&sheet, &plane)?.cut_alike(is_inside, InPlane::Allowed)
 }
 
@@ -25,7 +25,7 @@ pub fn cut_alike(chart: &Chart, is_inside: &[bool]) -> Option<Vec<u32>> {
 /// cannot be drawn.
 pub fn cut_as_image(chart: &Chart, of: &Chart, part: &[u32]) -> Option<Vec<u32>> {
     let plane = chart.mirror?;
-    let [sheet, other] = [sheet_of(chart)?, sheet_of(of)?];
+    let [sheet, other] = [chart, of].map(sheet_of);
     let [canvas, from] = [&sheet, &other].map(|sheet| Canvas::any(sheet, &plane));
     let mut edges = Vec::new();
     for chain in border(&other, part) {
@@ -37,15 +37,13 @@ pub fn cut_as_image(chart: &Chart, of: &Chart, part: &[u32]) -> Option<Vec<u32>>
 /// The same where each edge has an exact mirror image.
 pub fn cut_as_exact_image(chart: &Chart, of: &Chart, part: &[u32]) -> Option<Vec<u32>> {
     let plane = chart.mirror?;
-    let [sheet, other] = [sheet_of(chart)?, sheet_of(of)?];
+    let [sheet, other] = [chart, of].map(sheet_of);
     let edges = EdgeImages::new(&sheet, &plane).of(&other, &border_edges(&other, part))?;
     Some(without(&sheet.twin, edges))
 }
 
-fn sheet_of(chart: &Chart) -> Option<Sheet> {
-    let mesh = (&*chart.disk.triangles, &*chart.positions);
-    let label = vec![0; chart.disk.triangles.len()];
-    Sheet::divide(mesh, &chart.disk.twins(), &label, 1).pop()
+fn sheet_of(chart: &Chart) -> Sheet {
+    Sheet::of_disk(&chart.disk, &chart.positions)
 }
 
 /// A line to be drawn, and whether its ends shall lie on the boundary.
