@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use std::cell::LazyCell;
 
 /// Triangles of a chart from which on it is first parted as a simplification is.
-const LARGE: usize = 60_000;
+const LARGE: usize = 50_000;
 
 /// How many ways to open a closed component are tried, on surfaces of at most so many triangles.
 const MOST_WAYS: usize = 4;
