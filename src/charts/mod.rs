@@ -55,6 +55,7 @@ mod up;
 
 pub use bound::few_charts::{Symmetry, charts_under_bound};
 pub use bound::quality::{Bound, Bounded, Quality};
+pub use bound::redrawn::parted_along;
 pub use chart::{Chart, Cut};
 pub use compact::split::{Split, parted_alike, seam_length};
 pub use give_back::given_back::given_back;

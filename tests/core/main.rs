@@ -79,6 +79,7 @@ mod problem_files;
 mod progress;
 mod pulled;
 mod random;
+mod redrawn;
 mod rough;
 mod searched;
 mod separation;

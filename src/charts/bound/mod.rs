@@ -9,7 +9,7 @@ mod planned;
 mod predicted_slits;
 mod predictor;
 pub(super) mod quality;
-mod redrawn;
+pub(super) mod redrawn;
 pub(super) mod rounds;
 mod simplified;
 mod slits;
