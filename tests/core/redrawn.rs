@@ -81,7 +81,7 @@ fn zigzag([x, y]: [f64; 2]) -> u32 {
 fn a_seam_becomes_as_short_as_it_can_nearby() {
     let chart = plane();
     let drawn = seams(&chart, zigzag);
-    let parts = parted_along(&chart, &drawn, 4);
+    let parts = parted_along(&chart, |edge| drawn.contains(&edge), 4);
     assert_eq!(parts.len(), 2);
     let redrawn = length(&chart, &seams_of(&chart, &parts));
     // Its ends stay where they are.
@@ -93,7 +93,7 @@ fn a_seam_becomes_as_short_as_it_can_nearby() {
 fn a_seam_that_may_not_move_stays() {
     let chart = plane();
     let drawn = seams(&chart, zigzag);
-    let parts = parted_along(&chart, &drawn, 0);
+    let parts = parted_along(&chart, |edge| drawn.contains(&edge), 0);
     assert_eq!(seams_of(&chart, &parts), drawn);
 }
 
@@ -103,7 +103,7 @@ fn a_seam_runs_to_a_crease_that_is_near_enough() {
     let chart = chart(grid(N, NO_HOLE, ridge));
     let drawn = seams(&chart, |[_, y]| u32::from(y > 20.0));
     let on_ridge = |most_off: usize| {
-        let parts = parted_along(&chart, &drawn, most_off);
+        let parts = parted_along(&chart, |edge| drawn.contains(&edge), most_off);
         assert_eq!(parts.len(), 2);
         let seams = seams_of(&chart, &parts);
         let is_on = |edge: &&[u32; 2]| edge.iter().all(|v| *v as usize / (N + 1) == 23);
@@ -128,7 +128,7 @@ fn seams_that_meet_part_a_chart_as_before() {
     };
     let drawn = seams(&chart, label);
     for most_off in 0..6 {
-        let parts = parted_along(&chart, &drawn, most_off);
+        let parts = parted_along(&chart, |edge| drawn.contains(&edge), most_off);
         assert_eq!(parts.len(), 6, "{most_off}");
         let redrawn = seams_of(&chart, &parts);
         assert!(length(&chart, &redrawn) <= length(&chart, &drawn) + 1e-9);

@@ -39,7 +39,7 @@ pub fn parted_as_simplified(
     let edges = simple.carried_back(planned.iter().map(|map| &map.chart));
     let share = chart.positions.len() as f64 / simple.chart.positions.len() as f64;
     let an_edge = share.sqrt().ceil() as usize;
-    parted_along(&chart, &edges, EDGES_OFF * an_edge)
+    parted_along(&chart, |edge| edges.contains(&edge), EDGES_OFF * an_edge)
 }
 
 /// The parts of a simplified chart that keep the bound. Where slits helped more than was expected of them, a second plan has fewer.

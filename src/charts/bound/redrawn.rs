@@ -8,13 +8,17 @@ use crate::cut::{Neighbors, Sheet, opposite_end};
 use crate::mesh::{CUT, next};
 use std::collections::HashSet;
 
-/// The charts into which some edges part a chart, each given as its two vertices in ascending order, once they are drawn anew: from each
-/// end or meeting of them to the next along the cheapest way that is at most so many edges off.
+/// The charts into which seams part a chart once they are drawn anew: from each end or meeting to the next along the cheapest way at
+/// most so many edges off. Seams without either stay. `is_seam` is asked of the two vertices of an edge, in ascending order.
 ///
 /// Two charts that meet along one line are a disk together, and whatever line with the same ends parts that, it leaves two disks. So
 /// lines may move freely as long as they touch no other.
-pub fn parted_along(chart: &Chart, edges: &HashSet<[u32; 2]>, most_off: usize) -> Vec<Chart> {
-    let mut drawing = Drawing::new(chart, edges);
+pub fn parted_along(
+    chart: &Chart,
+    is_seam: impl Fn([u32; 2]) -> bool,
+    most_off: usize,
+) -> Vec<Chart> {
+    let mut drawing = Drawing::new(chart, is_seam);
     for line in drawing.lines() {
         drawing.redraw(&line, most_off);
     }
@@ -48,7 +52,7 @@ struct Line {
 }
 
 impl Drawing {
-    fn new(chart: &Chart, edges: &HashSet<[u32; 2]>) -> Self {
+    fn new(chart: &Chart, is_seam: impl Fn([u32; 2]) -> bool) -> Self {
         let sheet = Sheet::of_disk(&chart.disk, &chart.positions);
         let vertex = |h: u32| chart.disk.triangles[h as usize / 3][h as usize % 3];
         let mut drawing = Self {
@@ -64,7 +68,7 @@ impl Drawing {
             .collect();
         for h in inner {
             let [a, b] = [h, next(h)].map(vertex);
-            if edges.contains(&[a.min(b), a.max(b)]) {
+            if is_seam([a.min(b), a.max(b)]) {
                 drawing.mark(h, true);
             }
         }
