@@ -3,11 +3,11 @@
 
     python3 tests/bench/quantized.py --judge path/to/uvmetrics.py --npm FOLDER --out /tmp/quantized DIR|FILE...
 
-FOLDER is where `npm install @gltf-transform/cli gltfpack` was run. Each mesh gets a material of its own with a texture that uses the
-UVs, since gltfpack scales those that nothing uses as it likes; glTF-Transform `quantize` rounds the texture coordinates
-alone to 12 bits, gltfpack (`-kv -km -kn -vpf`) those to 12 bits and keeps the positions. A file survives if no face is flipped,
-degenerate, collapsed or overlapping afterward. Prints a line per file and the shares, once for the plain command and once for
-`--quantization-safe BITS`; files of more than --faces faces are left out.
+FOLDER is where `npm install @gltf-transform/cli gltfpack` was run; the judge needs numpy. Each mesh gets a material of its own with
+a texture that uses the UVs, since gltfpack scales those that nothing uses as it likes; glTF-Transform `quantize` rounds the texture
+coordinates alone to 12 bits, gltfpack (`-kv -km -kn -vpf`) those to 12 bits and keeps the positions. A file survives if no face is
+flipped, degenerate, collapsed or overlapping afterward. Prints a line per file and the shares, once for the plain command and once
+for `--quantization-safe BITS`; files of more than --faces faces are left out.
 """
 import argparse
 import base64

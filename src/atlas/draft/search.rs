@@ -39,7 +39,7 @@ pub enum Look {
 struct Course {
     /// Words of all, for [`CHARTS`].
     words: f64,
-    /// Fewer charts than so many get the words of so many.
+    /// The least number of charts that words are reckoned for: with two a good layout would be missed.
     fewest: usize,
     /// Annealings from different seeds, and how many of the best are squeezed.
     starts: u32,
