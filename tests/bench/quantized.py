@@ -3,7 +3,7 @@
 
     python3 tests/bench/quantized.py --judge path/to/uvmetrics.py --npm FOLDER --out /tmp/quantized DIR|FILE...
 
-FOLDER is where `npm install @gltf-transform/cli gltfpack` was run; the judge needs numpy. Each mesh gets a material of its own with
+FOLDER is where `npm install @gltf-transform/cli gltfpack` was run; the judge needs numpy. Each atlas gets a material of its own with
 a texture that uses the UVs, since gltfpack scales those that nothing uses as it likes; glTF-Transform `quantize` rounds the texture
 coordinates alone to 12 bits, gltfpack (`-kv -km -kn -vpf`) those to 12 bits and keeps the positions. A file survives if no face is
 flipped, degenerate, collapsed or overlapping afterward. Prints a line per file and the shares, once for the plain command and once
@@ -31,19 +31,22 @@ def pixel():
             + chunk(b"IEND", b""))
 
 
-def textured(path, out, sets):
-    """The GLB with one named material per mesh, whose texture uses the set that was written."""
+def textured(path, out, sets, by_material):
+    """The GLB with one named material per atlas, that is for each mesh or material, whose texture uses the set that was written."""
     data = path.read_bytes()
     size = struct.unpack_from("<I", data, 12)[0]
     document, rest = json.loads(data[20:20 + size]), data[20 + size:]
     uri = "data:image/png;base64," + base64.b64encode(pixel()).decode()
     document.update(images=[{"uri": uri}], textures=[{"source": 0}], materials=[])
+    atlases = {}
     for index, mesh in enumerate(document["meshes"]):
-        texture = {"index": 0, "texCoord": sets.get(index, 0)}
-        document["materials"].append({"name": f"mesh{index}", "pbrMetallicRoughness": {"baseColorTexture": texture}})
         for primitive in mesh["primitives"]:
-            primitive["material"] = index
+            name = f"material{primitive.get('material')}" if by_material else f"mesh{index}"
+            primitive["material"] = atlases.setdefault(name, len(atlases))
             primitive.pop("extensions", None)
+            if len(atlases) > len(document["materials"]):
+                texture = {"index": 0, "texCoord": sets.get(index, 0)}
+                document["materials"].append({"name": name, "pbrMetallicRoughness": {"baseColorTexture": texture}})
     for key in ("samplers", "extensions", "animations"):
         document.pop(key, None)
     for key in ("extensionsUsed", "extensionsRequired"):
@@ -86,7 +89,7 @@ def one(arguments, path, safe):
         return row
     sets = {note["mesh"]: note["texcoord"] for note in data["written"]["primitives"]}
     source = arguments.out / f"{name}_textured.glb"
-    textured(out, source, sets)
+    textured(out, source, sets, any(group["name"].startswith("material") for group in data["groups"]))
     tools = Path(arguments.npm) / "node_modules" / ".bin"
     commands = {
         "gltf-transform": [tools / "gltf-transform", "quantize", source, "OUT", "--pattern", "TEXCOORD_*",
