@@ -49,6 +49,8 @@ def textured(path, out, sets, by_material):
                 document["materials"].append({"name": name, "pbrMetallicRoughness": {"baseColorTexture": texture}})
     for key in ("samplers", "extensions", "animations"):
         document.pop(key, None)
+    for node in document.get("nodes", []):
+        node.pop("extensions", None)
     for key in ("extensionsUsed", "extensionsRequired"):
         document[key] = [e for e in document.get(key, []) if e.startswith("KHR_mesh")]
         if not document[key]:
