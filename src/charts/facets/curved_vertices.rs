@@ -24,8 +24,8 @@ const COARSE_DEFECT: f64 = 0.7;
 /// rounding to `f32` leaves of a flat one is less.
 const LEAST_DEFECT: f64 = 1e-4;
 
-/// The least area on the unit sphere between the normals of the facets at a vertex that cannot be laid
-/// flat, and the least such area over the square of the largest turn. Faces can be so fine that hardly
+/// A vertex cannot be laid flat if the normals of its facets enclose more than this area on the unit
+/// sphere, and more than this share of the square of the largest turn. Faces can be so fine that hardly
 /// an angle is missing at any vertex. Their facets still are a degree apart in all directions; those of
 /// a cylinder are in one only, but for rounding.
 const LEAST_IMAGE: f64 = 1e-5;

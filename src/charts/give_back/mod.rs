@@ -4,6 +4,6 @@ mod alike;
 pub(super) mod border;
 mod cost;
 pub(super) mod given_back;
-pub(super) mod joint;
+mod joint;
 mod laid;
 pub(super) mod occupied;
