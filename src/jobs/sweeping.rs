@@ -13,28 +13,32 @@ use super::store_error::StoreResult;
 const SWEEPS: u32 = 3;
 
 impl Jobs {
-    /// Sweeps from time to time until told to stop. For the time of a lease after the store did not
-    /// answer, and after the start, nothing is taken: workers that could not reach the store are
-    /// not silent, and hand their jobs back.
+    /// Sweeps from time to time until told to stop. Nothing is taken before the store has answered
+    /// without delay for the time of a lease: workers that could not reach it are not silent, and
+    /// hand their jobs back.
     pub(super) async fn sweep_until(&self, stop: &CancellationToken) {
         let lease = self.settings.rules.lease;
-        let mut interval = tokio::time::interval(lease / SWEEPS);
+        let pause = lease / SWEEPS;
+        let mut interval = tokio::time::interval(pause);
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        let mut unknown = Instant::now();
+        let mut answers_since = Instant::now();
         loop {
             tokio::select! {
                 _ = interval.tick() => {}
                 () = stop.cancelled() => return,
             }
-            let answer = if unknown.elapsed() < lease {
-                self.store.check().await
-            } else {
-                self.sweep(Sweep::Overdue).await
-            };
+            let asked = Instant::now();
+            let mut answer = self.store.check().await;
+            if asked.elapsed() > pause {
+                answers_since = Instant::now();
+            }
+            if answer.is_ok() && answers_since.elapsed() >= lease {
+                answer = self.sweep(Sweep::Overdue).await;
+            }
             if let Err(error) = answer {
                 meters::store_failed();
                 tracing::error!(%error, "jobs of silent workers not looked for");
-                unknown = Instant::now();
+                answers_since = Instant::now();
             }
         }
     }

@@ -91,6 +91,19 @@ impl Postgres {
             .expect("psql is installed")
     }
 
+    /// Sends a signal to all its processes.
+    pub fn signal(&self, signal: Signal) {
+        for process in [
+            vec![self.process.id() as i32],
+            children::of(self.process.id()),
+        ]
+        .concat()
+        {
+            // It may have ended.
+            let _ = kill(Pid::from_raw(process), signal);
+        }
+    }
+
     /// Ends it without warning, with all its processes, as a power cut would.
     pub fn kill(&mut self) {
         let children = children::of(self.process.id());
