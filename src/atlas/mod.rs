@@ -34,6 +34,7 @@ mod outline;
 mod pack;
 mod plan;
 mod poses;
+mod probe;
 mod read_limit;
 mod relax;
 mod row;

@@ -1,8 +1,7 @@
 //! The cells that are taken, and the search for a free place.
 //!
-//! All positions of one row are tested together, 64 to a machine word: a run of a mask, of length
-//! between 2ᵏ and 2ᵏ⁺¹, is blocked at x when one of two windows of 2ᵏ cells is, and for each k the
-//! sheet keeps one bit per window. Runs longer than two of the widest windows take more of them.
+//! All positions of one row are tested together, 64 to a machine word: for each width 2ᵏ the sheet
+//! keeps one bit per window, and a mask wants some windows free, its [probes](super::probe::Probe).
 use super::bitmap::{Run, set_bits};
 use super::row::{WIDTHS, add_shifted, longest_zeros, outside, widen};
 use super::spot::{Corner, Spot, Window};
@@ -104,11 +103,12 @@ impl Sheet {
         Window { lowest, highest }: Window,
         best: &mut Option<(u32, (usize, Spot))>,
     ) {
-        let rows = self.form.reach(self.capacity)[1];
-        for y in lowest.y..rows.min(highest.y + 1) {
+        let lowest_height = turned.iter().map(|mask| mask.size[1]).min().unwrap_or(0);
+        let limit = best.map_or(self.capacity, |(side, _)| side - 1);
+        let [mut right, mut top] = self.form.reach(limit);
+        let mut y = lowest.y;
+        while y <= highest.y && y + lowest_height <= top {
             for (index, mask) in turned.iter().enumerate() {
-                let limit = best.map_or(self.capacity, |(side, _)| side - 1);
-                let [right, top] = self.form.reach(limit);
                 let [width, height] = mask.size;
                 if width > right || y + height > top {
                     continue;
@@ -122,13 +122,10 @@ impl Sheet {
                     if side == self.side {
                         return;
                     }
+                    [right, top] = self.form.reach(side - 1);
                 }
             }
-            let lowest_top = turned.iter().map(|t| self.form.side([0, y + t.size[1]]));
-            let lowest_top = lowest_top.min();
-            if best.is_some_and(|(side, _)| lowest_top.is_none_or(|top| top >= side)) {
-                break;
-            }
+            y += 1;
         }
     }
 
@@ -167,25 +164,15 @@ impl Sheet {
     ) -> Option<u32> {
         let mut blocked: [u64; N] = from_fn(|i| outside(columns, word + i as u32));
         let inset = 64 * word + self.frame - mask.margin;
-        let base = self.row(corner) - mask.margin as usize;
-        for run in &mask.reach {
-            let k = (run.end - run.start).ilog2().min(WIDTHS as u32 - 1);
-            let row = (base + run.row as usize) * WIDTHS + k as usize;
-            let row = &self.rows[row * self.words..][..self.words];
-            let width = 1 << k;
-            let (mut first, last) = (inset + run.start, inset + run.end - width);
-            loop {
-                let second = (first + width).min(last);
-                self.work += N as u64;
-                add_shifted(&mut blocked, row, first);
-                add_shifted(&mut blocked, row, second);
-                if blocked == [u64::MAX; N] {
-                    return None;
-                }
-                if second == last {
-                    break;
-                }
-                first = (second + width).min(last);
+        let base = (self.row(corner) - mask.margin as usize) * WIDTHS;
+        for probe in &mask.probes {
+            let row = &self.rows[(base + probe.lane as usize) * self.words..][..self.words];
+            self.work += N as u64;
+            for start in probe.starts {
+                add_shifted(&mut blocked, row, inset + start);
+            }
+            if blocked == [u64::MAX; N] {
+                return None;
             }
         }
         let free = blocked.iter().position(|&word| word != u64::MAX)? as u32;

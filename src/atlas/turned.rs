@@ -2,14 +2,16 @@
 
 use super::bitmap::Run;
 use super::mask::Mask;
+use super::probe::Probe;
 
-/// One of the four turned versions of a mask, with the runs of its reach in the order of the test.
+/// One of the four turned versions of a mask, with what its reach wants free in the order of the test.
 pub(super) struct Turned {
     pub turns: u32,
     pub body: Vec<Run>,
     /// Width and height, in cells.
     pub size: [u32; 2],
     pub reach: Vec<Run>,
+    pub probes: Vec<Probe>,
     pub margin: u32,
 }
 
@@ -40,9 +42,11 @@ impl Turned {
     }
 
     fn of(turned: &Mask, turns: u32) -> Self {
+        let reach = scattered(turned.reach.runs());
         Self {
             turns,
-            reach: scattered(turned.reach.runs()),
+            probes: Probe::of(&reach),
+            reach,
             body: turned.body.runs(),
             size: [turned.body.width, turned.body.height],
             margin: turned.margin,

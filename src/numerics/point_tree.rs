@@ -2,6 +2,8 @@
 
 /// Points below a node that are compared one by one.
 const LEAF: usize = 8;
+/// Ranges that are left for later at a time, as good as always.
+const DEPTH: usize = 32;
 
 /// A k-d tree over points of space.
 #[derive(Clone, Debug)]
@@ -54,7 +56,8 @@ impl PointTree {
         accepts: impl Fn(u32) -> bool,
     ) -> Option<(u32, f64)> {
         let mut best = (reach * reach, u32::MAX);
-        let mut open = vec![(0, self.order.len(), 0.0)];
+        let mut open = Vec::with_capacity(DEPTH);
+        open.push((0, self.order.len(), 0.0));
         while let Some((start, end, away)) = open.pop() {
             if away > best.0 {
                 continue;

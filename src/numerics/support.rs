@@ -23,8 +23,9 @@ impl Support {
 
     /// Of the points of both.
     pub fn unite(&mut self, other: &Self) {
-        for (reach, r) in self.0.iter_mut().zip(&other.0) {
-            *reach = reach.max(*r);
+        for (reach, &r) in self.0.iter_mut().zip(&other.0) {
+            // One instruction, where `max` looks for what is not a number.
+            *reach = if r > *reach { r } else { *reach };
         }
     }
 

@@ -9,7 +9,9 @@ const BAND: f64 = 2.5;
 const BLUR: f64 = 1.25;
 /// A node that is this much deeper than its distance says lies in a slit, which is too narrow for anything.
 const NARROW: f64 = 1.5;
-const NONE: u32 = u32::MAX;
+
+/// Column and row of a node.
+type Node = [u32; 2];
 
 /// Signed distance to the border of the region nearer to a chart than a distance to be kept: positive outside.
 ///
@@ -148,79 +150,98 @@ impl Raster {
 
     /// The distances beyond that to be kept, negative where it is not kept.
     fn signed(&self, kept: f64) -> Vec<f32> {
-        let is_free = |i: usize| !self.is_inside[i] && self.distance[i] >= kept;
-        let nodes = 0..self.distance.len();
-        let mut from: Vec<u32> = nodes
-            .clone()
-            .map(|i| {
-                let is_known = is_free(i) && self.distance[i].is_finite();
-                if is_known { i as u32 } else { NONE }
-            })
-            .collect();
-        // Of the ways from a known free node: the distance there and on, or from there back to the region's border.
-        let by = |i: usize, known: u32| {
-            let known = known as usize;
-            let way = [0, 1].map(|k| self.index(i)[k] as f64 - self.index(known)[k] as f64);
-            let rest = self.distance[known] - kept;
-            dot(way, way).sqrt() + if is_free(i) { rest } else { -rest }
+        let nodes = self.nodes();
+        let is_known = |&[i, j]: &Node| {
+            let index = self.index([i, j]);
+            !self.is_inside[index]
+                && self.distance[index] >= kept
+                && self.distance[index].is_finite()
         };
-        self.spread(&mut from, by);
-        nodes
-            .map(|i| {
-                let signed = if self.is_inside[i] {
-                    -self.distance[i]
-                } else {
-                    self.distance[i]
-                } - kept;
-                let value = match from[i] {
-                    NONE => signed,
-                    known if is_free(i) => by(i, known),
-                    known if by(i, known) > NARROW - signed || signed.is_infinite() => {
-                        -by(i, known)
-                    }
-                    _ => signed,
-                };
-                value.clamp(-1e6, 1e6) as f32
-            })
+        let mut from: Vec<Option<Node>> = nodes
+            .clone()
+            .map(|node| Some(node).filter(is_known))
+            .collect();
+        self.spread(&mut from, kept);
+        let both = nodes.zip(from);
+        both.map(|(node, from)| self.value(node, from, kept).clamp(-1e6, 1e6) as f32)
             .collect()
     }
 
-    fn index(&self, node: usize) -> [usize; 2] {
-        [node % self.size[0], node / self.size[0]]
+    fn value(&self, node: Node, from: Option<Node>, kept: f64) -> f64 {
+        let index = self.index(node);
+        let distance = self.distance[index];
+        let signed = if self.is_inside[index] {
+            -distance
+        } else {
+            distance
+        } - kept;
+        let Some(known) = from else {
+            return signed;
+        };
+        let by = self.by(node, known, kept);
+        if self.is_free(node, kept) {
+            by
+        } else if by > NARROW - signed || signed.is_infinite() {
+            -by
+        } else {
+            signed
+        }
+    }
+
+    fn is_free(&self, node: Node, kept: f64) -> bool {
+        let index = self.index(node);
+        !self.is_inside[index] && self.distance[index] >= kept
+    }
+
+    /// Of the way from a known free node: the distance there and on, or from there back to the region's border.
+    fn by(&self, node: Node, known: Node, kept: f64) -> f64 {
+        let way = [0, 1].map(|k| f64::from(node[k]) - f64::from(known[k]));
+        let rest = self.distance[self.index(known)] - kept;
+        let is_free = self.is_free(node, kept);
+        dot(way, way).sqrt() + if is_free { rest } else { -rest }
+    }
+
+    /// All nodes, row by row.
+    fn nodes(&self) -> impl DoubleEndedIterator<Item = Node> + Clone + use<> {
+        let [width, height] = self.size.map(|n| n as u32);
+        (0..height).flat_map(move |j| (0..width).map(move |i| [i, j]))
+    }
+
+    fn index(&self, [i, j]: Node) -> usize {
+        j as usize * self.size[0] + i as usize
     }
 
     /// For each node that is not known the known one from which it is nearest, by way of its neighbors.
     ///
     /// From: Danielsson 1980, Euclidean Distance Mapping.
-    fn spread(&self, from: &mut [u32], by: impl Fn(usize, u32) -> f64) {
-        let mut nearer = |node: usize, before: [[i64; 2]; 4]| {
-            if from[node] == node as u32 {
+    fn spread(&self, from: &mut [Option<Node>], kept: f64) {
+        let mut nearer = |node: Node, before: [[i32; 2]; 4]| {
+            let index = self.index(node);
+            if from[index] == Some(node) {
                 return;
             }
-            let [i, j] = self.index(node).map(|k| k as i64);
-            let mut best = if from[node] == NONE {
-                f64::INFINITY
-            } else {
-                by(node, from[node])
-            };
-            for [di, dj] in before {
-                let [i, j] = [i + di, j + dj];
-                let is_node =
-                    i >= 0 && j >= 0 && i < self.size[0] as i64 && j < self.size[1] as i64;
+            let by = |known: Node| self.by(node, known, kept);
+            let mut least = from[index].map_or(f64::INFINITY, by);
+            for way in before {
+                let [i, j] = [0, 1].map(|k| node[k].wrapping_add_signed(way[k]));
+                let is_node = (i as usize) < self.size[0] && (j as usize) < self.size[1];
                 let known = if is_node {
-                    from[j as usize * self.size[0] + i as usize]
+                    from[self.index([i, j])]
                 } else {
-                    NONE
+                    None
                 };
-                if known != NONE && by(node, known) < best {
-                    best = by(node, known);
-                    from[node] = known;
+                if let Some(known) = known
+                    && let by = by(known)
+                    && by < least
+                {
+                    least = by;
+                    from[index] = Some(known);
                 }
             }
         };
-        let n = self.distance.len();
-        (0..n).for_each(|node| nearer(node, [[-1, 0], [-1, -1], [0, -1], [1, -1]]));
-        let back = (0..n).rev();
+        self.nodes()
+            .for_each(|node| nearer(node, [[-1, 0], [-1, -1], [0, -1], [1, -1]]));
+        let back = self.nodes().rev();
         back.for_each(|node| nearer(node, [[1, 0], [1, 1], [0, 1], [-1, 1]]));
     }
 }
