@@ -6,13 +6,19 @@ use crate::numerics::predicates::orient2d_sign;
 
 type Triangle = [[f64; 2]; 3];
 
-/// Visits every pair of counter-clockwise triangles whose interiors have a common point, the
-/// smaller number first; where they lie in heaps, as many as [`search_budget`] allows.
-pub fn overlapping_pairs(triangles: &[Triangle], mut visit: impl FnMut([u32; 2])) -> Visit {
+/// Visits every pair of counter-clockwise triangles that is asked for and whose interiors have a
+/// common point, the smaller number first; where they lie in heaps, as many as [`search_budget`]
+/// allows.
+pub fn overlapping_pairs(
+    triangles: &[Triangle],
+    is_asked: impl Fn([u32; 2]) -> bool,
+    mut visit: impl FnMut([u32; 2]),
+) -> Visit {
     let boxes: Vec<Bounds> = triangles.iter().map(|t| bounds_of(t)).collect();
     BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
-        if interiors_intersect(&triangles[i as usize], &triangles[j as usize]) {
-            visit([i.min(j), i.max(j)]);
+        let pair = [i.min(j), i.max(j)];
+        if is_asked(pair) && interiors_intersect(&triangles[i as usize], &triangles[j as usize]) {
+            visit(pair);
         }
     })
 }
@@ -27,7 +33,7 @@ pub fn are_disjoint(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> bool {
         return false;
     }
     let mut is_any = false;
-    let visit = overlapping_pairs(&triangles, |_| is_any = true);
+    let visit = overlapping_pairs(&triangles, |_| true, |_| is_any = true);
     !is_any && visit == Visit::Complete
 }
 

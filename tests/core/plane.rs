@@ -127,7 +127,7 @@ fn triangles_overlap_where_the_judge_says_so() {
         triangles.retain(|t| certify_planar(&vertices, &[*t]).is_valid());
         let faces: Vec<_> = triangles.iter().map(at).collect();
         let mut found = Vec::new();
-        overlapping_pairs(&faces, |pair| found.push(pair));
+        overlapping_pairs(&faces, |_| true, |pair| found.push(pair));
         found.sort_unstable();
         let pairs = (0..faces.len()).flat_map(|i| (i + 1..faces.len()).map(move |j| [i, j]));
         let overlap = |&[i, j]: &[usize; 2]| {
@@ -234,7 +234,7 @@ fn what_is_not_found_in_a_heap_is_taken_to_be_there() {
         .map(|t| [0, 1, 2].map(|k| 3 * t + k))
         .collect();
     let mut n_found = 0;
-    let visit = overlapping_pairs(&slivers, |_| n_found += 1);
+    let visit = overlapping_pairs(&slivers, |_| true, |_| n_found += 1);
     assert_eq!((n_found, visit), (0, Visit::Truncated));
     assert!(!certify_planar(vertices, &triangles).is_bijective());
     assert!(!are_disjoint(vertices, &triangles));

@@ -35,7 +35,6 @@ impl Chord {
 }
 
 /// A connected part of a map.
-#[derive(Clone)]
 struct Part {
     area: f64,
     border: f64,
@@ -119,38 +118,43 @@ struct Beyond<'a> {
     whole: f64,
     sets: UnionFind,
     has_passed: Vec<bool>,
-    /// For each cluster that represents a part the part.
-    part: Vec<Option<Part>>,
+    /// For each cluster the part that it was the last to join.
+    parts: Vec<Part>,
+    /// For each cluster that represents a part where that is.
+    place: Vec<Option<u32>>,
 }
 
 impl<'a> Beyond<'a> {
     fn new(clusters: &'a Clusters) -> Self {
         let n = clusters.area.len();
+        let alone = (clusters.area.iter().zip(&clusters.support)).map(|(&area, support)| Part {
+            area,
+            border: 0.0,
+            support: support.clone(),
+        });
         Self {
             clusters,
             whole: clusters.area.iter().sum(),
             sets: UnionFind::new(n),
             has_passed: vec![false; n],
-            part: vec![None; n],
+            parts: alone.collect(),
+            place: vec![None; n],
         }
     }
 
     fn add(&mut self, cluster: u32) {
         let c = cluster as usize;
-        let mut part = Part {
-            area: self.clusters.area[c],
-            border: 0.0,
-            support: self.clusters.support[c].clone(),
-        };
         self.has_passed[c] = true;
         for &(neighbor, length) in &self.clusters.neighbors[c] {
             if !self.has_passed[neighbor as usize] {
-                part.border += length;
+                self.parts[c].border += length;
                 continue;
             }
-            part.border -= length;
-            let other = self.sets.find(neighbor);
-            if let Some(other) = self.part[other as usize].take() {
+            self.parts[c].border -= length;
+            let other = self.sets.find(neighbor) as usize;
+            if let Some(place) = self.place[other].take()
+                && let Ok([part, other]) = self.parts.get_disjoint_mut([c, place as usize])
+            {
                 part.area += other.area;
                 part.border += other.border;
                 part.support.unite(&other.support);
@@ -158,13 +162,13 @@ impl<'a> Beyond<'a> {
             self.sets.unite(cluster, neighbor);
         }
         let root = self.sets.find(cluster);
-        self.part[root as usize] = Some(part);
+        self.place[root as usize] = Some(cluster);
     }
 
     /// Each part that may be a piece, a cluster of it, and the hull of the rest of the map.
     fn parts(&self, before: &Support, crumb: f64) -> Vec<(u32, &Part, Support)> {
-        let all = (0u32..).zip(&self.part);
-        let all = all.filter_map(|(c, part)| Some((c, part.as_ref()?)));
+        let all = (0u32..).zip(&self.place);
+        let all = all.filter_map(|(c, place)| Some((c, &self.parts[(*place)? as usize])));
         let is_piece =
             |&(_, part): &(u32, &Part)| part.area >= crumb && part.area <= self.whole - crumb;
         let (pieces, others): (Vec<_>, Vec<_>) = all.partition(is_piece);

@@ -18,7 +18,7 @@ pub fn overlaps(disk: &Disk, uv: &[[f64; 2]]) -> Vec<[u32; 2]> {
         return Vec::new();
     }
     let faces: Vec<u32> = (0..disk.triangles.len() as u32).collect();
-    overlaps_among(disk, uv, &faces)
+    overlaps_among(disk, uv, &faces, |_| true)
 }
 
 /// The same where none of the faces but these overlaps another.
@@ -57,23 +57,27 @@ pub fn overlaps_after(
         .filter(|&f| touch(&bounds_of(&corners(f)), &region))
         .collect();
     let is_new = |pair: &[u32; 2]| pair.iter().any(|&f| has_moved[f as usize]);
-    let mut pairs = overlaps_among(disk, uv, &near);
-    pairs.retain(is_new);
+    let mut pairs = overlaps_among(disk, uv, &near, is_new);
     pairs.extend(before.iter().filter(|pair| !is_new(pair)));
     pairs.sort_unstable();
     pairs
 }
 
-/// The pairs among some faces, which ascend, in ascending order; where faces lie in heaps, a part
-/// of them.
-fn overlaps_among(disk: &Disk, uv: &[[f64; 2]], faces: &[u32]) -> Vec<[u32; 2]> {
+/// The pairs among some faces that are asked for, in ascending order; where faces lie in heaps, a
+/// part of them.
+fn overlaps_among(
+    disk: &Disk,
+    uv: &[[f64; 2]],
+    faces: &[u32],
+    is_asked: impl Fn(&[u32; 2]) -> bool,
+) -> Vec<[u32; 2]> {
     let corners: Vec<_> = (faces.iter())
         .map(|&f| disk.triangles[f as usize].map(|v| uv[v as usize]))
         .collect();
     let mut pairs = Vec::new();
-    overlapping_pairs(&corners, |pair| {
-        pairs.push(pair.map(|i| faces[i as usize]));
-    });
+    let named = |pair: [u32; 2]| pair.map(|i| faces[i as usize]);
+    let is_asked = |pair| is_asked(&named(pair));
+    overlapping_pairs(&corners, is_asked, |pair| pairs.push(named(pair)));
     pairs.sort_unstable();
     pairs
 }
