@@ -45,7 +45,7 @@ struct Part {
 /// `square` should hold.
 ///
 /// As a line recedes over the map, what lies beyond it grows and unites; of each part that hangs together the hull is known, and
-/// of what lies before the line too, so all chords of a direction cost little more than sorting. O(n) for n clusters.
+/// of what lies before the line too. O(n) for n clusters.
 pub fn chords(clusters: &Clusters, crumb: f64, square: f64) -> Vec<Chord> {
     let mut whole = Support::EMPTY;
     for support in &clusters.support {
@@ -67,37 +67,37 @@ fn sweep(
     (square, whole): (f64, f64),
     direction: [f64; 2],
 ) -> Vec<Chord> {
-    let mut order: Vec<(f64, u32)> = (clusters.centre.iter().zip(0..))
-        .map(|(&centre, cluster)| (dot(centre, direction), cluster))
+    let reach: Vec<f64> = (clusters.centre.iter())
+        .map(|&centre| dot(centre, direction))
         .collect();
-    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let (Some(&(high, _)), Some(&(low, _))) = (order.first(), order.last()) else {
+    let high = reach.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = reach.iter().copied().fold(f64::INFINITY, f64::min);
+    if high <= low {
         return Vec::new();
-    };
+    }
     let stop = |i: usize| high + (low - high) * (i + 1) as f64 / (STOPS + 1) as f64;
-    let end = |i: usize| order.partition_point(|&(reach, _)| reach > stop(i));
-    let hull = |of: &[(f64, u32)]| {
+    let passed_at = |reach: f64| (high - reach) / (high - low) * (STOPS + 1) as f64;
+    let strips = Strips::new(reach.iter().map(|&reach| passed_at(reach) as usize));
+    let hull = |strip: usize| {
         let mut hull = Support::EMPTY;
-        for &(_, cluster) in of {
+        for &cluster in strips.of(strip) {
             hull.unite(&clusters.support[cluster as usize]);
         }
         hull
     };
     // The hull of what a line at each stop has not passed.
-    let mut before = vec![hull(&order[end(STOPS - 1)..]); STOPS];
+    let mut before = vec![hull(STOPS); STOPS];
     for i in (0..STOPS - 1).rev() {
         before[i] = before[i + 1].clone();
-        before[i].unite(&hull(&order[end(i)..end(i + 1)]));
+        before[i].unite(&hull(i + 1));
     }
     let mut beyond = Beyond::new(clusters);
     let mut chords = Vec::new();
-    let mut begin = 0;
     for (i, before) in before.iter().enumerate() {
-        for &(_, cluster) in &order[begin..end(i)] {
+        for &cluster in strips.of(i) {
             beyond.add(cluster);
         }
-        begin = end(i);
-        for (cluster, part, rest) in beyond.parts(before, crumb) {
+        for (cluster, part, rest) in beyond.parts(strips.up_to(i), before, crumb) {
             let gain = whole - part.support.room(square) - rest.room(square);
             chords.push(Chord {
                 direction,
@@ -110,6 +110,41 @@ fn sweep(
         }
     }
     chords
+}
+
+/// The clusters in strips between stops: those of the first a line passes by the first stop, those of the last it does not pass.
+struct Strips {
+    clusters: Vec<u32>,
+    starts: [usize; STOPS + 2],
+}
+
+impl Strips {
+    /// Given the strip of each cluster, at most the last.
+    fn new(strips: impl Iterator<Item = usize> + Clone) -> Self {
+        let strips = strips.map(|strip| strip.min(STOPS));
+        let mut starts = [0; STOPS + 2];
+        for strip in strips.clone() {
+            starts[strip + 1] += 1;
+        }
+        for strip in 0..=STOPS {
+            starts[strip + 1] += starts[strip];
+        }
+        let mut clusters = vec![0; starts[STOPS + 1]];
+        let mut next = starts;
+        for (cluster, strip) in (0..).zip(strips) {
+            clusters[next[strip]] = cluster;
+            next[strip] += 1;
+        }
+        Self { clusters, starts }
+    }
+
+    fn of(&self, strip: usize) -> &[u32] {
+        &self.clusters[self.starts[strip]..self.starts[strip + 1]]
+    }
+
+    fn up_to(&self, strip: usize) -> &[u32] {
+        &self.clusters[..self.starts[strip + 1]]
+    }
 }
 
 /// What lies beyond a line that recedes over the map, in connected parts.
@@ -165,10 +200,11 @@ impl<'a> Beyond<'a> {
         self.place[root as usize] = Some(cluster);
     }
 
-    /// Each part that may be a piece, a cluster of it, and the hull of the rest of the map.
-    fn parts(&self, before: &Support, crumb: f64) -> Vec<(u32, &Part, Support)> {
-        let all = (0u32..).zip(&self.place);
-        let all = all.filter_map(|(c, place)| Some((c, &self.parts[(*place)? as usize])));
+    /// Each part that may be a piece, a cluster of it, and the hull of the rest of the map, given the clusters that were added and
+    /// the hull of the others.
+    fn parts(&self, passed: &[u32], before: &Support, crumb: f64) -> Vec<(u32, &Part, Support)> {
+        let part = |&c: &u32| Some((c, &self.parts[self.place[c as usize]? as usize]));
+        let all = passed.iter().filter_map(part);
         let is_piece =
             |&(_, part): &(u32, &Part)| part.area >= crumb && part.area <= self.whole - crumb;
         let (pieces, others): (Vec<_>, Vec<_>) = all.partition(is_piece);
