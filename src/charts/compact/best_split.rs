@@ -10,6 +10,9 @@ use crate::solver::Control;
 /// Seams along chords of which the best counts, and chords at most that are tried for them: near some there is none.
 const REFINED: usize = 4;
 const TRIED: usize = 32;
+/// Seams of a chart with so many faces: there each takes long to find, and differs less from its chord.
+const REFINED_IF_LARGE: usize = 2;
+const LARGE: usize = 50_000;
 
 impl MappedChart {
     /// The seam that makes the chart's parts most compact and small for its length; none if no cut leaves two parts of some size.
@@ -38,8 +41,13 @@ fn best_of(splitter: &Splitter, control: &dyn Fn() -> Control) -> Option<Split> 
     chords.dedup_by(|a, b| a.is_like(b));
     let tried = chords.iter().take(TRIED);
     let tried = tried.take_while(|_| control() == Control::Continue);
+    let refined = if splitter.n_faces() < LARGE {
+        REFINED
+    } else {
+        REFINED_IF_LARGE
+    };
     let splits = tried.filter_map(|chord| splitter.split(chord, control));
     splits
-        .take(REFINED)
+        .take(refined)
         .max_by(|a, b| a.worth.total_cmp(&b.worth))
 }

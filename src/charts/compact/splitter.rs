@@ -105,6 +105,10 @@ impl<'a> Splitter<'a> {
         })
     }
 
+    pub(super) fn n_faces(&self) -> usize {
+        self.sheet.triangles.len()
+    }
+
     /// The seam near a chord, if it leaves parts of some size and crosses no plane that stays whole.
     pub(super) fn split(&self, chord: &Chord, control: &dyn Fn() -> Control) -> Option<Split> {
         let is_piece = self.refined(&self.beyond(chord), chord, control);
