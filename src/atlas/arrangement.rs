@@ -7,7 +7,7 @@ use super::sheet::Sheet;
 use super::spot::{Corner, Window};
 use crate::numerics::random::Random;
 
-/// How many poses are tried to fit a chart to its place.
+/// How many poses are tried to fit a chart to its place: each, or some at random.
 const FITTED: usize = 12;
 
 /// An order and a pose for every chart, and what comes of it.
@@ -78,8 +78,13 @@ impl Arrangement {
         let chart = self.order[place];
         let distinct = poses[chart].distinct();
         let mut least = u64::MAX;
-        for _ in 0..FITTED {
-            let pose = distinct[random.below(distinct.len())];
+        for i in 0..FITTED.min(distinct.len()) {
+            let is_each = distinct.len() <= FITTED;
+            let pose = distinct[if is_each {
+                i
+            } else {
+                random.below(distinct.len())
+            }];
             let mask = poses[chart].mask(pose);
             let Some((_, spot)) = sheet.find(std::slice::from_ref(mask), Window::ALL) else {
                 continue;
@@ -124,5 +129,19 @@ impl Arrangement {
             }
         }
         (i.min(j), false)
+    }
+
+    /// A number that differs, as good as surely, where arrangements look different, given for each chart the first that looks like
+    /// it in each pose.
+    ///
+    /// From: Fowler, Noll, Vo 1991 (FNV-1a), over words.
+    pub(super) fn key(&self, kind: &[usize]) -> u64 {
+        let looks = |&chart: &usize| (kind[chart] as u64) << 8 | self.pose[chart] as u64;
+        let mixed = |key: u64, look: u64| (key ^ look).wrapping_mul(0x0000_0100_0000_01b3);
+        let looks = self.order.iter().map(looks);
+        looks.fold(0xcbf2_9ce4_8422_2325, |key, look| {
+            let key = mixed(key, look);
+            key ^ key >> 29
+        })
     }
 }

@@ -1,5 +1,6 @@
 //! Packing: positive on the grid, inside the square, apart, the same every time.
 use proptest::prelude::*;
+use std::sync::Mutex;
 use unwrapd::atlas::{AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, Look, Texture, pack};
 use unwrapd::mesh::Resolution;
 use unwrapd::solver::Control;
@@ -239,6 +240,23 @@ fn a_draft_becomes_fuller_when_a_chart_is_cut() {
         again.fill()
     };
     assert!(again == cut.fill());
+}
+
+#[test]
+fn a_search_ends_when_all_has_been_tried() {
+    let squares = [bar(1), bar(1)];
+    let draft = Draft::new(&maps(&squares), &AtlasOptions::default()).unwrap();
+    let told = Mutex::new(Vec::new());
+    draft
+        .unwrap()
+        .improve(Look::First, 1_000_000_000, &|words| {
+            told.lock().unwrap().push(words);
+            Control::Continue
+        });
+    let told = told.into_inner().unwrap();
+    assert_eq!(told.iter().sum::<u64>(), 1_000_000_000);
+    // What was not read is told at the end.
+    assert!(*told.last().unwrap() > 900_000_000, "{told:?}");
 }
 
 #[test]

@@ -18,6 +18,9 @@ const TEMPERATURES: [f64; 2] = [0.25, 0.05];
 /// What a trial costs for each chart beside the words it reads, and what one costs that was tried before.
 const WORDS_PER_CHART: u64 = 375;
 const WORDS_IF_KNOWN: u64 = 100;
+/// Trials in a row, for each place of a chart and its poses or other places, that were all made before: then, as good as surely,
+/// nothing is left to be tried.
+const IN_VAIN: usize = 40;
 /// The number of charts for which the words of a look are given. They grow with its power of 1.5: of more charts a trial takes longer,
 /// and there are more layouts.
 const CHARTS: f64 = 10.0;
@@ -116,7 +119,7 @@ impl Draft {
             })
             .collect();
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        found.dedup_by_key(|state| self.key(state));
+        found.dedup_by_key(|state| state.key(&self.kind));
         found.truncate(course.squeezed);
         let fullest = found.first().cloned();
         let each = (squeezing / course.squeezed as f64) as u64;
@@ -174,10 +177,11 @@ impl Draft {
             return state;
         }
         let mut best = state.clone();
-        let mut known = HashSet::from([self.key(&state)]);
+        let mut known = HashSet::from([state.key(&self.kind)]);
         let [first, last] = TEMPERATURES;
         let mut limit = ReadLimit::new(words, on_read);
-        while limit.admits(sheet.work) {
+        let (mut in_vain, most_in_vain) = (0, self.most_in_vain());
+        while limit.admits(sheet.work) && in_vain < most_in_vain {
             let progress = sheet.work as f64 / words as f64;
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
@@ -188,10 +192,12 @@ impl Draft {
                 sheet.capacity = largest;
                 trial.fit(first, &self.poses, &mut sheet, random);
             }
-            if !known.insert(self.key(&trial)) {
+            if !known.insert(trial.key(&self.kind)) {
                 sheet.work += WORDS_IF_KNOWN;
+                in_vain += 1;
                 continue;
             }
+            in_vain = 0;
             sheet.work += WORDS_PER_CHART * large as u64;
             let most = largest.min(bound as u32);
             prefixes.hold(&mut sheet, &state, &self.poses, first);
@@ -212,17 +218,11 @@ impl Draft {
         if placed { best } else { self.state.clone() }
     }
 
-    /// A number that differs, as good as surely, where arrangements look different.
-    ///
-    /// From: Fowler, Noll, Vo 1991 (FNV-1a), over words.
-    fn key(&self, state: &Arrangement) -> u64 {
-        let looks = |&chart: &usize| (self.kind[chart] as u64) << 8 | state.pose[chart] as u64;
-        let mixed = |key: u64, look: u64| (key ^ look).wrapping_mul(0x0000_0100_0000_01b3);
-        let looks = state.order.iter().map(looks);
-        looks.fold(0xcbf2_9ce4_8422_2325, |key, look| {
-            let key = mixed(key, look);
-            key ^ key >> 29
-        })
+    /// Trials in a row that may have been made before.
+    fn most_in_vain(&self) -> usize {
+        let n = self.n_large;
+        let poses = self.poses.iter().map(|poses| poses.distinct().len());
+        IN_VAIN * n * poses.max().unwrap_or(0).max(n)
     }
 
     /// Lets charts of the largest page look for other places, and of that which is the largest then, while about so many words are
