@@ -7,7 +7,7 @@ use super::sheet::Sheet;
 use super::spot::{Corner, Window};
 use crate::numerics::random::Random;
 
-/// How many poses are tried to fit a chart to its place: each, or some at random.
+/// How many poses are tried to fit a chart to its place.
 const FITTED: usize = 12;
 
 /// An order and a pose for every chart, and what comes of it.
@@ -78,13 +78,8 @@ impl Arrangement {
         let chart = self.order[place];
         let distinct = poses[chart].distinct();
         let mut least = u64::MAX;
-        for i in 0..FITTED.min(distinct.len()) {
-            let is_each = distinct.len() <= FITTED;
-            let pose = distinct[if is_each {
-                i
-            } else {
-                random.below(distinct.len())
-            }];
+        for _ in 0..FITTED {
+            let pose = distinct[random.below(distinct.len())];
             let mask = poses[chart].mask(pose);
             let Some((_, spot)) = sheet.find(std::slice::from_ref(mask), Window::ALL) else {
                 continue;

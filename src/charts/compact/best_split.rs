@@ -12,7 +12,7 @@ const REFINED: usize = 4;
 const TRIED: usize = 32;
 /// Seams of a chart with so many faces: there each takes long to find, and differs less from its chord.
 const REFINED_IF_LARGE: usize = 2;
-const LARGE: usize = 50_000;
+const LARGE: usize = 100_000;
 
 impl MappedChart {
     /// The seam that makes the chart's parts most compact and small for its length; none if no cut leaves two parts of some size.

@@ -11,7 +11,7 @@ use crate::solver::{Objective, Settings, Watch, minimize};
 const STRENGTH: f64 = 10.0;
 
 /// Steps of the solver at once.
-const STEPS: usize = 6;
+const STEPS: usize = 8;
 
 /// A chart that is minimized around some of its vertices, the rest held.
 pub struct Local<'a> {
