@@ -151,12 +151,8 @@ impl Raster {
     /// The distances beyond that to be kept, negative where it is not kept.
     fn signed(&self, kept: f64) -> Vec<f32> {
         let nodes = self.nodes();
-        let is_known = |&[i, j]: &Node| {
-            let index = self.index([i, j]);
-            !self.is_inside[index]
-                && self.distance[index] >= kept
-                && self.distance[index].is_finite()
-        };
+        let is_known =
+            |&node: &Node| self.is_free(node, kept) && self.distance[self.index(node)].is_finite();
         let mut from: Vec<Option<Node>> = nodes
             .clone()
             .map(|node| Some(node).filter(is_known))

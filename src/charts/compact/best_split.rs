@@ -10,7 +10,7 @@ use crate::solver::Control;
 /// Seams along chords of which the best counts, and chords at most that are tried for them: near some there is none.
 const REFINED: usize = 4;
 const TRIED: usize = 32;
-/// Seams of a chart with so many faces: there each takes long to find, and differs less from its chord.
+/// Seams of a large chart, and how many faces that has at least: there a seam takes long to find, and differs less from its chord.
 const REFINED_IF_LARGE: usize = 2;
 const LARGE: usize = 100_000;
 
