@@ -2,7 +2,7 @@
 
 /// Points below a node that are compared one by one.
 const LEAF: usize = 8;
-/// Ranges that are left for later at a time, as good as always.
+/// Room for ranges that wait to be searched.
 const DEPTH: usize = 32;
 
 /// A k-d tree over points of space.

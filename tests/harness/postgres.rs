@@ -93,12 +93,8 @@ impl Postgres {
 
     /// Sends a signal to all its processes.
     pub fn signal(&self, signal: Signal) {
-        for process in [
-            vec![self.process.id() as i32],
-            children::of(self.process.id()),
-        ]
-        .concat()
-        {
+        let children = children::of(self.process.id());
+        for process in children.into_iter().chain([self.process.id() as i32]) {
             // It may have ended.
             let _ = kill(Pid::from_raw(process), signal);
         }

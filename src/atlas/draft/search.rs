@@ -18,8 +18,8 @@ const TEMPERATURES: [f64; 2] = [0.25, 0.05];
 /// What a trial costs for each chart beside the words it reads, and what one costs that was tried before.
 const WORDS_PER_CHART: u64 = 375;
 const WORDS_IF_KNOWN: u64 = 100;
-/// Trials in a row, for each place of a chart and its poses or other places, that were all made before: then, as good as surely,
-/// nothing is left to be tried.
+/// Trials in a row that were all made before, for each chart and each of its poses, or of its places if those are more: after so
+/// many, nothing is left to be tried, as good as surely.
 const IN_VAIN: usize = 40;
 /// The number of charts for which the words of a look are given. They grow with its power of 1.5: of more charts a trial takes longer,
 /// and there are more layouts.

@@ -25,9 +25,9 @@ const COARSE_DEFECT: f64 = 0.7;
 const LEAST_DEFECT: f64 = 1e-4;
 
 /// A vertex cannot be laid flat if the normals of its facets enclose more than this area on the unit
-/// sphere, and more than this share of the square of the largest turn. Faces can be so fine that hardly
-/// an angle is missing at any vertex. Their facets still are a degree apart in all directions; those of
-/// a cylinder are in one only, but for rounding.
+/// sphere. The area must also exceed this share of the square of the largest turn. Faces can be so fine
+/// that hardly an angle is missing at any vertex. Their facets still are a degree apart in all
+/// directions; those of a cylinder are in one only, but for rounding.
 const LEAST_IMAGE: f64 = 1e-5;
 const LEAST_WIDTH: f64 = 0.1;
 
