@@ -7,12 +7,13 @@ use super::attempt::{Extent, Packing, SLACK};
 use super::largest::placed;
 use super::layout::{Layout, padding, raster};
 use super::outline::outlines;
-use super::pack::{self, cramped, snapped};
+use super::pack::{self, is_cramped, snapped};
 use super::plan::Plan;
 use super::sheet::Sheet;
+use super::snap::Repair;
 use super::stay::{AroundError, Stay};
 use super::stays::{Staying, too_near};
-use super::{Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, OnRead, doubled_area};
+use super::{Atlas, AtlasOptions, ChartMap, GRID_SIDE, OnRead, doubled_area};
 
 /// Cells by which the used part of a page is rounded down at most, and one more.
 const FRAME: u32 = 4;
@@ -59,8 +60,7 @@ fn around(
     let cells = texture.raster(raster(on_page, options.most_cells));
     let padding = padding(options, plan.order.len().max(1), f64::from(cells));
     let mut slack = vec![SLACK; charts.len()];
-    let mut chart = 0;
-    for _ in 0..ROUNDS {
+    for round in 0..=ROUNDS {
         let mut packing = Packing {
             plan: &plan,
             slack: &slack,
@@ -86,13 +86,17 @@ fn around(
                 .min(f64::from(options.padding_texels)),
             charts: attempt.spots,
         };
-        let snapped = snapped(charts, &plan.outlines, &layout)?;
-        match cramped(&snapped, &layout, &mut slack) {
-            Some(cramped) => chart = cramped,
-            None => return Ok(pack::atlas(charts, &layout, &slack, snapped, options)),
+        let repair = if round < ROUNDS {
+            Repair::Open
+        } else {
+            Repair::Nothing
+        };
+        let snapped = snapped(charts, &plan.outlines, &layout, repair);
+        if repair == Repair::Nothing || !is_cramped(&snapped, &layout, &mut slack) {
+            return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
         }
     }
-    Err(AtlasError::NotRepresentable { chart }.into())
+    Err(AroundError::NoRoom)
 }
 
 /// Pages on which the cells of charts that stay are taken.

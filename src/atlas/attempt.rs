@@ -184,8 +184,12 @@ fn rough(size: u32) -> u32 {
     size >> finer << finer
 }
 
-/// The factor by which a chart at so many grid units per mesh unit has to exceed the common scale.
+/// The factor by which a chart at so many grid units per mesh unit has to exceed the common scale; 1 for one without area, which no
+/// scale gives any.
 pub(super) fn stretch(outline: &Outline, unit: f64) -> f64 {
+    if outline.size == 0.0 {
+        return 1.0;
+    }
     let root = (outline.n_triangles as f64 * CELLS_PER_TRIANGLE).sqrt();
     let longest = outline.extent[0].max(outline.extent[1]);
     (root / (outline.size * unit))

@@ -53,6 +53,12 @@ fn largest(packing: &Packing, staying: &[Staying], search_words: u64) -> Option<
     let taken: f64 = staying.iter().map(|chart| chart.outline.size.powi(2)).sum();
     let free = (pages - taken).max(LEAST_FREE * pages) * f64::from(packing.cells).powi(2);
     let most = (free / packing.plan.area()).sqrt();
+    // Charts without area: at this scale the longest is as long as a page.
+    let most = if most.is_finite() {
+        most
+    } else {
+        f64::from(packing.cells) / packing.plan.longest().max(1.0 / f64::from(packing.cells))
+    };
     let mut scale = HOPE.sqrt() * most;
     let mut best: Option<(f64, Attempt)> = None;
     let (mut failed, mut work, mut tried) = (f64::INFINITY, 0, 0);

@@ -113,6 +113,9 @@ pub(super) fn layout(
     })
 }
 
+/// Charts whose area takes a smaller share of their room than this are lines: the difference of roots would be rounding.
+const SLIVERS: f64 = 1e-9;
+
 /// The scale (cells per mesh unit) with the best fill, and its layout.
 fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
     let known = packing.plan.near.as_ref();
@@ -194,7 +197,13 @@ fn first_scale(packing: &Packing) -> f64 {
     let cells = f64::from(packing.cells);
     let pages = f64::from(packing.texture.pages) * packing.texture.share();
     let c = n * around * around / 2.0 - HOPE * cells * cells * pages;
-    let root = (-b + (b * b - 4.0 * a * c.min(-1.0)).sqrt()) / (2.0 * a);
+    let quadratic = -4.0 * a * c.min(-1.0);
+    let root = if quadratic > SLIVERS * b * b {
+        (-b + (b * b + quadratic).sqrt()) / (2.0 * a)
+    } else {
+        // Charts that have hardly any area take room along their length; those that are points take none at any scale.
+        (-c.min(-1.0) / b).min(cells)
+    };
     let form = packing.form();
     let extents = packing
         .plan

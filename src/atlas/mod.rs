@@ -71,12 +71,12 @@ pub const GRID_BITS: u32 = 23;
 /// The side of a page in grid units.
 const GRID_SIDE: f64 = (1 << GRID_BITS) as f64;
 
-/// One chart's map: counter-clockwise triangles over vertices in mesh units.
+/// One chart's map: triangles over vertices in mesh units, counter-clockwise but for those of maps that are faulty as given.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartMap<'a> {
     /// The position of each vertex in the plane.
     pub uv: &'a [[f64; 2]],
-    /// Vertex indices, each triangle counter-clockwise.
+    /// Vertex indices.
     pub triangles: &'a [[u32; 3]],
 }
 
@@ -197,12 +197,6 @@ pub enum AtlasError {
     /// A triangle names a vertex that does not exist.
     #[error("chart {chart} has a triangle with a vertex that does not exist")]
     IndexOutOfRange {
-        /// Its index.
-        chart: usize,
-    },
-    /// No grid positions were found at which every triangle is positive.
-    #[error("chart {chart} has triangles that cannot be represented on the grid")]
-    NotRepresentable {
         /// Its index.
         chart: usize,
     },

@@ -11,7 +11,7 @@ pub(super) struct Outline {
     /// Directed edges around the area, which lies to their left, in the plane of the map.
     boundary: Arc<[[[f64; 2]; 2]]>,
     pub n_triangles: usize,
-    /// Square root of the area.
+    /// Square root of the area; 0 for a chart without area, as authored UVs have.
     pub size: f64,
     /// Sides of the bounding rectangle once turned, in mesh units.
     pub extent: [f64; 2],
@@ -177,9 +177,6 @@ fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
     let area = area(map);
     if !area.is_finite() {
         return Err(|chart| AtlasError::NonFinite { chart });
-    }
-    if area <= 0.0 && !map.triangles.is_empty() {
-        return Err(|chart| AtlasError::NotRepresentable { chart });
     }
     Ok(area)
 }

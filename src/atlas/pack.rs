@@ -7,7 +7,7 @@ use super::draft::{Draft, Look};
 use super::layout::{self, Layout};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
-use super::snap::{self, Snapped};
+use super::snap::{self, Repair, Snapped};
 use super::spot::{Corner, Spot};
 use super::{
     Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale, UNHEARD,
@@ -17,10 +17,11 @@ use super::{
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
 
-/// Places every chart on a page, each triangle strictly positive on the grid, any two charts at least the padding apart.
+/// Places every chart on a page, any two charts at least the padding apart.
 ///
-/// The charts must be strictly positive as given; one that has a flipped triangle is rounded without repair. The same
-/// input gives the same atlas for any number of threads.
+/// Every triangle of a chart whose triangles are all positive as given is positive on the grid, unless the grid is too coarse for
+/// it. Such a chart, and one that has flipped or degenerate triangles as given, is rounded without repair. The same input gives
+/// the same atlas for any number of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
     let draft = Draft::new(charts, options)?;
     pack_draft(charts, draft.as_ref(), options, UNHEARD)
@@ -46,8 +47,8 @@ pub fn pack_draft(
     if found.is_none()
         && let Some((outlines, layout)) = (draft.as_ref()).and_then(|d| d.tight(options, on_read))
     {
-        let snapped = snapped(charts, &outlines, &layout)?;
-        if cramped(&snapped, &layout, &mut slack.clone()).is_none() {
+        let snapped = snapped(charts, &outlines, &layout, Repair::Open);
+        if !is_cramped(&snapped, &layout, &mut slack.clone()) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
     }
@@ -59,30 +60,29 @@ pub fn pack_draft(
     };
     let found = found.or_else(|| best(&first, draft.as_ref(), &slack, options, on_read));
     let (plan, mut layout) = found.ok_or_else(|| none.clone())?;
-    let mut chart = 0;
     for _ in 0..ROUNDS {
-        let snapped = snapped(charts, &plan.outlines, &layout)?;
-        match cramped(&snapped, &layout, &mut slack) {
-            Some(cramped) => chart = cramped,
-            None => return Ok(atlas(charts, &layout, &slack, snapped, options)),
+        let snapped = snapped(charts, &plan.outlines, &layout, Repair::Open);
+        if !is_cramped(&snapped, &layout, &mut slack) {
+            return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
         layout = layout::layout(&plan, &slack, options, on_read).ok_or_else(|| none.clone())?;
     }
-    Err(AtlasError::NotRepresentable { chart })
+    let rounded = snapped(charts, &plan.outlines, &layout, Repair::Nothing);
+    Ok(atlas(charts, &layout, &slack, rounded, options))
 }
 
-/// A chart of which a vertex moves farther than its slack, if there is one; all such get more.
-pub(super) fn cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> Option<usize> {
-    let mut cramped = None;
-    for (chart, (snapped, slack)) in snapped.iter().zip(slack).enumerate() {
+/// Whether a vertex of a chart moves farther than the slack of the chart, which is then enlarged.
+pub(super) fn is_cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> bool {
+    let mut is_cramped = false;
+    for (snapped, slack) in snapped.iter().zip(slack) {
         // Shifting and turning round to whole grid units once more.
         let needed = (snapped.largest_move + 2.0) / layout.cell;
         if needed > *slack + layout.spare {
             *slack = 1.5 * needed;
-            cramped = Some(chart);
+            is_cramped = true;
         }
     }
-    cramped
+    is_cramped
 }
 
 /// Whether charts fit at the scale that is given, each placed once, the largest first.
@@ -143,16 +143,13 @@ pub(super) fn snapped(
     charts: &[ChartMap],
     outlines: &[Outline],
     layout: &Layout,
-) -> Result<Vec<Snapped>, AtlasError> {
-    let snapped: Vec<Option<Snapped>> = charts
-        .par_iter()
-        .zip(outlines)
-        .zip(&layout.charts)
-        .map(|((map, outline), &(_, stretch))| snap::snapped(map, outline, layout.scale * stretch))
-        .collect();
-    let named = snapped.into_iter().enumerate();
-    named
-        .map(|(chart, snapped)| snapped.ok_or(AtlasError::NotRepresentable { chart }))
+    repair: Repair,
+) -> Vec<Snapped> {
+    let charts = charts.par_iter().zip(outlines).zip(&layout.charts);
+    charts
+        .map(|((map, outline), &(_, stretch))| {
+            snap::snapped(map, outline, layout.scale * stretch, repair)
+        })
         .collect()
 }
 

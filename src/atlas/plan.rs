@@ -57,6 +57,12 @@ impl Plan {
         }
     }
 
+    /// The longest side of a chart's bounding rectangle, in mesh units.
+    pub(super) fn longest(&self) -> f64 {
+        let extents = self.outlines.iter().flat_map(|outline| outline.extent);
+        extents.fold(0.0, f64::max)
+    }
+
     /// Sum of the charts' areas, in mesh units.
     pub(super) fn area(&self) -> f64 {
         self.outlines.iter().map(|o| o.size * o.size).sum()

@@ -1,9 +1,10 @@
-//! One chart rounded to the grid with every triangle positive.
+//! One chart rounded to the grid, with every triangle positive where that is possible.
 //!
 //! Rounding alone is right for all but a few triangles. Where it is not, the vertices of the
 //! triangle try the grid points around (the ring's kernel, searched exhaustively); what is left is
 //! too narrow for the grid and is opened by [`relax`] in ever larger neighborhoods, then rounded
-//! again. A chart that has flipped triangles as given, as maps without a barrier have, is rounded and nothing else.
+//! again. A chart that has flipped or degenerate triangles as given, as authored UVs and maps without a barrier have, and one that
+//! cannot be repaired keep their shape: they are rounded and nothing else, and the certificate counts what has no area.
 use rayon::prelude::*;
 
 use super::relax::{neighborhood, relax};
@@ -26,8 +27,17 @@ const REACH: i32 = 2;
 /// Neighborhoods tried; each has twice as many rings as the one before.
 const ROUNDS: u32 = 12;
 
-/// The chart at `unit` grid units per mesh unit, or none if a triangle stays without area.
-pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Snapped> {
+/// What is done for triangles that have no area once rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Repair {
+    /// Vertices are moved so that they get some, where that is possible.
+    Open,
+    /// Nothing: every vertex goes to the nearest grid point.
+    Nothing,
+}
+
+/// The chart at `unit` grid units per mesh unit.
+pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64, repair: Repair) -> Snapped {
     let exact = |v: usize| outline.place(map.uv[v]).map(|x| x * unit);
     let rounded: Vec<[i32; 2]> = (0..map.uv.len()).map(|v| round(exact(v))).collect();
     let mut snap = Snap {
@@ -37,18 +47,18 @@ pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Sn
     };
     let all: Vec<u32> = (0..map.triangles.len() as u32).collect();
     let bad = snap.without_area(&all);
-    if !bad.is_empty() && is_positive(map) {
+    if repair == Repair::Open && !bad.is_empty() && is_positive(map) {
         snap.rings = VertexFaces::new(map.uv.len(), map.triangles);
-        snap.repair(map, outline, unit, bad)?;
-        if !snap.without_area(&all).is_empty() {
-            return None;
+        let is_repaired = snap.repair(map, outline, unit, bad).is_some();
+        if !is_repaired || !snap.without_area(&all).is_empty() {
+            snap.grid.clone_from(&rounded);
         }
     }
     let distance = |v: usize| {
         let [x, y] = exact(v);
         (x - f64::from(snap.grid[v][0])).hypot(y - f64::from(snap.grid[v][1]))
     };
-    Some(Snapped {
+    Snapped {
         moved: rounded
             .iter()
             .zip(&snap.grid)
@@ -56,7 +66,7 @@ pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64) -> Option<Sn
             .count(),
         largest_move: (0..map.uv.len()).map(distance).fold(0.0, f64::max),
         grid: snap.grid,
-    })
+    }
 }
 
 /// Whether every triangle is positive as given.

@@ -2,10 +2,10 @@
 use super::bitmap::Run;
 use super::mask::{Distances, Mask, Rounding};
 use super::outline::{Outline, outlines};
-use super::snap::{Snapped, snapped};
+use super::snap::{Repair, Snapped, snapped};
 use super::stay::{AroundError, Stay};
 use super::texture::Texture;
-use super::{AtlasError, ChartMap, Placed};
+use super::{ChartMap, Placed};
 use crate::numerics::bounds::{Bounds, bounds_of, touch, widened};
 use crate::plane::{BoxIndex, search_budget, segment_distance};
 
@@ -29,15 +29,14 @@ impl Staying {
     /// All of them, each within its page.
     pub(super) fn all(stays: &[Stay], texture: Texture) -> Result<Vec<Self>, AroundError> {
         let maps: Vec<ChartMap> = stays.iter().map(|stay| stay.map).collect();
-        let outlined = outlines(&maps)?.into_iter().zip(stays).enumerate();
-        let staying = outlined.map(|(chart, (outline, stay))| {
+        let outlined = outlines(&maps)?.into_iter().zip(stays);
+        let staying = outlined.map(|(outline, stay)| {
             let corners: Vec<[f64; 2]> = outline.corners().collect();
             let bounds = bounds_of(&corners);
             let outline = outline.with_corner([0.0; 2]);
             let island = stay.island;
             let page = page(bounds, texture).ok_or(AroundError::OffPage { island })?;
-            let snapped = snapped(&stay.map, &outline, texture.grid_side())
-                .ok_or(AtlasError::NotRepresentable { chart })?;
+            let snapped = snapped(&stay.map, &outline, texture.grid_side(), Repair::Open);
             Ok(Self {
                 page,
                 outline,

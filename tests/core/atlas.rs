@@ -48,13 +48,64 @@ fn what_cannot_be_placed_is_named() {
     far.1[3][1] = 1000;
     let mut infinite = good.clone();
     infinite.0[2][0] = f64::NAN;
-    let mut flat = good.clone();
-    flat.0.iter_mut().for_each(|p| p[1] = 0.0);
     let fault =
         |bad: Chart| pack(&maps(&[good.clone(), bad]), &AtlasOptions::default()).unwrap_err();
     assert_eq!(fault(far), AtlasError::IndexOutOfRange { chart: 1 });
     assert_eq!(fault(infinite), AtlasError::NonFinite { chart: 1 });
-    assert_eq!(fault(flat), AtlasError::NotRepresentable { chart: 1 });
+}
+
+#[test]
+fn charts_without_area_keep_their_shape_and_have_a_place() {
+    let good = blob(1.0, 3, 0.2);
+    let flattened = |height: f64, width: f64| {
+        let mut chart = good.clone();
+        chart
+            .0
+            .iter_mut()
+            .for_each(|p| *p = [p[0] * width, p[1] * height]);
+        chart
+    };
+    let (line, point, hair) = (
+        flattened(0.0, 1.0),
+        flattened(0.0, 0.0),
+        flattened(1e-39, 1.0),
+    );
+    let mixed = [good.clone(), line.clone(), point.clone(), hair.clone()];
+    for charts in [&mixed[..], &[line], &[point], &[hair]] {
+        let atlas = pack(&maps(charts), &AtlasOptions::default()).unwrap();
+        assert!(atlas.scale.is_finite() && atlas.scale > 0.0);
+        let unit = atlas.scale * f64::from(1 << GRID_BITS);
+        for ((uv, _), placed) in charts.iter().zip(&atlas.placed) {
+            assert!(
+                placed
+                    .grid
+                    .as_flattened()
+                    .iter()
+                    .all(|x| (0..=1 << GRID_BITS).contains(x))
+            );
+            let exact = (uv[0][0] - uv[20][0]).hypot(uv[0][1] - uv[20][1]) * unit;
+            let [a, b] = [0, 20].map(|v: usize| placed.grid[v].map(f64::from));
+            assert!(((a[0] - b[0]).hypot(a[1] - b[1]) - exact).abs() < 3.0);
+        }
+    }
+}
+
+#[test]
+fn a_chart_finer_than_the_grid_is_rounded_as_it_is() {
+    // A fan in a disk of 1e-9 of the chart: no grid has room for its triangles.
+    let mut chart = blob(1.0, 3, 0.2);
+    let first = chart.0.len() as u32;
+    let n = 64;
+    for k in 0..n {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+        chart.0.push([3.0 + 1e-9 * cos, 1e-9 * sin]);
+    }
+    chart.0.push([3.0, 0.0]);
+    for k in 0..n {
+        chart.1.push([first + k, first + (k + 1) % n, first + n]);
+    }
+    let atlas = pack(&maps(&[chart]), &AtlasOptions::default()).unwrap();
+    assert_eq!(atlas.placed.len(), 1);
 }
 
 #[test]

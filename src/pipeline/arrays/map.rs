@@ -58,6 +58,9 @@ pub fn mapped_charts(
 
 /// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
 /// component, should that be fewer.
+///
+/// The bound on the stretch yields first, then the one on the mean: where the number of charts decides, a bound on the stretch
+/// gives the charts that there are without it.
 fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<MappedChart> {
     let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);
     let mut bound = plan.bound;
@@ -68,7 +71,10 @@ fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<M
     };
     let mut fewest = under(&bound);
     while fewest.len() > most {
-        let next = Quality::looser_than(bound.mean);
+        let next = match bound.stretch {
+            Some(_) => Some(bound.mean),
+            None => Quality::looser_than(bound.mean),
+        };
         let others = match next {
             Some(mean) => {
                 bound = Bound {
@@ -93,7 +99,8 @@ fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<M
     fewest
 }
 
-/// The given UVs at the vertices of a chart, along both axes in longer sides of the texture.
+/// The given UVs at the vertices of a chart, along both axes in longer sides of the texture. Corners whose UVs are not finite get
+/// those of another corner of their face: the face has no area then, and is counted.
 fn uvs_of(
     chart: &Chart,
     surface: &Surface,
@@ -104,7 +111,10 @@ fn uvs_of(
     for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
         for (&vertex, &corner) in triangle.iter().zip(corners) {
             let face = surface.faces[corner as usize / 3] as usize;
-            let [u, v] = uvs[face][corner as usize % 3];
+            let is_finite = |uv: &&[f64; 2]| uv.iter().all(|x| x.is_finite());
+            let own = Some(&uvs[face][corner as usize % 3]).filter(is_finite);
+            let another = || uvs[face].iter().find(is_finite);
+            let [u, v] = own.or_else(another).copied().unwrap_or_default();
             of_vertex[vertex as usize] = [u * sides[0], v * sides[1]];
         }
     }

@@ -30,6 +30,9 @@ pub struct BoundReport {
     pub of: Bounded,
     /// Whether what is bounded keeps both bounds.
     pub kept: bool,
+    /// The most charts that were asked for; bounds on the distortion yield to it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_charts: Option<u32>,
     /// The most distorted chart, where a bound is missed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worst_chart: Option<WorstChart>,
@@ -56,7 +59,7 @@ pub fn stretch_percent(energy: f64) -> f64 {
 
 impl BoundReport {
     pub(in crate::pipeline) fn new(
-        bound: &Bound,
+        (bound, max_charts): (&Bound, Option<u32>),
         measured: &Distortion,
         (uvs, aspect): (&GroupUvs, f64),
     ) -> Self {
@@ -83,6 +86,7 @@ impl BoundReport {
             distortion: measured.sym_dirichlet_mean,
             stretch: measured.stretch_p99,
             kept,
+            max_charts,
             worst_chart: if kept {
                 None
             } else {
@@ -122,7 +126,12 @@ impl BoundReport {
             } = worst;
             format!("; the worst is chart {chart} with {percent:.1} % ({distortion:.4})")
         });
-        format!("{}{}", parts.join(", "), worst.unwrap_or_default())
+        let yielding = self.max_charts.map(|most| {
+            let plural = if most == 1 { "" } else { "s" };
+            format!("; bounds on the distortion yield to that of {most} chart{plural}")
+        });
+        let [worst, yielding] = [worst, yielding].map(Option::unwrap_or_default);
+        format!("{}{worst}{yielding}", parts.join(", "))
     }
 }
 

@@ -21,8 +21,13 @@ pub fn add_history(
     for ((group, atlas), uvs) in groups.iter_mut().zip(atlases).zip(&uvs.groups) {
         group.defects = Some(atlas.defects);
         group.atlas = Some(AtlasReport {
-            bound: (plan.reported_bound)
-                .map(|bound| BoundReport::new(&bound, &group.measures.distortion, (uvs, aspect))),
+            bound: (plan.reported_bound).map(|bound| {
+                BoundReport::new(
+                    (&bound, plan.most_charts),
+                    &group.measures.distortion,
+                    (uvs, aspect),
+                )
+            }),
             same_as: atlas.same_as.map(|group| names[group].clone()),
             ..AtlasReport::new(atlas)
         });
