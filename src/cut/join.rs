@@ -2,12 +2,12 @@
 
 use super::Sheet;
 use super::distances::{Distances, Neighbors, distances};
-use crate::mesh::{CUT, Edges, Surface, UnionFind, next, origin};
+use crate::mesh::{CUT, Edges, Surface, UnionFind, next, origin, same_direction};
 use crate::numerics::vec3::distance;
 
 /// Joins the disks of each component of a surface to one, where an edge can be found that both have and neither has used.
 ///
-/// Two disks glued along one edge, and only one, are again a disk, holes or not, and whichever way they are wound. So the
+/// Two disks glued along one edge, and only one, are again a disk, holes or not. They are glued only where they are wound alike. So the
 /// parts into which non-manifold edges cut a component hang together again at one edge each, the longest that lies on both
 /// boundaries. Where two disks share only edges that lie inside, slits are cut from their boundaries to the nearest such edge.
 /// What cannot be joined are faces that share no edge but one that two others are glued along already.
@@ -39,7 +39,8 @@ fn join_at_boundaries(surface: &Surface, edges: &Edges, twin: &mut [u32], disks:
             .filter(|&h| twin[h as usize] == CUT)
             .collect();
         for pair in open.windows(2) {
-            if disks.find(pair[0] / 3) != disks.find(pair[1] / 3) {
+            let is_alike = !same_direction(&surface.triangles, pair[0], pair[1]);
+            if is_alike && disks.find(pair[0] / 3) != disks.find(pair[1] / 3) {
                 let [a, b] = [pair[0], next(pair[0])]
                     .map(|h| surface.positions[origin(&surface.triangles, h) as usize]);
                 pairs.push((distance(a, b), pair[0], pair[1]));
@@ -85,7 +86,9 @@ fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut U
             .collect();
         reach.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         reach.dedup_by_key(|r| r.0);
-        for pair in reach.windows(2) {
+        let is_alike =
+            |pair: &&[(u32, f64, u32)]| !same_direction(&surface.triangles, pair[0].2, pair[1].2);
+        for pair in reach.windows(2).filter(is_alike) {
             pairs.push((pair[0].1 + pair[1].1, pair[0].2, pair[1].2));
         }
     }

@@ -1,6 +1,6 @@
 //! A triangle surface with one vertex per position.
 
-use super::{Adjacency, Defects, edges::Edges, weld::weld};
+use super::{Adjacency, CUT, Defects, edges::Edges, same_direction, weld::weld};
 
 /// Triangles over distinct positions, with what is wrong with them counted.
 #[derive(Clone, Debug)]
@@ -85,6 +85,18 @@ impl Surface {
     pub fn cut_along(&mut self, is_seam: impl Fn(u32, u32) -> bool) {
         self.adjacency.cut(&self.triangles, is_seam);
         self.is_cut = true;
+    }
+
+    /// Cuts the surface along the edges at which its winding changes, so that each piece has one front. A chart across such an
+    /// edge would show a texture mirrored on one side of it.
+    pub fn cut_where_winding_changes(&mut self) {
+        let triangles = &self.triangles;
+        let is_change = |h: u32, t: u32| same_direction(triangles, h, t);
+        let twin = &self.adjacency.twin;
+        let mut glued = (0..).zip(twin).filter(|(_, t)| **t != CUT);
+        if glued.any(|(h, &t)| is_change(h, t)) {
+            self.adjacency.cut(triangles, is_change);
+        }
     }
 
     /// Whether it was cut along given edges.

@@ -26,6 +26,62 @@ fn settings(cut: Cut) -> Settings {
     }
 }
 
+#[test]
+fn no_chart_mixes_windings() {
+    for mesh in [zoo::grid(8, 8), zoo::sphere(8, 12), zoo::torus(12, 8)] {
+        for every in [2, 3, 7] {
+            let mut mesh = mesh.clone();
+            for triangle in mesh.triangles.iter_mut().step_by(every) {
+                triangle.swap(1, 2);
+            }
+            let positions: Vec<[f64; 3]> =
+                mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+            for cut in [Cut::Auto, Cut::Disk, Cut::Fast] {
+                let unwrapped =
+                    unwrap(&positions, &mesh.triangles, &settings(cut), &Unobserved).unwrap();
+                for [a, b, c] in unwrapped.corner_uvs() {
+                    let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+                    assert!(doubled > 0.0, "{cut:?} {}", mesh.name);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(feature = "files")]
+#[test]
+fn a_bound_on_the_stretch_makes_nothing_worse_where_the_number_of_charts_decides() {
+    let bytes = std::fs::read(crate::places::asset("spot.ply")).unwrap();
+    let mesh = unwrapd::mesh::io::ply::read(&bytes).unwrap();
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+    let figures = |max_stretch: Option<f64>| {
+        let settings = Settings {
+            cutting: Cutting {
+                max_charts: Some(2),
+                max_stretch,
+                ..Cutting::default()
+            },
+            ..Settings::default()
+        };
+        let unwrapped = unwrap(&positions, &mesh.triangles, &settings, &Unobserved).unwrap();
+        let uvs = unwrapped.corner_uvs();
+        let measured = measure(
+            &positions,
+            &mesh.triangles,
+            &uvs,
+            VAxis::Up,
+            &MeasureOptions::default(),
+        );
+        (
+            unwrapped.charts.len(),
+            measured.distortion.stretch_p99.unwrap(),
+        )
+    };
+    let (free, bounded) = (figures(None), figures(Some(1.3)));
+    assert!(free.0 <= 2 && bounded.0 <= 2);
+    assert!(bounded.1 <= 1.001 * free.1, "{free:?} {bounded:?}");
+}
+
 fn has_a_triangle(mesh: &Mesh) -> bool {
     mesh.triangles.iter().any(|t| {
         let [a, b, c] = t.map(|v| mesh.positions[v as usize]);

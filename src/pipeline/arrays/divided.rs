@@ -33,7 +33,13 @@ impl<'a> Divided<'a> {
         let is_one = plan.most_charts.is_some();
         let pieces: Vec<Vec<Piece>> = meshes
             .par_iter()
-            .map(|mesh| if is_one { mesh.whole() } else { mesh.pieces() })
+            .map(|mesh| {
+                if is_one {
+                    mesh.whole()
+                } else {
+                    mesh.pieces(plan)
+                }
+            })
             .collect::<Result<_, _>>()?;
         let mut next = 0;
         let of_mesh = pieces.iter().map(|of_mesh| {
@@ -44,7 +50,7 @@ impl<'a> Divided<'a> {
         let pieces: Vec<Piece> = pieces.into_iter().flatten().collect();
         let surfaces: Vec<Surface> = pieces
             .par_iter()
-            .map(Piece::surface)
+            .map(|piece| piece.surface(plan))
             .collect::<Result<_, _>>()?;
         if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
             return Err(PipelineError::NoTriangles);

@@ -7,8 +7,10 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::alike::alike;
+use super::plan::Plan;
 use super::position_key::{PositionKey, position_key};
 use super::seams::Seams;
+use crate::charts::Cut;
 use crate::mesh::Surface;
 use crate::pipeline::PipelineError;
 
@@ -45,10 +47,13 @@ pub struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// The surface, cut along its seams.
-    pub fn surface(&self) -> Result<Surface, PipelineError> {
+    /// The surface, cut along its seams, and where its winding changes unless the present charts are kept.
+    pub fn surface(&self, plan: &Plan) -> Result<Surface, PipelineError> {
         let mut surface = Surface::new(&self.positions, &self.triangles)?;
         self.seams.cut(&mut surface, &self.positions);
+        if plan.cut != Cut::Keep {
+            surface.cut_where_winding_changes();
+        }
         Ok(surface)
     }
 
@@ -78,9 +83,9 @@ impl<'a> Soup<'a> {
     /// Each part that occurs again, and all others as one piece.
     ///
     /// A part that touches another, but for exact copies in the same place, may belong together with it, and stays there.
-    pub fn pieces(&self) -> Result<Vec<Piece<'a>>, PipelineError> {
+    pub fn pieces(&self, plan: &Plan) -> Result<Vec<Piece<'a>>, PipelineError> {
         self.seams.check(self.positions, self.triangles)?;
-        let repeated: Vec<&Part> = self.repeated_parts();
+        let repeated: Vec<&Part> = self.repeated_parts(plan);
         if repeated.is_empty() {
             return self.whole();
         }
@@ -118,7 +123,7 @@ impl<'a> Soup<'a> {
         }
     }
 
-    fn repeated_parts(&self) -> Vec<&'a Part> {
+    fn repeated_parts(&self, plan: &Plan) -> Vec<&'a Part> {
         let mut of_size: HashMap<_, usize> = HashMap::new();
         for part in self.parts {
             *of_size.entry(part.size()).or_default() += 1;
@@ -130,7 +135,7 @@ impl<'a> Soup<'a> {
         let surfaces: Vec<(&Part, Piece, Surface)> = (candidates.into_par_iter())
             .filter_map(|part| {
                 let piece = self.piece(part);
-                let surface = piece.surface().ok()?;
+                let surface = piece.surface(plan).ok()?;
                 Some((part, piece, surface))
             })
             .collect();
