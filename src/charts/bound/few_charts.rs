@@ -104,8 +104,9 @@ fn charts_of_surface(
     }
     let hard = divided.mapped(bound, seam_price, &planes, options, observer);
     let mut is_hard = divided.is_hard;
-    let mut hard: Vec<Piece> = hard.into_iter().map(Piece::of).collect();
-    if mean_excess(&hard) > bound.budget() {
+    let is_laid_out = hard.is_some();
+    let mut hard: Vec<Piece> = hard.into_iter().flatten().map(Piece::of).collect();
+    if !is_laid_out || mean_excess(&hard) > bound.budget() {
         is_hard.fill(false);
         hard.clear();
     }

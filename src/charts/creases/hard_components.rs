@@ -68,7 +68,7 @@ impl<'a> Divided<'a> {
     }
 
     /// The charts of the hard components, mapped and laid side by side, alike on both sides of one of
-    /// some planes.
+    /// some planes; `None` if they have too many facets for that.
     pub fn mapped(
         &self,
         bound: &Bound,
@@ -76,7 +76,7 @@ impl<'a> Divided<'a> {
         planes: &[MirrorPlane],
         options: &embed::Options,
         observer: &dyn Observer,
-    ) -> Vec<MappedChart> {
+    ) -> Option<Vec<MappedChart>> {
         let joining = Joining {
             surface: self.surface,
             faces: &self.faces,
@@ -97,17 +97,17 @@ impl<'a> Divided<'a> {
             let pieces = rounds(pieces, bound, options, observer);
             pieces.into_iter().filter_map(|piece| piece.map)
         }));
-        let charts = joining.joined(flat, mirror, options);
+        let charts = joining.joined(flat, mirror, options)?;
         let least = SMALL * self.faces.areas.iter().sum::<f64>();
         let is_given = |map: &MappedChart| map.surface_area() < least && self.is_curved(&map.chart);
-        some_given_back(
+        Some(some_given_back(
             self.surface,
             charts,
             &is_given,
             &GIVEN_BACK,
             options,
             observer,
-        )
+        ))
     }
 
     /// The facets and patches of the hard components, opened to disks.

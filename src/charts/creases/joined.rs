@@ -13,6 +13,7 @@ use crate::charts::symmetry::plane::MirrorPlane;
 use crate::charts::unfold::overlaps::overlaps;
 use crate::embed;
 use crate::mesh::{CUT, Surface};
+use crate::plane::search_budget;
 use crate::solver::Control;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -39,23 +40,29 @@ impl Joining<'_> {
     /// since pieces only grow. Both sides of a mirror plane are joined alike; at last what that leaves out,
     /// such as a part of a ring, on one. Maps stay as they are but for their place.
     ///
-    /// Ends early when the observer wants the work to end.
+    /// Ends early when the observer wants the work to end. `None` if it takes too much work: the surface has so many facets beside
+    /// one vertex, or so many in all, that it is no machine part.
     pub fn joined(
         &self,
         charts: Vec<MappedChart>,
         mirror: Option<MirrorPlane>,
         options: &embed::Options,
-    ) -> Vec<MappedChart> {
+    ) -> Option<Vec<MappedChart>> {
         let charts: BTreeMap<u32, MappedChart> = (0..).zip(charts).collect();
         let (layout, _) = self.laid_out(&charts, mirror.as_ref());
+        if layout.work > self.most_work() {
+            return None;
+        }
         let n_faces = |map: &MappedChart| map.chart.disk.triangles.len();
         self.observer.worked(charts.values().map(n_faces).sum());
-        as_charts(
-            (self.surface, mirror),
-            &charts,
-            &layout,
-            (options, self.observer),
-        )
+        let of = (self.surface, mirror);
+        let how = (options, self.observer);
+        Some(as_charts(of, &charts, &layout, how))
+    }
+
+    /// The work that a layout may take: some seconds.
+    fn most_work(&self) -> u64 {
+        search_budget(self.surface.triangles.len())
     }
 
     /// The plane of which both sides can be joined alike at the least cost of the seams that are left;
@@ -89,7 +96,10 @@ impl Joining<'_> {
         let places: Vec<usize> = (0..joints.len()).collect();
         for equal in places.chunk_by(|&a, &b| joints[a].rank == joints[b].rank) {
             let mut open = equal.to_vec();
-            while !open.is_empty() && self.observer.control() == Control::Continue {
+            while !open.is_empty()
+                && layout.work <= self.most_work()
+                && self.observer.control() == Control::Continue
+            {
                 let compared = open[..open.len().min(COMPARED)].iter().enumerate();
                 let most = (compared.rev()).max_by_key(|&(_, &i)| layout.n_joins(&joints[i]));
                 let place = open.remove(most.map_or(0, |(i, _)| i));

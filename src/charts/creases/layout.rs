@@ -41,6 +41,8 @@ pub struct Layout<'a> {
     pub(super) piece: Vec<Piece>,
     /// Halfedges of the surface at which charts were joined.
     pub joined: Vec<u32>,
+    /// Pairs of faces that were compared, and vertices that were set aside in case a join has to be undone.
+    pub work: u64,
 }
 
 impl<'a> Layout<'a> {
@@ -67,6 +69,7 @@ impl<'a> Layout<'a> {
             first_vertex,
             charts,
             joined: Vec::new(),
+            work: 0,
         }
     }
 
@@ -113,7 +116,7 @@ impl<'a> Layout<'a> {
         let is_positive = |&[a, b, c]: &CornerUvs| orient2d_sign(a, b, c) > 0;
         if common.is_empty()
             || !faces.iter().all(is_positive)
-            || self.piece[still as usize].meets(&faces)
+            || self.piece[still as usize].meets(&faces, &mut self.work)
         {
             return false;
         }

@@ -41,6 +41,7 @@ impl Layout<'_> {
     /// What a join may change.
     fn saved(&mut self, joint: &Joint) -> Before {
         let of = [joint.chart, joint.run.neighbor].map(|chart| self.pieces.find(chart));
+        self.work += self.places.len() as u64;
         Before {
             n_joined: self.joined.len(),
             places: self.places.clone(),

@@ -33,9 +33,10 @@ impl Piece {
         }
     }
 
-    /// Whether one of these faces covers a part of it.
-    pub fn meets(&self, faces: &[CornerUvs]) -> bool {
-        self.grounds.iter().any(|ground| ground.meets(faces))
+    /// Whether one of these faces covers a part of it. Adds the pairs that are compared to `work`.
+    pub fn meets(&self, faces: &[CornerUvs], work: &mut u64) -> bool {
+        let mut grounds = self.grounds.iter();
+        grounds.any(|ground| ground.meets(faces, work))
     }
 
     /// Takes in a piece whose faces now lie beside its own, joined at these edges of both outlines.

@@ -36,11 +36,13 @@ impl Ground {
         Self::of([&*self.corners, &other.corners].concat())
     }
 
-    /// Whether a face here and one of these, counter-clockwise too, overlap, decided exactly.
-    pub fn meets(&self, faces: &[CornerUvs]) -> bool {
+    /// Whether a face here and one of these, counter-clockwise too, overlap, decided exactly. Adds the pairs that are compared to
+    /// `work`.
+    pub fn meets(&self, faces: &[CornerUvs], work: &mut u64) -> bool {
         faces.iter().any(|face| {
             let mut is_met = false;
             self.index.meeting(&bounds_of(face), |f| {
+                *work += 1;
                 is_met |= interiors_intersect(face, &self.corners[f as usize]);
             });
             is_met
