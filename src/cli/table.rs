@@ -27,11 +27,12 @@ pub(super) fn print(groups: &[GroupReport]) {
         .unwrap_or(0);
     let width = width.clamp(10, NAME);
     say(format_args!(
-        "{:width$} {:>9} {:>7} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {:>11}",
+        "{:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {:>11}",
         "",
         "triangles",
         "charts",
-        "stretch",
+        "stretch p99",
+        "mean",
         "filled",
         "texels/unit",
         "seam/√A",
@@ -51,6 +52,13 @@ pub(super) fn print(groups: &[GroupReport]) {
         let name = format!("{} atlases", groups.len());
         say(line(&name, width, &Sums::of(&order)));
     }
+    let needles = Sums::of(&order).needles;
+    if needles > 0 {
+        say(format_args!(
+            "needles: {needles} triangles less high than 1/10,000 of their length; stretch leaves them out where they have less than \
+             .1 % of the area"
+        ));
+    }
     for group in shown.iter().filter(|group| group.measures.pages.len() > 1) {
         let page = |page: &Page| format!("{} {:.1} % filled", page.udim, 100.0 * page.fill);
         let pages: Vec<String> = group.measures.pages.iter().map(page).collect();
@@ -63,9 +71,10 @@ fn line(name: &str, width: usize, sums: &Sums) -> String {
     let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.1} %"));
     let overlapping = sums.overlapping.map_or("-".to_owned(), |n| n.to_string());
     format!(
-        "{name:width$} {:>9} {:>7} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {overlapping:>11}",
+        "{name:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {overlapping:>11}",
         sums.faces,
         sums.charts,
+        percent(sums.stretch.map(|stretch| 100.0 * (stretch - 1.0))),
         percent(sums.energy().map(stretch_percent)),
         percent(sums.filled.map(|share| 100.0 * share)),
         number(sums.density(), 4),
@@ -83,6 +92,9 @@ struct Sums {
     area: f64,
     /// Energies times areas, over surfaces that have one.
     energies: Option<f64>,
+    /// The largest 99th percentile of the stretch.
+    stretch: Option<f64>,
+    needles: usize,
     texels: Option<f64>,
     seam: f64,
     /// The mean of all pages.
@@ -106,6 +118,11 @@ impl Sums {
             if let Some(energy) = m.distortion.sym_dirichlet_mean {
                 *sums.energies.get_or_insert(0.0) += energy * area;
             }
+            let largest = [sums.stretch, m.distortion.stretch_p99]
+                .into_iter()
+                .flatten();
+            sums.stretch = largest.reduce(f64::max);
+            sums.needles += m.distortion.needles;
             if let Some(texels) = group.texels_per_unit {
                 *sums.texels.get_or_insert(0.0) += texels * texels * area;
             }

@@ -8,7 +8,8 @@ use crate::mesh::CornerUvs;
 use serde::Serialize;
 
 /// Distortion over all faces that have area in 3D and in UV, after scaling UVs so that total areas agree; null when there is no such
-/// face. Stretch is that of Sander et al. 2001.
+/// face. Needles, faces whose height is below 1e-4 of their longest side, do not count unless they have more than .1 % of the
+/// surface area. Stretch is that of Sander et al. 2001.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Distortion {
@@ -42,6 +43,10 @@ pub struct Distortion {
     pub stretch_p99: Option<f64>,
     /// (σ₁−1)² + (σ₂−1)², mean; ideal 0.
     pub arap_mean: Option<f64>,
+    /// Needles.
+    pub needles: usize,
+    /// Their part of the surface area.
+    pub needles_area_frac: f64,
 }
 
 /// Distortion of one face; the definitions are those of [`Distortion`].
@@ -59,6 +64,8 @@ pub struct FaceDistortion {
     pub flipped: bool,
     /// Without area in 3D or in UV.
     pub degenerate: bool,
+    /// Counts for [`Distortion`]: false for needles that have a negligible area.
+    pub counts: bool,
 }
 
 /// Distortion of every face, for pictures; `weights` as in [`MeasureOptions`](super::MeasureOptions).
@@ -79,6 +86,7 @@ pub fn face_distortion(
             stretch: values.map_or(f64::INFINITY, |v| v.greatest()),
             flipped,
             degenerate: values.is_none(),
+            counts: faces.counts(face),
         }
     };
     flipped(&topology)
@@ -90,11 +98,20 @@ pub fn face_distortion(
 
 impl Distortion {
     pub(super) fn new(topology: &UvTopology, faces: &FaceMeasures) -> Distortion {
+        let (needles, needles_area_frac) = (
+            faces.needle.iter().filter(|needle| **needle).count(),
+            faces.needle_share(),
+        );
         let measured: Vec<(Stretch, f64)> = (0..topology.faces.len())
+            .filter(|&face| faces.counts(face))
             .filter_map(|f| Some((Stretch::of_face(topology, faces, f)?, faces.area_3d[f])))
             .collect();
         if measured.is_empty() {
-            return Distortion::default();
+            return Distortion {
+                needles,
+                needles_area_frac,
+                ..Distortion::default()
+            };
         }
         let weight: f64 = measured.iter().map(|(_, w)| w).sum();
         let mean = |of: fn(&Stretch) -> f64| {
@@ -129,6 +146,8 @@ impl Distortion {
             sym_dirichlet_median: dirichlet.quantile(0.5),
             stretch_p99: sorted(Stretch::greatest).quantile(0.99),
             arap_mean: mean(Stretch::arap),
+            needles,
+            needles_area_frac,
         }
     }
 }

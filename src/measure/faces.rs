@@ -2,19 +2,30 @@
 
 use crate::certificate::UvTopology;
 
+/// The height of a needle over its longest side, at most: a face that is an edge for all that can be seen of it. Rounding moves its
+/// vertices by more than its height on a texture of 8192 texels.
+const NEEDLE: f64 = 1e-4;
+
+/// The share of the surface area from which on needles count for distortion like all faces.
+const MOST_NEEDLES: f64 = 1e-3;
+
 /// Areas of faces and charts.
 pub(super) struct FaceMeasures<'a> {
     pub area_3d: Vec<f64>,
     pub area_uv: Vec<f64>,
     /// Whether the face has no area in 3D, by the tests of the [module](super).
     pub degenerate_3d: Vec<bool>,
+    /// Whether the face is a needle: it has area, but its height is below [`NEEDLE`] of its longest side.
+    pub needle: Vec<bool>,
     pub total_3d: f64,
     pub total_uv: f64,
     /// Diagonal of the bounding box of all positions.
     pub diagonal: f64,
     pub charts: Vec<ChartMeasures>,
-    /// The area that all faces should have.
-    total_intended: f64,
+    /// The area that the faces that count for distortion should have, and that they have in UV.
+    counted_intended: f64,
+    counted_uv: f64,
+    needles_count: bool,
     weights: Option<&'a [f64]>,
 }
 
@@ -40,6 +51,7 @@ impl<'a> FaceMeasures<'a> {
         let n_faces = topology.faces.len();
         let mut area_3d = Vec::with_capacity(n_faces);
         let mut degenerate_3d = Vec::with_capacity(n_faces);
+        let mut needle = Vec::with_capacity(n_faces);
         for face in 0..n_faces {
             let [a, b, c] = face_points(topology, face);
             let (e1, e2, e3) = (sub(b, a), sub(c, a), sub(c, b));
@@ -49,6 +61,7 @@ impl<'a> FaceMeasures<'a> {
             let sliver = 2.0 * area < 1e-9 * longest || area < 1e-14 * diagonal * diagonal;
             area_3d.push(area);
             degenerate_3d.push(area <= 0.0 || sliver);
+            needle.push(2.0 * area < NEEDLE * longest);
         }
         let area_uv: Vec<f64> = (0..n_faces).map(|f| topology.area(f)).collect();
         let mut charts = vec![ChartMeasures::default(); topology.charts.nonorientable.len()];
@@ -59,23 +72,47 @@ impl<'a> FaceMeasures<'a> {
             chart.area_uv += area_uv[face];
             chart.area_intended += area_3d[face] * weight(weights, face).powi(2);
         }
-        let intended = |(face, area): (usize, &f64)| area * weight(weights, face).powi(2);
-        Self {
+        let mut faces = Self {
             total_3d: area_3d.iter().sum(),
-            total_intended: area_3d.iter().enumerate().map(intended).sum(),
+            counted_intended: 0.0,
+            counted_uv: 0.0,
+            needles_count: false,
             weights,
             total_uv: area_uv.iter().sum(),
             area_3d,
             area_uv,
             degenerate_3d,
+            needle,
             diagonal,
             charts,
-        }
+        };
+        faces.needles_count = faces.needle_share() > MOST_NEEDLES;
+        let counted = (0..n_faces).filter(|&face| faces.counts(face));
+        let areas = counted.map(|face| {
+            let intended = faces.area_3d[face] * weight(weights, face).powi(2);
+            [intended, faces.area_uv[face]]
+        });
+        let totals = areas.fold([0.0; 2], |[a, b], [x, y]| [a + x, b + y]);
+        [faces.counted_intended, faces.counted_uv] = totals;
+        faces
     }
 
-    /// A₃d / A_uv: squared lengths in UV times this compare with those on the surface, enlarged by the weights.
+    /// The needles' share of the surface area.
+    pub fn needle_share(&self) -> f64 {
+        let needles = self.area_3d.iter().zip(&self.needle);
+        let area: f64 = needles.filter(|(_, needle)| **needle).map(|(a, _)| a).sum();
+        area / self.total_3d.max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether a face counts for distortion: needles do only where they are a visible part of the surface.
+    pub fn counts(&self, face: usize) -> bool {
+        !self.needle[face] || self.needles_count
+    }
+
+    /// A₃d / A_uv of the faces that count: squared lengths in UV times this compare with those on the surface, enlarged by the
+    /// weights.
     pub fn area_scale(&self) -> f64 {
-        self.total_intended / self.total_uv.max(1e-300)
+        self.counted_intended / self.counted_uv.max(1e-300)
     }
 
     /// The density intended for a face.

@@ -50,6 +50,39 @@ fn the_identity_is_ideal() {
 }
 
 #[test]
+fn a_needle_is_counted_apart() {
+    let plain = UvMesh::grid(16).measure().distortion;
+    // As long as the grid and 1e-6 of that high, but a wedge in UV.
+    let needle = || {
+        let mut needle = UvMesh::planar(&[[2.0, 0.0], [3.0, 0.0], [2.5, 1e-6]], &[[0, 1, 2]]);
+        needle.uvs[0][2][1] = 0.1;
+        needle
+    };
+    let mut mesh = UvMesh::grid(16);
+    for _ in 0..100 {
+        mesh.add(&needle());
+    }
+    let measured = mesh.measure().distortion;
+    assert_eq!(measured.needles, 100);
+    near(measured.needles_area_frac, 5e-5 / 1.00005);
+    for (of, plain) in [
+        (measured.sym_dirichlet_mean, plain.sym_dirichlet_mean),
+        (measured.stretch_p99, plain.stretch_p99),
+        (measured.sym_dirichlet_max, plain.sym_dirichlet_max),
+    ] {
+        near(of, plain.expect("a figure"));
+    }
+    // So many that they are more than a thousandth of the surface count.
+    let mut mesh = UvMesh::grid(16);
+    for _ in 0..3000 {
+        mesh.add(&needle());
+    }
+    let measured = mesh.measure().distortion;
+    assert!(measured.needles_area_frac > 1e-3);
+    assert!(measured.sym_dirichlet_mean > Some(100.0), "{measured:?}");
+}
+
+#[test]
 fn every_texel_center_is_covered_once() {
     for n in [1, 3, 7, 64] {
         let packing = UvMesh::grid(n)

@@ -26,6 +26,7 @@ fn at(picture: &RgbImage, x: f64, y: f64) -> [u8; 3] {
 
 fn face(value: f64, flipped: bool) -> FaceDistortion {
     FaceDistortion {
+        counts: true,
         conformal: value,
         area: value,
         symmetric_dirichlet: 4.0 * value,

@@ -3,7 +3,7 @@
 use crate::measure::FaceDistortion;
 use crate::numerics::vec3::{area_vector, norm};
 
-/// The mean of symmetric Dirichlet energies, weighted by area; faces without area do not count.
+/// The mean of symmetric Dirichlet energies, weighted by area; faces without area and negligible needles do not count.
 #[derive(Clone, Copy, Default)]
 pub(super) struct MeanEnergy {
     area: f64,
@@ -13,7 +13,7 @@ pub(super) struct MeanEnergy {
 
 impl MeanEnergy {
     pub fn add(&mut self, [a, b, c]: [[f64; 3]; 3], face: &FaceDistortion) {
-        if !face.degenerate {
+        if face.counts && !face.degenerate {
             let area = norm(area_vector(a, b, c));
             self.area += area;
             self.sum += area * face.symmetric_dirichlet;
