@@ -20,6 +20,18 @@ pub struct Primitive {
 }
 
 impl Primitive {
+    /// Puts vertices that no triangle uses, and whose coordinates are not finite, at the origin, and tells how many there were.
+    pub(super) fn place_unused(&mut self) -> usize {
+        let mut n_placed = 0;
+        for position in &mut self.positions {
+            if !position.iter().all(|x| x.is_finite()) {
+                *position = [0.0; 3];
+                n_placed += 1;
+            }
+        }
+        n_placed
+    }
+
     /// All triangles of a file whose format knows no meshes.
     pub(super) fn of_file(mesh: IndexedTriangles) -> Result<Self, DocumentError> {
         if mesh.triangles.is_empty() {

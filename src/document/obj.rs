@@ -6,6 +6,7 @@
 //! diagonals between them, as a corner of a polygon has one UV.
 use super::obj_materials::ObjMaterials;
 use super::obj_text::rewrite;
+use super::warning::unused_not_finite;
 use super::{
     DocumentError, Layout, NewUvs, Primitive, SpaceMap, Upload, Warning, WriteNotes, WriteOptions,
     Written,
@@ -33,10 +34,10 @@ impl ObjDocument {
 
     fn parse(bytes: Vec<u8>, resources: BTreeMap<String, Vec<u8>>) -> Result<Self, DocumentError> {
         let mut obj = io::obj::read(&bytes)?;
-        let warnings = fanned::warning(&obj.mesh.fanned, "line")
-            .into_iter()
-            .collect();
-        let primitive = Primitive::of_file(std::mem::take(&mut obj.mesh))?;
+        let fanned = fanned::warning(&obj.mesh.fanned, "line");
+        let mut primitive = Primitive::of_file(std::mem::take(&mut obj.mesh))?;
+        let unused = unused_not_finite(primitive.place_unused());
+        let warnings = fanned.into_iter().chain(unused).collect();
         Ok(Self {
             bytes,
             obj,

@@ -1,7 +1,7 @@
 //! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
 use super::colors::{Color, from_srgb};
 use super::conversion::{Conversion, of_triangles};
-use super::warning::listed;
+use super::warning::{listed, unused_not_finite};
 use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fanned};
 use crate::mesh::CornerUvs;
 use crate::mesh::io::{self, Format};
@@ -25,9 +25,12 @@ impl SoupDocument {
             Some(Format::Stl) => (io::stl::read(&upload.bytes)?, "line"),
             _ => return Err(DocumentError::UnknownFormat),
         };
+        let fanned = fanned::warning(&mesh.fanned, place);
+        let mut primitive = Primitive::of_file(mesh)?;
+        let unused = unused_not_finite(primitive.place_unused());
         let mut document = Self {
-            warnings: fanned::warning(&mesh.fanned, place).into_iter().collect(),
-            primitives: vec![Primitive::of_file(mesh)?],
+            warnings: fanned.into_iter().chain(unused).collect(),
+            primitives: vec![primitive],
             colors: None,
         };
         if format == Some(Format::Ply) {

@@ -21,6 +21,16 @@ impl Warning {
     }
 }
 
+/// Says that vertices that no face uses have coordinates that are not finite.
+pub(super) fn unused_not_finite(n_vertices: usize) -> Option<Warning> {
+    (n_vertices > 0).then(|| {
+        Warning::new(
+            "unused_not_finite",
+            format!("{n_vertices} vertices that no face uses have coordinates that are not finite"),
+        )
+    })
+}
+
 /// The first names of many, each cut short, for a message.
 pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     const SHOWN: usize = 6;

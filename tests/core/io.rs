@@ -247,10 +247,42 @@ fn obj_keeps_polygons_and_corners() {
 }
 
 #[test]
+fn a_vertex_that_no_face_uses_may_hold_anything() {
+    let texts: [(Reader, &str); 3] = [
+        (
+            read_obj,
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan inf 1e39\nf 1 2 3\n",
+        ),
+        (
+            off::read,
+            "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\nnan inf 1e39\n3 0 1 2\n",
+        ),
+        (
+            ply::read,
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+             property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\nnan inf 1e39\n3 0 1 2\n",
+        ),
+    ];
+    for (read, text) in texts {
+        let mesh = read(text.as_bytes()).expect("a triangle");
+        assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    }
+}
+
+#[test]
+fn bytes_after_a_binary_stl_are_ignored_by_whoever_reads_it() {
+    let mut bytes = stl_binary();
+    let mesh = stl::read(&bytes).expect("a square");
+    bytes.extend([7; 82]);
+    assert_eq!(detected("upload", &bytes), Some(Format::Stl));
+    assert_eq!(stl::read(&bytes), Ok(mesh));
+}
+
+#[test]
 fn bad_files_are_refused_with_their_code() {
     let cases: [(&str, Reader, &str); 23] = [
-        ("v 0 0 nan\n", read_obj, "non_finite_position"),
-        ("v 0 0 1e39\n", read_obj, "non_finite_position"),
+        ("v 0 0 nan\nf 1 1 1\n", read_obj, "non_finite_position"),
+        ("v 0 0 1e39\nf 1 1 1\n", read_obj, "non_finite_position"),
         ("v 0 0\n", read_obj, "invalid_mesh"),
         ("v 0 0 0\nf 1 1 x\n", read_obj, "invalid_mesh"),
         ("v 0 0 0\nf 1/1/1/1 1 1\n", read_obj, "invalid_mesh"),

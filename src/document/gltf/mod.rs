@@ -49,6 +49,7 @@ mod uri;
 mod vertices;
 mod write;
 
+use super::warning::unused_not_finite;
 use super::{
     BakePlan, BakedTextures, CornerTangents, DocumentError, Group, Mark, NewUvs, Primitive,
     SpaceMap, Subdivision, Upload, Warning, WriteOptions, Written,
@@ -63,6 +64,7 @@ use accessor::Accessor;
 use body::Body;
 use json::{invalid, item, items, unsigned};
 use origin::Origin;
+use primitives::Collected;
 use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -108,7 +110,11 @@ impl GltfDocument {
         draco::decompress(&mut body)?;
         let compression = [draco::NAME, meshopt::NAMES[0], meshopt::NAMES[1]];
         let decompressed = extensions::prune(&mut body.json, &compression)?;
-        let (primitives, used) = primitives::collect(&body)?;
+        let Collected {
+            primitives,
+            used,
+            n_unused_not_finite,
+        } = primitives::collect(&body)?;
         if primitives
             .iter()
             .all(|primitive| primitive.triangles.is_empty())
@@ -124,7 +130,7 @@ impl GltfDocument {
             decompressed,
             primitives,
             used,
-            warnings: Vec::new(),
+            warnings: unused_not_finite(n_unused_not_finite).into_iter().collect(),
         })
     }
 
@@ -253,6 +259,21 @@ impl GltfDocument {
         .ok_or_else(|| invalid("a primitive is gone"))
     }
 
+    /// Reads the triangles again, after the body has changed.
+    fn collect(&mut self) -> Result<(), DocumentError> {
+        let collected = primitives::collect(&self.body)?;
+        (self.primitives, self.used) = (collected.primitives, collected.used);
+        Ok(())
+    }
+
+    /// Whether a primitive has colors at its vertices.
+    pub fn has_vertex_colors(&self) -> bool {
+        self.primitives.iter().any(|primitive| {
+            let object = self.object(primitive);
+            object.is_ok_and(|object| object["attributes"].get("COLOR_0").is_some())
+        })
+    }
+
     /// The document with its triangles cut into pieces.
     pub fn subdivided(mut self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
         let mut body = self.body.clone();
@@ -260,14 +281,14 @@ impl GltfDocument {
             subdivide::subdivide(&self, &mut body, index, cut)?;
         }
         self.body = body;
-        (self.primitives, self.used) = primitives::collect(&self.body)?;
+        self.collect()?;
         Ok(self)
     }
 
     /// The document with a mesh for every node that shows one.
     pub fn with_separate_meshes(mut self) -> Result<Self, DocumentError> {
         scene::separate_meshes(&mut self.body.json)?;
-        (self.primitives, self.used) = primitives::collect(&self.body)?;
+        self.collect()?;
         Ok(self)
     }
 
@@ -288,7 +309,7 @@ impl GltfDocument {
     /// The document with its triangles where a map carries them.
     pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
         moved::move_surfaces(&mut self.body, &self.primitives, map)?;
-        (self.primitives, self.used) = primitives::collect(&self.body)?;
+        self.collect()?;
         Ok(self)
     }
 

@@ -13,8 +13,14 @@ use std::rc::Rc;
 /// a file does not bound their sum.
 const MAX_ELEMENTS: usize = 1 << 26;
 
-/// Primitives, and for each the vertices of its accessors that it uses; `None` is all.
-pub(super) type Collected = (Vec<Primitive>, Vec<Option<Vec<u32>>>);
+/// The triangles of a document.
+pub(super) struct Collected {
+    pub primitives: Vec<Primitive>,
+    /// For each primitive the vertices of its accessors that it uses; `None` is all.
+    pub used: Vec<Option<Vec<u32>>>,
+    /// Vertices that no triangle uses and that were not finite.
+    pub n_unused_not_finite: usize,
+}
 
 /// Every primitive that has triangles and positions, in file order, and what of its accessors it uses.
 ///
@@ -24,7 +30,7 @@ pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
     let mut primitives = Vec::new();
     let mut used = Vec::new();
     let mut positions = Positions::new(body)?;
-    let (mut n_vertices, mut n_faces) = (0, 0);
+    let (mut n_vertices, mut n_faces, mut n_unused_not_finite) = (0, 0, 0);
     for (mesh, object) in items(&body.json, "meshes")?.iter().enumerate() {
         for (index, object) in items(object, "primitives")?.iter().enumerate() {
             let read = read(body, object, &mut positions).map_err(|e| located(e, mesh, index))?;
@@ -38,17 +44,23 @@ pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
                     "the file has too many vertices or faces".to_owned(),
                 ));
             }
-            primitives.push(Primitive {
+            let mut primitive = Primitive {
                 mesh,
                 primitive: index,
                 material: unsigned(object, "material")?,
                 positions: read.positions,
                 triangles: read.triangles,
-            });
+            };
+            n_unused_not_finite += primitive.place_unused();
+            primitives.push(primitive);
             used.push(read.used);
         }
     }
-    Ok((primitives, used))
+    Ok(Collected {
+        primitives,
+        used,
+        n_unused_not_finite,
+    })
 }
 
 /// Says in which primitive an error is.
@@ -90,15 +102,14 @@ fn read(
                 .collect(),
         );
     }
-    if let Some(vertex) = positions
-        .iter()
-        .position(|p| !p.iter().all(|x| x.is_finite()))
-    {
+    let triangles = faces(&indices, mode);
+    let is_finite = |v: &u32| positions[*v as usize].iter().all(|x| x.is_finite());
+    if let Some(vertex) = triangles.as_flattened().iter().find(|v| !is_finite(v)) {
         return Err(DocumentError::NonFinitePosition(format!("vertex {vertex}")));
     }
     Ok(Some(Read {
         positions: Rc::unwrap_or_clone(positions),
-        triangles: faces(&indices, mode),
+        triangles,
         used,
     }))
 }

@@ -76,11 +76,23 @@ impl Faces {
     }
 
     /// All triangles in the order of the faces, those of polygons inside them, and the polygons for which there is no inside.
+    ///
+    /// `position` gives the vertex of a corner and where it is.
+    ///
+    /// # Errors
+    /// If the position of a corner is not finite.
     pub fn filled<T: Coordinate>(
         self,
-        position: impl Fn(u32) -> [T; 3],
-    ) -> (Vec<[u32; 3]>, Fanned) {
+        position: impl Fn(u32) -> (u32, [T; 3]),
+    ) -> Result<(Vec<[u32; 3]>, Fanned), ReadError> {
         let mut triangles = self.triangles;
+        for &corner in triangles.as_flattened() {
+            let (vertex, position) = position(corner);
+            if !position.iter().all(|x| x.to_f64().is_finite()) {
+                let vertex = vertex as usize;
+                return Err(ReadError::NonFinitePosition { vertex });
+            }
+        }
         let mut fanned = Fanned::default();
         let (mut corners, mut positions, mut local) = (Vec::new(), Vec::new(), Vec::new());
         for polygon in self.polygons {
@@ -89,7 +101,7 @@ impl Faces {
             corners.extend(&fan[0][..2]);
             corners.extend(fan.iter().map(|triangle| triangle[2]));
             positions.clear();
-            positions.extend(corners.iter().map(|&c| position(c).map(T::to_f64)));
+            positions.extend(corners.iter().map(|&c| position(c).1.map(T::to_f64)));
             local.clear();
             if triangulate(&positions, &mut local) == Filling::Fan {
                 fanned.n_polygons += 1;
@@ -101,6 +113,6 @@ impl Faces {
                 *triangle = local.map(|k| corners[k as usize]);
             }
         }
-        (triangles, fanned)
+        Ok((triangles, fanned))
     }
 }

@@ -81,6 +81,8 @@ impl ReadError {
 
 /// The numbers that coordinates are kept as.
 trait Coordinate: Copy + Default {
+    const NAN: Self;
+
     /// The nearest such number, without a negative zero; `None` where that is not finite.
     fn nearest(x: f64) -> Option<Self>;
 
@@ -88,6 +90,8 @@ trait Coordinate: Copy + Default {
 }
 
 impl Coordinate for f32 {
+    const NAN: Self = Self::NAN;
+
     fn nearest(x: f64) -> Option<Self> {
         Some(x as f32 + 0.0).filter(|x| x.is_finite())
     }
@@ -98,6 +102,8 @@ impl Coordinate for f32 {
 }
 
 impl Coordinate for f64 {
+    const NAN: Self = Self::NAN;
+
     fn nearest(x: f64) -> Option<Self> {
         Some(x + 0.0).filter(|x| x.is_finite())
     }
@@ -105,6 +111,12 @@ impl Coordinate for f64 {
     fn to_f64(self) -> f64 {
         self
     }
+}
+
+/// A position as a file has it, without negative zeros; NaN where a coordinate is not finite. [`Faces::filled`] refuses faces with
+/// such a corner: a vertex that no face uses may hold anything.
+fn any_position<T: Coordinate>(coordinates: [f64; 3]) -> [T; 3] {
+    coordinates.map(|x| T::nearest(x).unwrap_or(T::NAN))
 }
 
 /// A position as the rest of the program sees it: finite, without negative zeros.

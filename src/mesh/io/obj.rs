@@ -7,7 +7,7 @@
 //! position that is not there is an error. A texture coordinate or normal that is not there is taken as not
 //! given, as neither is needed to map the surface.
 use super::{
-    Coordinate, Elements, Faces, IndexedTriangles, ReadError, number, position, three_numbers,
+    Coordinate, Elements, Faces, IndexedTriangles, ReadError, any_position, number, three_numbers,
     words,
 };
 use std::fmt::Write;
@@ -150,8 +150,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
             b"v" => {
                 let coordinates = three_numbers(words)
                     .ok_or_else(|| malformed(statement.line, "a vertex needs three numbers"))?;
-                let vertex = obj.mesh.positions.len();
-                obj.mesh.positions.push(position(coordinates, vertex)?);
+                obj.mesh.positions.push(any_position(coordinates));
             }
             b"vt" => obj.texcoords.push(texcoord(words)),
             b"vn" => obj
@@ -182,8 +181,11 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
     }
     resolve(&mut obj, &raw_corners)?;
     let vertex_of = |corner: u32| obj.corners[corner as usize].vertex;
-    let position = |corner: u32| obj.mesh.positions[vertex_of(corner) as usize];
-    (obj.corner_triangles, obj.mesh.fanned) = faces.filled(position);
+    let position = |corner: u32| {
+        let vertex = vertex_of(corner);
+        (vertex, obj.mesh.positions[vertex as usize])
+    };
+    (obj.corner_triangles, obj.mesh.fanned) = faces.filled(position)?;
     obj.mesh.triangles = obj
         .corner_triangles
         .iter()

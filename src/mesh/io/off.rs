@@ -4,7 +4,7 @@
 //! (normals, colors, texture coordinates) is passed over, and so are the colors of faces. Four-dimensional and
 //! binary files are refused. The counts are read as `u64` and nothing is reserved by them.
 use super::{
-    Coordinate, Elements, Faces, IndexedTriangles, ReadError, lines, number, position,
+    Coordinate, Elements, Faces, IndexedTriangles, ReadError, any_position, lines, number,
     three_numbers, words,
 };
 use std::fmt::Write;
@@ -51,11 +51,11 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<IndexedTriangles<T>
     let (n_vertices, n_faces) = counts(&mut statements)?;
     let mut mesh = IndexedTriangles::default();
     let end = malformed(lines(bytes).count(), "the file ends early");
-    for vertex in 0..n_vertices {
+    for _ in 0..n_vertices {
         let (at, line) = statements.next().ok_or_else(|| end.clone())?;
         let coordinates = three_numbers(&mut words(line))
             .ok_or_else(|| malformed(at, "a vertex needs three numbers"))?;
-        mesh.positions.push(position(coordinates, vertex as usize)?);
+        mesh.positions.push(any_position(coordinates));
     }
     let (mut faces, mut polygon) = (Faces::default(), Vec::new());
     for _ in 0..n_faces {
@@ -64,7 +64,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<IndexedTriangles<T>
             .ok_or_else(|| malformed(at, "a face needs a count and that many indices"))?;
         faces.push_checked(&polygon, mesh.positions.len(), at)?;
     }
-    (mesh.triangles, mesh.fanned) = faces.filled(|v| mesh.positions[v as usize]);
+    (mesh.triangles, mesh.fanned) = faces.filled(|v| (v, mesh.positions[v as usize]))?;
     Ok(mesh)
 }
 

@@ -26,9 +26,11 @@ fn claimed_facets(bytes: &[u8]) -> Option<usize> {
     Some(u32::from_le_bytes(count.try_into().ok()?) as usize)
 }
 
-/// Whether the size is exactly that of a binary file with the number of facets it claims.
+/// Whether the file has room for the binary facets it claims, at least one. Bytes after the last of them are ignored: some
+/// exporters append their own data. A text would claim hundreds of millions.
 pub(super) fn is_binary(head: &[u8], size: u64) -> bool {
-    claimed_facets(head).is_some_and(|n| (HEADER + n * FACET) as u64 == size)
+    let has_room = |n: usize| n > 0 && (HEADER + n * FACET) as u64 <= size;
+    claimed_facets(head).is_some_and(has_room)
 }
 
 /// Whether a text file begins like this: with its first word, and facets after it.
@@ -76,13 +78,14 @@ impl Builder {
         Ok(vertex)
     }
 
-    fn mesh(self) -> IndexedTriangles {
-        let (triangles, fanned) = self.faces.filled(|v| self.positions[v as usize]);
-        IndexedTriangles {
+    fn mesh(self) -> Result<IndexedTriangles, ReadError> {
+        let position = |v: u32| (v, self.positions[v as usize]);
+        let (triangles, fanned) = self.faces.filled(position)?;
+        Ok(IndexedTriangles {
             positions: self.positions,
             triangles,
             fanned,
-        }
+        })
     }
 }
 
@@ -110,7 +113,7 @@ fn read_binary(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
         }
         builder.faces.push(&polygon, at);
     }
-    Ok(builder.mesh())
+    builder.mesh()
 }
 
 fn read_text(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
@@ -149,5 +152,5 @@ fn read_text(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
     if inside {
         return Err(malformed("line", last, "the file ends early"));
     }
-    Ok(builder.mesh())
+    builder.mesh()
 }

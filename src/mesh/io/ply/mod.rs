@@ -12,7 +12,7 @@ pub use self::extras::{Extras, extras};
 
 use self::data::Data;
 use self::header::{Element, Kind, header};
-use super::{Faces, IndexedTriangles, ReadError, position};
+use super::{Faces, IndexedTriangles, ReadError, any_position};
 
 fn malformed(at: usize, cause: &'static str) -> ReadError {
     ReadError::Malformed {
@@ -52,7 +52,7 @@ pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
             n_vertices,
         }),
         _ => {
-            (mesh.triangles, mesh.fanned) = faces.filled(|v| mesh.positions[v as usize]);
+            (mesh.triangles, mesh.fanned) = faces.filled(|v| (v, mesh.positions[v as usize]))?;
             Ok(mesh)
         }
     }
@@ -71,8 +71,7 @@ fn read_vertices(
     let axes = [axis(b"x")?, axis(b"y")?, axis(b"z")?];
     read_records(element, data, None, |record| {
         let coordinates = axes.map(|property| record.scalars[property]);
-        let vertex = mesh.positions.len();
-        mesh.positions.push(position(coordinates, vertex)?);
+        mesh.positions.push(any_position(coordinates));
         Ok(())
     })
 }
