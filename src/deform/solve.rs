@@ -38,7 +38,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Do the handles stand at their targets?
+    /// Whether the handles came to their targets, as far as the status tells.
     pub(super) fn has_arrived(&self) -> bool {
         !matches!(
             self.summary.status,
@@ -56,7 +56,10 @@ impl Problem {
     /// and [`unreached`](Self::unreached) names the rest. With [`search`](Self::search) all bent ways are tried, and the map with
     /// the lowest energy is the solution. Iterations and factorizations are those of all attempts.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
-        self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))
+        let solution =
+            self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))?;
+        let exact = self.rounding();
+        Ok(self.checked(solution, exact))
     }
 
     /// The same by the paper's iteration.
@@ -65,9 +68,11 @@ impl Problem {
         settings: &LevenbergSettings,
         watch: &dyn Watch,
     ) -> Result<Solution, ProblemError> {
-        self.solve_in_units(watch, &|problem, watch| {
+        let solution = self.solve_in_units(watch, &|problem, watch| {
             problem.iterate_softly(settings, watch)
-        })
+        })?;
+        let near = self.least_gap();
+        Ok(self.checked(solution, near))
     }
 
     /// Solves the problem in the units in which its numbers are meant.
@@ -79,15 +84,26 @@ impl Problem {
         for handles in &self.stations {
             handles.check(self.body.dim(), self.start.len())?;
         }
-        match self.units {
-            Units::Given => solve(self, watch),
+        let solution = match self.units {
+            Units::Given => solve(self, watch)?,
             Units::Normalized => {
                 let (inner, frame) = self.normalized();
                 let shown = Restored::to(watch, &frame);
                 let solution = solve(&inner, &shown)?;
-                Ok(self.restored(&frame, &inner, &solution))
+                self.restored(&frame, &inner, &solution)
             }
+        };
+        Ok(solution)
+    }
+
+    /// The solution, whose status says that it has arrived only if every held vertex is within a distance of its target.
+    fn checked(&self, mut solution: Solution, most: f64) -> Solution {
+        if matches!(solution.summary.status, Status::Converged | Status::Stalled)
+            && !self.is_at_targets(&solution.x, most)
+        {
+            solution.summary.status = Status::TargetsUnreachable;
         }
+        solution
     }
 
     /// A solution of the normalized problem as one of this. What stands at its target there does so here

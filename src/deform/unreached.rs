@@ -8,9 +8,11 @@ use super::aims::Aim;
 use super::normalized::Frame;
 use super::problem::Problem;
 use super::solve::Solution;
-use crate::solver::Handles;
+use crate::solver::{Handles, Status};
 
-/// What counts as arrived: a distance of this share of a mean element's edge.
+/// What a held vertex may be off its target, as a share of the longest side of the body and the targets.
+const EXACT: f64 = 1e-12;
+/// What counts as arrived where soft constraints hold: a distance of this share of a mean element's edge.
 const ARRIVED: f64 = 1e-6;
 
 /// A handle that did not come to its target.
@@ -24,19 +26,64 @@ pub struct Unreached {
 }
 
 impl Problem {
-    /// The handles that did not come to their targets, in the order of their list; none of a solution that has arrived.
+    /// The handles that did not come to their targets, in the order of their list.
     pub fn unreached(&self, solution: &Solution) -> Vec<Unreached> {
-        let Some(targets) = self.stations.last().filter(|_| !solution.has_arrived()) else {
+        let Some(targets) = self.stations.last() else {
             return Vec::new();
         };
+        if matches!(solution.summary.status, Status::Converged | Status::Stalled) {
+            return Vec::new();
+        }
         let gaps = Gaps::new(self.body.dim(), targets, &solution.x);
         let least = self.least_gap();
         let of_handle = |(handle, aim)| Unreached {
             handle,
             distance: gaps.of(aim),
         };
-        let all = self.aims.iter().enumerate().map(of_handle);
-        all.filter(|handle| handle.distance > least).collect()
+        let all: Vec<Unreached> = self.aims.iter().enumerate().map(of_handle).collect();
+        let beyond = |least: f64| {
+            // Also where the distance is no number.
+            let is_off = |handle: &&Unreached| !matches!(handle.distance, d if d <= least);
+            all.iter().filter(is_off).copied().collect::<Vec<_>>()
+        };
+        let missed = beyond(least);
+        if missed.is_empty() && solution.summary.status == Status::TargetsUnreachable {
+            return beyond(self.rounding());
+        }
+        missed
+    }
+
+    /// Whether every held vertex is within a distance of its target, and every held point as near as soft constraints bring it.
+    pub(super) fn is_at_targets(&self, x: &[f64], most: f64) -> bool {
+        let Some(targets) = self.stations.last() else {
+            return true;
+        };
+        let gaps = Gaps::new(self.body.dim(), targets, x);
+        let near = self.least_gap();
+        (0..targets.vertices.len()).all(|i| gaps.of_vertex(i) <= most)
+            && (0..targets.points.len()).all(|i| gaps.of_point(i) <= near)
+    }
+
+    /// What rounding may leave of the distance of a held vertex from its target.
+    pub(super) fn rounding(&self) -> f64 {
+        EXACT * self.size()
+    }
+
+    /// The longest side of the box around the body and the targets.
+    fn size(&self) -> f64 {
+        let dim = self.body.dim();
+        let targets = self.stations.last().map_or(&[][..], |last| &last.targets);
+        let side = |k: usize| {
+            let of = |all: &'_ [f64]| {
+                let along = all.iter().skip(k).step_by(dim);
+                along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| {
+                    [low.min(x), high.max(x)]
+                })
+            };
+            let [[a, b], [c, d]] = [of(&self.body.rest), of(targets)];
+            b.max(d) - a.min(c)
+        };
+        (0..dim).map(side).fold(0.0, f64::max)
     }
 
     /// A distance that counts as none.

@@ -80,7 +80,13 @@ pub enum HandlesError {
     /// A target or a bend is infinite or not a number.
     #[error("a target or a bend is not finite")]
     NotFinite,
+    /// A target is so far that its distance is no number.
+    #[error("a target has a coordinate larger than {LARGEST:e}")]
+    TooFar,
 }
+
+/// The largest coordinate of a target: squares of distances stay finite.
+const LARGEST: f64 = 1e150;
 
 impl HandlesError {
     /// A word for programs; it does not change.
@@ -92,7 +98,7 @@ impl HandlesError {
             | Self::Points { .. } => "unpaired_handles",
             Self::UnknownVertex { .. } => "unknown_handle",
             Self::Twice { .. } => "contradictory_handles",
-            Self::NotFinite => "bad_target",
+            Self::NotFinite | Self::TooFar => "bad_target",
         }
     }
 }
@@ -138,6 +144,10 @@ impl Handles {
         let mut numbers = targets.chain(self.bends.as_flattened());
         if !numbers.all(|x| x.is_finite()) {
             return Err(HandlesError::NotFinite);
+        }
+        let mut targets = self.targets.iter().chain(&self.point_targets);
+        if targets.any(|x| x.abs() > LARGEST) {
+            return Err(HandlesError::TooFar);
         }
         Ok(())
     }

@@ -56,6 +56,7 @@ fn what_does_not_fit_is_an_error_and_nothing_moves() {
     assert_eq!(pulls(&|h| h.vertices[2] = 27), "unknown_handle");
     assert_eq!(pulls(&|h| h.vertices[2] = 0), "contradictory_handles");
     assert_eq!(pulls(&|h| h.targets[3] = f64::NAN), "bad_target");
+    assert_eq!(pulls(&|h| h.targets[3] = 1e154), "bad_target");
     assert_eq!(pulls(&|h| h.bends = vec![[0.0; 3]]), "unpaired_handles");
     let endless = |h: &mut Handles| h.bends = vec![[f64::INFINITY; 3]; h.n_ways()];
     assert_eq!(pulls(&endless), "bad_target");

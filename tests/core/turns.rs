@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use unwrapd::deform::{Body, Handle, Model, Problem, Turns};
+use unwrapd::mesh::PlanarMesh;
 use unwrapd::solver::{Control, Iterate, Settings, Status};
 
 use crate::pulled::{bar, strip};
@@ -129,6 +130,44 @@ fn a_strip_of_the_plane_curls() {
     let turns = sole(&problem.turns(&solution.x));
     assert_eq!(turns.asked, 2.0);
     assert!((turns.left - 2.0).abs() < 1e-6, "{turns:?}");
+}
+
+#[test]
+fn a_disc_in_a_fixed_border_keeps_its_turns_however_sheared() {
+    // Rings turned by so much that a ring is sheared beside the next by more than half a turn.
+    let side = 48;
+    let vertices =
+        (0..(side + 1) * (side + 1)).map(|v| [v % (side + 1), v / (side + 1)].map(f64::from));
+    let triangles = (0..side * side).flat_map(|cell| {
+        let a = cell / side * (side + 1) + cell % side;
+        [[a, a + 1, a + side + 2], [a, a + side + 2, a + side + 1]]
+    });
+    let mesh = PlanarMesh::new(vertices.collect(), triangles.collect()).expect("a grid");
+    let middle = f64::from(side) / 2.0;
+    let border = (0..(side + 1) * (side + 1)).filter(|v| {
+        let [x, y] = [v % (side + 1), v / (side + 1)];
+        x == 0 || y == 0 || x == side || y == side
+    });
+    let held = border.map(|vertex| Handle::Vertex {
+        vertex,
+        to: mesh.vertices()[vertex as usize].to_vec(),
+    });
+    let disc = Handle::Disc {
+        center: vec![middle; 2],
+        radius: 7.0,
+        to: vec![middle; 2],
+        turn: 720.0,
+        axis: None,
+    };
+    let handles: Vec<Handle> = held.chain([disc]).collect();
+    let problem = Problem::new(Body::from(&mesh), &handles, &Model::default()).expect("handles");
+    let solution = problem
+        .solve(&Settings::follow(), &go_on)
+        .expect("an energy of the plane");
+    assert_eq!(solution.worth.inverted, 0);
+    let turns = sole(&problem.turns(&solution.x));
+    assert_eq!(turns.asked, 2.0);
+    assert!((turns.left - 2.0).abs() < 1e-9, "{turns:?}");
 }
 
 #[test]

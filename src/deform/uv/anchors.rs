@@ -8,9 +8,13 @@ use super::map::UvMap;
 use super::{EditError, UvMesh};
 use crate::deform::numbers;
 use crate::numerics::predicates::orient2d_sign;
+use crate::plane::segment_distance;
 
 /// UVs at most; no texture repeats that often.
 const FARTHEST: f64 = 1e6;
+
+/// How far outside a chart an anchor may lie: a texel of a texture of 1024, the accuracy of a pointer.
+const OUTSIDE: f64 = 1e-3;
 
 /// A vertex of a UV map and where it goes, in the numbers of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,8 +29,8 @@ pub enum Anchor {
         #[serde(deserialize_with = "numbers::planar")]
         to: [f64; 2],
     },
-    /// The point of the surface that has a UV, a vertex if it is one. Where no face has the UV, and next to a boundary that stays,
-    /// the nearest vertex, whose target is shifted by the same offset.
+    /// The point of the surface that has a UV, a vertex if it is one. Next to a boundary that stays, and at most a texel of a
+    /// texture of 1024 outside a chart, it is the nearest vertex, whose target is shifted by the same offset.
     Place {
         /// A UV.
         #[serde(deserialize_with = "numbers::planar")]
@@ -93,7 +97,7 @@ pub(super) fn hold(
                 (Spot::Vertex(vertex), to)
             }
             Anchor::Place { at, to } => {
-                place(map, vertices, at, to).ok_or(EditError::UnknownHandle(anchor))?
+                place(map, vertices, at, to).ok_or(EditError::Outside(anchor))?
             }
         };
         match held.iter().find(|other| other.spot == spot) {
@@ -123,7 +127,8 @@ fn only_vertex(
     Ok(first)
 }
 
-/// What is pulled at a UV, and where to: the point itself, or the nearest vertex where no face has the UV.
+/// What is pulled at a UV, and where to: the point itself, or the nearest vertex where it lies hardly outside a chart; `None` far
+/// from all charts.
 fn place(
     map: &UvMap,
     vertices: &UvVertices,
@@ -133,9 +138,23 @@ fn place(
     if let Some(chart) = chart_at(map, at) {
         return Some((Spot::Place { chart, at }, to));
     }
+    if distance_from_faces(map, at) > OUTSIDE {
+        return None;
+    }
     let (vertex, uv) = nearest_vertex(map, vertices, at)?;
     let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
     Some((Spot::Vertex(vertex), to))
+}
+
+/// How far a UV is from the sides of the faces; infinite where there are none.
+fn distance_from_faces(map: &UvMap, at: [f64; 2]) -> f64 {
+    let faces = (0..map.faces.len()).filter(|&face| !map.unusable[face]);
+    let sides = faces.flat_map(|face| {
+        let [a, b, c] = map.uvs[face];
+        [[a, b], [b, c], [c, a]]
+    });
+    let distances = sides.map(|side| segment_distance(side, [at, at]));
+    distances.fold(f64::INFINITY, f64::min)
 }
 
 /// The vertex nearest to a UV and its own UV; the first of equally near ones.

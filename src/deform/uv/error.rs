@@ -21,6 +21,9 @@ pub enum EditError {
     /// An anchor's vertex has no UV.
     #[error("anchor {0} names a vertex without UVs")]
     UnknownHandle(usize),
+    /// An anchor's UV lies outside every chart.
+    #[error("anchor {0} lies outside every chart")]
+    Outside(usize),
     /// An anchor's vertex has several UVs.
     #[error("anchor {0} names a vertex on a seam; name it by its UV")]
     AmbiguousVertex(usize),
@@ -58,6 +61,7 @@ impl EditError {
             Self::HandleCount(_) => "handle_count",
             Self::BadTarget(_) => "bad_target",
             Self::UnknownHandle(_) => "unknown_handle",
+            Self::Outside(_) => "handle_outside",
             Self::AmbiguousVertex(_) => "ambiguous_vertex",
             Self::Contradictory(..) => "contradictory_handles",
             Self::OnBoundary(_) => "anchor_on_boundary",

@@ -1,42 +1,82 @@
-//! Handles that did not come to their targets, as users are told.
+//! What a pull did not do of what was asked for, as users are told.
+
+use serde::Serialize;
 
 use crate::deform::Unreached;
 use crate::document::Warning;
 use crate::solver::Status;
 
-/// The code of the warning.
-const TARGETS_UNREACHABLE: &str = "targets_unreachable";
-
-/// So many are named at most.
+/// Handles named in a warning at most.
 const NAMED: usize = 8;
 
-/// The handles that did not come to their targets although there was time.
-pub(in crate::pipeline) fn missed(status: Status, unreached: &[Unreached]) -> &[Unreached] {
-    if status == Status::Stopped {
-        &[]
-    } else {
-        unreached
+/// How much was done of what was asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Completion {
+    /// Every handle is at its target, and the energy is minimal.
+    #[default]
+    Complete,
+    /// The work ended before that: at the limit of time or of iterations, or on request.
+    EndedEarly,
+    /// Handles cannot be brought to their targets.
+    TargetsMissed,
+}
+
+impl Completion {
+    /// How a pull that ended like this was completed.
+    pub(in crate::pipeline) fn of(status: Status) -> Self {
+        match status {
+            Status::Converged | Status::Stalled => Self::Complete,
+            Status::IterationLimit | Status::Stopped => Self::EndedEarly,
+            Status::TargetsUnreachable => Self::TargetsMissed,
+        }
+    }
+
+    /// Warns of what is missing; `unreached` are the handles that are not at their targets.
+    pub(in crate::pipeline) fn warning(
+        self,
+        status: Status,
+        unreached: &[Unreached],
+    ) -> Option<Warning> {
+        let (code, what) = match self {
+            Self::Complete => return None,
+            Self::TargetsMissed => (
+                "targets_unreachable",
+                "no way was found to the targets of these handles, counted from 0",
+            ),
+            Self::EndedEarly if status == Status::IterationLimit => (
+                "iteration_limit",
+                "the energy is not minimal: the limit of iterations was reached",
+            ),
+            // The tracker says why it was stopped.
+            Self::EndedEarly if unreached.is_empty() => return None,
+            Self::EndedEarly => (
+                "targets_missed",
+                "the work ended before these handles, counted from 0, came to their targets",
+            ),
+        };
+        let message = if unreached.is_empty() {
+            what.to_owned()
+        } else if code == "iteration_limit" {
+            format!(
+                "{what}; handles, counted from 0, that are not at their targets: {}",
+                named(unreached)
+            )
+        } else {
+            format!("{what}: {}", named(unreached))
+        };
+        Some(Warning::new(code, message))
     }
 }
 
-/// Names them, if there are any.
-pub(in crate::pipeline) fn missed_warning(missed: &[Unreached]) -> Option<Warning> {
-    if missed.is_empty() {
-        return None;
+/// The first handles, and how far from their targets they are.
+fn named(unreached: &[Unreached]) -> String {
+    let first = unreached.iter().take(NAMED);
+    let names = first.map(|one| format!("{} (by {:.3e})", one.handle, one.distance));
+    let names = names.collect::<Vec<_>>().join(", ");
+    match unreached.len().saturating_sub(NAMED) {
+        0 => names,
+        more => format!("{names} and {more} more"),
     }
-    let named = missed.iter().take(NAMED);
-    let named = named.map(|one| format!("{} (by {:.3e})", one.handle, one.distance));
-    let mut names = named.collect::<Vec<_>>().join(", ");
-    if missed.len() > NAMED {
-        names = format!("{names} and {} more", missed.len() - NAMED);
-    }
-    let message =
-        format!("no way was found to the targets of these handles, counted from 0: {names}");
-    Some(Warning::new(TARGETS_UNREACHABLE, message))
-}
-
-/// Is every handle at its target, or was there no time to bring it there?
-pub(in crate::pipeline) fn is_complete(warnings: &[Warning]) -> bool {
-    let mut codes = warnings.iter().map(|warning| &*warning.code);
-    !codes.any(|code| code == TARGETS_UNREACHABLE)
 }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::cage_report::CageReport;
-use super::missed::{is_complete, missed, missed_warning};
+use super::missed::Completion;
 use super::plan::Plan;
 use crate::certificate::boundary_crossings;
 use crate::deform::{BodyElements, Method, Problem, Solution, Turns, Units, Unreached, Worth};
@@ -27,13 +27,6 @@ pub struct Deformed {
     pub trace: String,
 }
 
-impl DeformReport {
-    /// Is every handle at its target, or was there no time to bring it there?
-    pub fn is_complete(&self) -> bool {
-        is_complete(&self.warnings)
-    }
-}
-
 /// What a deformation is worth and how it was found.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
@@ -46,6 +39,8 @@ pub struct DeformReport {
     /// What the map is worth.
     #[serde(flatten)]
     pub worth: Worth,
+    /// How much was done of what was asked for.
+    pub completion: Completion,
     /// The handles that did not come to their targets, and how far from them they are.
     pub unreached: Vec<Unreached>,
     /// What its energies are measured in.
@@ -117,12 +112,14 @@ pub fn solve(
     }
     let unreached = problem.unreached(&solution);
     let turns = problem.turns(&solution.x);
-    let missed = missed_warning(missed(solution.summary.status, &unreached));
-    let warnings = tracker.warning().into_iter().chain(missed);
+    let status = solution.summary.status;
+    let completion = Completion::of(status);
+    let warnings = (tracker.warning().into_iter()).chain(completion.warning(status, &unreached));
     let report = DeformReport {
         method: plan.method,
         summary: solution.summary,
         worth: solution.worth,
+        completion,
         unreached,
         units: problem.units,
         crossings,

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::missed::{is_complete, missed, missed_warning};
+use super::missed::Completion;
 use super::pull_report::PullReport;
 use crate::barrier::BarrierKind;
 use crate::certificate::{boundary_crossings, certify_planar};
@@ -32,6 +32,8 @@ pub struct WarpedPicture {
 pub struct WarpReport {
     /// Whether the map is proven to have no inverted triangle and, with a fixed border or if asked for, to be bijective.
     pub certified: bool,
+    /// How much was done of what was asked for.
+    pub completion: Completion,
     /// What users should know of the picture and of the map.
     pub warnings: Vec<Warning>,
     /// Where the upper left corner of the result lies, in pixels of the original.
@@ -39,13 +41,6 @@ pub struct WarpReport {
     /// The map.
     #[serde(flatten)]
     pub map: PullReport,
-}
-
-impl WarpReport {
-    /// Is every handle at its target, or was there no time to bring it there?
-    pub fn is_complete(&self) -> bool {
-        is_complete(&self.warnings)
-    }
 }
 
 /// Warps a picture without folding it, and proves that on the map of its grid.
@@ -78,14 +73,17 @@ pub fn warp_file(
         if !certified && options.model.barrier != BarrierKind::None {
             return Err(PipelineError::Inverted);
         }
-        let missed = missed(map.summary.status, &map.summary.unreached);
-        let warnings = tracker.warning().into_iter().chain(missed_warning(missed));
+        let status = map.summary.status;
+        let completion = Completion::of(status);
+        let unfinished = completion.warning(status, &map.summary.unreached);
+        let warnings = tracker.warning().into_iter().chain(unfinished);
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
         Ok(WarpedPicture {
             files: vec![(format!("{stem}.png"), warped.picture.image.png())],
             report: WarpReport {
                 certified,
+                completion,
                 warnings: warnings.collect(),
                 origin: warped.picture.origin,
                 map,
