@@ -28,6 +28,10 @@ impl Acceptance {
     pub(super) fn judge(&self, report: &Report, seconds: f64) -> Result<(), Failure> {
         let worth = Worth::of(report);
         let missed: Vec<&Gate> = self.accept.missed(&worth, seconds).collect();
+        if missed.is_empty() && report.partly_done {
+            let message = "certified, but not all textures and colors were resampled (partly_done)";
+            return Err(Failure::partly(message));
+        }
         if missed.is_empty() {
             return Ok(());
         }

@@ -11,9 +11,21 @@ use super::{
 };
 use crate::options::as_typed;
 
+/// The exit statuses of all commands. The README and the description of the HTTP API repeat them.
+pub const EXIT_STATUSES: &str = "\
+Exit statuses:
+  0  done and proven
+  1  any other error
+  2  usage error
+  3  unusable input
+  4  written, but not certified or not accepted
+  5  handles cannot be brought to their targets
+  6  ended early, with less than was asked for
+  7  partly done: textures or colors were not resampled";
+
 /// Unwraps meshes: glTF in, glTF with certified flip-free UVs and a distortion report out.
 #[derive(Parser)]
-#[command(name = "unwrapd", version, about, max_term_width = 100)]
+#[command(name = "unwrapd", version, about, max_term_width = 100, after_help = EXIT_STATUSES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -29,8 +41,9 @@ pub(super) enum Command {
     /// Exit status 4 means not certified, or whatever else `accept` requests. OUT is still written, and a warning names what is
     /// missing. Only if a triangle would be flipped against the promise, no file is written.
     ///
-    /// Other statuses: 2 usage error, 3 unusable input, 1 any other error. Distortion above the
-    /// bound of `quality` is only a warning.
+    /// Exit status 7 means that not all textures and colors were resampled as `rebake` asks. An atlas that is complete when
+    /// `time_budget` is over ends with 0; its report says `ended_early`. Other statuses: 2 usage error, 3 unusable input, 1 any
+    /// other error. Distortion above the bound of `quality` is only a warning.
     Unwrap(Box<unwrap_args::Args>),
     /// Unwrap many meshes: a folder, a list, or a shard of either
     ///
@@ -57,17 +70,25 @@ pub(super) enum Command {
     /// Prove that the UVs of a file have no flipped or degenerate face: exit 0 if so, 4 if not
     ///
     /// The proof is in exact arithmetic and covers whatever the options request. A face is flipped
-    /// if its orientation differs from that of its chart. A file written by unwrapd records its
-    /// options; without `texcoord`, those are judged.
+    /// if its orientation differs from that of its chart.
+    ///
+    /// A file written by unwrapd has a record that names the UV set and adds requirements: no
+    /// overlaps, padding, pages, bits. It never takes anything out: all faces are judged, and what
+    /// shares an atlas follows from the materials or from `group_by`. That holds for files of
+    /// version 0.1.0, too, whose records could name the only charts to judge. With `texcoord`, the
+    /// record is ignored.
     Verify(verify::Args),
     /// Pack the UV islands of all meshes into one atlas without changing their shapes
     ///
     /// Islands are only turned by quarters, shifted, and scaled by one common factor. Their defects
-    /// remain. The exit status is 4, not certified, if a triangle is flipped, degenerate or
+    /// remain: islands without area keep their shape and have a place, too. The exit status is 4, not certified, if a triangle is flipped, degenerate or
     /// overlapping, a chart is mirrored, or the padding is not kept. OUT is still written, and a
     /// warning names the defects.
     Repack(repack::Args),
     /// Pull UVs by anchors without flipping a face
+    ///
+    /// The whole UV set is judged after the edit. Exit status 4 means that OUT was written but is
+    /// not certified, such as when a chart was pulled onto another.
     EditUv(edit_uv::EditArgs),
     /// Align points of a surface with points of a texture without flipping a face
     TextureMap(edit_uv::TextureArgs),

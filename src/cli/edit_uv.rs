@@ -58,7 +58,7 @@ pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
     run(&args.common, &args.points, Editing::Texture)
 }
 
-/// Exit status 4 if a chart with an anchor is not proven to be free of flips, 5 if targets cannot be reached.
+/// Exit status 4 if the UV set is not proven to be bijective, 5 if targets cannot be reached.
 fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     let (input, to) = (&args.mapped.input, &args.target.output);
     let mut options = EditOptions {
@@ -85,7 +85,10 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
         print_pull(&format!("chart {}: ", chart.chart), &chart.map);
     }
     if !edited.report.certified {
-        return Err(Failure::uncertified("a chart is not valid"));
+        let lacking = edited.report.lacking.join(", ");
+        return Err(Failure::uncertified(format!(
+            "not certified, but written: {lacking}"
+        )));
     }
-    Failure::unless_complete(edited.report.is_complete())
+    Failure::unless_complete(edited.report.completion)
 }

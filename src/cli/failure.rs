@@ -5,7 +5,7 @@ use crate::deform::ProblemError;
 use crate::deform::uv::EditError;
 use crate::deform::warp::WarpError;
 use crate::options::as_typed;
-use crate::pipeline::PipelineError;
+use crate::pipeline::{Completion, PipelineError};
 
 /// Why a command ended, in one line, and its exit status.
 #[derive(Debug)]
@@ -39,15 +39,27 @@ impl Failure {
         }
     }
 
-    /// Written; a failure if handles are not at their targets.
-    pub(super) fn unless_complete(is_complete: bool) -> Result<(), Self> {
-        if is_complete {
-            return Ok(());
-        }
+    /// Written, but not all that was asked for was done.
+    pub(super) fn unless_complete(completion: Completion) -> Result<(), Self> {
+        let (exit_code, message) = match completion {
+            Completion::Complete => return Ok(()),
+            Completion::TargetsMissed => {
+                (5, "not all targets can be reached (targets_unreachable)")
+            }
+            Completion::EndedEarly => (6, "the work ended before all was done (ended_early)"),
+        };
         Err(Self {
-            exit_code: 5,
-            message: "not all targets can be reached (targets_unreachable)".to_owned(),
+            exit_code,
+            message: message.to_owned(),
         })
+    }
+
+    /// Written, but only a part of what was asked for was done.
+    pub(super) fn partly(message: impl Into<String>) -> Self {
+        Self {
+            exit_code: 7,
+            message: message.into(),
+        }
     }
 
     /// Anything else.

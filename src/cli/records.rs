@@ -56,7 +56,7 @@ impl Records {
             print_json(&deformed.report)?;
         }
         summarize(deformed);
-        Failure::unless_complete(deformed.report.is_complete())
+        Failure::unless_complete(deformed.report.completion)
     }
 }
 

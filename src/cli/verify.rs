@@ -31,8 +31,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.json {
         print_json(&verified)?;
     } else {
+        say(format_args!("judged: {}", verified.judged));
         if let Some(mark) = &verified.mark {
-            say(format_args!("judged by the record in the file: {mark}"));
+            let required = mark.terms.to_string();
+            if !required.is_empty() {
+                say(format_args!(
+                    "required by the record in the file: {required}"
+                ));
+            }
         }
         for group in &verified.groups {
             let text = certificate_text(&group.certificate);
@@ -40,12 +46,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     warn(&verified.warnings);
-    let proven = &verified.proven;
     if !verified.certified {
-        return Err(Failure::uncertified(format!("not valid: {proven}")));
+        let lacking = verified.lacking.join(", ");
+        return Err(Failure::uncertified(format!("not valid: {lacking}")));
     }
     if !args.json {
-        say(format_args!("valid: {proven}"));
+        say(format_args!("valid: {}", verified.proven));
     }
     Ok(())
 }

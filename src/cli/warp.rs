@@ -58,7 +58,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if !warped.report.certified {
         return Err(Failure::uncertified("the map is not valid"));
     }
-    Failure::unless_complete(warped.report.is_complete())
+    Failure::unless_complete(warped.report.completion)
 }
 
 /// One line about a map.

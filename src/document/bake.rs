@@ -111,6 +111,15 @@ pub struct BakedTextures {
     pub files: Vec<(u32, Vec<u8>)>,
     /// For each primitive the tangents of its new UVs, where it has normals and a normal map.
     pub tangents: Vec<Option<Vec<CornerTangents>>>,
+    /// Whether the document has colors at its vertices and no texture to resample.
+    pub has_colors_only: bool,
+}
+
+impl BakedTextures {
+    /// Whether something that could show the new UVs was not resampled.
+    pub fn is_partial(&self) -> bool {
+        self.has_colors_only || !self.plan.kept.is_empty()
+    }
 }
 
 /// A texture that was resampled for the new UVs.

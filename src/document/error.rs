@@ -36,6 +36,11 @@ pub enum DocumentError {
     /// The output format cannot hold this document.
     #[error("cannot write {0}")]
     UnsupportedOutput(String),
+    /// A node shows a mesh several times, and each is to have UVs of its own.
+    #[error(
+        "node {0} has instances (EXT_mesh_gpu_instancing), which cannot have UVs of their own; make them nodes"
+    )]
+    Instanced(usize),
     /// Triangles are to be cut where something has no value between vertices.
     #[error("triangles cannot be split: {0} cannot be interpolated")]
     Indivisible(String),
@@ -56,7 +61,7 @@ impl DocumentError {
             Self::InvalidGltf(_) => "invalid_gltf",
             Self::InvalidMesh(_) => "invalid_mesh",
             Self::UnsupportedVersion(_) => "unsupported_version",
-            Self::UnsupportedExtension(_) => "unsupported_extension",
+            Self::UnsupportedExtension(_) | Self::Instanced(_) => "unsupported_extension",
             Self::MissingResource(_) => "missing_resource",
             Self::IndexOutOfRange(_) => "index_out_of_range",
             Self::NonFinitePosition(_) => "non_finite_position",

@@ -1,4 +1,7 @@
-//! What a file says of the UVs that were written to it, so that it can be judged by what was promised.
+//! The record that a file keeps of the UVs written to it: which set, and what was promised of it.
+//!
+//! Anybody can write such a record, so it may only add to what is judged. Nothing here takes a face, a pair of faces or a
+//! group out of a judgment.
 use super::{Document, DocumentError, GroupBy};
 use crate::mesh::{CornerUvs, Resolution};
 use serde::{Deserialize, Serialize};
@@ -9,12 +12,14 @@ use std::fmt;
 /// The version that is written and read.
 const VERSION: u32 = 1;
 
-/// What UVs were made for: what shares a UV space, and what was promised of its charts.
+/// What UVs were made for: what shared a UV space, and what was promised of its charts.
+///
+/// Records of version 0.1.0 may have a member `charts`, which is not read: it named the only charts to be judged.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Terms {
-    /// What shares one UV space.
+    /// What shared one UV space. Told to readers; a judgment groups by the file or by its caller.
     pub group_by: GroupBy,
-    /// Whether each node has a part of its own, in proportion to what it shows in the scene.
+    /// Whether each node got a part of its own, in proportion to what it shows in the scene.
     #[serde(default, skip_serializing_if = "is_false")]
     pub separate_nodes: bool,
     /// Least distance of two charts, in texels of the coarsest of the mip levels that count.
@@ -34,12 +39,9 @@ pub struct Terms {
     /// Bits at which the map stays bijective.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u32>,
-    /// Whether faces may overlap.
+    /// Whether faces may overlap: without it, overlaps are tested even if the caller does not ask for that.
     #[serde(default, skip_serializing_if = "is_false")]
     pub overlaps: bool,
-    /// The charts that alone are spoken of, each by itself, in the order of their first faces in the file; all if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub charts: Option<Vec<u32>>,
 }
 
 /// Which UV set of each primitive is meant.
@@ -61,11 +63,39 @@ impl Sets {
         }
     }
 
+    /// The lowest set that is named.
+    pub fn lowest(&self) -> Option<u32> {
+        match self {
+            Self::One(set) => Some(*set),
+            Self::Each(sets) => sets.iter().copied().flatten().min(),
+        }
+    }
+
     /// One number where it is the same of all.
     fn new(sets: Vec<Option<u32>>) -> Self {
         match sets.first() {
             Some(Some(first)) if sets.iter().all(|set| *set == Some(*first)) => Self::One(*first),
             _ => Self::Each(sets),
+        }
+    }
+}
+
+/// In words: `UV set 0` or `UV sets 0 and 1`.
+impl fmt::Display for Sets {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::One(set) => write!(f, "UV set {set}"),
+            Self::Each(sets) => {
+                let mut named: Vec<u32> = sets.iter().copied().flatten().collect();
+                named.sort_unstable();
+                named.dedup();
+                let numbers: Vec<String> = named.iter().map(u32::to_string).collect();
+                match numbers.as_slice() {
+                    [] => write!(f, "no UV set"),
+                    [one] => write!(f, "UV set {one}"),
+                    [first @ .., last] => write!(f, "UV sets {} and {last}", first.join(", ")),
+                }
+            }
         }
     }
 }
@@ -83,41 +113,33 @@ pub struct Mark {
     digest: String,
 }
 
-/// In words.
-impl fmt::Display for Mark {
+/// What the record requires, in words; empty if it requires nothing.
+impl fmt::Display for Terms {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let terms = &self.terms;
-        match &self.sets {
-            Sets::One(set) => write!(f, "UV set {set}")?,
-            Sets::Each(_) => write!(f, "a separate UV set for each primitive")?,
+        let mut required = Vec::new();
+        if !self.overlaps {
+            required.push("no overlaps".to_owned());
         }
-        if let Some(charts) = &terms.charts {
-            return write!(
-                f,
-                ", {} edited charts, each judged separately",
-                charts.len()
-            );
+        if let Some(padding) = self.padding {
+            let mips = match self.mips {
+                0 => String::new(),
+                mips => format!(" down to mip level {mips}"),
+            };
+            required.push(format!(
+                "padding of {padding} texels at {}{mips}",
+                self.resolution
+            ));
         }
-        let shared = match terms.group_by {
-            GroupBy::Mesh => "mesh",
-            GroupBy::Scene => "scene",
-            GroupBy::Material => "material",
-            GroupBy::Primitive => "primitive",
-        };
-        write!(f, ", one atlas per {shared}")?;
-        if terms.separate_nodes {
-            write!(f, ", each node separately")?;
+        if self.aligned {
+            required.push("charts aligned to texels".to_owned());
         }
-        if let Some(padding) = terms.padding {
-            write!(f, ", {padding} texels at {}", terms.resolution)?;
+        if let Some(pages) = self.pages.filter(|pages| *pages > 1) {
+            required.push(format!("{pages} pages"));
         }
-        if terms.mips > 0 {
-            write!(f, " down to mip level {}", terms.mips)?;
+        if let Some(bits) = self.bits {
+            required.push(format!("safe at {bits} bits"));
         }
-        if terms.overlaps {
-            write!(f, ", overlaps allowed")?;
-        }
-        Ok(())
+        write!(f, "{}", required.join(", "))
     }
 }
 

@@ -16,7 +16,9 @@ use crate::jobs::Kind;
 const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
     distortion report out. Also deforms meshes, pictures and UVs by handles without inverting an element. Errors are \
     RFC 9457 problems with a stable `code`; `x-problems` lists all codes. Errors caused by the input have status 422. A \
-    failed job reports the same codes in `error`, and so does the command line. Once a service has an API key, calls need \
+    failed job reports the same codes in `error`, and so does the command line, which ends with 0 done and proven, 1 any other error, \
+    2 usage error, 3 unusable input, 4 written but not certified or not accepted, 5 targets not reached, 6 ended early with less than \
+    was asked for, 7 partly done. Once a service has an API key, calls need \
     one: `security` of an operation names its scopes. What belongs to another owner does not exist for a caller.";
 
 /// What operations are about, in the order in which they are shown.

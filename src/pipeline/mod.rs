@@ -66,6 +66,8 @@ pub use deform::formats::BodyFormat;
 #[cfg(feature = "files")]
 pub use deform::held::{HeldBody, Skin, hold_body, hold_picture};
 #[cfg(feature = "files")]
+pub use deform::missed::Completion;
+#[cfg(feature = "files")]
 pub use deform::pull_report::PullReport;
 #[cfg(feature = "files")]
 pub use deform::solution::{DeformReport, Deformed};
@@ -96,7 +98,7 @@ pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages
 #[cfg(feature = "files")]
 pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
 #[cfg(feature = "files")]
-pub use judge::verify::{Verified, VerifiedGroup, measure_document, verify_document};
+pub use judge::verify::{Judged, Verified, VerifiedGroup, measure_document, verify_document};
 #[cfg(feature = "files")]
 pub use limits::Limits;
 #[cfg(feature = "files")]

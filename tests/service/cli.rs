@@ -78,10 +78,7 @@ fn where_uvs_went_is_said_and_judged() {
         let run = unwrapd(&["verify", output, "--bijective"]);
         assert_status(&run, 0);
         let said = String::from_utf8_lossy(&run.stdout).into_owned();
-        assert!(
-            said.starts_with("judged by the record in the file: "),
-            "{said}"
-        );
+        assert!(said.starts_with("judged: UV set 1, "), "{said}");
         assert!(said.contains("2 texels apart at 1024"), "{said}");
         assert_status(&unwrapd(&["measure", output]), 0);
     }
@@ -466,6 +463,56 @@ fn a_picture_is_warped_and_proven() {
         let (run, _) = warp(handles, &[more]);
         assert_status(&run, 3);
         assert!(last_error(&run).contains(words), "{}", last_error(&run));
+    }
+}
+
+#[test]
+fn an_end_before_all_is_done_has_its_exit_status() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1.1 0\nv 2 1 0\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\n";
+    std::fs::write(path("a.obj"), text).expect("a mesh");
+    let handles = |to: f64| {
+        format!(
+            r#"{{"handles": [{{"vertex": 0, "to": [0, 0]}}, {{"vertex": 2, "to": [{to:e}, 1]}}]}}"#
+        )
+    };
+    let deform = |to: f64, more: &[&str]| {
+        std::fs::write(path("h.json"), handles(to)).expect("handles");
+        let (mesh, handles, output, report) =
+            (path("a.obj"), path("h.json"), path("o.txt"), path("r.json"));
+        let arguments = [
+            "deform",
+            &mesh,
+            "--handles",
+            &handles,
+            "-o",
+            &output,
+            "--report",
+            &report,
+            "--force",
+        ];
+        let run = unwrapd(&[&arguments[..], more].concat());
+        let text = std::fs::read(&report).unwrap_or_else(|_| b"null".to_vec());
+        let report: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
+        (run, report)
+    };
+    let (run, report) = deform(3.0, &[]);
+    assert_status(&run, 0);
+    assert_eq!(report["completion"], "complete");
+    let (run, report) = deform(3.0, &["--time-budget", "1e-9"]);
+    assert_status(&run, 6);
+    assert_eq!(report["completion"], "ended-early");
+    let warnings = report["warnings"].as_array().expect("warnings");
+    let codes: Vec<&str> = warnings
+        .iter()
+        .filter_map(|warning| warning["code"].as_str())
+        .collect();
+    assert_eq!(codes, ["ended_early", "targets_missed"]);
+    for far in [1e154, 1e300] {
+        let (run, _) = deform(far, &[]);
+        assert_status(&run, 3);
+        assert!(last_error(&run).contains("bad_target"));
     }
 }
 

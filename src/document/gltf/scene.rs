@@ -14,7 +14,13 @@ const IDENTITY: Affine = [
     [0.0, 0.0, 1.0, 0.0],
 ];
 
+/// Where a node names the instances of its mesh.
+const INSTANCES: &str = "/extensions/EXT_mesh_gpu_instancing";
+
 /// Gives every node that shows a mesh a mesh of its own: the first keeps it, the others get copies with the same accessors.
+///
+/// # Errors
+/// If one node shows a mesh several times: its instances cannot have UVs of their own.
 pub(super) fn separate_meshes(json: &mut Value) -> Result<(), DocumentError> {
     size_when_separate(json)?.check()?;
     let mut shown = BTreeSet::new();
@@ -22,6 +28,9 @@ pub(super) fn separate_meshes(json: &mut Value) -> Result<(), DocumentError> {
         let Some(mesh) = unsigned(item(json, "nodes", node)?, "mesh")? else {
             continue;
         };
+        if item(json, "nodes", node)?.pointer(INSTANCES).is_some() {
+            return Err(DocumentError::Instanced(node));
+        }
         if shown.insert(mesh) {
             continue;
         }

@@ -132,8 +132,12 @@ fn unwrap_in_pool(
     let missing = shortfalls(&judged);
     promise_kept(&plan, &groups, &missing)?;
     let warnings = [noticed, written.notes.warnings.clone(), missing];
-    let warnings = warnings.into_iter().flatten().chain(tracker.warning());
+    let ended_early = tracker.warning();
+    let is_ended_early = ended_early.is_some();
+    let warnings = warnings.into_iter().flatten().chain(ended_early);
     let mut report = Report::new(groups, warnings.collect());
+    report.ended_early = is_ended_early;
+    report.partly_done = baked.is_some_and(|baked| baked.is_partial());
     report.options = Some(Options {
         group_by: Some(group_by),
         ..options.clone()

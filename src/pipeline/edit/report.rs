@@ -5,30 +5,31 @@ use serde::Serialize;
 use crate::deform::Unreached;
 use crate::deform::uv::{EditedUvs, UvRest};
 use crate::document::Warning;
-use crate::pipeline::deform::missed::{is_complete, missed, missed_warning};
+use crate::pipeline::deform::missed::Completion;
 use crate::pipeline::deform::pull_report::PullReport;
+use crate::pipeline::judge::proven::Proven;
 
 /// What was done to the UVs of a document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct EditReport {
-    /// Whether every chart with an anchor is proven to be without flips in the bytes written.
+    /// Whether the whole UV set is proven in the bytes written: no face is flipped or degenerate, and no two faces that share
+    /// a UV space overlap, whether their charts have anchors or not. Warnings name what is missing.
     pub certified: bool,
-    /// Whether, beyond that, none of them overlaps itself.
+    /// Whether the whole UV set is bijective in the bytes written.
     pub bijective: bool,
+    /// What is lacking, in words.
+    pub lacking: Vec<&'static str>,
+    /// What is proven of the whole UV set.
+    pub proven: Proven,
+    /// How much was done of what was asked for.
+    pub completion: Completion,
     /// What users should know of the file that was read, of the work and of the file that was written.
     pub warnings: Vec<Warning>,
     /// The shapes that were kept.
     pub rest: UvRest,
     /// The charts with anchors.
     pub charts: Vec<ChartEditReport>,
-}
-
-impl EditReport {
-    /// Is every anchor at its target, or was there no time to bring it there?
-    pub fn is_complete(&self) -> bool {
-        is_complete(&self.warnings)
-    }
 }
 
 /// What was done to a chart.
@@ -44,11 +45,16 @@ pub struct ChartEditReport {
     pub map: PullReport,
 }
 
-/// What to know of anchors that did not come to their targets.
-pub(super) fn unreached(edited: &EditedUvs) -> Option<Warning> {
-    let summaries = edited.charts.iter().map(|chart| &chart.summary);
-    let all = summaries.flat_map(|summary| missed(summary.status, &summary.unreached));
-    let mut all: Vec<Unreached> = all.copied().collect();
-    all.sort_by_key(|anchor| anchor.handle);
-    missed_warning(&all)
+/// How much was done of what was asked for over all charts, and what to tell users of it.
+pub(super) fn completion(edited: &EditedUvs) -> (Completion, Option<Warning>) {
+    let summaries = || edited.charts.iter().map(|chart| &chart.summary);
+    let worst = summaries().max_by_key(|summary| Completion::of(summary.status));
+    let Some(status) = worst.map(|summary| summary.status) else {
+        return (Completion::Complete, None);
+    };
+    let completion = Completion::of(status);
+    let of_worst = summaries().filter(|summary| Completion::of(summary.status) == completion);
+    let mut unreached: Vec<Unreached> = of_worst.flat_map(|s| s.unreached.clone()).collect();
+    unreached.sort_by_key(|anchor| anchor.handle);
+    (completion, completion.warning(status, &unreached))
 }

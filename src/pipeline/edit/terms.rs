@@ -1,54 +1,75 @@
-//! What a document with edited UVs promises.
+//! What the record of a document with edited UVs promises.
 
 use crate::certificate::Overlap;
-use crate::document::{Document, DocumentError, GroupBy, Marked, OutputFormat, Sets, Terms};
+use crate::document::{Document, GroupBy, Marked, OutputFormat, Sets, Terms, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::judge::groups::WrittenUvs;
+use crate::pipeline::judge::proven::{Mirrored, Proven};
+use crate::pipeline::judge::shortfalls::unproven;
 use crate::pipeline::options::{EditOptions, MeasureOptions};
 
-/// What is promised of a document with edited UVs: what shares a UV space stays as it was, distances are not kept.
+/// The record of a document with edited UVs, in which no two faces overlap. Distances between charts are not promised: the edit
+/// did not look at them.
 pub fn edited_terms(document: &Document, options: &EditOptions) -> Result<Terms, PipelineError> {
     let present = match document.marked()? {
         Marked::Fits(mark) if mark.sets == Sets::One(options.texcoord) => Some(mark.terms),
         _ => None,
     };
-    let default = MeasureOptions::default();
-    let group_by = present
-        .as_ref()
-        .map_or(GroupBy::Mesh, |terms| terms.group_by);
+    let present = present.as_ref();
+    let resolution = present.map(|terms| terms.resolution);
     Ok(Terms {
         group_by: match options.format {
             OutputFormat::Obj => GroupBy::Scene,
-            OutputFormat::Glb | OutputFormat::Gltf => group_by,
+            OutputFormat::Glb | OutputFormat::Gltf => {
+                present.map_or(document.grouping(), |terms| terms.group_by)
+            }
         },
-        separate_nodes: present.as_ref().is_some_and(|terms| terms.separate_nodes),
+        separate_nodes: present.is_some_and(|terms| terms.separate_nodes),
         padding: None,
-        resolution: present.map_or(default.resolution(), |terms| terms.resolution),
+        resolution: resolution.unwrap_or(MeasureOptions::default().resolution()),
         pages: None,
         mips: 0,
         aligned: false,
         bits: None,
-        overlaps: !options.model.bijective,
-        charts: None,
+        overlaps: false,
     })
 }
 
-/// Whether the promise holds of all charts of the written document, those without anchors too.
-pub fn holds(written: &Document, terms: &Terms, texcoord: u32) -> Result<bool, PipelineError> {
-    let options = MeasureOptions {
-        texcoord: Some(texcoord),
-        ..MeasureOptions::default().with_terms(terms)
-    };
-    let overlap = if terms.overlaps {
-        Overlap::Skip
-    } else {
-        Overlap::Test
-    };
-    let has_uvs = |primitive: usize| Ok(written.corner_uvs(primitive, texcoord)?.is_some());
-    let with_uvs = (0..written.primitives().len()).map(has_uvs);
-    let with_uvs: Vec<bool> = with_uvs.collect::<Result<_, DocumentError>>()?;
-    let set = |primitive: usize| with_uvs[primitive].then_some(texcoord);
-    let uvs = WrittenUvs::gather(written, options.spaces(), set)?;
-    let certificates = uvs.certify(&options.claims(overlap));
-    Ok((certificates.iter()).all(|c| c.is_valid() && (terms.overlaps || c.is_bijective())))
+/// The judgment of a whole UV set, charts without anchors included.
+pub struct WholeJudgment {
+    pub proven: Proven,
+    /// What is lacking, in words.
+    pub lacking: Vec<&'static str>,
+    /// What is lacking: where, and by how much.
+    pub warnings: Vec<Warning>,
+}
+
+impl WholeJudgment {
+    /// Judges all primitives that have the set, as [`verify_document`](crate::pipeline::verify_document) does with
+    /// `bijective`. Mirrored charts are left to the author of the UVs.
+    pub fn new(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
+        let uvs = WrittenUvs::of_set(document, texcoord)?;
+        let certificates = uvs.certify(&Overlap::Test.into());
+        let proven = Proven::of(certificates.iter());
+        Ok(Self {
+            lacking: proven.lacks(Overlap::Test, Mirrored::Allowed),
+            warnings: unproven(&uvs.groups, &certificates, Mirrored::Allowed),
+            proven,
+        })
+    }
+
+    pub fn is_certified(&self) -> bool {
+        self.lacking.is_empty()
+    }
+
+    /// Tells users that UVs were faulty before they were edited.
+    pub fn as_before(&self) -> Option<Warning> {
+        let lacking = self.lacking.join(", ");
+        (!self.is_certified()).then(|| {
+            Warning::new(
+                "uncertified_before",
+                format!("before the edit, the UVs already had: {lacking}"),
+            )
+        })
+    }
 }

@@ -1,12 +1,12 @@
 //! UVs of a document edited by anchors, and judged in the bytes that are written.
 
-use super::report::{ChartEditReport, EditReport, unreached};
-use super::terms::{edited_terms, holds};
+use super::report::{ChartEditReport, EditReport, completion};
+use super::terms::{WholeJudgment, edited_terms};
 use crate::barrier::BarrierKind;
-use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar, chart_ids};
-use crate::deform::uv::{ChartFaces, EditedChart, EditedUvs, UvMesh, UvRest, edit_uvs_from};
+use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar};
+use crate::deform::uv::{ChartFaces, EditedUvs, UvMesh, edit_uvs_from};
 use crate::document::{
-    Corners, Document, DocumentError, Layout, NewUvs, Upload, Warning, WriteOptions, Written,
+    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
 };
 use crate::mesh::CornerUvs;
 use crate::pipeline::PipelineError;
@@ -62,30 +62,43 @@ pub fn edit_document(
         let again = written.read_again()?;
         let found = Whole::gather(&again, options.texcoord)?;
         let places = places(&written, edited.uvs.len());
-        let mut warnings = [document.warnings(), &written.notes.warnings].concat();
-        warnings.extend(tracker.warning());
-        warnings.extend(unreached(&edited));
-        let report = judge(
-            &edited,
-            (&document, &again),
-            (&found, &places),
-            (how.rest, warnings),
-        )?;
-        let is_kept = report.certified || options.model.barrier == BarrierKind::None;
-        if !is_kept || options.model.bijective && !report.bijective {
-            let what = if report.certified {
-                "a chart overlaps itself"
-            } else {
-                "a triangle is flipped or without area"
-            };
+        let charts = judge_charts(&edited, (&document, &again), (&found, &places))?;
+        let is_kept = charts.iter().all(|chart| chart.map.certificate.is_valid());
+        let overlaps = charts.iter().any(|chart| !chart.map.bijective);
+        if !is_kept && options.model.barrier != BarrierKind::None {
+            let what = "a triangle is flipped or without area";
             return Err(PipelineError::NotValid(what.to_owned()));
         }
+        if options.model.bijective && overlaps {
+            let what = "a chart overlaps itself";
+            return Err(PipelineError::NotValid(what.to_owned()));
+        }
+        let judgment = WholeJudgment::new(&again, options.texcoord)?;
         if let Some(terms) = &mut write_options.terms
-            && !holds(&again, terms, options.texcoord)?
+            && !judgment.is_certified()
         {
-            terms.charts = Some(found.numbers_of(&edited, &places));
+            terms.overlaps = true;
             written = document.write(&uvs, &write_options)?;
         }
+        let mut warnings = [document.warnings(), &written.notes.warnings].concat();
+        warnings.extend(tracker.warning());
+        let (completion, unfinished) = completion(&edited);
+        warnings.extend(unfinished);
+        warnings.extend_from_slice(&judgment.warnings);
+        if !judgment.is_certified() {
+            warnings.extend(WholeJudgment::new(&document, options.texcoord)?.as_before());
+        }
+        let certified = judgment.is_certified();
+        let report = EditReport {
+            certified,
+            bijective: judgment.proven.bijective,
+            lacking: judgment.lacking,
+            proven: judgment.proven,
+            completion,
+            warnings,
+            rest: how.rest,
+            charts,
+        };
         Ok(EditedDocument {
             files: written.files,
             report,
@@ -129,21 +142,6 @@ impl Whole {
         Ok(whole)
     }
 
-    /// The numbers that edited charts have here; `places` are those of their faces.
-    fn numbers_of(&self, edited: &EditedUvs, places: &[usize]) -> Vec<u32> {
-        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
-        let first = |chart: &EditedChart| {
-            chart
-                .faces
-                .first()
-                .map(|face| of_face[places[face as usize]])
-        };
-        let mut numbers: Vec<u32> = edited.charts.iter().filter_map(first).collect();
-        numbers.sort_unstable();
-        numbers.dedup();
-        numbers
-    }
-
     pub fn mesh(&self) -> UvMesh<'_> {
         UvMesh {
             positions: &self.positions,
@@ -184,13 +182,12 @@ fn places(written: &Written, n_faces: usize) -> Vec<usize> {
     places
 }
 
-/// Judges the charts in the written bytes, where each face has its place.
-fn judge(
+/// Judges each chart with anchors by itself in the written bytes, where each face has its place.
+fn judge_charts(
     edited: &EditedUvs,
     (document, again): (&Document, &Document),
     (found, places): (&Whole, &[usize]),
-    (rest, warnings): (UvRest, Vec<Warning>),
-) -> Result<EditReport, PipelineError> {
+) -> Result<Vec<ChartEditReport>, PipelineError> {
     if found.uvs.len() != edited.uvs.len() {
         return Err(DocumentError::InvalidUvs.into());
     }
@@ -205,14 +202,7 @@ fn judge(
             map: PullReport::new(chart.summary.clone(), crossings, certificate),
         }
     });
-    let charts: Vec<ChartEditReport> = charts.collect();
-    Ok(EditReport {
-        certified: charts.iter().all(|c| c.map.certificate.is_valid()),
-        bijective: charts.iter().all(|c| c.map.bijective),
-        warnings,
-        rest,
-        charts,
-    })
+    Ok(charts.collect())
 }
 
 /// Judges a chart by the numbers that the file has for its faces; `flip_v` says whether v points

@@ -2,7 +2,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use crate::certificate::{Certificate, Claims, certify, chart_ids};
+use crate::certificate::{Certificate, Claims, certify};
 use crate::document::{Document, Group, Primitive};
 use crate::measure::{self, Measures};
 use crate::mesh::{CornerUvs, Resolution, VAxis};
@@ -58,23 +58,6 @@ impl GroupUvs {
             gathered.uvs.extend(uvs);
         }
         Ok(gathered)
-    }
-
-    /// Some of its charts, each as a group.
-    pub fn charts(&self, numbers: &[u32]) -> Vec<Self> {
-        let of_face = chart_ids(&self.positions, &self.triangles, &self.uvs);
-        let chart = |&number: &u32| {
-            let faces = || (0..of_face.len()).filter(|&face| of_face[face] == number);
-            Self {
-                name: format!("chart{number}"),
-                label: format!("chart {number}"),
-                positions: self.positions.clone(),
-                triangles: faces().map(|face| self.triangles[face]).collect(),
-                uvs: faces().map(|face| self.uvs[face]).collect(),
-                weights: None,
-            }
-        };
-        numbers.iter().map(chart).collect()
     }
 
     /// The area of the surface enlarged by its weights, if it has any.

@@ -13,6 +13,7 @@ use crate::measure::{self, Measures};
 use crate::mesh::{Resolution, VAxis};
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::nodes::Nodes;
+use crate::pipeline::options::MeasureOptions;
 
 /// Texels of all rasters together on which coverage is counted, and the least side of each: 256 groups have the finest.
 const MOST_RASTER_TEXELS: u64 = 1 << 32;
@@ -22,6 +23,8 @@ const COARSEST_RASTER: u32 = 256;
 #[derive(Clone, Debug)]
 pub struct WrittenUvs {
     pub groups: Vec<GroupUvs>,
+    /// Primitives that were left out for want of UVs.
+    pub n_skipped: usize,
     pub v_axis: VAxis,
 }
 
@@ -45,22 +48,19 @@ impl WrittenUvs {
 
     /// The UVs of a document that are asked for.
     pub fn asked(document: &Document, question: &Question) -> Result<Self, PipelineError> {
-        Self::gather(document, question.options.spaces(), |p| question.set_of(p))
+        let sets = question.set_of_each(document)?;
+        let spaces = question.options.spaces(document);
+        Self::gather(document, spaces, |primitive| sets[primitive])
     }
 
-    /// Some charts of a document by themselves, counted over all that is asked for.
-    pub fn of_charts(
-        document: &Document,
-        question: &Question,
-        charts: &[u32],
-    ) -> Result<Self, PipelineError> {
-        let spaces = (GroupBy::Scene, Nodes::Shared);
-        let whole = Self::gather(document, spaces, |p| question.set_of(p))?;
-        let groups = whole.groups.iter().flat_map(|group| group.charts(charts));
-        Ok(Self {
-            groups: groups.collect(),
-            v_axis: whole.v_axis,
-        })
+    /// All UVs of a set, grouped as the document's materials tell; primitives that lack it are left out.
+    pub fn of_set(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
+        let question = Question::of_options(&MeasureOptions {
+            texcoord: Some(texcoord),
+            skip_missing: true,
+            ..MeasureOptions::default()
+        });
+        Self::asked(document, &question)
     }
 
     /// Gathers the UVs of a document; `set` tells the set of each primitive that takes part.
@@ -69,6 +69,8 @@ impl WrittenUvs {
         (group_by, nodes): (GroupBy, Nodes),
         set: impl Fn(usize) -> Option<u32>,
     ) -> Result<Self, PipelineError> {
+        let is_skipped = |primitive: &usize| set(*primitive).is_none();
+        let n_skipped = (0..document.primitives().len()).filter(is_skipped).count();
         let mut groups = document.groups(group_by);
         for group in &mut groups {
             group.primitives.retain(|&index| set(index).is_some());
@@ -83,6 +85,7 @@ impl WrittenUvs {
             .map(|group| GroupUvs::gather(document, &primitives, group, &set));
         Ok(Self {
             groups: groups.collect::<Result<_, _>>()?,
+            n_skipped,
             v_axis: document.v_axis(),
         })
     }

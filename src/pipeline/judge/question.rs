@@ -1,32 +1,31 @@
-//! What is asked of a document's UVs, by its caller and by its own mark.
+//! Which UVs of a document are judged, and what of them.
+//!
+//! A record in the file may name the UV set and add requirements. The faces that are judged, and what shares a UV space, follow
+//! from the file's meshes and materials and from the caller alone: a file cannot talk its way out of a test.
 
 use crate::certificate::Overlap;
-use crate::document::{Document, Mark, Marked, Warning};
+use crate::document::{Document, DocumentError, Mark, Marked, Sets, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::options::{CommandOptions, MeasureOptions};
 
-/// What is asked of a document's UVs.
+/// Which UVs of a document are judged, and what of them.
 pub struct Question {
-    /// The options, and where these say nothing what the mark says.
+    /// The options, with what the record adds.
     pub options: MeasureOptions,
-    /// The mark of the document, where that is asked for.
+    /// The record of the document, if it fits the UVs and no set was asked for.
     pub mark: Option<Mark>,
-    /// What is to be said of the mark.
+    /// What to tell users about the record.
     pub warning: Option<Warning>,
 }
 
 impl Question {
-    /// The question that `options` are, of a document that may say itself what it is to be asked.
+    /// The question that `options` ask of a document, with what its record adds.
     pub fn new(options: &MeasureOptions, document: &Document) -> Result<Self, PipelineError> {
         let marked = match options.texcoord {
             Some(_) => Marked::Not,
             None => document.marked()?,
         };
-        let mut question = Self {
-            options: options.clone(),
-            mark: None,
-            warning: None,
-        };
+        let mut question = Self::of_options(options);
         match marked {
             Marked::Not => {}
             Marked::Stale => question.warning = Some(stale()),
@@ -44,17 +43,36 @@ impl Question {
         Ok(question)
     }
 
-    /// The UV set of a primitive that takes part.
-    pub fn set_of(&self, primitive: usize) -> Option<u32> {
-        match &self.mark {
-            Some(mark) => mark.sets.of(primitive),
-            None => Some(self.options.texcoord.unwrap_or(0)),
+    /// The question that `options` ask of UVs without a record.
+    pub fn of_options(options: &MeasureOptions) -> Self {
+        Self {
+            options: options.clone(),
+            mark: None,
+            warning: None,
         }
     }
 
-    /// The charts that alone are asked for, each by itself.
-    pub fn charts(&self) -> Option<&[u32]> {
-        self.mark.as_ref()?.terms.charts.as_deref()
+    /// The UV sets that are judged, by primitive.
+    pub fn sets(&self) -> Sets {
+        match &self.mark {
+            Some(mark) => mark.sets.clone(),
+            None => Sets::One(self.options.texcoord.unwrap_or(0)),
+        }
+    }
+
+    /// The UV set of every primitive; `None` for one that lacks the set and is left out because the caller asked for that.
+    ///
+    /// A primitive for which the record names no set is judged, too: in the lowest set that the record names.
+    pub fn set_of_each(&self, document: &Document) -> Result<Vec<Option<u32>>, DocumentError> {
+        let sets = self.sets();
+        let lowest = sets.lowest().unwrap_or(0);
+        let set = |primitive: usize| {
+            let set = sets.of(primitive).unwrap_or(lowest);
+            let is_left_out =
+                self.options.skip_missing && document.corner_uvs(primitive, set)?.is_none();
+            Ok((!is_left_out).then_some(set))
+        };
+        (0..document.primitives().len()).map(set).collect()
     }
 
     /// Whether pairs of faces have to be tested, where `asked` says whether they are asked for.
@@ -71,7 +89,7 @@ impl Question {
         }
     }
 
-    /// Whether faces may overlap: not if the document says so itself, whatever is `asked`.
+    /// Whether faces may overlap: not if the record promises that they do not, whatever is `asked`.
     pub fn promised(&self, asked: Overlap) -> Overlap {
         match &self.mark {
             Some(mark) if !mark.terms.overlaps => Overlap::Test,

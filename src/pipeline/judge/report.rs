@@ -35,6 +35,11 @@ pub struct Report {
     /// chart is mirrored, no two faces overlap, and padding, pages, alignment and bits are as requested.
     /// The warnings name what is missing. A missed distortion bound is only a warning.
     pub certified: bool,
+    /// Whether the work ended before it was done, at its time limit or on request. The result is no less certified.
+    pub ended_early: bool,
+    /// Whether only a part of what was asked for was done: textures or colors that `rebake` should resample were not. The
+    /// warnings name them.
+    pub partly_done: bool,
     /// What is proven on the written bytes, beside what was requested.
     pub proven: Proven,
     /// Warnings about the input file, the work and the written file.
@@ -136,6 +141,8 @@ impl Report {
             options: None,
             limits: None,
             certified: proven.lacks(Overlap::Test, Mirrored::Refused).is_empty(),
+            ended_early: false,
+            partly_done: false,
             proven,
             warnings,
             groups,

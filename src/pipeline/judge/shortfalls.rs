@@ -2,8 +2,9 @@
 
 use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
+use super::proven::{Mirrored, Proven};
 use super::report::GroupReport;
-use crate::certificate::{Certificate, PaddingVerdict, chart_ids};
+use crate::certificate::{Certificate, Overlap, PaddingVerdict, chart_ids};
 use crate::document::Warning;
 
 /// Warnings of one code at most; the last of them counts the rest.
@@ -12,12 +13,7 @@ const MOST_OF_A_CODE: usize = 8;
 /// Everything that keeps a result from being certified, and bounds that it misses.
 pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
     let found = groups.iter().flat_map(|(uvs, report)| {
-        let Places { name, charts } = &Places::new(uvs, report);
-        let certificate = &report.certificate;
-        let faces = faces(name, certificate, charts);
-        let whole = whole_charts(name, certificate);
-        let overlapping = overlapping(name, certificate, charts);
-        let distances = [padding(name, certificate, charts), bits(name, certificate)];
+        let name = &uvs.label;
         let bound = report.atlas.as_ref().and_then(|atlas| atlas.bound.as_ref());
         let distorted = bound
             .filter(|bound| !bound.kept)
@@ -25,35 +21,36 @@ pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
         let rough = bound
             .and_then(BoundReport::caveat)
             .map(|caveat| Warning::new("rough_surface", format!("{name}: {caveat}")));
-        let all = faces.into_iter().chain(overlapping).chain(whole);
-        let all: Vec<Warning> = all
-            .chain(distances.into_iter().flatten())
-            .chain(distorted)
-            .chain(rough)
-            .collect();
-        all
+        let unproven = of_certificate(uvs, &report.certificate, Mirrored::Refused);
+        unproven.into_iter().chain(distorted).chain(rough)
     });
     limited(found)
 }
 
-/// The name of a group, and the chart of each of its faces where something has to be located.
-struct Places<'a> {
-    name: &'a str,
-    charts: Vec<u32>,
+/// Everything that keeps UVs from being certified.
+pub fn unproven(
+    groups: &[GroupUvs],
+    certificates: &[Certificate],
+    mirrored: Mirrored,
+) -> Vec<Warning> {
+    let groups = groups.iter().zip(certificates);
+    limited(groups.flat_map(|(uvs, certificate)| of_certificate(uvs, certificate, mirrored)))
 }
 
-impl<'a> Places<'a> {
-    fn new(uvs: &'a GroupUvs, report: &GroupReport) -> Self {
-        let charts = if report.is_certified() {
-            Vec::new()
-        } else {
-            chart_ids(&uvs.positions, &uvs.triangles, &uvs.uvs)
-        };
-        Self {
-            name: &uvs.label,
-            charts,
-        }
+/// What a certificate leaves unproven of what was asked for.
+fn of_certificate(uvs: &GroupUvs, certificate: &Certificate, mirrored: Mirrored) -> Vec<Warning> {
+    let proven = Proven::of(std::iter::once(certificate));
+    if proven.lacks(Overlap::Test, mirrored).is_empty() {
+        return Vec::new();
     }
+    let name = &uvs.label;
+    let charts = chart_ids(&uvs.positions, &uvs.triangles, &uvs.uvs);
+    let mut found = faces(name, certificate, &charts);
+    found.extend(overlapping(name, certificate, &charts));
+    found.extend(whole_charts(name, certificate, mirrored));
+    found.extend(padding(name, certificate, &charts));
+    found.extend(bits(name, certificate));
+    found
 }
 
 /// Faces that are no part of a map without flips.
@@ -113,7 +110,7 @@ fn overlapping(name: &str, certificate: &Certificate, charts: &[u32]) -> Option<
 }
 
 /// Charts that are seen from behind, have no side, or lie where they should not.
-fn whole_charts(name: &str, certificate: &Certificate) -> Vec<Warning> {
+fn whole_charts(name: &str, certificate: &Certificate, mirrored: Mirrored) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let mut add = |code, n: usize, what: &str| {
         if n > 0 {
@@ -125,11 +122,10 @@ fn whole_charts(name: &str, certificate: &Certificate) -> Vec<Warning> {
     let first = first.map_or(String::new(), |chart| {
         format!(", one of them chart {chart}")
     });
-    add(
-        "mirrored",
-        certificate.mirrored_charts,
-        &format!("mirrored (seen from behind){first}"),
-    );
+    if mirrored == Mirrored::Refused {
+        let what = format!("mirrored (seen from behind){first}");
+        add("mirrored", certificate.mirrored_charts, &what);
+    }
     add(
         "one_sided",
         certificate.nonorientable_charts,

@@ -1,5 +1,7 @@
 //! What the UVs of a document are worth, and what can be proven of them.
 
+use std::fmt;
+
 use serde::Serialize;
 
 use super::groups::WrittenUvs;
@@ -7,7 +9,7 @@ use super::proven::{Mirrored, Proven};
 use super::question::Question;
 use super::report::Report;
 use crate::certificate::{Certificate, Overlap};
-use crate::document::{Document, Mark, Upload, Warning};
+use crate::document::{Document, GroupBy, Mark, Sets, Upload, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::options::{CommandOptions, MeasureOptions, VerifyOptions};
@@ -22,20 +24,59 @@ pub struct Verified {
     pub lacking: Vec<&'static str>,
     /// What holds of all groups.
     pub proven: Proven,
+    /// Which UVs were judged.
+    pub judged: Judged,
     /// A certificate per group.
     pub groups: Vec<VerifiedGroup>,
-    /// What the document says of its UVs, where it was judged by that.
+    /// The record in the document, if it fits the UVs: what it requires was judged, too.
     #[cfg_attr(feature = "service", schema(value_type = Option<Object>))]
     pub mark: Option<Mark>,
     /// What users should know of the file that was read.
     pub warnings: Vec<Warning>,
 }
 
+/// Which UVs of a document were judged.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Judged {
+    /// The UV set, or one for each triangle primitive in file order.
+    #[cfg_attr(feature = "service", schema(value_type = Object))]
+    pub texcoord: Sets,
+    /// What shares a UV space.
+    pub group_by: GroupBy,
+    /// Faces that name a position twice, which need no UV area.
+    pub exempt_faces: usize,
+    /// Primitives without the UV set, left out on request.
+    pub skipped_primitives: usize,
+}
+
+/// In words.
+impl fmt::Display for Judged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shared = match self.group_by {
+            GroupBy::Mesh => "mesh",
+            GroupBy::Scene => "file",
+            GroupBy::Material => "material",
+            GroupBy::Primitive => "primitive",
+        };
+        write!(f, "{}, one atlas per {shared}", self.texcoord)?;
+        if self.exempt_faces > 0 {
+            let n = self.exempt_faces;
+            write!(f, "; exempt: {n} triangles that name a position twice")?;
+        }
+        if self.skipped_primitives > 0 {
+            let n = self.skipped_primitives;
+            write!(f, "; left out: {n} primitives without UVs")?;
+        }
+        Ok(())
+    }
+}
+
 /// The exact judgment of a group's UVs.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct VerifiedGroup {
-    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`; `chart0` where charts alone are judged.
+    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
     /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
     pub label: String,
@@ -63,15 +104,12 @@ pub fn verify_document(
 ) -> Result<Verified, PipelineError> {
     let promise = Promise::of(options);
     with_uvs(upload, &options.judged, |document, question| {
-        let uvs = match question.charts() {
-            Some(charts) => WrittenUvs::of_charts(document, question, charts)?,
-            None => WrittenUvs::asked(document, question)?,
-        };
-        Ok(Verified {
-            mark: question.mark.clone(),
-            warnings: warnings(document, question),
-            ..Verified::new(uvs, question, promise)
-        })
+        let uvs = WrittenUvs::asked(document, question)?;
+        let mut verified = Verified::new(uvs, question, promise);
+        verified.judged.group_by = question.options.spaces(document).0;
+        verified.mark = question.mark.clone();
+        verified.warnings = warnings(document, question);
+        Ok(verified)
     })
 }
 
@@ -104,6 +142,13 @@ impl Verified {
     pub(in crate::pipeline) fn new(uvs: WrittenUvs, question: &Question, promise: Promise) -> Self {
         let overlap = question.overlap(promise.overlap);
         let certificates = uvs.certify(&question.options.claims(overlap));
+        let exempt_faces = certificates.iter().map(|c| c.exempt_faces).sum();
+        let judged = Judged {
+            texcoord: question.sets(),
+            group_by: question.options.group_by.unwrap_or(GroupBy::Scene),
+            exempt_faces,
+            skipped_primitives: uvs.n_skipped,
+        };
         let groups: Vec<VerifiedGroup> = (uvs.groups.into_iter().zip(certificates))
             .map(|(group, certificate)| VerifiedGroup {
                 name: group.name,
@@ -117,6 +162,7 @@ impl Verified {
             certified: lacking.is_empty(),
             lacking,
             proven,
+            judged,
             groups,
             mark: None,
             warnings: Vec::new(),
@@ -141,7 +187,7 @@ fn with_uvs<T: Send>(
         let document = Document::read(upload)?;
         options.caller.limits.check(&document)?;
         let question = Question::new(options, &document)?;
-        let (_, nodes) = question.options.spaces();
+        let (_, nodes) = question.options.spaces(&document);
         let document = nodes.prepared(document)?;
         options.caller.limits.check(&document)?;
         answer(&document, &question)

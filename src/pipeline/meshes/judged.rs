@@ -48,13 +48,9 @@ fn with_question<T: Send>(
         options.caller.limits.check_count(group.triangles.len())?;
         let uvs = WrittenUvs {
             groups: vec![group],
+            n_skipped: 0,
             v_axis: VAxis::Up,
         };
-        let question = Question {
-            options: options.clone(),
-            mark: None,
-            warning: None,
-        };
-        Ok(answer(uvs, &question))
+        Ok(answer(uvs, &Question::of_options(options)))
     })?
 }

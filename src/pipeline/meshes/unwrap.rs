@@ -87,6 +87,7 @@ fn unwrap_in_pool(
     let charts = chart_ids(&group.positions, &group.triangles, &group.uvs);
     let uvs = WrittenUvs {
         groups: vec![group],
+        n_skipped: 0,
         v_axis: VAxis::Up,
     };
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);

@@ -3,33 +3,38 @@
 use super::layout::check_mips;
 use super::{Caller, CommandOptions, Layout, Workers};
 use crate::certificate::{Claims, Overlap, Padding};
-use crate::document::{GroupBy, Terms};
+use crate::document::{Document, GroupBy, Terms};
 use crate::mesh::Resolution;
 use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::nodes::Nodes;
 
 options! {
-    /// Which UVs of a document to measure or verify. Absent options take the values that the file
-    /// records.
+    /// Which UVs of a document to measure or verify. A record that unwrapd left in the file names
+    /// the UV set and adds what was promised of it; it never takes anything out of the judgment.
     pub struct MeasureOptions {
         /// The UV set. By default the file tells: unwrapd records the set it wrote and its options.
         /// Without such a record, or if the UVs changed since, it is set 0.
         pub texcoord: Option<u32>, value "N";
-        /// What shares an atlas. The default is what the file records, otherwise one atlas per
-        /// mesh.
+        /// What shares an atlas. By default the file's materials tell, as for `unwrap`: one atlas
+        /// per material, and a mesh without a material has its own; an OBJ, OFF, PLY or STL is one
+        /// atlas.
         pub group_by: Option<GroupBy>;
         /// Judge each node that shows a mesh separately, with its transform in the scene. Nodes
         /// that share a mesh share its UVs.
         pub separate_nodes: bool;
+        /// Leave out primitives that lack the UV set, and count them. By default such a file is
+        /// refused.
+        pub skip_missing: bool;
         /// Prove this minimum distance between charts, in texels of the coarsest mip level that
-        /// counts. Not judged by default.
+        /// counts. The default is what the file records, otherwise nothing.
         pub padding: Option<u32>, in 0..=8192, value "TEXELS";
-        /// Texture size that `padding` and texel densities refer to: the side in texels, or width
-        /// and height. The default is 1024.
+        /// Texture size that `padding`, `aligned` and texel densities refer to: the side in texels,
+        /// or width and height. The default is what the file records, unless `padding` or `aligned`
+        /// is given; otherwise 1024.
         pub resolution: Option<Resolution>, value "N|WxH";
         /// Prove that each chart lies on one of this many pages side by side, the UDIM tiles from
-        /// 1001 on. Not judged by default.
+        /// 1001 on. The default is what the file records, otherwise nothing.
         pub pages: Option<u32>, in 1..=10, value "N";
         /// Number of mip levels beyond the first in which charts must keep the padding. The default
         /// is 0.
@@ -69,14 +74,14 @@ impl MeasureOptions {
         self.resolution.unwrap_or(Layout::default().resolution)
     }
 
-    /// What shares one UV space, and what counts as a surface.
-    pub(in crate::pipeline) fn spaces(&self) -> (GroupBy, Nodes) {
+    /// What shares one UV space in a document, and what counts as a surface.
+    pub(in crate::pipeline) fn spaces(&self, document: &Document) -> (GroupBy, Nodes) {
         let nodes = if self.separate_nodes {
             Nodes::Separate
         } else {
             Nodes::Shared
         };
-        (self.group_by.unwrap_or_default(), nodes)
+        (self.group_by.unwrap_or(document.grouping()), nodes)
     }
 
     /// What the certificate is asked to speak of.
@@ -94,19 +99,20 @@ impl MeasureOptions {
         }
     }
 
-    /// With what the UVs of a file were made for where these options say nothing. Surfaces are
-    /// those of the options where these say what shares a UV space.
+    /// Adds what a file's record requires. Distances in texels are one requirement: those of the options replace those of
+    /// the record, so that a file cannot choose the texture in which a caller's padding is counted.
     pub(in crate::pipeline) fn with_terms(&self, terms: &Terms) -> Self {
-        Self {
-            group_by: self.group_by.or(Some(terms.group_by)),
-            separate_nodes: self.separate_nodes || self.group_by.is_none() && terms.separate_nodes,
-            padding: self.padding.or(terms.padding),
-            resolution: self.resolution.or(Some(terms.resolution)),
+        let mut required = Self {
             pages: self.pages.or(terms.pages),
-            mips: self.mips.or(Some(terms.mips)),
-            aligned: self.aligned || terms.aligned,
             bits: self.bits.or(terms.bits),
             ..self.clone()
+        };
+        if self.padding.is_none() && !self.aligned {
+            required.padding = terms.padding;
+            required.resolution = self.resolution.or(Some(terms.resolution));
+            required.mips = self.mips.or(Some(terms.mips));
+            required.aligned = terms.aligned;
         }
+        required
     }
 }

@@ -165,7 +165,6 @@ impl Options {
             aligned: self.preset == Preset::Lightmap,
             bits: self.mapping.quantization_safe,
             overlaps: false,
-            charts: None,
         }
     }
 }

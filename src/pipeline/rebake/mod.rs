@@ -47,6 +47,7 @@ pub(super) fn rebaked(
     };
     let files = files(&bake, &plan, groups, options)?;
     Ok(BakedTextures {
+        has_colors_only: plan.planes.is_empty() && document.has_vertex_colors(),
         plan,
         files,
         tangents: (surfaces.into_iter())
@@ -94,7 +95,8 @@ fn files(
     Ok(files)
 }
 
-/// What is to be said of textures in which charts are so near that bilinear filtering at the border of one reads texels of another.
+/// Says that nothing was there to resample, and in which textures charts are so near that bilinear filtering at the border of one
+/// reads texels of another.
 pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning> {
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();
@@ -103,14 +105,28 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
         / f64::from(options.layout.resolution.longer());
     let gap = |side: u32| texels * f64::from(side);
     let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
-    near.map(|side| {
+    let near = near.map(|side| {
         let gap = gap(side);
         let message = format!(
             "charts are {gap:.2} texels apart in textures of {side}, so filtering mixes them: use more padding"
         );
         Warning::new("charts_near", message)
-    })
-    .collect()
+    });
+    let nothing = baked.plan.planes.is_empty() && baked.plan.kept.is_empty();
+    let nothing = nothing.then(|| {
+        if baked.has_colors_only {
+            Warning::new(
+                "colors_kept",
+                "the model has colors at its vertices and no textures: they are not resampled",
+            )
+        } else {
+            Warning::new(
+                "nothing_to_resample",
+                "the model has no textures to resample",
+            )
+        }
+    });
+    near.chain(nothing).collect()
 }
 
 fn check_texels(texels: u64) -> Result<(), DocumentError> {

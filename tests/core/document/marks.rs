@@ -4,9 +4,11 @@ use serde_json::{Value, json};
 use unwrapd::deform::uv::parse_anchors;
 use unwrapd::document::{Document, GroupBy, Marked, OutputFormat, Sets, Upload};
 use unwrapd::pipeline::{
-    EditOptions, Editing, Layout, MeasureOptions, Options, Preset, Unobserved, Verified,
-    VerifyOptions, edit_document, measure_document, unwrap_document, verify_document,
+    EditOptions, EditedDocument, Editing, Layout, MeasureOptions, Options, Preset, Unobserved,
+    Verified, VerifyOptions, edit_document, measure_document, unwrap_document, verify_document,
 };
+
+use unwrapd::mesh::Resolution;
 
 use super::build::{Builder, glb, parts};
 
@@ -120,7 +122,13 @@ fn what_was_asked_for_is_what_is_judged() {
         (by_scene, 5, None, 1),
         (Options::default(), 2, None, 2),
     ] {
-        let found = verified(&unwrapped(&builder.upload(), &options));
+        let written = upload(&unwrapped(&builder.upload(), &options));
+        // The record adds requirements; what shares an atlas is for the caller to say.
+        let by_caller = MeasureOptions {
+            group_by: (groups == 1).then_some(GroupBy::Scene),
+            ..MeasureOptions::default()
+        };
+        let found = verify_document(&written, &judged(&by_caller)).unwrap();
         assert!(found.proven.bijective && codes(&found).is_empty());
         assert_eq!(found.proven.padding.unwrap().asked_texels, padding);
         assert_eq!(found.proven.aligned, aligned);
@@ -213,7 +221,7 @@ fn half_flipped() -> Upload {
     Upload::single("a.obj", text.as_bytes().to_vec())
 }
 
-fn edited(input: &Upload, to: [f64; 2], bijective: bool, format: OutputFormat) -> Files {
+fn edited(input: &Upload, to: [f64; 2], bijective: bool, format: OutputFormat) -> EditedDocument {
     let anchors = json!({"anchors": [
         {"vertex": 0, "to": [0.0, 0.0]}, {"vertex": 2, "to": to},
     ]});
@@ -223,46 +231,170 @@ fn edited(input: &Upload, to: [f64; 2], bijective: bool, format: OutputFormat) -
         ..EditOptions::default()
     };
     options.model.bijective = bijective;
-    edit_document(input, Editing::Map, &options, &Unobserved)
-        .unwrap()
-        .files
+    edit_document(input, Editing::Map, &options, &Unobserved).unwrap()
+}
+
+/// What `verify --bijective` finds, and with other options.
+fn verified_bijective(files: &Files, judged: MeasureOptions) -> Verified {
+    let options = VerifyOptions {
+        bijective: true,
+        judged,
+        ..VerifyOptions::default()
+    };
+    verify_document(&upload(files), &options).unwrap()
 }
 
 #[test]
-fn edited_charts_are_spoken_of_alone_where_others_do_not_hold() {
+fn an_edit_is_certified_over_the_whole_set() {
     for format in [OutputFormat::Glb, OutputFormat::Obj] {
         for bijective in [false, true] {
-            let files = edited(&half_flipped(), [0.25, 0.3], bijective, format);
-            let found = verified(&files);
-            assert!(found.proven.locally_injective, "{:?}", found.mark);
-            let terms = found.mark.unwrap().terms;
-            assert_eq!((terms.charts, terms.overlaps), (Some(vec![0]), !bijective));
-            let options = MeasureOptions {
-                texcoord: Some(0),
-                ..MeasureOptions::default()
-            };
-            let all = verify_document(&upload(&files), &judged(&options)).unwrap();
-            assert!(!all.proven.locally_injective);
+            let edited = edited(&half_flipped(), [0.25, 0.3], bijective, format);
+            let report = &edited.report;
+            assert!(!report.certified && !report.bijective, "{report:?}");
+            let warned: Vec<&str> = report.warnings.iter().map(|w| &*w.code).collect();
+            assert!(warned.contains(&"flipped"), "{warned:?}");
+            assert!(warned.contains(&"uncertified_before"), "{warned:?}");
+            let found = verified(&edited.files);
+            assert!(!found.certified && !found.proven.locally_injective);
+            assert!(!is_promised(&found));
         }
     }
 }
 
 #[test]
-fn edited_maps_may_overlap_unless_they_may_not() {
+fn a_chart_dragged_onto_another_is_not_certified() {
+    // Two squares side by side; the anchors take the first one to where the second is.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\n\
+                vt 0 0\nvt 0.25 0\nvt 0.25 0.25\nvt 0 0.25\n\
+                vt 0.5 0.5\nvt 0.75 0.5\nvt 0.75 0.75\nvt 0.5 0.75\n\
+                f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/5 6/6 7/7\nf 5/5 7/7 8/8\n";
+    let input = Upload::single("a.obj", text.as_bytes().to_vec());
+    for bijective in [false, true] {
+        let anchors = json!({"anchors": [
+            {"vertex": 0, "to": [0.55, 0.55]}, {"vertex": 2, "to": [0.8, 0.8]},
+        ]});
+        let mut options = EditOptions {
+            anchors: parse_anchors(anchors.to_string().as_bytes()).unwrap(),
+            ..EditOptions::default()
+        };
+        options.model.bijective = bijective;
+        let edited = edit_document(&input, Editing::Map, &options, &Unobserved).unwrap();
+        assert!(!edited.report.certified && !edited.report.bijective);
+        assert!(edited.report.charts.iter().all(|chart| chart.map.bijective));
+        let codes: Vec<&str> = edited.report.warnings.iter().map(|w| &*w.code).collect();
+        assert_eq!(codes, ["overlapping"]);
+        // The record of 0.1.0 named the charts that were to be judged.
+        let old = changed(&edited.files, |json| mark(json)["charts"] = json!([0]));
+        for files in [&edited.files, &old] {
+            let found = verified_bijective(files, MeasureOptions::default());
+            assert!(!found.certified && found.groups.len() == 1);
+            assert!(found.groups[0].certificate.overlapping_pairs > Some(0));
+        }
+    }
+}
+
+#[test]
+fn a_record_takes_nothing_out_of_the_judgment() {
+    // Two primitives of one mesh with the same UVs: they overlap.
+    let mut builder = Builder::square();
+    let copy = builder.json["meshes"][0]["primitives"][0].clone();
+    let primitives = builder.json["meshes"][0]["primitives"]
+        .as_array_mut()
+        .unwrap();
+    primitives.push(copy);
+    let files = vec![("a.glb".to_owned(), builder.upload().bytes)];
+    let certified = unwrapped(&upload(&files), &Options::default());
+    let overlapping = changed(&certified, |json| {
+        let primitives = json["meshes"][0]["primitives"].as_array_mut().unwrap();
+        primitives[1]["attributes"]["TEXCOORD_0"] =
+            primitives[0]["attributes"]["TEXCOORD_0"].clone();
+    });
+    let record = |change: &dyn Fn(&mut Value)| changed(&overlapping, |json| change(mark(json)));
+    let forged = [
+        record(&|_| ()),
+        record(&|mark| mark["charts"] = json!([0])),
+        record(&|mark| mark["group_by"] = json!("primitive")),
+        record(&|mark| mark["separate_nodes"] = json!(true)),
+        record(&|mark| mark["overlaps"] = json!(true)),
+        record(&|mark| mark["texcoord"] = json!([0, null])),
+        record(&|mark| mark["texcoord"] = json!([null, 0])),
+        record(&|mark| mark["resolution"] = json!(65536)),
+        record(&|mark| *mark = json!({"version": 1, "group_by": "primitive"})),
+    ];
+    for files in &forged {
+        // A digest that fits is no secret.
+        for files in [files.clone(), with_digest(files)] {
+            let found = verified_bijective(&files, MeasureOptions::default());
+            assert!(!found.certified, "{:?}", found.mark);
+            let judged: usize = found.groups.iter().map(|g| g.certificate.faces).sum();
+            assert_eq!(judged, 4);
+        }
+    }
+}
+
+/// The file with the digest in its record that fits the UVs, as anybody can compute it.
+fn with_digest(files: &Files) -> Files {
+    use sha2::{Digest as _, Sha256};
+    let document = Document::read(&upload(files)).unwrap();
+    changed(files, |json| {
+        let sets = mark(json)["texcoord"].clone();
+        let mut digest = Sha256::new();
+        for primitive in 0..document.primitives().len() {
+            let set = sets.as_u64().or_else(|| sets[primitive].as_u64());
+            let Some(set) = set.map(|set| set as u32) else {
+                continue;
+            };
+            let uvs = document.corner_uvs(primitive, set).unwrap().unwrap();
+            digest.update(set.to_le_bytes());
+            digest.update((uvs.len() as u64).to_le_bytes());
+            for number in uvs.as_flattened().as_flattened() {
+                digest.update(number.to_le_bytes());
+            }
+        }
+        let bytes = digest.finalize();
+        let bytes = std::array::from_fn(|k| bytes[k]);
+        mark(json)["digest"] = json!(format!("{:032x}", u128::from_be_bytes(bytes)));
+    })
+}
+
+#[test]
+fn the_padding_of_a_caller_is_counted_in_the_texture_of_the_caller() {
+    let fine = Options {
+        layout: Layout {
+            padding: 2,
+            resolution: Resolution::square(4096),
+            ..Layout::default()
+        },
+        ..Options::default()
+    };
+    let files = unwrapped(&Builder::rich().upload(), &fine);
+    let recorded = verified(&files).proven.padding.unwrap();
+    assert_eq!(
+        (recorded.asked_texels, recorded.resolution.width),
+        (2, 4096)
+    );
+    let asked = MeasureOptions {
+        padding: Some(2),
+        ..MeasureOptions::default()
+    };
+    let found = verify_document(&upload(&files), &judged(&asked)).unwrap();
+    assert_eq!(found.proven.padding.unwrap().resolution.width, 1024);
+}
+
+#[test]
+fn edited_maps_that_stay_apart_promise_it() {
     let input = Builder::square().upload();
     let files = unwrapped(&input, &Options::default());
     for bijective in [false, true] {
-        let files = edited(&upload(&files), [0.9, 0.9], bijective, OutputFormat::Glb);
-        let found = verified(&files);
-        let mark = found.mark.as_ref().unwrap();
-        assert_eq!(
-            (mark.terms.overlaps, &mark.terms.charts),
-            (!bijective, &None)
-        );
-        assert_eq!(is_promised(&found), bijective);
-        assert!(found.proven.locally_injective);
+        let edited = edited(&upload(&files), [0.9, 0.9], bijective, OutputFormat::Glb);
+        assert!(edited.report.certified, "{:?}", edited.report);
+        let found = verified(&edited.files);
+        assert!(found.certified && is_promised(&found) && found.proven.bijective);
         assert!(matches!(
-            Document::read(&upload(&files)).unwrap().marked().unwrap(),
+            Document::read(&upload(&edited.files))
+                .unwrap()
+                .marked()
+                .unwrap(),
             Marked::Fits(_)
         ));
     }
