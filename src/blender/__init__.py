@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: The authors of unwrapd
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Operators that unwrap, repack and judge the UVs of the selected objects with the package `unwrapd`."""
 
 import bpy

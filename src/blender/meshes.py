@@ -1,12 +1,18 @@
+# SPDX-FileCopyrightText: The authors of unwrapd
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Meshes of Blender as arrays, and UVs back into them."""
 
 import numpy as np
 
 
 class Mesh:
-    """A mesh of an object: triangles of its polygons, and what its loops have."""
+    """A mesh of an object: triangles of its polygons, and what its loops have.
 
-    def __init__(self, thing):
+    While it is being edited, only its selected and visible polygons may change.
+    """
+
+    def __init__(self, thing, is_edited=False):
         self.data = data = thing.data
         self.name = thing.name
         data.calc_loop_triangles()
@@ -20,6 +26,9 @@ class Mesh:
         self.positions = placed(gathered(data.vertices, "co", np.float32, 3), thing.matrix_world)
         edges = gathered(data.edges, "vertices", np.int32, 2)
         self.seams = edges[gathered(data.edges, "use_seam", bool)]
+        #: Which triangles (T,) may change, and which have an area.
+        self.is_free = free_polygons(data, is_edited)[self.polygons]
+        self.has_area = areas(self.positions[self.faces]) > 0.0
 
     @property
     def faces(self):
@@ -54,6 +63,19 @@ def gathered(things, name, dtype, width=1):
     return found.reshape(-1, width) if width > 1 else found
 
 
+def free_polygons(data, is_edited):
+    """Which polygons (P,) an operator may change."""
+    if not is_edited:
+        return np.ones(len(data.polygons), bool)
+    return gathered(data.polygons, "select", bool) & ~gathered(data.polygons, "hide", bool)
+
+
+def areas(corners):
+    """Twice the areas of triangles, by the positions of their corners (T, 3, 3)."""
+    a, b, c = np.moveaxis(corners.astype(np.float64), 1, 0)
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
 def placed(positions, matrix):
     """Positions in the world, as seen from the same side where an object is mirrored."""
     matrix = np.array(matrix)
@@ -61,7 +83,23 @@ def placed(positions, matrix):
     return found * [-1, 1, 1] if np.linalg.det(matrix[:3, :3]) < 0 else found
 
 
-def selected(context):
-    """The meshes of the selected objects, each once however many share it; those without faces are left out."""
-    things = {thing.data: thing for thing in context.selected_objects if thing.type == "MESH"}
-    return [Mesh(thing) for data, thing in things.items() if len(data.polygons) > 0]
+def meshes_of(things, is_edited=False):
+    """The meshes of objects, each once however many share it; those without faces are left out."""
+    each = {thing.data: thing for thing in things if thing.type == "MESH"}
+    return [Mesh(thing, is_edited) for data, thing in each.items() if len(data.polygons) > 0]
+
+
+def point_at(mesh, polygons):
+    """Selects some polygons of a mesh, and nothing else of it."""
+    data = mesh.data
+    chosen = np.zeros(len(data.polygons), bool)
+    chosen[polygons] = True
+    for things in (data.vertices, data.edges):
+        things.foreach_set("select", np.zeros(len(things), bool))
+    for polygon in polygons:
+        for vertex in data.polygons[polygon].vertices:
+            data.vertices[vertex].select = True
+        for key in data.polygons[polygon].loop_indices:
+            data.edges[data.loops[key].edge_index].select = True
+    data.polygons.foreach_set("select", chosen)
+    data.update()

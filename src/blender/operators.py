@@ -1,11 +1,16 @@
+# SPDX-FileCopyrightText: The authors of unwrapd
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The operators. Each is one step of undo, and changes nothing where it fails."""
+
+from contextlib import contextmanager
 
 import bpy
 import unwrapd
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .layout import Cut, judged, repacked, unwrapped
-from .meshes import selected
+from .layout import judged, repacked, unwrapped
+from .meshes import meshes_of, point_at
 
 
 class Operator(bpy.types.Operator):
@@ -20,47 +25,80 @@ class Operator(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return any(thing.type == "MESH" for thing in context.selected_objects)
+        return context.mode == "EDIT_MESH" or any(thing.type == "MESH" for thing in context.selected_objects)
 
     def execute(self, context):
-        # Meshes that are being edited have their data elsewhere until that ends.
-        is_editing = context.mode == "EDIT_MESH"
-        if is_editing:
-            bpy.ops.object.mode_set(mode="OBJECT")
+        is_edited = context.mode == "EDIT_MESH"
+        things = context.objects_in_mode if is_edited else context.selected_objects
         try:
-            meshes = selected(context)
-            if not meshes:
-                self.report({"WARNING"}, "No selected object has faces")
-                return {"CANCELLED"}
-            return self.work(context, meshes)
-        except (unwrapd.Error, Cut) as error:
+            with outside_edit_mode(context, list(things)):
+                meshes = meshes_of(things, is_edited)
+                if not meshes:
+                    self.report({"WARNING"}, "No selected object has faces")
+                    return {"CANCELLED"}
+                return self.work(context, meshes)
+        except unwrapd.Error as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        finally:
-            if is_editing:
-                bpy.ops.object.mode_set(mode="EDIT")
 
     def lay_out(self, context, make, meshes, **options):
-        """Gives meshes the UVs that a function makes."""
+        """Gives the faces of meshes that may change the UVs that a function makes."""
+        if not any(mesh.is_free.any() for mesh in meshes):
+            self.report({"WARNING"}, "No face is selected")
+            return {"CANCELLED"}
         manager = context.window_manager
         manager.progress_begin(0.0, 1.0)
         try:
             options.update(resolution=self.resolution, padding=self.padding)
-            uvs, report = make(meshes, progress=lambda at: manager.progress_update(at.fraction), **options)
+            found = make(meshes, progress=lambda at: manager.progress_update(at.fraction), **options)
         finally:
             manager.progress_end()
-        for mesh, new in zip(meshes, uvs):
-            mesh.write(new)
-        measures = report["groups"][0]["measures"]
-        is_certified = report["certified"]
+        for mesh, new in zip(meshes, found.uvs):
+            if new is not None:
+                mesh.write(new)
+        refused = [refusal(meshes[number], polygons) for number, polygons in sorted(found.refused.items())]
+        for number, polygons in found.refused.items():
+            point_at(meshes[number], polygons)
+        if found.report is None:
+            self.report({"ERROR"}, "; ".join(refused))
+            return {"CANCELLED"}
+        measures = found.report["groups"][0]["measures"]
+        is_certified = found.report["certified"]
         text = f"{measures['charts']} islands, {'certified' if is_certified else 'not certified'}"
-        self.report({"INFO" if is_certified else "WARNING"}, "; ".join([text, *report["warnings"]]))
+        warnings = [*found.report["warnings"], *found.warnings, *refused]
+        self.report({"INFO" if is_certified and not refused else "WARNING"}, "; ".join([text, *warnings]))
         return {"FINISHED"}
 
 
+def refusal(mesh, polygons):
+    """Why a mesh stays as it is: these polygons would be cut."""
+    names = ", ".join(str(polygon) for polygon in polygons[:8]) + (" …" if 8 < len(polygons) else "")
+    faces = "face" if len(polygons) == 1 else "faces"
+    return f"{mesh.name} stays as it is: no UVs keep {faces} {names} whole (now selected): triangulate {'it' if len(polygons) == 1 else 'them'}"
+
+
+@contextmanager
+def outside_edit_mode(context, things):
+    """Leaves edit mode, in which meshes have their data elsewhere, and enters it again with the same objects."""
+    if context.mode != "EDIT_MESH":
+        yield
+        return
+    bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        # Edit mode takes all selected objects: others must not be, and these must.
+        chosen = [thing for thing in context.view_layer.objects if thing.select_get()]
+        for thing in {*chosen, *things}:
+            thing.select_set(thing in things)
+        bpy.ops.object.mode_set(mode="EDIT")
+        for thing in {*chosen, *things}:
+            thing.select_set(thing in chosen)
+
+
 class UNWRAPD_OT_unwrap(Operator):
-    """Unwrap the selected objects into one atlas: few islands, and no face flipped. Marked seams are cut. Islands with
-    pinned vertices stay as they are"""
+    """Unwrap the selected objects, or the selected faces in edit mode, into one atlas: few islands, and no face flipped.
+    Marked seams are cut. Islands with pinned vertices stay as they are"""
 
     bl_idname = "unwrapd.unwrap"
     bl_label = "Unwrap (unwrapd)"
@@ -88,7 +126,8 @@ class UNWRAPD_OT_unwrap(Operator):
 
 
 class UNWRAPD_OT_repack(Operator):
-    """Pack the UV islands of the selected objects into one square. Islands with pinned vertices stay where they are"""
+    """Pack the UV islands of the selected objects, or of the selected faces in edit mode, into one square. Islands with
+    pinned vertices stay where they are"""
 
     bl_idname = "unwrapd.repack"
     bl_label = "Repack (unwrapd)"

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: The authors of unwrapd
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Seams along edges of polygons.
 
 The library sees triangles and may cut a polygon between them, which UVs of loops cannot say: such a seam is led around
@@ -7,26 +10,33 @@ the polygon instead.
 import numpy as np
 
 
-def split(mesh, uvs):
-    """The polygons that are cut, by the UVs of the corners of triangles (T, 3, 2)."""
+def split(mesh, uvs, mask):
+    """The polygons that are cut, by the UVs of the corners of triangles (T, 3, 2). Triangles without area do not count."""
+    mask = mask & mesh.has_area
+    triangles, corners = mesh.triangles[mask], uvs[mask]
     first = np.zeros((len(mesh.vertices), 2), uvs.dtype)
-    first[mesh.triangles[::-1]] = uvs[::-1]
-    return np.unique(mesh.polygons[(first[mesh.triangles] != uvs).any(axis=(1, 2))])
+    first[triangles[::-1]] = corners[::-1]
+    return np.unique(mesh.polygons[mask][(first[triangles] != corners).any(axis=(1, 2))]).tolist()
 
 
-def of_loops(mesh, uvs):
-    """UVs of loops (L, 2) of a mesh of which no polygon is cut."""
+def of_loops(mesh, uvs, mask):
+    """UVs of the loops (L, 2) of triangles in a mask, where no polygon is cut; zeros elsewhere."""
     found = np.zeros((len(mesh.vertices), 2), np.float32)
-    found[mesh.triangles] = uvs
+    # Those with area come last: they decide.
+    for some in (mask & ~mesh.has_area, mask & mesh.has_area):
+        found[mesh.triangles[some]] = uvs[some]
     return found
 
 
-def around(mesh, uvs):
-    """The seams of UVs of corners as pairs of vertices, those through polygons led around them on the shorter side."""
-    loops = mesh.triangles
+def around(mesh, uvs, mask, known):
+    """The seams of UVs of corners as pairs of vertices, those through polygons led around them.
+
+    They take the shorter side of a polygon, or the longer one if there is a seam all along the shorter one.
+    """
+    loops, uvs = mesh.triangles[mask], uvs[mask]
     begin, end = loops.reshape(-1), np.roll(loops, -1, axis=1).reshape(-1)
     at_begin, at_end = uvs.reshape(-1, 2), np.roll(uvs, -1, axis=1).reshape(-1, 2)
-    polygon = np.repeat(mesh.polygons, 3)
+    polygon = np.repeat(mesh.polygons[mask], 3)
     v, w = mesh.vertices[begin], mesh.vertices[end]
     # Sides that run the same way have the same pair; inside a polygon a side is told from others between its vertices.
     turned = (v > w)[:, None]
@@ -39,9 +49,10 @@ def around(mesh, uvs):
     np.minimum.at(low, number, place)
     np.maximum.at(high, number, place)
     is_seam = (low != high).any(axis=1)
-    found = edges[is_seam & (edges[:, 2] < 0), :2].tolist()
+    found = {*pairs(edges[is_seam & (edges[:, 2] < 0), :2])}
     for v, w, polygon in edges[is_seam & (edges[:, 2] >= 0)].tolist():
-        found += shorter_way(mesh, polygon, v, w)
+        shorter, longer = ways(mesh, polygon, v, w)
+        found |= longer if shorter <= known else shorter
     return found
 
 
@@ -51,14 +62,29 @@ def next_loop(mesh, loops, polygons):
     return np.where(following == mesh.starts[polygons + 1], mesh.starts[polygons], following)
 
 
-def shorter_way(mesh, polygon, v, w):
-    """The shorter way between two vertices along the sides of a polygon."""
-    ring = mesh.vertices[mesh.starts[polygon] : mesh.starts[polygon + 1]].tolist()
+def ways(mesh, polygon, v, w):
+    """The shorter and the longer way between two vertices along the sides of a polygon, as pairs of vertices."""
+    ring = ring_of(mesh, polygon)
     i, j = sorted((ring.index(v), ring.index(w)))
-    ways = [ring[i : j + 1], ring[j:] + ring[: i + 1]]
+    both = [ring[i : j + 1], ring[j:] + ring[: i + 1]]
 
     def length(way):
         return np.linalg.norm(np.diff(mesh.positions[way], axis=0), axis=1).sum()
 
-    way = min(ways, key=length)
-    return [list(side) for side in zip(way, way[1:])]
+    return [{*pairs(np.stack([way[:-1], way[1:]], 1))} for way in sorted(both, key=length)]
+
+
+def sides(mesh, polygon):
+    """The sides of a polygon, as pairs of vertices."""
+    ring = ring_of(mesh, polygon)
+    return {*pairs(np.stack([ring, ring[1:] + ring[:1]], 1))}
+
+
+def ring_of(mesh, polygon):
+    """The vertices around a polygon."""
+    return mesh.vertices[mesh.starts[polygon] : mesh.starts[polygon + 1]].tolist()
+
+
+def pairs(edges):
+    """Edges (E, 2) as tuples, the lower vertex first."""
+    return map(tuple, np.sort(edges, axis=1).tolist())

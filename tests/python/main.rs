@@ -28,7 +28,22 @@ native::tests_of_files!(
     crate::passes,
     native::files("tests/python", "test_", ".py"),
     [
-        arrays, bake, calls, client, comfyui, command, errors, examples, files, leaks, pipelines,
-        problem, readme, session, trimesh, xatlas
+        arrays,
+        bake,
+        blender_layout,
+        calls,
+        client,
+        comfyui,
+        command,
+        errors,
+        examples,
+        files,
+        leaks,
+        pipelines,
+        problem,
+        readme,
+        session,
+        trimesh,
+        xatlas
     ]
 );

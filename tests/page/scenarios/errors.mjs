@@ -27,7 +27,10 @@ export async function run(page, url) {
   assert.match(link, /^docs#\w+$/);
   assert.ok(await page.isVisible("text=Retry"));
   await page.click("#inspector >> text=Delete");
-  await shown(page, "spot.ply");
+  // The chosen file is still chosen, and still cannot be shown.
+  assert.match(await alert(), /cannot read|no triangles/);
+  assert.match(await page.textContent("#chosen"), /broken\.gltf/);
+  await page.click("#problem button");
 
   // A service that does not answer is told from one that refuses.
   await page.route("**/v1/jobs", (route) => route.abort());

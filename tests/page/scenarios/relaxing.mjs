@@ -25,7 +25,9 @@ export async function run(page, url, mesh, before) {
   await page.request.delete(new URL(before, url).href);
   await page.waitForSelector("#relaxing:not(:empty)");
   const described = await page.textContent("#relaxing");
-  assert.match(described, /^\d+ charts?, as the solver has them · 0 flips$/);
+  // More may be said: of plans, or of faces that are not drawn.
+  assert.match(described, /^\d+ charts?\b/);
+  assert.match(described, /\b0 flips\b/);
   assert.ok(3 < variety(await colorsOf(page, "#plane")), "charts are drawn");
   hasSeen();
 

@@ -118,6 +118,39 @@ async fn errors_say_what_to_do() {
 }
 
 #[tokio::test]
+async fn faces_without_uvs_hide_no_overlap() {
+    let server = Server::start();
+    scenario("unmapped", server.url("/"), &[]).await;
+}
+
+#[tokio::test]
+async fn nothing_of_a_file_is_said_of_the_next() {
+    let server = Server::start();
+    let meshes = ["cat_head.obj", "spot.ply"].map(asset);
+    scenario("in_a_row", server.url("/"), &meshes).await;
+}
+
+#[tokio::test]
+async fn the_result_is_seen_as_the_input_was() {
+    let server = Server::start();
+    scenario("ours", server.url("/"), &[asset("cat_head.obj")]).await;
+}
+
+#[tokio::test]
+async fn the_surface_hides_seams_behind_it() {
+    let server = Server::start();
+    let url = unwrapped(&server, "spot.ply").await;
+    scenario("hidden_seams", url, &[]).await;
+}
+
+#[tokio::test]
+async fn a_chart_on_another_is_red_while_it_is_pulled() {
+    let server = Server::start();
+    let url = unwrapped(&server, "spot.ply").await;
+    scenario("pull_onto", url, &[]).await;
+}
+
+#[tokio::test]
 async fn the_api_can_be_read_and_tried_out() {
     let server = Server::start();
     let said = scenario("api", server.url("/"), &[]).await;

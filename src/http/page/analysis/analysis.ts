@@ -4,7 +4,7 @@ import { type Charts, chartsOf, seamLength } from "./charts";
 import { type Distortion, distortionOf, flippedFaces } from "./distortion";
 import { type Drawn, drawnOf } from "./drawn";
 import { nearBorders } from "./gaps";
-import { overlapsOf } from "./overlaps";
+import { hasUvs, overlapsOf } from "./overlaps";
 import { type Faces, measuredFaces, type Soup, type Texture } from "./soup";
 import { type Spread, spreads } from "./statistics";
 import { next } from "./weld";
@@ -14,6 +14,7 @@ export const OVERLAPS = 1;
 export const FLIPPED = 2;
 export const NEAR = 4;
 export const SEAM = 8;
+export const UNMAPPED = 16;
 
 /** What is known of one atlas. */
 export interface Atlas {
@@ -23,8 +24,9 @@ export interface Atlas {
   charts: number;
   /** Of its surface. */
   area: number;
-  /** Whether its faces have UVs at all. */
+  /** Whether any of its faces has UVs, and how many have none. */
   isMapped: boolean;
+  unmapped: number;
   /** Share of the texture that its faces cover, counting faces that overlap more than once. */
   fill: number;
   /** How far the UVs reach. */
@@ -74,6 +76,7 @@ export function analyze(soup: Soup): Analysis {
   const charts = chartsOf(faces);
   const distortion = distortionOf(faces, soup.texture);
   const marks = flippedFaces(faces, charts.ofFace, distortion.texels).map((flipped) => flipped * FLIPPED);
+  for (let face = 0; face < faces.count; face++) if (!hasUvs(faces, face)) marks[face]! |= UNMAPPED;
   const near = nearBorders(faces, charts, soup.texture);
   near.forEach((isNear, k) => {
     if (isNear) marks[Math.floor(charts.borders[k]! / 3)]! |= NEAR;
@@ -102,7 +105,7 @@ function judged(faces: Faces, members: Uint32Array, distortion: Distortion, mark
   const texels = members.reduce((sum, face) => sum + Math.abs(distortion.texels[face]!), 0);
   return {
     faces: members.length, area: members.reduce((sum, face) => sum + distortion.area[face]!, 0), isMapped: 0 < texels,
-    fill: texels / (width * height), bounds: boundsOf(faces, members), flipped: count(FLIPPED), near: count(NEAR),
+    fill: texels / (width * height), bounds: boundsOf(faces, members), flipped: count(FLIPPED), unmapped: count(UNMAPPED), near: count(NEAR),
     spreads: spreads(distortion, members),
   };
 }

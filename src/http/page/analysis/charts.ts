@@ -1,14 +1,15 @@
 // Charts, and the seams between them: faces belong together where they share an edge on the surface and in the plane.
 
+import { hasUvs } from "./overlaps";
 import type { Faces } from "./soup";
 import { bits, type Edges, edgesOf, firstEqual, next } from "./weld";
 
 /** How the faces hang together. */
 export interface Charts {
   count: number;
-  /** The chart of each face, counted within its group from 0 in the order of faces. */
+  /** The chart of each face, counted within its group from 0 in the order of faces; faces without UVs are numbered after all charts. */
   ofFace: Uint32Array;
-  /** How many charts each group has. */
+  /** How many charts each group has: none of faces without UVs. */
   ofGroup: number[];
   /** The first corner at the same place of the same mesh, for each corner. */
   place: Uint32Array;
@@ -26,12 +27,12 @@ export function chartsOf(faces: Faces): Charts {
   const place = placesOf(faces);
   const inPlane = edgesOf(wedgesOf(faces, place));
   const root = joined(faces.count, inPlane);
-  const numbers = numbered(root, faces.group);
+  const numbers = numbered(root, faces);
   const onSurface = edgesOf(place);
   const borders: number[] = [];
   const isSeam: number[] = [];
   for (let edge = 0; edge < 3 * faces.count; edge++) {
-    if (1 < inPlane.count[inPlane.first[edge]!]! || Number.isNaN(faces.uvs[2 * edge]!)) continue;
+    if (1 < inPlane.count[inPlane.first[edge]!]! || !hasUvs(faces, Math.floor(edge / 3))) continue;
     borders.push(edge);
     isSeam.push(1 < onSurface.count[onSurface.first[edge]!]! ? 1 : 0);
   }
@@ -99,18 +100,24 @@ function joined(count: number, edges: Edges): Uint32Array {
   return parent.map((_, face) => root(face));
 }
 
-function numbered(root: Uint32Array, group: Uint16Array) {
+function numbered(root: Uint32Array, faces: Faces) {
   const ofFace = new Uint32Array(root.length);
-  const ofGroup: number[] = [];
-  for (let face = 0; face < root.length; face++) {
-    const g = group[face]!;
-    if (root[face] === face) {
-      ofFace[face] = ofGroup[g] ?? 0;
-      ofGroup[g] = ofFace[face]! + 1;
-    } else {
-      ofFace[face] = ofFace[root[face]!]!;
+  const next: number[] = [];
+  const number = (isMapped: boolean) => {
+    for (let face = 0; face < root.length; face++) {
+      if (hasUvs(faces, root[face]!) !== isMapped) continue;
+      const g = faces.group[face]!;
+      if (root[face] === face) {
+        ofFace[face] = next[g] ?? 0;
+        next[g] = ofFace[face]! + 1;
+      } else {
+        ofFace[face] = ofFace[root[face]!]!;
+      }
     }
-  }
+  };
+  number(true);
+  const ofGroup = [...next];
+  number(false);
   return { ofFace, ofGroup, count: ofGroup.reduce((sum, some) => sum + (some ?? 0), 0) };
 }
 

@@ -6,8 +6,9 @@ import type { Faces } from "./soup";
 /** Relative to the size of the faces: less than this is rounding. */
 const TOLERANCE = 1e-9;
 
-/** Calls with each pair of these faces that overlap; how many there are. */
-export function overlapsOf(faces: Faces, members: Uint32Array, found: (one: number, other: number) => void): number {
+/** Calls with each pair of these faces that overlap, and returns how many there are. Faces without UVs have no part in it. */
+export function overlapsOf(faces: Pick<Faces, "uvs">, all: Uint32Array, found: (one: number, other: number) => void): number {
+  const members = all.filter((face) => hasUvs(faces, face));
   const boxes = new Float64Array(4 * members.length);
   let sizes = 0;
   members.forEach((face, k) => {
@@ -23,6 +24,12 @@ export function overlapsOf(faces: Faces, members: Uint32Array, found: (one: numb
     found(a, b);
   });
   return pairs;
+}
+
+/** Whether all corners of a face have UVs that are numbers. */
+export function hasUvs({ uvs }: Pick<Faces, "uvs">, face: number): boolean {
+  for (let i = 6 * face; i < 6 * face + 6; i++) if (!Number.isFinite(uvs[i]!)) return false;
+  return true;
 }
 
 function boxOf(uvs: Float32Array, face: number, boxes: Float64Array, at: number): void {

@@ -16,7 +16,10 @@ export function followStage(viewer: Viewer, stage: Stage, jobs: JobView): void {
     clearTimeout(timer);
     // While a file is read, the cameras are still those of the one before.
     if (stage.solid.isTurning || !jobs.job || !byId("panes").dataset.shown) return;
+    const { job } = jobs;
     timer = setTimeout(() => {
+      // Another job or file may have been opened since.
+      if (jobs.job !== job || !byId("panes").dataset.shown) return;
       Object.assign(viewer.place, { camera: stage.solid.place, plane: stage.plane.place });
       writePlace(viewer.place);
     }, REST_MS);

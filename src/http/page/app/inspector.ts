@@ -1,6 +1,6 @@
 // The panel on the right: what is known of the job, and what can be done with it.
 
-import { address, type Job, type Progress } from "./api";
+import { address, isFinal, type Job, type Progress } from "./api";
 import { chosenOptions } from "./definitions";
 import { commandLine, copy, curl } from "./commands";
 import { curve } from "./charts_svg";
@@ -25,7 +25,8 @@ const STAGES: Record<string, string> = {
 };
 
 /** What a job is doing, in words. */
-export function doing({ stage }: Progress): string {
+export function doing({ stage, state }: Progress): string {
+  if (isFinal(state)) return "Fetching the result";
   return STAGES[stage ?? ""] ?? "Starting";
 }
 
@@ -35,15 +36,17 @@ export class ProgressPanel {
   readonly #bar = element("progress", { max: 1, value: 0, aria: { label: "Share of the work done" } });
   readonly #stage = element("p", { className: "stage", aria: { role: "status" } });
   readonly #facts = element("div");
+  readonly #finish: HTMLButtonElement;
+  readonly #cancel: HTMLButtonElement;
   readonly #curve = element("div", { className: "energies", title: "Energy of the chart at hand, iteration by iteration" });
 
   constructor(readonly job: Job, readonly actions: Actions) {
+    this.#finish = button("Finish early", actions.finish, { title: "Take the current map, which is valid, as the result" });
+    this.#cancel = button("Cancel", actions.cancel);
     byId("inspector").replaceChildren(
       element("section", { className: "progress-panel" }, this.#stage, this.#bar,
         // Above what grows, so that they stay where they are.
-        element("div", { className: "actions" },
-          button("Finish early", actions.finish, { title: "Take the current map, which is valid, as the result" }),
-          button("Cancel", actions.cancel)),
+        element("div", { className: "actions" }, this.#finish, this.#cancel),
         this.#facts, this.#curve),
       ...noted(job));
     this.show(job);
@@ -53,6 +56,7 @@ export class ProgressPanel {
     const position = this.actions.position();
     this.#stage.textContent = event.state === "queued" ? (position ? `Number ${position} in the queue` : "In the queue") : doing(event);
     this.#bar.value = event.fraction;
+    this.#finish.disabled = this.#cancel.disabled = isFinal(event.state);
     const isMapping = event.stage === "map" || event.stage === "deform";
     if (isMapping && event.energy !== null) this.#energies.push(event.energy);
     this.#facts.replaceChildren(pairs([

@@ -19,7 +19,8 @@ export interface Parts {
   list: JobList;
   setup: Setup;
   failed: (error: unknown) => void;
-  /** Called when the job was removed, and when its result is shown. */
+  /** Called when the job has ended, when it was removed, and when its result is shown. */
+  ended: () => void;
   removed: () => void;
   shown: () => void;
 }
@@ -95,10 +96,12 @@ export class JobView {
     const report = job.state === "succeeded" && fileOf(job, "report") ? await call<Report>(`${job.links.self}/report`) : null;
     if (this.job !== job) return;
     this.report = report;
+    this.#parts.ended();
     await showEnded(job, report, this.#actions(job));
     this.input = await this.#inputFor(job);
     if (this.job !== job) return;
     if (job.state !== "succeeded") {
+      this.#parts.viewer.calm();
       note(job.state === "failed" ? "No result: the job failed. The cause is beside." : "No result: the job was cancelled.");
       if (this.input) await this.#parts.viewer.show(this.input).catch(() => {});
       else this.#parts.viewer.clear();
@@ -155,6 +158,7 @@ export class JobView {
 /** What stands where UVs will be. */
 function awaited({ kind }: Job, now: Progress, isElsewhere = false): string {
   if (now.state === "queued") return "The job waits for its turn.";
+  if (isFinal(now.state)) return `${doing(now)} …`;
   const then = isElsewhere ? "Another machine computes this job: its UVs appear here when it ends."
     : kind === "unwrap" ? "Charts appear here as soon as the first one is planned." : "The result appears here when the job ends.";
   return `${doing(now)}, ${percent(now.fraction)} done. ${then}`;

@@ -9,11 +9,11 @@ import { address, call, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
 import { takeDropped } from "./dropped";
 import { followStage } from "./follow_stage";
-import { short, whole } from "./format";
+import { bytes, short, whole } from "./format";
 import { JobList } from "./job_list";
 import { JobView, note } from "./job_view";
 import { listen, showKeys } from "./keys";
-import { load } from "../viewer/loading";
+import { load, NoView } from "../viewer/loading";
 import { showReport } from "./report_page";
 import { type Caller, showCaller } from "./sign_in";
 import { type Chosen, Setup } from "./setup";
@@ -30,9 +30,9 @@ import { Viewer } from "./viewer";
 const viewer = new Viewer();
 const toolbar = new Toolbar(viewer, change, () => void compare());
 const list = new JobList((id) => void open(id));
-const setup = new Setup((first) => void preview(first), made, failed);
-const jobs = new JobView({ viewer, list, setup, failed, removed: () => void open(null), shown: refresh });
-const pull = new PullView({ failed, chosen: () => nameInHand(pull.name), baked: (job) => { void list.refresh(); void open(job.id, { ...START }); } });
+const setup = new Setup({ shown: (chosen) => void preview(chosen), made, failed });
+const jobs = new JobView({ viewer, list, setup, failed, ended: solved, removed: () => void open(null), shown: refresh });
+const pull = new PullView({ failed, chosen: () => nameInHand(pull.name), changed: refresh, baked: (job) => { void list.refresh(); void open(job.id, { ...START }); } });
 const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...viewer.place, face: null, chart: null, seam: null }), changed: refresh });
 let before: Analysis | null = null;
 let isBefore = false;
@@ -63,6 +63,9 @@ function refresh(): void {
   byId("title-state").textContent = isBefore ? "before" : "";
   if (place.tab === "report") void report();
   if (place.tab === "pull") offer();
+  const isPulled = place.tab === "pull" && pull.isActive;
+  byId("inspector").hidden = isPulled;
+  byId("pull-facts").hidden = !isPulled;
   nameInHand(place.tab === "pull" ? pull.name : null);
   writePlace(place);
 }
@@ -82,6 +85,11 @@ function offer(): void {
   else pull.offer(setup.chosen[0] ?? null, known);
 }
 
+/** What went wrong before no longer holds. */
+function solved(): void {
+  byId("problem").hidden = true;
+}
+
 function failed(error: unknown): void {
   const text = error instanceof Error ? error.message : String(error);
   const close = element("button", { type: "button", textContent: "Close", on: { click: () => (byId("problem").hidden = true) } });
@@ -93,7 +101,7 @@ function failed(error: unknown): void {
 
 /** Opens a job, or what is shown without one. */
 async function open(id: string | null, place: Place = { ...START, tab: viewer.place.tab }): Promise<void> {
-  byId("problem").hidden = true;
+  solved();
   before = null;
   isBefore = false;
   writePlace({ ...place, job: id }, id !== viewer.place.job);
@@ -102,6 +110,7 @@ async function open(id: string | null, place: Place = { ...START, tab: viewer.pl
   refresh();
   try {
     if (id) await jobs.open(id);
+    else if (setup.chosen[0]) await preview(setup.chosen[0]);
     else await sample();
   } catch (error) {
     viewer.clear();
@@ -124,15 +133,20 @@ async function preview(chosen: Chosen): Promise<void> {
   jobs.leave();
   list.select(null);
   isBefore = false;
-  viewer.place = { ...START, shade: "charts" };
+  const { shade, measure, seams, wire, problems, cells, aim, tab } = viewer.place;
+  viewer.place = { ...START, ...{ shade, measure, seams, wire, problems, cells, aim }, tab: tab === "pull" ? tab : START.tab };
   nameShown(chosen.name);
   note("Reading the file …");
+  solved();
+  byId("inspector").replaceChildren();
   try {
     viewer.clear();
     if (await viewer.show({ ...chosen, isTurning: true })) describe(viewer.analysis);
   } catch (error) {
-    note("");
-    failed(error);
+    if (setup.looked !== chosen || jobs.job) return;
+    note(error instanceof NoView ? error.message : "");
+    if (!(error instanceof NoView)) failed(error);
+    byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([["Name", chosen.name], ["Size", bytes(chosen.content.size)]])));
   }
   refresh();
 }
@@ -141,9 +155,11 @@ async function preview(chosen: Chosen): Promise<void> {
 function describe(analysis: Analysis | null): void {
   if (!analysis) return;
   const isMapped = analysis.atlases.some((atlas) => atlas.isMapped);
+  const unmapped = isMapped ? analysis.atlases.reduce((sum, atlas) => sum + atlas.unmapped, 0) : 0;
   note(isMapped ? "" : "No UVs yet. Unwrap makes them.");
   byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([
     ["Faces", whole(analysis.faces)], ["Surface area", short(analysis.area)], ["UV charts", isMapped ? whole(analysis.charts) : "none"],
+    ...(unmapped ? [["Faces without UVs", whole(unmapped)] as [string, string]] : []),
   ])), element("section", { className: "intro" }, element("h2", { textContent: "What comes back" }),
     element("p", { textContent: "The same mesh with UVs in which no face is flipped and no two overlap. That is proven on the bytes of the file." })));
 }
@@ -151,7 +167,12 @@ function describe(analysis: Analysis | null): void {
 function made(created: Job[]): void {
   created.forEach((job, k) => jobs.remember(job, setup.chosen[k]!));
   void list.refresh();
-  void open(created[0]!.id, { ...START });
+  const { camera, shade, measure, seams, wire, problems, cells, aim } = viewer.place;
+  const isSeen = viewer.facts?.source.content === setup.chosen[0]?.content;
+  const solid = viewer.stage?.solid;
+  // Whoever has turned the mesh goes on looking at it from there.
+  const kept = isSeen && solid && !solid.isTurning ? solid.place : null;
+  void open(created[0]!.id, { ...START, shade, measure, seams, wire, problems, cells, aim, camera: isSeen ? (kept ?? camera) : null });
 }
 
 // ---- report, before and after
@@ -207,7 +228,7 @@ function wire(): void {
     if (place.job !== viewer.place.job) void open(place.job, place);
     else change(place);
   });
-  takeDropped((files) => setup.takeFiles(files));
+  takeDropped((files) => (viewer.place.tab === "pull" && pull.isActive ? pull.takeFiles(files) : setup.takeFiles(files)));
 }
 
 /** Nothing of the caller is left in this browser. */

@@ -63,10 +63,15 @@ export class OptionForm {
   }
 }
 
-function fieldFor({ control, words, default: usual, minimum, maximum, isWhole }: Definition): HTMLInputElement | HTMLSelectElement {
+/** Whether a word needs another option that no form can give: `seams` are a list of edges. */
+function needsMore(name: string, word: string): boolean {
+  return name === "cut" && word === "seams";
+}
+
+function fieldFor({ name, control, words, default: usual, minimum, maximum, isWhole }: Definition): HTMLInputElement | HTMLSelectElement {
   if (control === "choice") {
     const unset = element("option", { value: "", textContent: usual === null ? "automatic" : `${usual}` });
-    const others = words.filter(({ word }) => word !== String(usual));
+    const others = words.filter(({ word }) => word !== String(usual) && !needsMore(name, word));
     return element("select", {}, unset, ...others.map(({ word, help }) => element("option", { value: word, textContent: word, title: help })));
   }
   if (control === "switch") return element("input", { type: "checkbox" });

@@ -16,6 +16,14 @@ export interface Chosen {
   from?: readonly [number, number, number];
 }
 
+/** What the form tells the page. */
+export interface Told {
+  /** A file is to be looked at. */
+  shown(chosen: Chosen): void;
+  made(jobs: Job[]): void;
+  failed(error: unknown): void;
+}
+
 /** Options that have a place of their own in the form. */
 const ELSEWHERE = ["resolution"];
 /** Names of files that are inputs themselves; others belong to one of them. */
@@ -27,8 +35,10 @@ export class Setup {
   #chosen: Chosen[] = [];
   readonly #options: OptionForm;
 
-  /** Called when the first file is another, and when jobs were made. */
-  constructor(readonly shown: (first: Chosen) => void, readonly made: (jobs: Job[]) => void, readonly failed: (error: unknown) => void) {
+  /** The one that is looked at. */
+  looked: Chosen | null = null;
+
+  constructor(readonly told: Told) {
     this.#options = new OptionForm(byId("options"), () => this.#refresh());
     this.#wire();
     this.#showKind("unwrap");
@@ -42,7 +52,13 @@ export class Setup {
   choose(chosen: Chosen[]): void {
     this.#chosen = chosen;
     this.#refresh();
-    if (chosen[0]) this.shown(chosen[0]);
+    if (chosen[0]) this.look(chosen[0]);
+  }
+
+  /** Shows one of the chosen files. */
+  look(chosen: Chosen): void {
+    this.looked = chosen;
+    this.told.shown(chosen);
   }
 
   /** Takes over the options of a job. */
@@ -63,7 +79,7 @@ export class Setup {
     const meshes = files.filter((file) => MESHES.includes(extension(file.name)));
     const resources = new Map(files.filter((file) => !meshes.includes(file)).map((file) => [file.webkitRelativePath || file.name, file as Blob]));
     if (!meshes.length) {
-      this.failed(new Error(`None of these ${files.length} files is a mesh. Choose GLB, glTF, OBJ, PLY, STL or OFF.`));
+      this.told.failed(new Error(`None of these ${files.length} files is a mesh. Choose GLB, glTF, OBJ, PLY, STL or OFF.`));
       return;
     }
     this.choose(meshes.map((file) => ({ name: file.name, content: file, resources })));
@@ -77,6 +93,13 @@ export class Setup {
       files.value = "";
     });
     byId("choose").addEventListener("click", () => this.ask());
+    // A field that is wrong is shown, or the browser could not point at it.
+    form.addEventListener("invalid", ({ target }) => {
+      byId<HTMLDetailsElement>("more").open = true;
+      byId<HTMLInputElement>("find-option").value = "";
+      this.#options.filter("");
+      (target as HTMLElement).scrollIntoView({ block: "nearest" });
+    }, { capture: true });
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       void this.submit();
@@ -100,7 +123,7 @@ export class Setup {
 
   async #showKind(kind: FormKind): Promise<void> {
     this.kind = kind;
-    await this.#options.show(kind, ELSEWHERE).catch(this.failed);
+    await this.#options.show(kind, ELSEWHERE).catch((error: unknown) => this.told.failed(error));
     this.#refresh();
   }
 
@@ -132,13 +155,15 @@ export class Setup {
     const remove = button("×", () => {
       this.#chosen = this.#chosen.filter((other) => other !== one);
       this.#refresh();
+      if (this.looked === one && this.#chosen[0]) this.look(this.#chosen[0]);
     }, { className: "bare", aria: { label: `Remove ${one.name}` } });
     const others = one.resources.size ? ` + ${one.resources.size}` : "";
-    return element("li", { title: one.name }, element("span", { className: "name", textContent: one.name }), element("small", { textContent: `${bytes(one.content.size)}${others}` }), remove);
+    return element("li", { title: one.name }, button(one.name, () => this.look(one), { className: "name", title: `Look at ${one.name}` }), element("small", { textContent: `${bytes(one.content.size)}${others}` }), remove);
   }
 
-  /** Makes a job of each chosen file. */
+  /** Makes a job of each chosen file, if all options are in their ranges. */
   async submit(): Promise<void> {
+    if (!byId<HTMLFormElement>("setup").reportValidity()) return;
     if (!this.#chosen.length) return this.ask();
     const submit = byId<HTMLButtonElement>("submit");
     submit.disabled = true;
@@ -146,10 +171,10 @@ export class Setup {
     try {
       for (const one of this.#chosen) jobs.push(await createJob(this.kind, this.#options.values, one));
     } catch (error) {
-      this.failed(error);
+      this.told.failed(error);
     } finally {
       submit.disabled = false;
-      if (jobs.length) this.made(jobs);
+      if (jobs.length) this.told.made(jobs);
     }
   }
 }

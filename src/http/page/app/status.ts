@@ -1,6 +1,6 @@
 // The line below the views: what is pointed at, what the colors mean, what is wrong.
 
-import type { Analysis } from "../analysis/analysis";
+import { type Analysis, UNMAPPED } from "../analysis/analysis";
 import { type Measure, MEASURES } from "../analysis/distortion";
 import { gradient } from "../viewer/colors";
 import { CELLS, type Place } from "./address";
@@ -24,12 +24,12 @@ function where({ pointing: { at }, facts }: Viewer): string {
   return `u ${u.toFixed(4)}, v ${v.toFixed(4)} · texel ${Math.floor(u * width)}, ${Math.floor((1 - v) * height)}`;
 }
 
-function words({ chart, group, atlases, values }: Analysis, face: number | null, picked: number | null): string {
+function words({ chart, group, atlases, marks, values }: Analysis, face: number | null, picked: number | null): string {
   if (face === null || face === undefined) return picked === null ? "" : `Chart ${picked + 1} is selected`;
   const atlas = atlases[group[face]!];
   const at = (k: number) => short(values[4 * face + k]);
   const place = `Face ${whole(face)}`;
-  if (!atlas?.isMapped) return `${place} · no UVs`;
+  if (!atlas?.isMapped || marks[face]! & UNMAPPED) return `${place} · no UVs`;
   return `${place} · chart ${chart[face]! + 1} of ${atlas.charts} · sym. Dirichlet ${at(0)} · angle ${at(1)} · area ${at(2)} · ${at(3)} px/unit`;
 }
 
@@ -48,7 +48,8 @@ export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) =>
   if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), scale(viewer));
   if (shown && place.shade === "checker") parts.push(cells(place.cells, changed));
   if (shown && place.problems) {
-    const found = [[shown.overlapping, "overlap", "overlaps"], [shown.flipped, "flipped face", "flipped faces"], [shown.near, "face near another island", "faces near another island"]] as const;
+    const found = [[shown.overlapping, "overlap", "overlaps"], [shown.flipped, "flipped face", "flipped faces"], [shown.near, "face near another island", "faces near another island"],
+      [shown.isMapped ? shown.unmapped : 0, "face without UVs", "faces without UVs"]] as const;
     const wrong = found.filter(([count]) => count).map(([count, one, several]) => counted(count, one, several));
     if (wrong.length) parts.push(element("span", { className: "wrong", textContent: wrong.join(", ") }));
     else if (shown.isMapped) parts.push(element("span", { className: "right", textContent: "No overlaps or flips" }));

@@ -65,7 +65,7 @@ export class Toolbar {
     this.#before.setAttribute("aria-pressed", String(isBefore));
     this.#before.disabled = !hasBefore;
     const atlases = analysis?.atlases ?? [];
-    this.#atlas.replaceChildren(...atlases.map(({ name, label, charts }) => element("option", { value: name, textContent: `${label} · ${counted(charts, "chart")}` })));
+    this.#atlas.replaceChildren(...atlases.map(({ name, label, charts, isMapped }) => element("option", { value: name, textContent: `${label} · ${isMapped ? counted(charts, "chart") : "no UVs"}` })));
     this.#atlas.value = atlases[this.#viewer.atlas]?.name ?? "";
     this.#atlas.hidden = atlases.length < 2;
     this.#showSets();

@@ -9,7 +9,7 @@ import { load, type Loaded } from "../viewer/loading";
 import { SHADES } from "../viewer/look";
 import { Model } from "../viewer/model";
 import type { Relaxing } from "../viewer/relaxing";
-import { pagesOf, pictureOf, sheetOf } from "../viewer/sheet";
+import { pagesOf, Sheet } from "../viewer/sheet";
 import { originsOf, soupOf } from "../viewer/soups";
 import { Stage } from "../viewer/stage";
 import { color } from "../viewer/theme_color";
@@ -30,6 +30,7 @@ export class Viewer {
   analysis: Analysis | null = null;
   /** What the file is, as far as it is shown. */
   facts: Facts | null = null;
+  readonly #sheet = new Sheet();
   #shown = 0;
   #relaxing: Relaxing | null = null;
   #image: Image | null = null;
@@ -52,7 +53,7 @@ export class Viewer {
     if (this.stage) this.#preview(this.stage, loaded, source);
     const uvs = uvsOf(source, loaded, this.place.set);
     const soup = soupOf(loaded, uvs);
-    if (!soup.parts.length) throw new Error("The file has no triangles to show.");
+    if (!soup.parts.some(({ positions }) => positions.length)) throw new Error("The file has no triangles to show.");
     const analysis = await analyzed(soup);
     if (mine !== this.#shown) return false;
     this.facts = { source, ...uvs, texture: soup.texture, origins: originsOf(soup) };
@@ -114,9 +115,10 @@ export class Viewer {
     stage.redraw();
   }
 
-  #take({ source: { name, from, isInput }, set, texture }: Facts, loaded: Loaded, analysis: Analysis): void {
+  #take({ source: { name, from, isInput, isTurning }, set, texture }: Facts, loaded: Loaded, analysis: Analysis): void {
     const isFirst = !this.model;
     if (!isInput) this.calm();
+    if (!isTurning) this.stage?.solid.turn(false);
     this.model?.dispose();
     this.analysis = analysis;
     byId("panes").dataset.shown = name;
@@ -188,9 +190,8 @@ export class Viewer {
     stage.solid.show([...own, ...lines(solid)], model.sphere);
     const atlas = model.analysis.atlases[this.atlas];
     const pages = atlas ? pagesOf(atlas.bounds) : 1;
-    const sheet: Object3D[] = sheetOf(pages, model.aspect, { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") });
     const picture = isOwn ? model.picture() : null;
-    if (picture) sheet.push(pictureOf(picture, model.aspect));
+    const sheet = this.#sheet.of(pages, model.aspect, { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") }, picture);
     stage.plane.show(this.#relaxing?.meshes ?? [...sheet, picture ? plane.overlay : plane.surface, ...lines(plane)]);
   }
 

@@ -2,7 +2,7 @@
 
 import { decodeMaps } from "../live/maps";
 import { Relaxing } from "../viewer/relaxing";
-import { type Job, maps } from "./api";
+import { type Job, maps, Refused } from "./api";
 import { percent, whole } from "./format";
 import type { Viewer } from "./viewer";
 
@@ -21,10 +21,15 @@ export function watchCharts(job: Job, viewer: Viewer, elsewhere: () => void): ()
 async function follow(job: Job, viewer: Viewer, elsewhere: () => void, signal: AbortSignal): Promise<void> {
   const relaxing = new Relaxing();
   for (let after = "0"; !signal.aborted;) {
-    const answer = await maps(job, after, signal);
+    const answer = await maps(job, after, signal).catch((error: unknown) => {
+      // A service that has begun anew counts its frames from the start.
+      if (error instanceof Refused && error.problem.status < 500) throw error;
+      return "gone" as const;
+    });
     if (signal.aborted) return;
     if (answer === "elsewhere") return elsewhere();
-    if (answer === "none") {
+    if (answer === "gone") after = "0";
+    if (answer === "none" || answer === "gone") {
       await new Promise((over) => setTimeout(over, PAUSE_MS));
       continue;
     }

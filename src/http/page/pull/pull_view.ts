@@ -21,6 +21,8 @@ export interface Told {
   failed(error: unknown): void;
   /** A file was chosen here. */
   chosen(): void;
+  /** A session has begun or ended. */
+  changed(): void;
   /** A session was baked to a job. */
   baked(job: Job): void;
 }
@@ -38,6 +40,9 @@ export class PullView implements Doer {
   #client: LiveClient | null = null;
   #shown = Promise.resolve();
   #latest: LiveFrame | null = null;
+  /** The timer until faults are looked for again, and the step of the scene at which they were. */
+  #judging = 0;
+  #latestStep = -1;
   /** Whether something was pulled since the last bake. */
   #isUnsaved = false;
   /** The size of the next grip, as a share of the mesh. */
@@ -60,6 +65,11 @@ export class PullView implements Doer {
   /** The name of what is pulled, or would be. */
   get name(): string | null {
     return this.#origin?.name ?? null;
+  }
+
+  /** Whether something is pulled now. */
+  get isActive(): boolean {
+    return this.#session !== null;
   }
 
   /** What would be pulled: what the page shows. */
@@ -103,6 +113,7 @@ export class PullView implements Doer {
       closed: (_, reason) => this.#ended(ENDS[reason] ?? `The computation ended: ${reason || "the connection was lost"}.`),
     });
     this.#tools.started(this.#origin.name, way, this.#size);
+    this.told.changed();
   }
 
   /** Ends the session, if there is one. */
@@ -114,12 +125,14 @@ export class PullView implements Doer {
   }
 
   #ended(why: string): void {
+    const wasActive = this.isActive;
     this.#session = this.#client = null;
     this.#isUnsaved = false;
     this.grips.take([]);
     this.#scene?.clear();
     this.#drawGrips();
     this.#tools.ended(why);
+    if (wasActive) this.told.changed();
   }
 
   async #show(mesh: LiveMesh): Promise<void> {
@@ -142,7 +155,21 @@ export class PullView implements Doer {
       if (!latest || !this.#client) return;
       this.#scene?.move(latest.positions);
       this.#tools.frame(latest);
+      this.#judge();
     });
+  }
+
+  /** Says how charts lie to each other and to the page, as often as there is time for it. */
+  #judge(): void {
+    const scene = this.#scene;
+    if (!scene?.isMap || this.#judging) return;
+    const begin = performance.now();
+    this.#tools.judged(scene.faults());
+    this.#judging = window.setTimeout(() => {
+      this.#judging = 0;
+      if (this.#latestStep !== scene.step) this.#judge();
+    }, Math.max(100, 4 * (performance.now() - begin)));
+    this.#latestStep = scene.step;
   }
 
   #replied({ error, handles }: Reply, wish: Wish | null): void {

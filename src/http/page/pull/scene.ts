@@ -8,6 +8,7 @@ import type { LiveMesh } from "../live/decode";
 import { PlanePane } from "../viewer/plane_pane";
 import { SolidPane } from "../viewer/solid_pane";
 import { color } from "../viewer/theme_color";
+import { overlapsOf } from "../analysis/overlaps";
 import { sheetOf } from "../viewer/sheet";
 import { Seen } from "./seen";
 
@@ -23,6 +24,14 @@ export interface Look {
   isMap: boolean;
 }
 
+/** What is wrong with UVs that are pulled. */
+export interface Faults {
+  /** Pairs of faces that overlap. */
+  pairs: number;
+  /** Whether a chart lies beyond the pages. */
+  leaves: boolean;
+}
+
 /** A place on the mesh: at rest, and now. */
 export interface Touched { at: number[]; to: number[] }
 
@@ -35,7 +44,10 @@ export class PullScene {
   #look: Look = { down: null, picture: null, isMap: false };
   #body: Mesh | null = null;
   #things: (Mesh | LineSegments)[] = [];
+  readonly #wrong = new BufferGeometry();
   #isAsked = false;
+  /** Counts how often the vertices were moved. */
+  step = 0;
   /** Called after each frame is drawn. */
   drawn: () => void = () => {};
 
@@ -72,6 +84,7 @@ export class PullScene {
     if (!texture && mesh.triangles.length <= 3 * MOST_WIRED) this.#things.push(this.#wire(mesh));
     const key = new DirectionalLight(0xffffff, 2);
     key.position.set(1, 2, 3);
+    if (look.isMap) this.#things.push(this.#marks());
     const lights = [new HemisphereLight(0xffffff, 0x8a8f98, 2), key];
     geometry.computeBoundingSphere();
     if (mesh.dim === 3) this.#solid.show([...this.#things, ...lights], geometry.boundingSphere);
@@ -84,6 +97,15 @@ export class PullScene {
     const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, side: DoubleSide } as const;
     if (this.isPlanar) return new MeshBasicMaterial({ ...(map ? { map } : { color: color("--pulled") }), depthTest: false, depthWrite: false, toneMapped: false, side: DoubleSide });
     return new MeshStandardMaterial({ color: color("--pulled"), flatShading: true, roughness: 0.8, ...offset });
+  }
+
+  /** The faces that overlap others. */
+  #marks(): Mesh {
+    this.#wrong.setAttribute("position", this.#seen!.attribute);
+    this.#wrong.setIndex([]);
+    const marks = new Mesh(this.#wrong, new MeshBasicMaterial({ color: color("--alarm"), transparent: true, opacity: 0.75, depthTest: false, depthWrite: false, toneMapped: false, side: DoubleSide }));
+    marks.frustumCulled = false;
+    return marks;
   }
 
   #wire(mesh: LiveMesh): LineSegments {
@@ -99,7 +121,24 @@ export class PullScene {
   /** Shows where the vertices are now. */
   move(positions: Float32Array | Float64Array): void {
     this.#seen?.move(positions);
+    this.step += 1;
     this.redraw();
+  }
+
+  /** Whether UVs are pulled. */
+  get isMap(): boolean {
+    return this.#look.isMap && this.#seen !== null;
+  }
+
+  /** Counts the faces of UVs that overlap others, marks them in red, and says whether any leaves the pages it was on at rest. */
+  faults(): Faults {
+    const uvs = this.#seen!.uvs();
+    const { triangles } = this.#seen!.mesh;
+    const wrong = new Set<number>();
+    const pairs = overlapsOf({ uvs }, Uint32Array.from({ length: triangles.length / 3 }, (_, k) => k), (one, other) => wrong.add(one).add(other));
+    this.#wrong.setIndex([...wrong].flatMap((k) => [...triangles.subarray(3 * k, 3 * k + 3)]));
+    this.redraw();
+    return { pairs, leaves: this.#seen!.leavesPages() };
   }
 
   clear(): void {

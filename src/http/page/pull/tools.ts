@@ -1,10 +1,11 @@
 // The tools of the pull view: what to pull, what to do, and what the solver says.
 
 import { button, byId, element } from "../app/dom";
-import { short } from "../app/format";
+import { counted, short } from "../app/format";
 import type { LiveFrame } from "../live/decode";
 import type { Gesture } from "../viewer/gesture";
 import type { Grips } from "./grips";
+import type { Faults } from "./scene";
 import { ACCEPTED, type Way } from "./what";
 
 /** What the tools ask for. */
@@ -79,6 +80,7 @@ export class PullTools {
   ended(why: string): void {
     this.#show(false);
     this.say(why);
+    this.judged({ pairs: 0, leaves: false });
     byId("pull-figures").textContent = "";
   }
 
@@ -107,6 +109,12 @@ export class PullTools {
       tool.disabled = ["grab", "rotate", "scale"].includes(does!) ? !grips.chosen().length : ["lock", "let_go"].includes(does!) ? !hasSelected : false;
       tool.setAttribute("aria-pressed", String(does === gesture));
     }
+  }
+
+  /** Says what is wrong with UVs where they are now. */
+  judged({ pairs, leaves }: Faults): void {
+    const faults = [pairs ? counted(pairs, "overlap") : "", leaves ? "beyond the page" : ""].filter(Boolean);
+    byId("pull-faults").textContent = faults.join(" · ");
   }
 
   /** Milliseconds that a message waited for the frame that contains it. */

@@ -40,16 +40,35 @@ export function extension(name: string): string {
   return name.split(".").pop()?.toLowerCase() ?? "";
 }
 
+/** A file that may well be valid, but of which there is no view here. */
+export class NoView extends Error {}
+
+/** One white pixel, for pictures that were not chosen. */
+const WHITE = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8/5+hHgAHggJ/PchI7wAAAABJRU5ErkJggg==";
+
 /** Reads a file; the error says what to do. */
 export async function load(bundle: Bundle): Promise<Loaded> {
   const kind = extension(bundle.name);
   if (kind === "glb" || kind === "gltf") return loadGltf(bundle);
   const plain = (scene: Object3D): Loaded => ({ scene, record: null, parser: null });
-  if (kind === "obj") return plain(new OBJLoader().parse(await bundle.content.text()));
+  if (kind === "obj") return plain(withoutPlaceholders(new OBJLoader().parse(await bundle.content.text())));
   if (kind === "ply") return plain(meshOf(new PLYLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "stl") return plain(meshOf(new STLLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "off") return plain(meshOf(parseOff(await bundle.content.text())));
-  throw new Error(`There is no view of .${kind} files here. The job works on it all the same.`);
+  throw new NoView(`There is no view of .${kind} files here. The job works on it all the same.`);
+}
+
+/** Three gives faces without UVs zeros where other faces of the object have UVs: what they have instead is no number. */
+function withoutPlaceholders(scene: Object3D): Object3D {
+  scene.traverse((object) => {
+    const uv = (object as Partial<Mesh>).geometry?.getAttribute("uv");
+    if (!uv) return;
+    const { array } = uv;
+    for (let k = 0; k + 6 <= array.length; k += 6) {
+      if (array.subarray(k, k + 6).every((x) => x === 0)) array.fill(Number.NaN, k, k + 6);
+    }
+  });
+  return scene;
 }
 
 function meshOf(geometry: BufferGeometry): Mesh {
@@ -59,10 +78,16 @@ function meshOf(geometry: BufferGeometry): Mesh {
 async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
   const manager = new LoadingManager();
   const made: string[] = [];
+  const missing = new Set<string>();
   manager.setURLModifier((url) => {
+    if (/^(data|blob):/.test(url)) return url;
     const path = decodeURIComponent(url).replace(/^\.\//, "");
     const resource = resources.get(path) ?? resources.get(path.split("/").pop() ?? "");
-    if (!resource) return url;
+    // The service has nothing at the paths of a file that is not uploaded yet: it is not asked for them.
+    if (!resource) {
+      missing.add(path);
+      return /\.(png|jpe?g|webp|ktx2|avif)$/i.test(path) ? WHITE : "data:,";
+    }
     made.push(URL.createObjectURL(resource));
     return made.at(-1)!;
   });
@@ -73,11 +98,21 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
     return { scene: gltf.scene, record: extras?.unwrapd ?? null, parser: gltf.parser };
   } catch (error) {
     const detail = String(error instanceof Error ? error.message : error);
-    if (/draco|meshopt|ktx2/i.test(detail)) throw new Error("The file is compressed in a way that this view does not decode. Unwrap it: the result is shown.");
-    throw new Error(`The view cannot read this glTF: ${detail}`);
+    if (/draco|meshopt|ktx2/i.test(detail) || (await isCompressed(content))) {
+      throw new NoView("The file is compressed in a way that this view does not decode. Unwrap it: the result is shown.");
+    }
+    const buffer = [...missing].find((path) => !/\.(png|jpe?g|webp|ktx2|avif)$/i.test(path));
+    if (buffer) throw new NoView(`The file needs ${buffer}, which was not chosen with it. Choose both together.`);
+    throw new Error(`The view cannot read this glTF${detail.startsWith("it has") ? `: ${detail}` : ". Unwrap it to be told what is wrong with it."}`);
   } finally {
     made.forEach((url) => URL.revokeObjectURL(url));
   }
+}
+
+/** Whether a glTF says that its meshes or pictures cannot be read without a decoder. */
+async function isCompressed(content: Blob): Promise<boolean> {
+  const begin = await content.slice(0, 1 << 20).text();
+  return /KHR_draco_mesh_compression|EXT_meshopt_compression|KHR_texture_basisu/.test(begin);
 }
 
 /** Object File Format: a line of counts, vertices, polygons. */

@@ -190,24 +190,28 @@ in uvec4 facts;
 flat out uint vId;
 flat out vec4 vColor;
 
-vec4 placed(vec3 inScene, vec2 inPlane) {
+// Seams lie this share of their distance before the surface, which hides those behind it at any distance.
+vec4 placed(vec3 inScene, vec2 inPlane, float before) {
 #ifdef PLANE
   return projectionMatrix * modelViewMatrix * vec4(inPlane.x * uAspect, inPlane.y, 0.0, 1.0);
 #else
-  return projectionMatrix * modelViewMatrix * vec4(inScene, 1.0);
+  vec4 seen = modelViewMatrix * vec4(inScene, 1.0);
+  return projectionMatrix * vec4(seen.xyz * (1.0 - before), 1.0);
 #endif
 }
 
 void main() {
   uint ofGroup = facts.y & 0xffffu;
   int mark = placedMarks(facts.x, ofGroup);
-  vec4 a = placed(from, placedAt(planeEnds.xy, facts.x, ofGroup));
-  vec4 b = placed(to, placedAt(planeEnds.zw, facts.x, ofGroup));
   float chart = float(facts.x), group = float(facts.y & 0xffffu), seam = float(facts.z);
   uint marks = facts.y >> 16;
   bool isHovered = uHover.w == seam || (uHover.y == chart && uHover.z == group);
   bool isPicked = uSelected.w == seam || (uSelected.y == chart && uSelected.z == group);
   isPicked = isPicked || (mark & 1) != 0;
+  // Both sides of a seam lie at one place: what is pointed at covers the other.
+  float before = isHovered || isPicked ? 0.003 : 0.0015;
+  vec4 a = placed(from, placedAt(planeEnds.xy, facts.x, ofGroup), before);
+  vec4 b = placed(to, placedAt(planeEnds.zw, facts.x, ofGroup), before);
   bool isNear = uArranging == 1 ? (mark & 4) != 0 : (marks & 4u) != 0u;
   float width = isNear ? 3.0 : (marks & 8u) != 0u ? 2.2 : 1.4;
   if (isHovered || isPicked) width += 1.6;
@@ -222,9 +226,6 @@ void main() {
 #ifdef PLANE
   gl_Position.z = placedDepth(facts.x, ofGroup) - 0.01;
   if (int(group) != uAtlas) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
-#else
-  // Both sides of a seam lie at one place: what is pointed at covers the other.
-  gl_Position.z -= (isHovered || isPicked ? 0.0012 : 0.0006) * gl_Position.w;
 #endif
   if (isLeftOut(facts.x, ofGroup)) gl_Position = vec4(2.0, 2.0, 2.0, 0.0);
 }`;

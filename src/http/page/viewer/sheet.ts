@@ -13,6 +13,24 @@ export interface SheetColors {
 
 const DIVISIONS = 8;
 
+/** What lies below the UVs, made anew only if it changes: what was there before is freed. */
+export class Sheet {
+  #key = "";
+  #things: (Mesh | LineSegments)[] = [];
+
+  of(pages: number, aspect: number, colors: SheetColors, picture: Texture | null): (Mesh | LineSegments)[] {
+    const key = [pages, aspect, ...Object.values(colors), picture?.uuid].join();
+    if (key === this.#key) return this.#things;
+    for (const { geometry, material } of this.#things) {
+      geometry.dispose();
+      for (const one of [material].flat()) one.dispose();
+    }
+    this.#key = key;
+    this.#things = [...sheetOf(pages, aspect, colors), ...(picture ? [pictureOf(picture, aspect)] : [])];
+    return this.#things;
+  }
+}
+
 /** The sheet of this many pages of this aspect. */
 export function sheetOf(pages: number, aspect: number, colors: SheetColors): (Mesh | LineSegments)[] {
   const inner: number[] = [];

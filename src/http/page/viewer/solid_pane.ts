@@ -7,17 +7,22 @@ import { isStill, move } from "./motion";
 /** glTF's front is +z. */
 const FRONT = [0.55, 0.35, 1] as const;
 
+/** The time in which it turns once around: 60 s at a speed of 1, as `OrbitControls` have it. */
+const SPEED = 1.4;
+const TURNING_MS = 60_000 / SPEED;
+
 /** A camera, its scene, and how a person moves it. */
 export class SolidPane {
   readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
   readonly scene = new Scene();
   readonly #controls: OrbitControls;
   #around = new Sphere(new Vector3(), 1);
+  #rest = 0;
 
   constructor(readonly element: HTMLElement, changed: () => void) {
     this.#controls = new OrbitControls(this.camera, element);
     this.#controls.zoomToCursor = true;
-    this.#controls.autoRotateSpeed = 1.4;
+    this.#controls.autoRotateSpeed = SPEED;
     this.#controls.addEventListener("change", changed);
     this.#controls.addEventListener("start", () => this.turn(false));
   }
@@ -45,9 +50,11 @@ export class SolidPane {
     move((t) => this.#look(from.clone().lerp(to, t), target.clone().lerp(place, t)));
   }
 
-  /** Turns slowly until a person takes over. */
+  /** Turns slowly until a person takes over, but not for longer than it takes to see all of it. */
   turn(isTurning: boolean): void {
     this.#controls.autoRotate = isTurning && !isStill();
+    clearTimeout(this.#rest);
+    if (this.#controls.autoRotate) this.#rest = window.setTimeout(() => this.turn(false), TURNING_MS);
   }
 
   get isTurning(): boolean {
