@@ -6,7 +6,6 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
 use super::{Cluster, assert_whole, submitted};
-use crate::harness::process::Process;
 use crate::meshes;
 use crate::server::{SOON, Server, assert_problem};
 
@@ -185,24 +184,22 @@ async fn a_worker_that_is_told_to_stop_hands_its_job_back() {
 async fn workers_killed_every_few_seconds_lose_no_job() {
     let cluster = Cluster::start();
     let api = cluster.api();
-    let mut workers = [cluster.worker(), cluster.worker()];
-    let jobs = submitted(&api, 256..286).await;
+    let mut workers = [cluster.worker(), cluster.worker(), cluster.worker()];
+    let jobs = submitted(&api, 256..296).await;
     for kill in 0.. {
         let ended = || {
             let states = "SELECT count(*) FROM job WHERE state NOT IN ('queued', 'running')";
             cluster.postgres.psql("unwrapd", states).trim().to_owned()
         };
-        if ended() == "30" {
+        if ended() == "40" {
             assert!(0 < kill, "nothing was killed");
             break;
         }
-        // The one that has a job, if there is one.
-        let is_busy = |worker: &Process| !worker.children().is_empty();
-        let busy = workers.iter().position(is_busy).unwrap_or(kill % 2);
-        workers[busy].kill();
-        workers[busy].restart();
+        workers[kill % 3].kill();
+        workers[kill % 3].restart();
         tokio::time::sleep(Duration::from_secs(4)).await;
     }
+    let _ = api.get("/healthz").send().await;
     for job in &jobs {
         assert_whole(&api, job).await;
     }

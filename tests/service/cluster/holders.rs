@@ -58,6 +58,8 @@ async fn a_job_outlives_three_workers_and_is_computed_alone() {
         soon("nobody misses it", || cluster.attempts()[&id].2 == attempt).await;
     }
     let _worker = cluster.worker();
+    // A connection that was silent for long may be about to close.
+    let _ = api.get("/healthz").send().await;
     let next = submitted(&api, 256..257).await;
     api.mapping(&job).await;
     let path = job["links"]["self"].as_str().expect("a link");
