@@ -6,8 +6,8 @@ use clap::builder::StyledStr;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    batch, completions, config, deform, drain, edit_uv, health, keys, man, measure, queue, repack,
-    serve, solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
+    batch, check, completions, config, deform, drain, edit_uv, health, keys, man, measure, queue,
+    repack, serve, solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
 };
 use crate::options::as_typed;
 
@@ -114,10 +114,21 @@ pub(super) enum Command {
     /// Keys are in the database of the service and hold for all processes that share it. Once one
     /// was made, they refuse calls without a key. It can be done while they run.
     Keys(keys::Args),
-    /// Look at the queue, pause it and resume it
+    /// Look at the queue, pause it, resume it, and try failed jobs again
     ///
     /// It works on the database of the service, for all processes that share it, while they run.
     Queue(queue::Args),
+    /// Compare the records of a service with its files: exit 0 if all is there
+    ///
+    /// It reads every file and lists those that are missing or damaged, and files without a job. The
+    /// service may run meanwhile. Nothing is changed unless an option asks for it. The exit status
+    /// is 1 if anything was found.
+    ///
+    /// A database and its files share an identity, and no process starts on two that do not belong
+    /// together. After a restore of parts that do, `adopt` joins them. Files without a job are kept
+    /// in quarantine for days (`quarantine-days` of `serve`) and then deleted, but not while they are
+    /// more than 20 and more than 1 % of all: then a person decides, by `purge`.
+    Check(check::Args),
     /// Have a service take in and start no more jobs, before it is stopped
     ///
     /// It is the service on a data folder of this machine. Running jobs end as usual, and the service

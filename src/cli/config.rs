@@ -15,6 +15,16 @@ const PREFIX: &str = "UNWRAPD_";
 /// What stands for a secret.
 const HIDDEN: &str = "***";
 
+/// Variables by which S3 is set up, and whether they are secret.
+const S3: [(&str, bool); 6] = [
+    ("AWS_ENDPOINT_URL", false),
+    ("AWS_ALLOW_HTTP", false),
+    ("AWS_REGION", false),
+    ("AWS_ACCESS_KEY_ID", false),
+    ("AWS_SECRET_ACCESS_KEY", true),
+    ("AWS_SESSION_TOKEN", true),
+];
+
 /// The arguments of `config`.
 #[derive(clap::Args)]
 #[group(id = "config")]
@@ -45,6 +55,7 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
         .filter(|option| option.get_env().is_some())
         .map(|option| Row::of(option, typed, &derived))
         .collect();
+    let rows: Vec<Row> = rows.into_iter().chain(S3.map(Row::of_s3)).collect();
     for variable in unknown(program) {
         warn_of(format!("no option reads {variable}"));
     }
@@ -64,6 +75,21 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
 }
 
 impl Row {
+    /// A variable that no option stands for.
+    fn of_s3((name, is_secret): (&str, bool)) -> Self {
+        let value = std::env::var(name).ok();
+        Self {
+            option: name.to_owned(),
+            source: if value.is_some() {
+                "environment"
+            } else {
+                "default"
+            },
+            value: value.map(|value| shown(&value, is_secret)),
+            variable: Some(name.to_owned()),
+        }
+    }
+
     fn of(option: &Arg, typed: &ArgMatches, derived: &[(&str, String)]) -> Self {
         let id = option.get_id().as_str();
         let raw = typed.get_raw(id).into_iter().flatten();

@@ -12,6 +12,7 @@ mod acceptance;
 mod batch;
 mod bulk_args;
 mod bulk_display;
+mod check;
 mod command;
 mod completions;
 mod config;
@@ -31,6 +32,7 @@ mod man;
 mod measure;
 mod output;
 mod owner_args;
+mod privacy;
 mod process;
 mod progress;
 mod queue;
@@ -103,6 +105,7 @@ fn run_typed(
         Command::Worker(args) => worker::run(&args, own(program)?).map_err(Failure::other),
         Command::Keys(args) => keys::run(&args),
         Command::Queue(args) => queue::run(&args),
+        Command::Check(args) => check::run(&args),
         Command::Drain(args) => drain::run(&args),
         Command::WebhookSecret(args) => webhook_secret::run(&args),
         Command::Config(args) => config::run(&args, &command::command(), typed),

@@ -33,7 +33,8 @@ pub(super) struct OwnerArgs {
         value_parser = seconds
     )]
     owner_cpu_seconds: Option<f64>,
-    /// Maximum number of live sessions of one owner [default: no limit but `sessions`]
+    /// Maximum number of live sessions of one owner [default: half of `sessions`, rounded up; without
+    /// keys, all callers are one owner, and have all]
     #[arg(long, value_name = "N", env = "UNWRAPD_OWNER_SESSIONS")]
     pub owner_sessions: Option<u16>,
 }

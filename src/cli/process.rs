@@ -39,15 +39,20 @@ fn lock(data: &Path) -> Result<File, String> {
     Ok(lock)
 }
 
+/// The URL of the place for files: the one that is named, or a part of the data folder.
+pub(super) fn blobs_url(data: &Path, named: Option<&str>) -> Result<String, String> {
+    match named {
+        Some(blobs) => Ok(blobs.to_owned()),
+        None => Ok(format!("file://{}", url_path(&data.join("blobs"))?)),
+    }
+}
+
 /// The queue on the stores that are asked for, in order, and its records.
 pub(super) async fn queue(
     args: &WorkArgs,
     settings: Settings,
 ) -> Result<(Arc<Jobs>, Arc<RecordStore>), String> {
-    let blobs = match &args.blobs {
-        Some(blobs) => blobs.clone(),
-        None => format!("file://{}", url_path(&args.store.data.join("blobs"))?),
-    };
+    let blobs = blobs_url(&args.store.data, args.blobs.as_deref())?;
     let store = RecordStore::open(&args.store.database_url()?, settings.rules)
         .await
         .map_err(|error| format!("cannot use the database: {error}"))?;

@@ -1,11 +1,12 @@
-//! `unwrapd queue`: the queue looked at, paused and resumed.
+//! `unwrapd queue`: the queue looked at, paused and resumed, and failed jobs tried again.
 
 use serde::Serialize;
 
 use super::console::{print, print_json};
 use super::failure::Failure;
 use super::store_args::StoreArgs;
-use crate::jobs::{JobStore, State, StoreError};
+use crate::jobs::access::{Owner, Reach};
+use crate::jobs::{JobStore, Listing, State, StoreError, retry_failed};
 use crate::store::RecordStore;
 
 /// The arguments of `queue`.
@@ -23,6 +24,8 @@ enum Action {
     Pause(StoreArgs),
     /// Start waiting jobs again
     Resume(StoreArgs),
+    /// Try failed jobs again, all or those that failed with a code
+    Retry(Retry),
 }
 
 #[derive(clap::Args)]
@@ -30,6 +33,18 @@ struct Status {
     /// Print JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    store: StoreArgs,
+}
+
+#[derive(clap::Args)]
+struct Retry {
+    /// Only jobs that failed with this code, such as worker_lost
+    #[arg(long, value_name = "CODE")]
+    code: Option<String>,
+    /// Only jobs of this owner
+    #[arg(long, value_name = "NAME")]
+    owner: Option<Owner>,
     #[command(flatten)]
     store: StoreArgs,
 }
@@ -50,6 +65,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             Action::Status(args) => status(args).await,
             Action::Pause(args) => set_paused(args, true).await,
             Action::Resume(args) => set_paused(args, false).await,
+            Action::Retry(args) => retry(args).await,
         }
     })
 }
@@ -57,6 +73,28 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 async fn set_paused(args: &StoreArgs, paused: bool) -> Result<(), Failure> {
     let set = args.opened().await?.set_paused(paused).await;
     set.map_err(|error| Failure::other(format!("nothing was changed: {error}")))
+}
+
+async fn retry(args: &Retry) -> Result<(), Failure> {
+    let store = args.store.opened().await?;
+    let mut listing = Listing {
+        owner: args.owner.clone(),
+        ..Listing::default()
+    };
+    let mut count = 0;
+    loop {
+        let code = args.code.as_deref();
+        let retried = retry_failed(&store, &Reach::All, listing.clone(), code).await;
+        let retried = retried
+            .map_err(|error| Failure::other(format!("{count} jobs tried again, then: {error}")))?;
+        count += retried.jobs.len();
+        if retried.next.is_none() {
+            break;
+        }
+        listing.after = retried.next;
+    }
+    print(format!("{count} jobs queued again"));
+    Ok(())
 }
 
 async fn status(args: &Status) -> Result<(), Failure> {

@@ -60,6 +60,16 @@ pub(super) struct Args {
         value_parser = days
     )]
     retain_days: f64,
+    /// Days to keep files without a job, as a crash or the restore of an older database leaves them,
+    /// before they are deleted
+    #[arg(
+        long,
+        value_name = "DAYS",
+        env = "UNWRAPD_QUARANTINE_DAYS",
+        default_value_t = 7.0,
+        value_parser = days
+    )]
+    quarantine_days: f64,
     /// Maximum number of live sessions, each with a process of its own
     #[arg(long, value_name = "N", env = "UNWRAPD_SESSIONS", default_value_t = 16)]
     sessions: u16,
@@ -97,7 +107,7 @@ impl Args {
             ("workers", self.work.workers().to_string()),
             ("job_memory_mib", (self.work.memory() >> 20).to_string()),
             ("max_connections", connections.to_string()),
-            ("owner_sessions", self.sessions.to_string()),
+            ("owner_sessions", self.sessions.div_ceil(2).to_string()),
         ]
     }
 
@@ -107,6 +117,7 @@ impl Args {
             quota: self.quota_mib.map(|mib| mib.saturating_mul(1 << 20)),
             of_owner: self.owner.quotas(),
             retention: Some(Duration::from_secs_f64(self.retain_days * DAY_SECONDS)),
+            quarantine: Duration::from_secs_f64(self.quarantine_days * DAY_SECONDS),
             ..self.work.settings(program)
         }
     }
@@ -114,7 +125,7 @@ impl Args {
     fn session_settings(&self) -> sessions::Settings {
         sessions::Settings {
             most: usize::from(self.sessions),
-            most_of_owner: usize::from(self.owner.owner_sessions.unwrap_or(self.sessions)),
+            most_of_owner: self.owner.owner_sessions.map(usize::from),
             idle: Duration::from_secs_f64(self.session_seconds),
         }
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::failure::Failure;
+use super::privacy::make_private;
 use crate::jobs::Rules;
 use crate::store::RecordStore;
 
@@ -51,10 +52,9 @@ impl StoreArgs {
         store.map_err(|error| Failure::other(format!("cannot use the database: {error}")))
     }
 
-    /// Makes the folder.
+    /// Makes the folder, and keeps it and what is made from now on from others.
     pub fn make_folder(&self) -> Result<(), String> {
-        std::fs::create_dir_all(&self.data)
-            .map_err(|error| format!("cannot create {}: {error}", self.data.display()))
+        make_private(&self.data)
     }
 }
 

@@ -18,7 +18,9 @@ pub(super) struct WorkArgs {
     #[command(flatten)]
     pub watch: WatchArgs,
     /// Place for files, shared with other processes: s3://BUCKET/PREFIX, or a mounted folder as
-    /// file:///DIR. S3 is set up by the usual AWS_ environment variables
+    /// file:///DIR. S3 is set up by environment variables: AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY,
+    /// AWS_SESSION_TOKEN, AWS_REGION (us-east-1); AWS_ENDPOINT_URL names a server other than Amazon's,
+    /// and needs AWS_ALLOW_HTTP=true if it begins with http://
     #[arg(
         long,
         value_name = "URL",
@@ -72,6 +74,17 @@ pub(super) struct WorkArgs {
         default_value_t = 64
     )]
     min_free_mib: u64,
+    /// Number of attempts of a job whose computation is killed, as the system does for want of memory.
+    /// Attempts that are lost with their worker count apart, up to 20; the pause after each doubles,
+    /// from one second to five minutes. All processes must have the same
+    #[arg(
+        long,
+        value_name = "N",
+        env = "UNWRAPD_ATTEMPTS",
+        default_value_t = 3,
+        value_parser = clap::value_parser!(u32).range(1..=100)
+    )]
+    attempts: u32,
     /// Seconds of silence after which the job of a worker goes to another. All processes must have
     /// the same
     #[arg(
@@ -129,6 +142,7 @@ impl WorkArgs {
             },
             rules: Rules {
                 lease: Duration::from_secs_f64(self.lease_seconds),
+                attempts: self.attempts,
                 ..Rules::default()
             },
             scratch: self.store.data.join("scratch"),
@@ -145,6 +159,7 @@ impl WorkArgs {
             of_owner: jobs::OwnerQuotas::default(),
             min_free: self.min_free_mib.saturating_mul(1 << 20),
             retention: None,
+            quarantine: Duration::ZERO,
             grace: Duration::from_secs_f64(self.grace_seconds),
         }
     }

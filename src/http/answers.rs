@@ -28,6 +28,9 @@ impl IntoResponses for FileAnswers {
             Code::NotFinished,
             Code::NoResult,
             Code::RangeNotSatisfiable,
+            Code::DamagedFile,
+            Code::MissingFile,
+            Code::StoreUnavailable,
         ]);
         for (status, description) in [
             ("206", "The requested range"),
@@ -47,6 +50,8 @@ impl IntoResponses for ArchiveProblems {
             Code::JobExpired,
             Code::NotFinished,
             Code::NoResult,
+            Code::DamagedFile,
+            Code::MissingFile,
             Code::StoreUnavailable,
             Code::StorageFull,
         ])

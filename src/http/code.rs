@@ -71,6 +71,7 @@ codes! {
     InternalError => ("internal_error", 500, "The service failed"),
     Crashed => ("crashed", 500, "A bug in the service ended the computation"),
     DamagedFile => ("damaged_file", 500, "A stored file is damaged"),
+    MissingFile => ("missing_file", 500, "A stored file is missing"),
     QueueFull => ("queue_full", 503, "The queue is full"),
     SessionsTaken => ("sessions_taken", 503, "All live sessions are taken"),
     Stopping => ("stopping", 503, "The service is shutting down"),

@@ -28,13 +28,22 @@ const SECONDS: [f64; 13] = [
 const UPKEEP: Duration = Duration::from_secs(5);
 
 /// Gauges with their meanings.
-const GAUGES: [(&str, &str); 16] = [
+const GAUGES: [(&str, &str); 19] = [
     (BUILD_INFO, "Always 1; the version of the program"),
     (JOBS, "Jobs in the store by state"),
     (OLDEST, "For how long the oldest queued job has waited"),
     (QUEUE_DEPTH, "Jobs that may be queued"),
     (STORE_UP, "Whether the job database answered just now"),
-    (STORED, "Bytes of the files of all jobs"),
+    (
+        BLOBS_UP,
+        "Whether files of jobs could be stored and read just now",
+    ),
+    (
+        STORED,
+        "Bytes of the files of all jobs, and of those in quarantine",
+    ),
+    (QUARANTINED, "Jobs without a record whose files are kept"),
+    (QUARANTINED_BYTES, "Bytes of these files"),
     (QUOTA, "Bytes that they may take together"),
     (FREE, "Bytes free where files of jobs lie"),
     (SCRATCH_FREE, "Bytes free where uploads and attempts lie"),
@@ -57,6 +66,9 @@ const JOBS: &str = "unwrapd_jobs";
 const OLDEST: &str = "unwrapd_queue_oldest_seconds";
 const QUEUE_DEPTH: &str = "unwrapd_queue_limit";
 const STORE_UP: &str = "unwrapd_store_up";
+const BLOBS_UP: &str = "unwrapd_blobs_up";
+const QUARANTINED: &str = "unwrapd_quarantined_jobs";
+const QUARANTINED_BYTES: &str = "unwrapd_quarantined_bytes";
 const STORED: &str = "unwrapd_stored_bytes";
 const QUOTA: &str = "unwrapd_quota_bytes";
 const FREE: &str = "unwrapd_free_bytes";
@@ -109,8 +121,10 @@ impl Exposition {
 
     /// The text.
     pub(super) async fn text(&self) -> String {
-        let is_up = self.look_at_store().await.is_ok();
+        let (store, blobs) = tokio::join!(self.look_at_store(), self.jobs.check_blobs());
+        let is_up = store.is_ok();
         gauge!(STORE_UP).set(f64::from(u8::from(is_up)));
+        gauge!(BLOBS_UP).set(f64::from(u8::from(blobs.is_ok())));
         if !is_up {
             meters::store_failed();
             // What is not known is no number: the last one would look like news.
@@ -127,8 +141,10 @@ impl Exposition {
         }
         gauge!(OLDEST).set(queue.oldest_wait.as_secs_f64());
         let usage = self.jobs.usage().await?;
+        gauge!(QUARANTINED).set(usage.quarantined as f64);
         for (name, bytes) in [
             (STORED, Some(usage.stored)),
+            (QUARANTINED_BYTES, Some(usage.quarantined_bytes)),
             (QUOTA, usage.quota),
             (FREE, usage.free),
             (SCRATCH_FREE, Some(usage.scratch_free)),

@@ -3,7 +3,7 @@
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::extract::Parameters;
 use super::handling::metadata;
@@ -12,7 +12,7 @@ use super::problem::{Code, Problem};
 use super::view::JobPage;
 use super::{Shared, json};
 use crate::jobs::access::{Caller, Owner};
-use crate::jobs::{Kind, Listing, Metadata, Order, State as JobState, Timestamp};
+use crate::jobs::{JobId, Kind, Listing, Metadata, Order, State as JobState, Timestamp};
 
 const DEFAULT_PAGE: u32 = 50;
 const MAX_PAGE: u32 = 200;
@@ -44,6 +44,43 @@ pub(super) struct ListQuery {
     /// `next` of the previous page.
     #[param(format = "uuid")]
     cursor: Option<String>,
+}
+
+/// Which failed jobs to try again.
+#[derive(Deserialize, utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RetryQuery {
+    /// Only jobs that failed with this code, such as `worker_lost`.
+    code: Option<String>,
+    /// Only jobs of this kind.
+    kind: Option<Kind>,
+    /// Only jobs of this owner; empty for those made without a key.
+    owner: Option<String>,
+    /// Only jobs whose metadata has these members with these values, as a JSON object.
+    metadata: Option<String>,
+    /// Only jobs accepted at this time or later.
+    #[param(format = "date-time")]
+    created_from: Option<String>,
+    /// Only jobs accepted before this time.
+    #[param(format = "date-time")]
+    created_before: Option<String>,
+    /// `next` of the previous answer.
+    #[param(format = "uuid")]
+    cursor: Option<String>,
+}
+
+/// Failed jobs that are queued again.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct RetriedJobs {
+    /// How many there are.
+    retried: usize,
+    /// Their ids, the oldest first.
+    #[schema(value_type = Vec<String>)]
+    jobs: Vec<JobId>,
+    /// The `cursor` that goes on after them, if there may be more.
+    #[schema(value_type = Option<String>)]
+    next: Option<JobId>,
 }
 
 impl ListQuery {
@@ -118,4 +155,47 @@ pub(super) async fn list_jobs(
         .map(|job| job.id.to_string());
     let jobs = jobs.iter().map(|job| view(&app, job)).collect();
     Ok(json(StatusCode::OK, &JobPage { jobs, next }))
+}
+
+/// Try failed jobs again, with filters.
+///
+/// All filters must be met. Each job is queued with its input and its options, under the same id, as
+/// by `POST /v1/jobs/{id}/retry`. One call tries up to 1000 jobs, the oldest first; `next` is the
+/// `cursor` for more. Repeating a call is harmless: jobs that have not failed are left alone.
+#[utoipa::path(
+    post, path = "/v1/jobs/retry", operation_id = "retryJobs", tag = "jobs", params(RetryQuery),
+    responses(
+        (status = 202, description = "The jobs that are queued again", body = RetriedJobs),
+        (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn retry_jobs(
+    State(app): Shared,
+    caller: Caller,
+    Parameters(query): Parameters<RetryQuery>,
+) -> Result<Response, Problem> {
+    let code = query.code.clone();
+    let query = ListQuery {
+        state: None,
+        kind: query.kind,
+        owner: query.owner,
+        metadata: query.metadata,
+        created_from: query.created_from,
+        created_before: query.created_before,
+        order: None,
+        limit: None,
+        cursor: query.cursor,
+    };
+    let listing = query.listing(DEFAULT_PAGE)?;
+    let retried = app
+        .jobs
+        .retry_failed(&caller.reach(), listing, code.as_deref())
+        .await?;
+    let jobs: Vec<JobId> = retried.jobs.iter().map(|job| job.id).collect();
+    let answer = RetriedJobs {
+        retried: jobs.len(),
+        jobs,
+        next: retried.next,
+    };
+    Ok(json(StatusCode::ACCEPTED, &answer))
 }

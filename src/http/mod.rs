@@ -108,6 +108,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(jobs::get_job, jobs::delete_job))
         .routes(routes!(jobs::finish_job))
         .routes(routes!(jobs::retry_job))
+        .routes(routes!(list::retry_jobs))
         .routes(routes!(events::watch_job))
         .routes(routes!(maps::watch_maps))
         .routes(routes!(inputs::get_input))

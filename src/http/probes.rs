@@ -21,8 +21,8 @@ pub(super) async fn healthz() -> &'static str {
 
 /// Check whether the service accepts jobs.
 ///
-/// It does when records can be written, the disks have as much free space as the service asks for,
-/// and the quota is not used up.
+/// It does when records can be written, the place for files is that of the service and takes more,
+/// the disks have as much free space as the service asks for, and the quota is not used up.
 #[utoipa::path(
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses(
@@ -49,7 +49,8 @@ pub(super) async fn readyz(State(app): Shared) -> Result<&'static str, Problem> 
 /// Get metrics in the Prometheus text format.
 ///
 /// They are those of this process, and the state of the store, which is the same for all. While the
-/// job database does not answer, `unwrapd_store_up` is 0. `serve` and `worker` can also show them
+/// job database does not answer, `unwrapd_store_up` is 0, and while files cannot be stored,
+/// `unwrapd_blobs_up` is. `serve` and `worker` can also show them
 /// without a key, at an address of its own (`--metrics-listen`).
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "service",

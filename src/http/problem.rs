@@ -122,6 +122,7 @@ impl From<StoreError> for Problem {
                 Self::new(Code::StoreUnavailable, "try again later")
             }
             StoreError::Damaged(what) => Self::new(Code::DamagedFile, what),
+            StoreError::Missing(what) => Self::new(Code::MissingFile, what),
             // Where it is concerns nobody but whoever runs the service.
             StoreError::File { why, .. } => {
                 let detail = format!("a file of the service cannot be used: {why}");

@@ -17,6 +17,9 @@ use crate::jobs::{Job, JobId, State as JobState};
 ///
 /// The option `format` sets its format. Files that belong to it, such as the `.bin` of a `.gltf`, are
 /// listed in `links.files` of the job. Ranges and `If-None-Match` are supported.
+///
+/// A file of up to 16 MiB is verified before its first byte, also for a range of it. A larger one is
+/// verified as it is sent as a whole: if it is damaged, the answer ends early.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/result", operation_id = "getResult", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),

@@ -64,6 +64,7 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
         tracing::error!(job = %job.id, %error, "attempt failed");
         Some(match error {
             StoreError::Damaged(what) => Ending::Failed(Failure::new("damaged_file", what)),
+            StoreError::Missing(what) => Ending::Failed(Failure::new("missing_file", what)),
             _ if error.is_passing() => {
                 rest = PAUSE;
                 Ending::HandedBack(PAUSE)
@@ -97,8 +98,13 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
     made.map_err(StoreError::at(folder))?;
     for (index, file) in job.input.iter().enumerate() {
         let to = folder.join(task::input_file(index));
-        jobs.blobs.fetch(&input_key(job.id, index), &to).await?;
-        checksum::check(&to, file.sha256.as_deref()).await?;
+        let fetched = async {
+            jobs.blobs.fetch(&input_key(job.id, index), &to).await?;
+            checksum::check(&to, file.sha256.as_deref()).await
+        };
+        if let Err(error) = fetched.await {
+            return Err(jobs.lost_file(error).await);
+        }
     }
     let settings = &jobs.settings;
     let task = Task {
@@ -149,8 +155,11 @@ async fn compute(
     if matches!(exit, Exit::Code(NO_SPACE)) {
         return Err(StoreError::Full("an attempt's folder".to_owned()));
     }
-    if exit.is_from_outside() {
-        let is_out_of_memory = exit.is_kill() && kills.is_one_more();
+    if exit.is_from_outside() && !exit.is_kill() {
+        return Ok(Some(Ending::Interrupted(exit.cause())));
+    }
+    if exit.is_kill() {
+        let is_out_of_memory = kills.is_one_more();
         let cause = if is_out_of_memory {
             killed_for_memory()
         } else {

@@ -6,6 +6,7 @@ use std::path::Path;
 use futures_util::future::BoxFuture;
 use futures_util::stream::BoxStream;
 
+use super::identity::StoreId;
 use super::job::JobId;
 use super::store_error::StoreResult;
 
@@ -30,10 +31,19 @@ pub trait Blobs: Send + Sync {
     /// The jobs that have files.
     fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
+    /// The files whose keys begin with this folder, with their sizes.
+    fn list<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<Vec<(String, u64)>>>;
+
+    /// Which store the files are of; `None` in a new place, and in one of version 0.1.0.
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>>;
+
+    /// Notes which store the files are of.
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<()>>;
+
     /// Bytes that may still be written; `None` where nobody counts.
     fn free_bytes(&self) -> StoreResult<Option<u64>>;
 
-    /// Whether files can be stored and read now.
+    /// Whether files can be stored now. Writes something from time to time.
     fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
 
     /// Removes all files whose keys begin with this folder. It is no error if there are none.

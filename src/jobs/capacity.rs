@@ -12,11 +12,18 @@ const PACE_TIME: Duration = Duration::from_mins(5);
 /// For a place in a queue that has no pace.
 const WITHOUT_PACE: Duration = Duration::from_mins(1);
 
+/// For the place for files to answer.
+const BLOBS_PATIENCE: Duration = Duration::from_secs(5);
+
 /// How much is stored, and how much more may be.
 #[derive(Clone, Copy, Debug)]
 pub struct Usage {
-    /// Bytes of the files of all jobs.
+    /// Bytes of the files of all jobs, and of those in quarantine.
     pub stored: u64,
+    /// Jobs without a record whose files are in quarantine.
+    pub quarantined: usize,
+    /// Bytes of these files.
+    pub quarantined_bytes: u64,
     /// Bytes that they may take together; `None` for as much as there is.
     pub quota: Option<u64>,
     /// Free bytes where they lie; `None` where nobody counts.
@@ -45,8 +52,11 @@ impl Jobs {
 
     /// What is stored, and what is free.
     pub async fn usage(&self) -> StoreResult<Usage> {
+        let quarantined = self.store.quarantined().await?;
         Ok(Usage {
             stored: self.store.stored_bytes().await?,
+            quarantined: quarantined.len(),
+            quarantined_bytes: quarantined.iter().map(|files| files.bytes).sum(),
             quota: self.settings.quota,
             free: self.blobs.free_bytes()?,
             scratch_free: free_bytes(&self.settings.scratch)?,
@@ -65,12 +75,35 @@ impl Jobs {
         Ok(())
     }
 
+    /// Whether the files are those of this store, and more can be stored.
+    pub async fn check_blobs(&self) -> StoreResult<()> {
+        let check = async {
+            if let Some(own) = self.identity.get() {
+                match self.blobs.identity().await? {
+                    Some(found) if found == *own => {}
+                    Some(found) => {
+                        let detail = format!("the files are of store {found}, not of {own}");
+                        return Err(StoreError::Unavailable(detail));
+                    }
+                    None => {
+                        let detail = "the place for files is empty: is it mounted?".to_owned();
+                        return Err(StoreError::Unavailable(detail));
+                    }
+                }
+            }
+            self.blobs.check().await
+        };
+        let late = || StoreError::Unavailable("the place for files does not answer".to_owned());
+        let answer = tokio::time::timeout(BLOBS_PATIENCE, check).await;
+        answer.unwrap_or_else(|_| Err(late()))
+    }
+
     /// Whether a job would be accepted now: records and files can be written,
     /// disks have room, and the quota is not used up.
     pub async fn check(&self) -> StoreResult<()> {
         self.store.check().await?;
-        self.blobs.check().await?;
         self.has_room()?;
+        self.check_blobs().await?;
         match self.settings.quota {
             Some(quota) if quota <= self.store.stored_bytes().await? => {
                 let detail = format!("the jobs use all of their {} MiB", quota >> 20);

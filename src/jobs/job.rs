@@ -133,6 +133,8 @@ pub struct Job {
     pub due: Timestamp,
     /// How many attempts were ended from outside.
     pub lost: u32,
+    /// Attempts that were lost with their workers since it was last queued by a client.
+    pub interrupted: u32,
     /// Whether it shall stop.
     pub cancel: bool,
     /// Whether it shall end early with the map it has.
@@ -177,6 +179,7 @@ impl Job {
             lease: None,
             due: Timestamp::now(),
             lost: 0,
+            interrupted: 0,
             cancel: false,
             finish_early: false,
             ephemeral: false,

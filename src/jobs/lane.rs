@@ -27,6 +27,7 @@ impl Lane {
         let share = Share {
             largest: None,
             of_owner: settings.owner_running,
+            is_busy: false,
         };
         let small = settings.small.filter(|_| 0 < settings.workers);
         let reserve = small.map(|small| Self {

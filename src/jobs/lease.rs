@@ -40,17 +40,27 @@ pub type Token = u64;
 pub struct Rules {
     /// How long a worker may be silent.
     pub lease: Duration,
-    /// Attempts that may be lost before the job fails.
+    /// Attempts whose computation may be killed, as for want of memory, before the job fails.
     pub attempts: u32,
+    /// Attempts that may be lost with their workers before the job fails. A worker rarely dies of a
+    /// job, so these are many more; but one that kills every worker must end.
+    pub interruptions: u32,
     /// Pause after the first lost attempt; it doubles with each further one.
     pub pause: Duration,
 }
+
+/// No pause is longer: the twentieth would take a week.
+const LONGEST_PAUSE: Duration = Duration::from_mins(5);
+/// A job that was lost with so many workers may be what kills them. From then on it is computed by
+/// a worker that computes nothing else meanwhile, so that it takes no other job down with it.
+pub const SUSPECT: u32 = 2;
 
 impl Default for Rules {
     fn default() -> Self {
         Self {
             lease: Duration::from_secs(15),
             attempts: 3,
+            interruptions: 20,
             pause: Duration::from_secs(1),
         }
     }
@@ -59,12 +69,12 @@ impl Default for Rules {
 impl Rules {
     /// Pause after so many lost attempts, at least one.
     pub(super) fn pause_after(&self, lost: u32) -> Duration {
-        self.pause
-            .saturating_mul(1 << lost.saturating_sub(1).min(16))
+        let doubled = 1 << lost.saturating_sub(1).min(16);
+        self.pause.saturating_mul(doubled).min(LONGEST_PAUSE)
     }
 
     /// No pause is longer.
     pub fn longest_pause(&self) -> Duration {
-        self.pause_after(self.attempts)
+        self.pause_after(self.attempts.max(self.interruptions))
     }
 }

@@ -3,7 +3,9 @@
 //! The names follow the conventions of Prometheus and do not change, because dashboards and alerts
 //! know them. Each process counts what it did itself; what is read of the store is the same in all.
 
-use metrics::{Unit, counter, describe_counter, describe_histogram, histogram};
+use metrics::{
+    Unit, counter, describe_counter, describe_gauge, describe_histogram, gauge, histogram,
+};
 use tokio::time::Instant;
 
 use super::job::Job;
@@ -17,6 +19,8 @@ const FINISHED: &str = "unwrapd_jobs_finished_total";
 const FAILURES: &str = "unwrapd_job_failures_total";
 const TAKEN: &str = "unwrapd_jobs_taken_from_workers_total";
 const STORE_ERRORS: &str = "unwrapd_store_errors_total";
+const LOSSES: &str = "unwrapd_damaged_files_total";
+const QUARANTINE_STOPPED: &str = "unwrapd_quarantine_stopped";
 const WAIT: &str = "unwrapd_job_wait_seconds";
 const RUN: &str = "unwrapd_job_run_seconds";
 const STAGE: &str = "unwrapd_job_stage_seconds";
@@ -31,6 +35,11 @@ pub fn describe() {
     describe_counter!(FAILURES, "Failed jobs by the code of their problem");
     describe_counter!(TAKEN, "Jobs taken from silent workers");
     describe_counter!(STORE_ERRORS, "Calls of the store that failed");
+    describe_counter!(LOSSES, "Stored files that were found missing or damaged");
+    describe_gauge!(
+        QUARANTINE_STOPPED,
+        "Whether so many files have no job that none of them is deleted"
+    );
     let seconds = Unit::Seconds;
     describe_histogram!(WAIT, seconds, "From acceptance to the latest start");
     describe_histogram!(RUN, seconds, "From the latest start to the end");
@@ -43,6 +52,8 @@ pub fn describe() {
     }
     counter!(TAKEN).absolute(0);
     counter!(STORE_ERRORS).absolute(0);
+    counter!(LOSSES).absolute(0);
+    gauge!(QUARANTINE_STOPPED).set(0.0);
 }
 
 /// A job was accepted.
@@ -78,6 +89,16 @@ pub(super) fn taken() {
 /// A call of the store failed.
 pub fn store_failed() {
     counter!(STORE_ERRORS).increment(1);
+}
+
+/// A stored file is missing or damaged.
+pub(super) fn file_lost() {
+    counter!(LOSSES).increment(1);
+}
+
+/// Whether so many files have no job that none of them is deleted.
+pub(super) fn quarantine_stopped(is_stopped: bool) {
+    gauge!(QUARANTINE_STOPPED).set(f64::from(u8::from(is_stopped)));
 }
 
 /// Times the stages of an attempt, the last one until it is dropped.

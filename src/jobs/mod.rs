@@ -8,7 +8,7 @@
 //!          ▼                      │
 //! queued ──claimed──► running ──► succeeded | failed | cancelled
 //!    ▲                   │
-//!    └── worker lost ────┘   (at most three attempts are lost)
+//!    └── worker lost ────┘   (with a pause, and not for ever: see [`Rules`])
 //! ```
 //!
 //! [`after`] is that picture as a function: what becomes of a record when something happens. A
@@ -46,6 +46,7 @@ mod capacity;
 mod cgroup;
 mod checksum;
 mod child;
+mod clock;
 pub mod compute;
 mod conclusion;
 mod contained;
@@ -55,7 +56,9 @@ mod drain;
 mod frames;
 mod gates;
 mod handling;
+mod identity;
 mod input_output;
+mod inspection;
 mod job;
 mod keys;
 mod kind;
@@ -74,10 +77,12 @@ mod output;
 mod pace;
 mod program;
 mod progress;
+mod quarantine;
 mod queue;
 mod quotas;
 mod reporter;
 mod retention;
+mod retry;
 mod reuse;
 mod runner;
 mod running;
@@ -103,28 +108,35 @@ pub use blobs::{Blobs, Content};
 pub use capacity::Usage;
 pub use checksum::sha256;
 pub use child::{read_stderr, spawn};
+pub use clock::{Steadiness, SteadyClock};
 pub use compute::contain;
 pub use contained::Contained;
 pub use digest::Digest;
 pub use gates::{Gate, GateError, Gates};
 pub use handling::Handling;
+pub use identity::{StoreId, adopt, shared_identity};
 pub use input_output::{InputFile, OutputFile};
+pub use inspection::{Inspection, Loss, LostFile, inspect, purge, repair};
 pub use job::{Failure, Job, JobId, Verdict};
 pub use kind::Kind;
-pub use lease::{Rules, Token, WorkerId};
+pub use lease::{Rules, SUSPECT, Token, WorkerId};
 pub use listing::{Listing, Order};
 pub use metadata::{Metadata, MetadataError};
 pub use outbox::{Notice, Outbox};
 pub use pace::Pace;
 pub use program::Program;
 pub use progress::{Event, Progress, Saying};
+pub use quarantine::Quarantined;
 pub use queue::{Ended, Jobs};
 pub use quotas::{Capacity, OwnerQuota, OwnerQuotas};
+pub use retry::{Retried, retry_failed};
 pub use scratch::Scratch;
 pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
-pub use storage::{Beat, Changed, Enqueued, IdempotencyKey, JobStore, Queue, Reason, Share, Sweep};
+pub use storage::{
+    Beat, Census, Changed, Enqueued, IdempotencyKey, JobStore, Queue, Reason, Share, Sweep,
+};
 pub use store_error::{StoreError, StoreResult};
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;

@@ -9,6 +9,8 @@ use tokio_util::task::TaskTracker;
 
 use super::access::Reach;
 use super::blobs::Blobs;
+use super::clock::SteadyClock;
+use super::identity::StoreId;
 use super::job::{Job, JobId};
 use super::keys::output_folder;
 use super::lease::WorkerId;
@@ -38,6 +40,9 @@ pub struct Jobs {
     pub(super) tasks: TaskTracker,
     pub(super) engine: OnceCell<String>,
     pub(super) draining: AtomicBool,
+    pub(super) identity: OnceCell<StoreId>,
+    pub(super) clock: SteadyClock,
+    pub(super) has_told_wait: AtomicBool,
 }
 
 /// Whether a wait saw the end of the job.
@@ -64,6 +69,9 @@ impl Jobs {
             tasks: TaskTracker::new(),
             engine: OnceCell::new(),
             draining: AtomicBool::new(false),
+            identity: OnceCell::new(),
+            clock: SteadyClock::default(),
+            has_told_wait: AtomicBool::new(false),
         }
     }
 
@@ -183,7 +191,7 @@ impl Jobs {
     async fn remove_unneeded(&self, job: &Job) -> StoreResult<()> {
         match job.state {
             State::Cancelled => return self.blobs.remove(&job.id.to_string()).await,
-            State::Succeeded | State::Failed if 0 < job.lost => {
+            State::Succeeded | State::Failed if 0 < job.lost + job.interrupted => {
                 let has_result = |token| job.state == State::Succeeded && token == job.token;
                 for token in (1..=job.token).filter(|token| !has_result(*token)) {
                     self.blobs.remove(&output_folder(job.id, token)).await?;

@@ -1,18 +1,17 @@
 //! The store kept in order: jobs whose time is over, files without a job.
 
-use std::collections::HashMap;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 
 use super::access::Reach;
+use super::identity::shared_identity;
 use super::queue::Jobs;
 use super::settings::Deployment;
-use super::state::State;
 use super::storage::{Reason, Sweep};
 use super::store_error::{StoreError, StoreResult};
-use super::timestamp::Timestamp;
 use super::transition::Wish;
 
 /// Searches for expired jobs per retention time: a job outlives it by a tenth at most,
@@ -23,14 +22,18 @@ const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
 /// Files whose job is younger may belong to a submission under way in another process, whose clock
 /// may be another.
 const SUBMISSION: Duration = Duration::from_hours(24);
-/// Jobs of files that are looked for at once.
-const TOGETHER: usize = 1000;
+/// Nothing expires before the clock of the store has advanced normally for this time, or for the
+/// time that jobs are kept, if that is shorter.
+const STEADY: Duration = Duration::from_hours(1);
 
 impl Jobs {
-    /// Puts the house in order after a start: scratch is emptied. What the only process left behind
-    /// goes back to the queue, calls that nobody waits for any more are forgotten, and files
-    /// without a job are removed.
+    /// Checks that records and files belong together, and puts the house in order after a start:
+    /// scratch is emptied. What the only process left behind goes back to the queue, calls that
+    /// nobody waits for any more are forgotten, and files without a job are put into quarantine.
     pub async fn recover(&self) -> StoreResult<()> {
+        let identity = shared_identity(self.store.as_ref(), self.blobs.as_ref()).await?;
+        let _ = self.identity.set(identity);
+        self.check_blobs().await?;
         let scratch = &self.settings.scratch;
         if tokio::fs::try_exists(scratch).await? {
             let removed = tokio::fs::remove_dir_all(scratch).await;
@@ -44,12 +47,13 @@ impl Jobs {
                 self.wish(&Reach::All, id, Wish::Cancel).await?;
                 self.remove(&Reach::All, id, Reason::Deleted).await?;
             }
-            self.remove_orphaned_files(Duration::ZERO).await?;
+            self.sweep_unknown_files(Duration::ZERO).await?;
         }
         Ok(())
     }
 
-    /// Removes expired jobs and files without a job from time to time until told to stop.
+    /// Removes expired jobs, and looks for files without a job, from time to time until told to
+    /// stop.
     pub(super) async fn keep_until(&self, stop: &CancellationToken) {
         let retention = self.settings.retention.unwrap_or(Duration::MAX);
         let search = (retention / SEARCHES).clamp(SHORTEST_PAUSE, LONGEST_PAUSE);
@@ -69,9 +73,12 @@ impl Jobs {
             }
             if self.settings.retention.is_some() && looked.is_none_or(is_long_ago) {
                 looked = Some(Instant::now());
-                if let Err(error) = self.remove_orphaned_files(SUBMISSION).await {
+                if let Err(error) = self.sweep_unknown_files(SUBMISSION).await {
                     tracing::warn!(%error, "files without a job not looked for");
                 }
+            }
+            if let Err(error) = self.clock_is_steady().await {
+                tracing::warn!(%error, "the clock of the store not looked at");
             }
             match self.remove_expired().await {
                 Ok(0) => {}
@@ -88,7 +95,8 @@ impl Jobs {
         };
         loop {
             let ids = self.store.ended_before(retention).await?;
-            if ids.is_empty() {
+            // The clock may have jumped before it was asked which jobs have expired.
+            if ids.is_empty() || !self.clock_is_steady().await? {
                 return Ok(removed);
             }
             for id in ids {
@@ -98,23 +106,22 @@ impl Jobs {
         }
     }
 
-    /// Removes the files that a crash left between their storing and that of their job, between its
-    /// cancellation or removal and theirs, if their job is older than this.
-    async fn remove_orphaned_files(&self, age: Duration) -> StoreResult<()> {
-        let mut owners = self.blobs.owners().await?;
-        owners.retain(|id| age.as_millis() <= u128::from(Timestamp::now().since(id.made())));
-        for owners in owners.chunks(TOGETHER) {
-            let events = self.store.events(owners).await?;
-            let events: HashMap<_, _> = events.into_iter().collect();
-            for id in owners {
-                let event = events.get(id);
-                if event.is_none_or(|event| event.state == State::Cancelled) {
-                    tracing::info!(job = %id, "files without a job removed");
-                    self.blobs.remove(&id.to_string()).await?;
-                }
-            }
+    /// Whether the clock of the store has advanced normally for long enough to remove what it says
+    /// has expired. Says so in the log when it begins to wait.
+    pub(super) async fn clock_is_steady(&self) -> StoreResult<bool> {
+        let wait = self.settings.retention.unwrap_or(STEADY).min(STEADY);
+        let now = self.store.now().await?;
+        let steadiness = self.clock.look(now, Instant::now());
+        let is_steady = wait <= steadiness.steady;
+        if let Some(jump_ms) = steadiness.jump_ms {
+            tracing::warn!(
+                jump_seconds = jump_ms / 1000,
+                "the clock jumped: nothing expires before it has advanced normally for {wait:?}"
+            );
+        } else if !is_steady && !self.has_told_wait.swap(true, Ordering::Relaxed) {
+            tracing::info!("nothing expires before the clock has advanced normally for {wait:?}");
         }
-        Ok(())
+        Ok(is_steady)
     }
 }
 

@@ -15,7 +15,8 @@ impl Jobs {
         engine.await.map(String::as_str)
     }
 
-    /// Ends a new job with copies of what an equal one of its owner made, if there is one. A copy that fails is
+    /// Ends a new job with copies of what an equal one of its owner made, if there is one that is
+    /// whole. A copy that fails is
     /// no reason to refuse the job: the result can be computed. What was copied by then is removed with
     /// the job.
     pub(super) async fn reuse(&self, job: &mut Job) {
@@ -37,15 +38,30 @@ impl Jobs {
     async fn copy_equal(&self, job: &Job) -> StoreResult<Option<Job>> {
         let engine = self.engine().await?;
         let equal = self.store.equal(job).await?;
-        let Some(earlier) = equal.into_iter().find(|equal| equal.is_repeatable(engine)) else {
-            return Ok(None);
-        };
+        for earlier in equal {
+            if !earlier.is_repeatable(engine) {
+                continue;
+            }
+            match self.copy_verified(&earlier, job).await {
+                Ok(()) => return Ok(Some(earlier)),
+                Err(error) if error.is_loss() => self.spoil(&earlier).await,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Copies what an earlier job made, if all of it is whole.
+    async fn copy_verified(&self, earlier: &Job, job: &Job) -> StoreResult<()> {
+        for (index, file) in earlier.output.iter().enumerate() {
+            self.verify(earlier, index, file).await?;
+        }
         for index in 0..earlier.output.len() {
             let from = output_key(earlier.id, earlier.token, index);
             let to = output_key(job.id, job.token, index);
             self.blobs.copy(&from, &to).await?;
         }
-        Ok(Some(earlier))
+        Ok(())
     }
 }
 

@@ -15,6 +15,7 @@ use super::lane::Lane;
 use super::meters;
 use super::queue::Jobs;
 use super::running::Attempt;
+use super::storage::Share;
 
 /// Between two tries of a store that fails.
 const STORE_RETRY: Duration = Duration::from_secs(1);
@@ -118,7 +119,15 @@ impl Jobs {
             let sent = Instant::now();
             let claimed = match self.has_room() {
                 Ok(()) if self.is_draining() || !lane.is_open() => Ok(None),
-                Ok(()) => self.store.claim(self.worker, lane.share).await,
+                Ok(()) if self.running.has_suspect() => Ok(None),
+                Ok(()) => {
+                    let is_busy = 0 < self.running.len();
+                    let share = Share {
+                        is_busy,
+                        ..lane.share
+                    };
+                    self.store.claim(self.worker, share).await
+                }
                 Err(error) => Err(error),
             };
             let pause = match claimed {

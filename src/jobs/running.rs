@@ -8,7 +8,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::access::{Owner, Reach};
 use super::job::{Job, JobId};
-use super::lease::Token;
+use super::lease::{SUSPECT, Token};
 use super::map_feed::MapFeed;
 use super::progress::{Event, Saying};
 use super::storage::{Beat, Changed};
@@ -18,6 +18,8 @@ use super::transition::Wish;
 pub(super) struct Attempt {
     pub owner: Owner,
     pub token: Token,
+    /// Whether the job was lost with several workers, and is computed alone.
+    is_suspect: bool,
     /// A client wants it to stop.
     pub cancel: CancellationToken,
     /// A client wants it to end early with the map it has.
@@ -90,6 +92,7 @@ impl Running {
         let attempt = Arc::new(Attempt {
             owner: job.owner.clone(),
             token: job.token,
+            is_suspect: SUSPECT <= job.interrupted,
             cancel: CancellationToken::new(),
             finish: CancellationToken::new(),
             outdated: CancellationToken::new(),
@@ -118,6 +121,11 @@ impl Running {
     /// How many there are.
     pub fn len(&self) -> usize {
         self.attempts().len()
+    }
+
+    /// Whether one of them must be alone.
+    pub fn has_suspect(&self) -> bool {
+        self.attempts().values().any(|attempt| attempt.is_suspect)
     }
 
     /// The attempt at a job, if it runs here.

@@ -73,6 +73,8 @@ pub struct Settings {
     pub min_free: u64,
     /// How long a job is kept after its end, with its files. `None`: another process sees to that.
     pub retention: Option<Duration>,
+    /// How long files without a job are kept before they are deleted.
+    pub quarantine: Duration,
     /// How long attempts may go on after a stop, before their jobs are handed back.
     pub grace: Duration,
 }

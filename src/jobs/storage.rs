@@ -5,13 +5,16 @@ use std::time::Duration;
 use futures_util::future::BoxFuture;
 
 use super::access::Reach;
+use super::identity::StoreId;
 use super::job::{Job, JobId};
 use super::lease::{Token, WorkerId};
 use super::listing::Listing;
 use super::progress::{Event, Saying};
+use super::quarantine::Quarantined;
 use super::quotas::{Capacity, OwnerQuota};
 use super::state::State;
 use super::store_error::StoreResult;
+use super::timestamp::Timestamp;
 use super::transition::{Happening, Refusal};
 
 /// A client's promise that two submissions with the same key are one. Each owner has keys of their
@@ -48,6 +51,9 @@ pub struct Share {
     pub largest: Option<u64>,
     /// Only those of owners of whom fewer than so many run, in all processes.
     pub of_owner: Option<u32>,
+    /// Whether the worker computes other jobs. Those that may kill their workers are not for it, and
+    /// when one of them has waited for minutes, it gets none at all: it has to become free.
+    pub is_busy: bool,
 }
 
 /// All jobs at a glance.
@@ -57,6 +63,15 @@ pub struct Queue {
     pub counts: Vec<(State, u64)>,
     /// For how long the oldest of those that wait has been there.
     pub oldest_wait: Duration,
+}
+
+/// What records there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Census {
+    /// Jobs.
+    pub jobs: u64,
+    /// Those that have files.
+    pub with_files: u64,
 }
 
 /// What became of a record.
@@ -172,8 +187,33 @@ pub trait JobStore: Send + Sync {
     /// How many jobs there are in each state, and how long the oldest of those that wait does so.
     fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>>;
 
-    /// Bytes of the files of all jobs.
+    /// Bytes of the files of all jobs, and of those in quarantine.
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>>;
+
+    /// What time it is by the clock of the store.
+    fn now(&self) -> BoxFuture<'_, StoreResult<Timestamp>>;
+
+    /// Which store this is; `None` in a new one, and in one of version 0.1.0.
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>>;
+
+    /// Gives the store this identity if it has none. Returns the one that it has then.
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<StoreId>>;
+
+    /// What records there are.
+    fn census(&self) -> BoxFuture<'_, StoreResult<Census>>;
+
+    /// Notes files without a job, with their sizes. The time of those that were not looked at for
+    /// three days, or that the clock has left behind, begins anew.
+    fn quarantine<'a>(&'a self, files: &'a [(JobId, u64)]) -> BoxFuture<'a, StoreResult<()>>;
+
+    /// All files that were noted, the oldest first.
+    fn quarantined(&self) -> BoxFuture<'_, StoreResult<Vec<Quarantined>>>;
+
+    /// Forgets files that were noted: they have a job, or they are gone.
+    fn release<'a>(&'a self, jobs: &'a [JobId]) -> BoxFuture<'a, StoreResult<()>>;
+
+    /// Has no other job get a copy of the result of this one.
+    fn spoil(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>>;
 
     /// Writes something, so that whoever asks knows that records can be written.
     fn check(&self) -> BoxFuture<'_, StoreResult<()>>;

@@ -21,6 +21,9 @@ pub enum StoreError {
     /// What it returned is not what was stored.
     #[error("damaged: {0}")]
     Damaged(String),
+    /// A file that was stored is not there.
+    #[error("missing: {0}")]
+    Missing(String),
     /// A file or a folder cannot be used.
     #[error("{path}: {why}")]
     File {
@@ -48,6 +51,16 @@ impl StoreError {
 }
 
 impl StoreError {
+    /// That a file which was stored is not there.
+    pub fn missing() -> Self {
+        Self::Missing("a stored file is missing".to_owned())
+    }
+
+    /// Whether what was stored is not there, or is not what was stored.
+    pub fn is_loss(&self) -> bool {
+        matches!(self, Self::Damaged(_) | Self::Missing(_))
+    }
+
     /// That something could not be done with the file or folder at a path.
     pub fn at(path: &Path) -> impl FnOnce(Error) -> Self + use<> {
         let path = path.display().to_string();

@@ -48,8 +48,8 @@ impl Jobs {
         for job in self.store.sweep(sweep).await? {
             if job.state != State::Running {
                 meters::taken();
-                let (state, lost) = (job.state.word(), job.lost);
-                tracing::warn!(job = %job.id, state, lost, "taken from its worker");
+                let (state, interrupted) = (job.state.word(), job.interrupted);
+                tracing::warn!(job = %job.id, state, interrupted, "taken from its worker");
             }
             self.tell(&job).await;
         }

@@ -49,8 +49,12 @@ pub enum Ending {
     Failed(Failure),
     /// By request.
     Cancelled,
-    /// From outside; another attempt may succeed.
+    /// Its computation was killed while its worker lived, which may be the fault of the job.
+    /// Another attempt may succeed.
     Lost(Failure),
+    /// It was told from outside to stop, as when a machine is shut down, which is no fault of the
+    /// job.
+    Interrupted(Failure),
     /// The worker cannot go on, for a reason that is not the job's. Any worker may, after this
     /// time.
     HandedBack(Duration),
@@ -153,21 +157,45 @@ fn taken_away(
     }
     job.token += 1;
     job.seq = next_attempt_seq(job.seq);
-    lost(job, cause, rules, now);
+    interrupted(job, cause, rules, now);
     Ok(())
 }
 
-/// Lost attempts are counted here, and never given back.
+/// Counts an attempt whose computation was killed. It is never given back.
 fn lost(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     job.lost += 1;
+    try_again(job, cause, (job.lost, rules.attempts), rules, now);
+}
+
+/// Counts an attempt that was lost with its worker, apart from those that were killed: the job just
+/// happened to be there, most likely.
+fn interrupted(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
+    job.interrupted += 1;
+    try_again(
+        job,
+        cause,
+        (job.interrupted, rules.interruptions),
+        rules,
+        now,
+    );
+}
+
+/// Queues a job again after a pause, unless as many attempts are lost as may be.
+fn try_again(
+    job: &mut Job,
+    cause: &Failure,
+    (lost, most): (u32, u32),
+    rules: &Rules,
+    now: Timestamp,
+) {
     if job.cancel {
         end(job, State::Cancelled, now);
-    } else if rules.attempts <= job.lost {
-        let detail = format!("{}; attempts lost: {}", cause.detail, job.lost);
+    } else if most <= lost {
+        let detail = format!("{}; attempts lost: {lost}", cause.detail);
         job.failure = Some(Failure::new(&cause.code, detail));
         end(job, State::Failed, now);
     } else {
-        queue(job, now.later(rules.pause_after(job.lost)));
+        queue(job, now.later(rules.pause_after(lost)));
     }
 }
 
@@ -175,6 +203,7 @@ fn ended(job: &mut Job, ending: &Ending, rules: &Rules, now: Timestamp) {
     job.seq += 1;
     match ending {
         Ending::Lost(cause) => lost(job, cause, rules, now),
+        Ending::Interrupted(cause) => interrupted(job, cause, rules, now),
         // Whoever asked for that first has been promised it.
         _ if job.cancel => end(job, State::Cancelled, now),
         Ending::Cancelled => end(job, State::Cancelled, now),
@@ -204,7 +233,7 @@ fn wished(job: &mut Job, wish: Wish, now: Timestamp) -> Result<(), Refusal> {
         (Wish::FinishEarly, State::Queued | State::Running) => job.finish_early = true,
         (Wish::Retry, State::Failed) => {
             job.seq = next_attempt_seq(job.seq);
-            job.lost = 0;
+            (job.lost, job.interrupted) = (0, 0);
             job.failure = None;
             job.finished = None;
             job.progress = Progress::default();

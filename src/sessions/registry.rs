@@ -28,10 +28,20 @@ const START_TIME: Duration = Duration::from_mins(2);
 pub struct Settings {
     /// Sessions at the same time.
     pub most: usize,
-    /// Those of one owner.
-    pub most_of_owner: usize,
+    /// Those of one owner. `None`: half of all, or all where nobody has a key.
+    pub most_of_owner: Option<usize>,
     /// Silence of all clients after which a session ends.
     pub idle: Duration,
+}
+
+impl Settings {
+    /// Sessions of one owner at the same time.
+    fn most_of(&self, owner: &Owner) -> usize {
+        self.most_of_owner.unwrap_or(match owner.name() {
+            Some(_) => self.most.div_ceil(2),
+            None => self.most,
+        })
+    }
 }
 
 /// All sessions of this process.
@@ -129,7 +139,7 @@ impl Sessions {
 
     /// The places of a session: one of all, and one of its owner.
     fn slots(&self, owner: &Owner) -> Result<[OwnedSemaphorePermit; 2], Unopened> {
-        let most = self.settings.most_of_owner;
+        let most = self.settings.most_of(owner);
         let of_owner = Arc::clone(
             (lock(&self.slots_of_owners).entry(owner.clone()))
                 .or_insert_with(|| Arc::new(Semaphore::new(most))),

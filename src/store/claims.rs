@@ -8,12 +8,16 @@ use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
 use super::transitions::written;
-use crate::jobs::{Changed, Happening, Job, Rules, Share, StoreResult, WorkerId};
+use crate::jobs::{Changed, Happening, Job, Rules, SUSPECT, Share, StoreResult, WorkerId};
 
 /// Which queued jobs may be started, of at most so many bytes. No pause is longer than the longest:
-/// one that is was made before the clock was set back.
+/// one that is was made before the clock was set back. A busy worker ($3 = 1) gets no job that was
+/// lost with so many workers ($4), and none at all while such a one has waited for five minutes.
 const DUE: &str = "job.state = 'queued' AND (job.due <= {now} OR {now} + $1 < job.due)
-     AND job.bytes <= $2 AND NOT EXISTS (SELECT id FROM pause)";
+     AND job.bytes <= $2 AND NOT EXISTS (SELECT id FROM pause)
+     AND ($3 = 0 OR (job.interrupted < $4 AND NOT EXISTS (
+         SELECT suspect.id FROM job AS suspect WHERE suspect.state = 'queued'
+         AND $4 <= suspect.interrupted AND suspect.due <= {now} - 300000)))";
 
 /// Gives the next job of its share to a worker.
 pub(super) async fn claim(
@@ -26,7 +30,12 @@ pub(super) async fn claim(
     let largest = share.largest.map_or(i64::MAX, |bytes| bytes as i64);
     // Most of the time there is none, and nothing has to be locked to know that.
     let is_any = database.sql(&format!("SELECT id FROM job WHERE {DUE} LIMIT 1"));
-    let query = sqlx::query(is_any).bind(longest_pause).bind(largest);
+    let is_busy = i64::from(share.is_busy);
+    let query = sqlx::query(is_any)
+        .bind(longest_pause)
+        .bind(largest)
+        .bind(is_busy)
+        .bind(i64::from(SUSPECT));
     if query.fetch_optional(&database.readers).await?.is_none() {
         return Ok(None);
     }
@@ -41,7 +50,7 @@ pub(super) async fn claim(
          LEFT JOIN turn ON turn.owner = job.owner
          LEFT JOIN (SELECT owner, count(*) AS jobs FROM job WHERE state = 'running'
                     GROUP BY owner) AS busy ON busy.owner = job.owner
-         WHERE {DUE} AND coalesce(busy.jobs, 0) < $3
+         WHERE {DUE} AND coalesce(busy.jobs, 0) < $5
          ORDER BY coalesce(busy.jobs, 0), coalesce(turn.at, 0), job.owner,
                   job.priority DESC, job.id
          LIMIT 1 {{free}}"
@@ -49,6 +58,8 @@ pub(super) async fn claim(
     let next = sqlx::query(next)
         .bind(longest_pause)
         .bind(largest)
+        .bind(is_busy)
+        .bind(i64::from(SUSPECT))
         .bind(share.of_owner.map_or(i64::MAX, i64::from))
         .fetch_optional(&mut *transaction)
         .await?;

@@ -1,7 +1,7 @@
 //! The database: how it is opened, brought up to date and written to.
 
 use std::io::ErrorKind;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use sqlx::any::AnyPoolOptions;
 use sqlx::migrate::{Migration, MigrationType, Migrator};
@@ -12,7 +12,7 @@ use crate::jobs::{StoreError, StoreResult};
 
 /// The n-th leads from version n to the next. A program of the version before must be able to go on
 /// after it: columns are added, never taken away.
-const SQLITE: [&str; 12] = [
+const SQLITE: [&str; 13] = [
     include_str!("schema/sqlite/1.sql"),
     include_str!("schema/sqlite/2.sql"),
     include_str!("schema/sqlite/3.sql"),
@@ -25,8 +25,9 @@ const SQLITE: [&str; 12] = [
     include_str!("schema/sqlite/10.sql"),
     include_str!("schema/sqlite/11.sql"),
     include_str!("schema/sqlite/12.sql"),
+    include_str!("schema/sqlite/13.sql"),
 ];
-const POSTGRES: [&str; 9] = [
+const POSTGRES: [&str; 10] = [
     include_str!("schema/postgres/1.sql"),
     include_str!("schema/postgres/2.sql"),
     include_str!("schema/postgres/3.sql"),
@@ -36,6 +37,7 @@ const POSTGRES: [&str; 9] = [
     include_str!("schema/postgres/7.sql"),
     include_str!("schema/postgres/8.sql"),
     include_str!("schema/postgres/9.sql"),
+    include_str!("schema/postgres/10.sql"),
 ];
 
 /// What every connection to SQLite is set to. What is committed is durable; the log is copied into
@@ -49,6 +51,8 @@ const POSTGRES_CONNECTIONS: u32 = 8;
 const SQLITE_READERS: u32 = 4;
 /// How long a statement waits for a connection, and a connection for a sign that it still is one.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// Between two tries to connect at the start.
+const REACH_PAUSE: Duration = Duration::from_millis(200);
 
 /// An open database. What is committed is durable.
 pub(super) struct Database {
@@ -58,6 +62,7 @@ pub(super) struct Database {
     /// connection writes instead, and whoever needs it stands in line.
     pub writers: AnyPool,
     pub dialect: Dialect,
+    url: String,
 }
 
 impl Database {
@@ -68,12 +73,14 @@ impl Database {
         let dialect = Dialect::of(url).ok_or_else(|| {
             StoreError::Other("the URL of a database begins with postgres:".to_owned())
         })?;
+        reach(url, PATIENCE).await?;
         let pool = async |connections| pool(dialect, connections).connect(url).await;
         let database = match dialect {
             Dialect::Sqlite => Self {
                 writers: pool(1).await?,
                 readers: pool(SQLITE_READERS).await?,
                 dialect,
+                url: url.to_owned(),
             },
             Dialect::Postgres => {
                 let pool = pool(POSTGRES_CONNECTIONS).await?;
@@ -81,6 +88,7 @@ impl Database {
                     readers: pool.clone(),
                     writers: pool,
                     dialect,
+                    url: url.to_owned(),
                 }
             }
         };
@@ -115,6 +123,17 @@ impl Database {
         Ok(())
     }
 
+    /// Why the database cannot be reached, rather than that no connection became free.
+    pub async fn explained(&self, error: StoreError) -> StoreError {
+        match error {
+            StoreError::Unavailable(_) => match reach(&self.url, Duration::ZERO).await {
+                Err(cause) => cause,
+                Ok(()) => error,
+            },
+            error => error,
+        }
+    }
+
     /// Begins a transaction that writes.
     pub async fn begin(&self) -> sqlx::Result<Transaction<'_, Any>> {
         self.writers.begin_with(self.dialect.begin()).await
@@ -123,6 +142,28 @@ impl Database {
     /// A statement in the words of this database; see [`Dialect::sql`].
     pub fn sql(&self, text: &str) -> AssertSqlSafe<String> {
         AssertSqlSafe(self.dialect.sql(text))
+    }
+}
+
+/// Connects once, so that the cause is known if that fails: a pool only says that its time was over.
+/// A server that is starting is waited for.
+async fn reach(url: &str, patience: Duration) -> StoreResult<()> {
+    let begin = Instant::now();
+    loop {
+        let answer = tokio::time::timeout(PATIENCE, AnyConnection::connect(url)).await;
+        let error = match answer {
+            Ok(Ok(connection)) => {
+                // A connection that works is enough, however it ends.
+                let _ = connection.close().await;
+                return Ok(());
+            }
+            Ok(Err(error)) => StoreError::from(error),
+            Err(_) => StoreError::Unavailable(format!("no answer within {PATIENCE:?}")),
+        };
+        if !error.is_passing() || patience <= begin.elapsed() {
+            return Err(error);
+        }
+        tokio::time::sleep(REACH_PAUSE).await;
     }
 }
 

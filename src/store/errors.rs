@@ -21,9 +21,10 @@ impl From<Error> for StoreError {
                 Self::Full(text) => Self::Full(text),
                 _ => Self::Unavailable(text),
             },
-            Error::PoolTimedOut | Error::PoolClosed | Error::WorkerCrashed => {
-                Self::Unavailable(text)
+            Error::PoolTimedOut => {
+                Self::Unavailable("no connection to the database became free in time".to_owned())
             }
+            Error::PoolClosed | Error::WorkerCrashed => Self::Unavailable(text),
             Error::Database(error) if error.is_unique_violation() => Self::Conflict(text),
             Error::Database(error) => {
                 let code = error.code().unwrap_or_default();

@@ -11,7 +11,12 @@ use tokio::fs;
 use tokio::io::{AsyncReadExt, AsyncSeekExt};
 use tokio_util::io::ReaderStream;
 
-use crate::jobs::{Blobs, Content, JobId, StoreError, StoreResult, free_bytes};
+use uuid::Uuid;
+
+use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult, free_bytes};
+
+/// The file that says which store this is. It is no name of a job.
+const IDENTITY: &str = "store-id";
 
 /// A folder with one subfolder per job. Files are moved rather than copied where it is on one file
 /// system with the folder they come from.
@@ -48,6 +53,39 @@ async fn blocking<T: Send + 'static>(
 ) -> StoreResult<T> {
     let done = tokio::task::spawn_blocking(work).await;
     done.map_err(std::io::Error::from)?
+}
+
+/// Whether an error means that there is no file at a path.
+fn is_absent(error: &std::io::Error, path: &Path) -> bool {
+    error.kind() == ErrorKind::NotFound && !path.exists()
+}
+
+/// The files below a folder, by their paths from the root, with their sizes. What goes away meanwhile
+/// is left out.
+fn listed(root: &Path, folder: &Path) -> std::io::Result<Vec<(String, u64)>> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let entries = match std::fs::read_dir(&folder) {
+            Err(error) if error.kind() == ErrorKind::NotFound => continue,
+            entries => entries?,
+        };
+        for entry in entries {
+            let entry = entry?;
+            let path = entry.path();
+            match entry.metadata() {
+                Ok(data) if data.is_dir() => folders.push(path),
+                Ok(data) => {
+                    let key = path.strip_prefix(root).unwrap_or(&path);
+                    files.push((key.to_string_lossy().into_owned(), data.len()));
+                }
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
 }
 
 /// Brings a file to its place, its content to the disk first.
@@ -99,6 +137,7 @@ impl Blobs for FileBlobs {
                 Err(error) if error.kind() == ErrorKind::CrossesDevices => {
                     fs::copy(from, to).await?;
                 }
+                Err(error) if is_absent(&error, &from) => return Err(StoreError::missing()),
                 linked => linked.map_err(StoreError::at(&from))?,
             }
             Ok(())
@@ -109,8 +148,10 @@ impl Blobs for FileBlobs {
     fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
         async move {
             let path = self.root.join(key);
-            let opened = fs::File::open(&path).await;
-            let mut file = opened.map_err(StoreError::at(&path))?;
+            let mut file = match fs::File::open(&path).await {
+                Err(error) if is_absent(&error, &path) => return Err(StoreError::missing()),
+                opened => opened.map_err(StoreError::at(&path))?,
+            };
             file.seek(SeekFrom::Start(range.start)).await?;
             let blocks = ReaderStream::new(file.take(range.end - range.start));
             let content = blocks.map(|block| Ok(block.map(Vec::from)?));
@@ -137,15 +178,51 @@ impl Blobs for FileBlobs {
         .boxed()
     }
 
+    fn list<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<Vec<(String, u64)>>> {
+        async move {
+            let (root, folder) = (self.root.clone(), self.root.join(folder));
+            blocking(move || Ok(listed(&root, &folder)?)).await
+        }
+        .boxed()
+    }
+
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>> {
+        async move {
+            let path = self.root.join(IDENTITY);
+            let text = match fs::read_to_string(&path).await {
+                Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+                read => read.map_err(StoreError::at(&path))?,
+            };
+            let parsed = text.parse();
+            parsed
+                .map(Some)
+                .map_err(|_| StoreError::Other(format!("{} has no identity in it", path.display())))
+        }
+        .boxed()
+    }
+
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<()>> {
+        async move {
+            let partial = self.root.join(format!("probe-{}", Uuid::now_v7()));
+            let written = fs::write(&partial, format!("{identity}\n")).await;
+            written.map_err(StoreError::at(&partial))?;
+            let to = self.root.join(IDENTITY);
+            blocking(move || moved(&partial, &to)).await?;
+            self.sync_folders_of(&self.root.join(IDENTITY)).await
+        }
+        .boxed()
+    }
+
     fn free_bytes(&self) -> StoreResult<Option<u64>> {
         free_bytes(&self.root).map(Some)
     }
 
     fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
         async move {
-            let found = fs::metadata(&self.root).await;
-            found.map_err(StoreError::at(&self.root))?;
-            Ok(())
+            let probe = self.root.join(format!("probe-{}", Uuid::now_v7()));
+            let written = fs::write(&probe, "probe").await;
+            written.map_err(StoreError::at(&probe))?;
+            Ok(fs::remove_file(&probe).await?)
         }
         .boxed()
     }

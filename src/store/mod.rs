@@ -33,6 +33,7 @@ mod reserve;
 mod rows;
 mod submissions;
 mod transitions;
+mod upkeep;
 mod within;
 
 pub use address::blobs_at;

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use futures_util::future::BoxFuture;
 use futures_util::{FutureExt, StreamExt, TryStreamExt, stream};
@@ -17,7 +17,7 @@ use object_store::{
 use tokio::fs::File;
 use tokio::io::AsyncWriteExt;
 
-use crate::jobs::{Blobs, Content, JobId, StoreError, StoreResult};
+use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult};
 
 /// For one request; files are sent and fetched in parts.
 const REQUEST_TIME: Duration = Duration::from_mins(5);
@@ -28,9 +28,18 @@ const SILENCE: Duration = Duration::from_secs(30);
 const RETRY_TIME: Duration = Duration::from_secs(10);
 const RETRIES: usize = 4;
 
+/// The object that says which store this is, and one that is written to see whether that works. They
+/// are no names of jobs.
+const IDENTITY: &str = "store-id";
+const PROBE: &str = "probe";
+/// Between two probes: each costs a request.
+const PROBE_PAUSE: Duration = Duration::from_mins(1);
+
 /// A bucket, or what of it has a prefix. An object is there completely or not at all.
 pub struct ObjectBlobs {
     store: Arc<dyn ObjectStore>,
+    /// When an object was last written to see whether that works.
+    probed: Mutex<Option<Instant>>,
 }
 
 impl ObjectBlobs {
@@ -67,6 +76,7 @@ impl ObjectBlobs {
         let prefix = Key::parse(path).map_err(Error::from)?;
         Ok(Self {
             store: Arc::new(PrefixStore::new(bucket, prefix)),
+            probed: Mutex::new(None),
         })
     }
 
@@ -87,7 +97,23 @@ impl ObjectBlobs {
             range: Some(GetRange::Bounded(range)),
             ..GetOptions::default()
         };
-        let content = self.store.get_opts(&Key::from(key), options).await?;
+        let end = options.range.as_ref().map_or(0, |range| match range {
+            GetRange::Bounded(range) => range.end,
+            _ => 0,
+        });
+        let key = Key::from(key);
+        let content = match self.store.get_opts(&key, options).await {
+            Err(error @ Error::Generic { .. }) => {
+                // A server refuses a range beyond the end of an object that lost bytes.
+                let size = self.store.head(&key).await?.size;
+                return Err(if size < end {
+                    StoreError::Damaged("a stored file is shorter than it was".to_owned())
+                } else {
+                    error.into()
+                });
+            }
+            content => content?,
+        };
         let blocks = content.into_stream().map(|block| Ok(block?.into()));
         Ok(blocks.boxed())
     }
@@ -133,16 +159,64 @@ impl Blobs for ObjectBlobs {
         .boxed()
     }
 
+    fn list<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<Vec<(String, u64)>>> {
+        async move {
+            let folder = Key::from(folder);
+            let objects = self.store.list(Some(&folder));
+            let files = objects.map_ok(|object| (object.location.to_string(), object.size));
+            Ok(files.try_collect().await?)
+        }
+        .boxed()
+    }
+
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>> {
+        async move {
+            let object = match self.store.get(&Key::from(IDENTITY)).await {
+                Ok(object) => object,
+                // A bucket that does not exist has no objects either.
+                Err(Error::NotFound { .. }) => {
+                    let mut objects = self.store.list(None);
+                    objects.try_next().await.map_err(unusable)?;
+                    return Ok(None);
+                }
+                Err(error) => return Err(unusable(error)),
+            };
+            let bytes = object.bytes().await?;
+            let parsed = std::str::from_utf8(&bytes).ok().map(str::parse);
+            match parsed {
+                Some(Ok(identity)) => Ok(Some(identity)),
+                _ => Err(StoreError::Other(format!(
+                    "{IDENTITY} has no identity in it"
+                ))),
+            }
+        }
+        .boxed()
+    }
+
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<()>> {
+        async move {
+            let key = Key::from(IDENTITY);
+            let put = self.store.put(&key, identity.to_string().into()).await;
+            put.map_err(unusable)?;
+            Ok(())
+        }
+        .boxed()
+    }
+
     fn free_bytes(&self) -> StoreResult<Option<u64>> {
         Ok(None)
     }
 
     fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
         async move {
-            match self.store.head(&Key::from("check")).await {
-                Ok(_) | Err(Error::NotFound { .. }) => Ok(()),
-                Err(error) => Err(error.into()),
+            let last = *self.probed.lock().unwrap_or_else(PoisonError::into_inner);
+            if last.is_some_and(|last| last.elapsed() < PROBE_PAUSE) {
+                return Ok(());
             }
+            let put = self.store.put(&Key::from(PROBE), "probe".into()).await;
+            put.map_err(unusable)?;
+            *self.probed.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+            Ok(())
         }
         .boxed()
     }
@@ -160,6 +234,21 @@ impl Blobs for ObjectBlobs {
     }
 }
 
+/// Why a bucket cannot be used, with what its user may have to set.
+fn unusable(error: Error) -> StoreError {
+    let text = error.to_string();
+    let is_absent = matches!(error, Error::NotFound { .. });
+    let is_plain = ["builder error", "URL scheme is not allowed"];
+    let hint = if is_plain.iter().any(|it| text.contains(it)) {
+        "; an http:// endpoint needs AWS_ALLOW_HTTP=true"
+    } else if is_absent || text.contains("NoSuchBucket") {
+        "; does the bucket exist? AWS_ENDPOINT_URL names the server"
+    } else {
+        ""
+    };
+    StoreError::Unavailable(format!("{text}{hint}"))
+}
+
 impl From<Error> for StoreError {
     fn from(error: Error) -> Self {
         let text = error.to_string();
@@ -170,6 +259,7 @@ impl From<Error> for StoreError {
             Error::PermissionDenied { .. } | Error::Unauthenticated { .. } => {
                 Self::Unavailable(text)
             }
+            Error::NotFound { .. } => Self::missing(),
             _ => Self::Other(text),
         }
     }

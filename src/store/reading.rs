@@ -132,9 +132,10 @@ pub(super) async fn ids(
     found.iter().map(rows::id).collect()
 }
 
-/// Bytes of the files of all jobs.
+/// Bytes of the files of all jobs, and of those in quarantine.
 pub(super) async fn stored_bytes(connection: &mut AnyConnection) -> StoreResult<u64> {
-    let sum = "SELECT CAST(coalesce(sum(bytes), 0) AS BIGINT) AS bytes FROM job";
+    let sum = "SELECT CAST(coalesce((SELECT sum(bytes) FROM job), 0)
+         + coalesce((SELECT sum(bytes) FROM quarantine), 0) AS BIGINT) AS bytes";
     let row = sqlx::query(sum).fetch_one(connection).await?;
     Ok(row.try_get::<i64, _>("bytes")? as u64)
 }

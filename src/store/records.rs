@@ -7,11 +7,12 @@ use futures_util::future::BoxFuture;
 
 use super::database::Database;
 use super::hints::Hints;
-use super::{claims, listing, reading, reserve, submissions, transitions};
+use super::{claims, listing, reading, reserve, submissions, transitions, upkeep};
 use crate::jobs::access::Reach;
 use crate::jobs::{
-    Beat, Capacity, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId, JobStore,
-    Listing, Queue, Reason, Rules, Share, StoreError, StoreResult, Sweep, WorkerId,
+    Beat, Capacity, Census, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId,
+    JobStore, Listing, Quarantined, Queue, Reason, Rules, Share, StoreError, StoreId, StoreResult,
+    Sweep, Timestamp, WorkerId,
 };
 
 /// How long a call may take, a lost connection included.
@@ -174,12 +175,47 @@ impl JobStore for RecordStore {
         })
     }
 
+    fn now(&self) -> BoxFuture<'_, StoreResult<Timestamp>> {
+        bounded(upkeep::now(&self.database))
+    }
+
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>> {
+        bounded(upkeep::identity(&self.database))
+    }
+
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<StoreId>> {
+        bounded(upkeep::identify(&self.database, identity))
+    }
+
+    fn census(&self) -> BoxFuture<'_, StoreResult<Census>> {
+        bounded(upkeep::census(&self.database))
+    }
+
+    fn quarantine<'a>(&'a self, files: &'a [(JobId, u64)]) -> BoxFuture<'a, StoreResult<()>> {
+        bounded(upkeep::quarantine(&self.database, files))
+    }
+
+    fn quarantined(&self) -> BoxFuture<'_, StoreResult<Vec<Quarantined>>> {
+        bounded(upkeep::quarantined(&self.database))
+    }
+
+    fn release<'a>(&'a self, jobs: &'a [JobId]) -> BoxFuture<'a, StoreResult<()>> {
+        bounded(upkeep::release(&self.database, jobs))
+    }
+
+    fn spoil(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>> {
+        bounded(upkeep::spoil(&self.database, id))
+    }
+
     fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
         bounded(async move {
             // Whether records can be written cannot be told otherwise.
-            sqlx::query(self.database.sql("UPDATE pulse SET at = {now}"))
+            let written = sqlx::query(self.database.sql("UPDATE pulse SET at = {now}"))
                 .execute(&self.database.writers)
-                .await?;
+                .await;
+            if let Err(error) = written {
+                return Err(self.database.explained(error.into()).await);
+            }
             reserve::keep(&self.database).await
         })
     }

@@ -13,7 +13,7 @@ use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 pub(super) const COLUMNS: &str =
     "id, owner, kind, state, options, input, output, verdict, attempt, digest,
     priority, token, worker, lease, due, lost, cancel, finish_early, ephemeral, seq, progress,
-    failure, created, started, finished, trace, metadata, accept, webhook";
+    failure, created, started, finished, trace, metadata, accept, webhook, interrupted";
 
 /// Adds a job that nobody works on.
 pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
@@ -73,8 +73,8 @@ pub(super) async fn update(
         "UPDATE job SET state = $1, output = $2, verdict = $3, attempt = $4, token = $5,
                         worker = $6, lease = $7, due = $8, lost = $9, cancel = $10,
                         finish_early = $11, seq = $12, progress = $13, failure = $14,
-                        started = $15, finished = $16, bytes = $17
-         WHERE id = $18 AND token = $19",
+                        started = $15, finished = $16, bytes = $17, interrupted = $18
+         WHERE id = $19 AND token = $20",
     )
     .bind(job.state.word())
     .bind(json(&job.output)?)
@@ -93,6 +93,7 @@ pub(super) async fn update(
     .bind(job.started.map(|time| time.0))
     .bind(job.finished.map(|time| time.0))
     .bind(job.stored_bytes() as i64)
+    .bind(i64::from(job.interrupted))
     .bind(job.id.to_string())
     .bind(token as i64)
     .execute(&mut **transaction)
@@ -173,6 +174,7 @@ pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
         lease: time(row, "lease")?,
         due: Timestamp(number("due")?),
         lost: number("lost")? as u32,
+        interrupted: number("interrupted")? as u32,
         cancel: number("cancel")? != 0,
         finish_early: number("finish_early")? != 0,
         ephemeral: number("ephemeral")? != 0,

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::postgres::Postgres;
 
-const DATABASE: &str = "unwrapd";
+pub const DATABASE: &str = "unwrapd";
 
 const TRIGGER: &str = "
     CREATE TABLE history (n BIGSERIAL PRIMARY KEY, op TEXT NOT NULL, job JSONB NOT NULL);
@@ -41,11 +41,19 @@ pub struct Row {
     pub token: u64,
     pub worker: Option<String>,
     pub lost: u64,
+    /// A program of an earlier version does not count it.
+    #[serde(default)]
+    pub interrupted: u64,
     pub input: String,
     pub output: String,
 }
 
 impl Row {
+    /// Attempts that were lost, for whatever reason.
+    pub fn losses(&self) -> u64 {
+        self.lost + self.interrupted
+    }
+
     fn is_final(&self) -> bool {
         ["succeeded", "failed", "cancelled"].contains(&&*self.state)
     }
@@ -124,23 +132,25 @@ fn is_step(before: &Version, after: &Version) -> bool {
     if a.is_final() {
         return is_unchanged(before, after);
     }
-    let is_loss = b.lost == a.lost + 1;
+    let is_loss = b.losses() == a.losses() + 1;
     match (&*a.state, &*b.state) {
         ("queued", "running") => {
-            (b.token, b.attempt, b.lost) == (a.token + 1, a.attempt + 1, a.lost)
+            (b.token, b.attempt, b.losses()) == (a.token + 1, a.attempt + 1, a.losses())
                 && b.worker.is_some()
         }
         ("running", "running") => {
-            (b.token, b.attempt, b.lost, &b.worker) == (a.token, a.attempt, a.lost, &a.worker)
+            (b.token, b.attempt, b.losses(), &b.worker)
+                == (a.token, a.attempt, a.losses(), &a.worker)
         }
         // Handed back, or lost as its holder says, or taken from its holder.
         ("running", "queued" | "failed") if b.worker.is_none() => {
             let is_taken = b.token == a.token + 1 && is_loss;
-            let is_told = b.token == a.token && (is_loss || b.lost == a.lost);
+            let is_told = b.token == a.token && (is_loss || b.losses() == a.losses());
             b.attempt == a.attempt && (is_taken || is_told)
         }
         ("running", "succeeded") => {
-            (b.token, b.attempt, b.lost) == (a.token, a.attempt, a.lost) && b.worker.is_none()
+            (b.token, b.attempt, b.losses()) == (a.token, a.attempt, a.losses())
+                && b.worker.is_none()
         }
         _ => false,
     }

@@ -13,7 +13,8 @@ use super::history::{self, Version};
 use super::machines::Machines;
 use super::program;
 
-/// Files without a row are removed when their job would be this old. A submission under way is not.
+/// Files without a row go into quarantine when their job would be this old. Those of a submission
+/// under way do not.
 const AHEAD_SECONDS: i64 = 25 * 3600;
 
 /// Everything that is wrong, a line each.
@@ -141,13 +142,21 @@ impl Judgment {
         }
     }
 
-    /// Files whose jobs were never recorded go when a service looks for them that starts a day
-    /// later; those of others went with their jobs.
+    /// Files whose jobs were never recorded are in quarantine when a service looks for them that
+    /// starts a day later; those of others went with their jobs.
     async fn left_in_store(&mut self, machines: &mut Machines, patience: Duration) {
         let clock = Clock::ahead(AHEAD_SECONDS);
         let _later = machines.api_ahead(&clock);
-        within(patience, || machines.s3.objects().is_empty()).await;
-        self.orphans.extend(machines.s3.objects());
+        let left = || {
+            let held = "SELECT job FROM quarantine";
+            let held = machines.postgres.psql(history::DATABASE, held);
+            let held: BTreeSet<&str> = held.lines().collect();
+            let mut left = machines.s3.objects();
+            left.retain(|key| !held.contains(key.split('/').next().unwrap_or_default()));
+            left
+        };
+        within(patience, || left().is_empty()).await;
+        self.orphans.extend(left());
     }
 }
 

@@ -22,6 +22,8 @@ const BUCKET: &str = "meshes";
 pub const URL: &str = "s3://meshes/jobs";
 const KEY: &str = "key";
 const SECRET: &str = "secret";
+/// Objects of the service itself.
+const OWN: [&str; 2] = ["store-id", "probe"];
 /// Where the process finds its folder and its port.
 const FOLDER: &str = "UNWRAPD_TEST_S3_FOLDER";
 const PORT: &str = "UNWRAPD_TEST_S3_PORT";
@@ -79,7 +81,7 @@ impl S3 {
         self.folder.path().join(BUCKET).join("jobs")
     }
 
-    /// The files below the prefix of the service, by their keys.
+    /// The files of jobs below the prefix of the service, by their keys.
     pub fn objects(&self) -> Vec<String> {
         let root = self.root();
         let mut found = Vec::new();
@@ -96,6 +98,7 @@ impl S3 {
                 }
             }
         }
+        found.retain(|key| !OWN.contains(&&**key));
         found.sort();
         found
     }

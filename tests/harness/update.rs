@@ -131,5 +131,5 @@ fn held(postgres: &Postgres) -> (usize, u64) {
     holders.sort();
     holders.dedup();
     let last = history.values().filter_map(|versions| versions.last());
-    (holders.len(), last.map(|it| it.row.lost).sum())
+    (holders.len(), last.map(|it| it.row.losses()).sum())
 }

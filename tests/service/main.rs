@@ -17,6 +17,7 @@ mod figures;
 #[path = "../harness/mod.rs"]
 #[expect(dead_code, reason = "some is for the benchmark")]
 mod harness;
+mod losses;
 mod materials;
 mod meshes;
 mod openapi;

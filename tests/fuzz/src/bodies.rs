@@ -46,6 +46,7 @@ async fn served() -> SocketAddr {
         of_owner: OwnerQuotas::default(),
         min_free: 0,
         retention: None,
+        quarantine: Duration::ZERO,
         grace: Duration::ZERO,
     };
     let url = format!("sqlite:{}?mode=rwc", data.join("records").display());

@@ -136,13 +136,23 @@ async fn a_database_that_stands_still_is_waited_for() {
 async fn a_killed_store_of_files_is_waited_for() {
     let mut cluster = Cluster::start();
     let api = cluster.api();
+    let paused = async |method| {
+        let answer = api.request(method, "/v1/pause").send().await;
+        assert_eq!(answer.expect("an answer").status(), 200);
+    };
+    paused("PUT").await;
     let jobs = submitted(&api, 256..258).await;
+    let worker = cluster.worker();
+    soon("the worker does not start", || {
+        worker.folder().join("scratch").exists()
+    })
+    .await;
     cluster.s3.kill();
     let refused = api.post("/v1/jobs").body(meshes::small()).send().await;
     assert_problem(refused.expect("an answer"), 503, "store_unavailable").await;
     let ready = api.get("/readyz").send().await.expect("an answer");
     assert_problem(ready, 503, "not_ready").await;
-    let _worker = cluster.worker();
+    paused("DELETE").await;
     let id = jobs[0]["id"].as_str().expect("an id").to_owned();
     soon("nobody takes it", || cluster.attempts()[&id].1 > 0).await;
 
@@ -167,6 +177,32 @@ async fn a_worker_that_is_told_to_stop_hands_its_job_back() {
     let (state, attempt, lost) = cluster.attempts()[id].clone();
     assert_eq!((attempt, lost), (1, 0));
     assert!(state == "queued" || state == "succeeded", "{state}");
+}
+
+/// Jobs are not to blame for the machines that they happen to run on.
+#[tokio::test]
+async fn workers_killed_every_few_seconds_lose_no_job() {
+    let cluster = Cluster::start();
+    let api = cluster.api();
+    let mut workers = [cluster.worker(), cluster.worker(), cluster.worker()];
+    let jobs = submitted(&api, 256..296).await;
+    for kill in 0.. {
+        let ended = || {
+            let states = "SELECT count(*) FROM job WHERE state NOT IN ('queued', 'running')";
+            cluster.postgres.psql("unwrapd", states).trim().to_owned()
+        };
+        if ended() == "40" {
+            assert!(0 < kill, "nothing was killed");
+            break;
+        }
+        workers[kill % 3].kill();
+        workers[kill % 3].restart();
+        tokio::time::sleep(Duration::from_secs(4)).await;
+    }
+    let _ = api.get("/healthz").send().await;
+    for job in &jobs {
+        assert_whole(&api, job).await;
+    }
 }
 
 #[tokio::test]

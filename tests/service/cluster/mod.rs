@@ -8,6 +8,7 @@ mod judged;
 mod keys;
 mod s3;
 mod sharing;
+mod starts;
 mod update;
 
 use std::collections::HashMap;
@@ -66,7 +67,7 @@ impl Cluster {
 
     /// Every attempt that was recorded, by job: how often it was started and lost.
     pub fn attempts(&self) -> HashMap<String, (String, u32, u32)> {
-        let rows = "SELECT id, state, attempt, lost FROM job ORDER BY id";
+        let rows = "SELECT id, state, attempt, lost + interrupted FROM job ORDER BY id";
         let rows = self.postgres.psql("unwrapd", rows);
         let row = |line: &str| {
             let fields: Vec<&str> = line.split('|').collect();

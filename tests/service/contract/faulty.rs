@@ -12,8 +12,9 @@ use futures_util::future::{BoxFuture, pending};
 use tokio::sync::Notify;
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
-    Beat, Blobs, Capacity, Changed, Content, Enqueued, Event, Happening, IdempotencyKey, Job,
-    JobId, JobStore, Listing, Queue, Reason, Share, StoreError, StoreResult, Sweep, WorkerId,
+    Beat, Blobs, Capacity, Census, Changed, Content, Enqueued, Event, Happening, IdempotencyKey,
+    Job, JobId, JobStore, Listing, Quarantined, Queue, Reason, Share, StoreError, StoreId,
+    StoreResult, Sweep, Timestamp, WorkerId,
 };
 
 /// What becomes of a call.
@@ -206,6 +207,38 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.inner.stored_bytes()
     }
 
+    fn now(&self) -> BoxFuture<'_, StoreResult<Timestamp>> {
+        self.inner.now()
+    }
+
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>> {
+        self.inner.identity()
+    }
+
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<StoreId>> {
+        self.inner.identify(identity)
+    }
+
+    fn census(&self) -> BoxFuture<'_, StoreResult<Census>> {
+        self.inner.census()
+    }
+
+    fn quarantine<'a>(&'a self, files: &'a [(JobId, u64)]) -> BoxFuture<'a, StoreResult<()>> {
+        self.inner.quarantine(files)
+    }
+
+    fn quarantined(&self) -> BoxFuture<'_, StoreResult<Vec<Quarantined>>> {
+        self.inner.quarantined()
+    }
+
+    fn release<'a>(&'a self, jobs: &'a [JobId]) -> BoxFuture<'a, StoreResult<()>> {
+        self.inner.release(jobs)
+    }
+
+    fn spoil(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>> {
+        self.inner.spoil(id)
+    }
+
     fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
         self.inner.check()
     }
@@ -230,6 +263,18 @@ impl Blobs for Faulty<Box<dyn Blobs>> {
 
     fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
         self.inner.owners()
+    }
+
+    fn list<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<Vec<(String, u64)>>> {
+        self.inner.list(folder)
+    }
+
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>> {
+        self.inner.identity()
+    }
+
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<()>> {
+        self.inner.identify(identity)
     }
 
     fn free_bytes(&self) -> StoreResult<Option<u64>> {

@@ -20,6 +20,7 @@ use unwrapd::store::RecordStore;
 pub const RULES: Rules = Rules {
     lease: Duration::from_millis(400),
     attempts: 3,
+    interruptions: 5,
     pause: Duration::from_millis(50),
 };
 

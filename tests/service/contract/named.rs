@@ -89,8 +89,8 @@ fn death_before_the_record(place: &Place) {
     place.start(0, &fault).die_submitting(&fault);
     let process = place.start(1, &Fault::none());
     assert_eq!(process.all(), []);
-    // Where others may be submitting, files without a job are kept for a day.
-    assert_eq!(process.owners().len(), usize::from(place.is_shared()));
+    // Files without a job are kept in quarantine.
+    assert_eq!(process.owners().len(), 1);
     let id = process.accepted();
     process.succeeded(id);
 }
@@ -150,7 +150,7 @@ fn death_before_the_end(place: &Place) {
         dying.die_at(&fault);
         let process = place.start(1, &Fault::none());
         let job = process.succeeded(id);
-        assert_eq!((job.attempt, job.lost), (2, 1));
+        assert_eq!((job.attempt, job.lost, job.interrupted), (2, 0, 1));
         removed(&process, id);
     }
 }

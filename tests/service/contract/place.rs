@@ -19,6 +19,7 @@ use crate::harness::{SOON, program};
 const RULES: Rules = Rules {
     lease: Duration::from_secs(2),
     attempts: 3,
+    interruptions: 5,
     pause: Duration::from_millis(50),
 };
 
@@ -131,6 +132,7 @@ fn settings(deployment: Deployment, scratch: PathBuf, workers: usize) -> Setting
         quota: None,
         min_free: 0,
         retention: Some(Duration::from_hours(1)),
+        quarantine: Duration::ZERO,
         grace: Duration::ZERO,
     }
 }

@@ -47,6 +47,10 @@ fn happenings() -> Vec<(&'static str, Happening)> {
         ("failed", Ending::Failed(Failure::new("no_uvs", "none"))),
         ("cancelled", Ending::Cancelled),
         ("lost", Ending::Lost(Failure::new("worker_lost", "gone"))),
+        (
+            "interrupted",
+            Ending::Interrupted(Failure::new("worker_lost", "told")),
+        ),
         ("handed back", Ending::HandedBack(Duration::ZERO)),
     ];
     let mut all = vec![
@@ -87,9 +91,11 @@ fn expected(name: &str, state: State) -> Result<State, Refusal> {
         ("succeeded", Running) => Ok(Succeeded),
         ("failed", Running) => Ok(Failed),
         ("cancelled", Running) => Ok(Cancelled),
-        ("lost" | "handed back", Running) => Ok(Queued),
+        ("lost" | "interrupted" | "handed back", Running) => Ok(Queued),
         // Who did not hear the answer says it again.
-        ("succeeded" | "failed" | "cancelled" | "lost" | "handed back", _) if state.is_final() => {
+        ("succeeded" | "failed" | "cancelled" | "lost" | "interrupted" | "handed back", _)
+            if state.is_final() =>
+        {
             Ok(state)
         }
         _ => Err(WrongState),
@@ -143,7 +149,8 @@ fn the_token_rises_when_a_job_changes_hands() {
 fn lost_attempts_are_counted_and_end_with_their_cause() {
     let mut job = in_state(State::Running);
     job.lost = RULES.attempts - 2;
-    let once = happen(&job, &Happening::Abandoned);
+    let lost = Ending::Lost(Failure::new("worker_lost", "killed"));
+    let once = happen(&job, &Happening::Ended(TOKEN, saying(0, 0.0), lost));
     assert_eq!((once.state, once.lost), (State::Queued, 2));
     assert_eq!(once.due, NOW.later(RULES.pause * 2));
     job.lost = RULES.attempts - 1;
@@ -158,6 +165,32 @@ fn lost_attempts_are_counted_and_end_with_their_cause() {
     let back = Ending::HandedBack(Duration::ZERO);
     let back = happen(&job, &Happening::Ended(TOKEN, saying(0, 0.0), back));
     assert_eq!(back.lost, job.lost);
+}
+
+/// A job is not to blame for the end of its worker, but one that ends every worker ends, too.
+#[test]
+fn attempts_lost_with_their_workers_count_apart() {
+    let mut job = in_state(State::Running);
+    job.lost = RULES.attempts - 1;
+    let told = Ending::Interrupted(Failure::new("worker_lost", "SIGTERM"));
+    let told = Happening::Ended(TOKEN, saying(0, 0.0), told);
+    for happening in [Happening::Abandoned, told] {
+        let once = happen(&job, &happening);
+        assert_eq!(
+            (once.state, once.lost, once.interrupted),
+            (State::Queued, job.lost, 1)
+        );
+        assert_eq!(once.due, NOW.later(RULES.pause));
+    }
+    job.interrupted = RULES.interruptions - 1;
+    let parked = happen(&job, &Happening::Abandoned);
+    assert_eq!(parked.state, State::Failed);
+    assert_eq!(
+        parked.failure.as_ref().expect("a cause").code,
+        "worker_lost"
+    );
+    let retried = happen(&parked, &Happening::Wished(Wish::Retry));
+    assert_eq!((retried.lost, retried.interrupted), (0, 0));
 }
 
 #[test]

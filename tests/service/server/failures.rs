@@ -4,6 +4,7 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::Value;
 
+use crate::cli::unwrapd;
 use crate::harness::memory::Memory;
 use crate::meshes;
 use crate::server::{Server, assert_problem, json};
@@ -69,6 +70,64 @@ async fn a_killed_child_is_tried_again_and_parked_after_three_times() {
     let finish = server.post(&format!("{path}/finish")).send().await;
     assert_eq!(finish.expect("an answer").status(), 202);
     assert_eq!(server.ended(&job).await["state"], "succeeded");
+}
+
+#[tokio::test]
+async fn failed_jobs_are_tried_again_by_their_code() {
+    let server = Server::with(&[("UNWRAPD_ATTEMPTS", "1")]);
+    let flat = server.post("/v1/jobs?filename=flat.obj");
+    let flat = flat.body("v 0 0 0\nv 1 0 0\nv 2 0 0\n").send().await;
+    let flat = json(flat.expect("an answer")).await;
+    assert_eq!(server.ended(&flat).await["state"], "failed");
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    for by_command in [false, true] {
+        server.mapping(&job).await;
+        kill_child(&server, Signal::SIGKILL);
+        assert_failed(&server, &job, "worker_lost").await;
+        if by_command {
+            let data = server.data().to_string_lossy().into_owned();
+            let retry = ["queue", "retry", "--code", "worker_lost", "--data", &data];
+            let output = unwrapd(&retry);
+            assert_eq!(output.stdout, b"1 jobs queued again\n");
+        } else {
+            let retry = server.post("/v1/jobs/retry?code=worker_lost").send().await;
+            let retry = retry.expect("an answer");
+            assert_eq!(retry.status(), 202);
+            let retried = json(retry).await;
+            assert_eq!(
+                (&retried["retried"], &retried["jobs"], &retried["next"]),
+                (&1.into(), &serde_json::json!([job["id"]]), &Value::Null)
+            );
+        }
+    }
+    server.mapping(&job).await;
+    let path = job["links"]["self"].as_str().expect("a link");
+    let finish = server.post(&format!("{path}/finish")).send().await;
+    assert_eq!(finish.expect("an answer").status(), 202);
+    assert_eq!(server.ended(&job).await["state"], "succeeded");
+    let wrong = server.post("/v1/jobs/retry?state=failed").send().await;
+    assert_problem(wrong.expect("an answer"), 400, "invalid_request").await;
+}
+
+/// As when a machine is shut down, which tells every process to stop.
+#[tokio::test]
+async fn a_child_that_is_told_to_stop_is_no_fault_of_its_job() {
+    let server = Server::with(&[("UNWRAPD_ATTEMPTS", "1")]);
+    let job = server.submit(meshes::large(), "cut=disk").await;
+    server.mapping(&job).await;
+    kill_child(&server, Signal::SIGTERM);
+    let mut running = server.mapping(&job).await;
+    while running["seq"].as_u64() < Some(2_000_000) {
+        running = server.mapping(&job).await;
+    }
+    let path = job["links"]["self"].as_str().expect("a link");
+    let finish = server.post(&format!("{path}/finish")).send().await;
+    assert_eq!(finish.expect("an answer").status(), 202);
+    let ended = server.ended(&job).await;
+    assert_eq!(
+        (&ended["state"], &ended["attempt"]),
+        (&"succeeded".into(), &2.into())
+    );
 }
 
 #[tokio::test]

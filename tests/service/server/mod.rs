@@ -20,6 +20,7 @@ mod maps;
 mod messages;
 mod noted;
 mod origins;
+mod private;
 pub mod progress;
 mod requests;
 mod restarts;
@@ -31,7 +32,7 @@ mod submitted;
 mod synchronous;
 mod uvs;
 mod verdicts;
-mod watchable;
+pub mod watchable;
 mod webhooks;
 
 use std::path::Path;
@@ -114,6 +115,7 @@ impl Server {
         folders
             .map(|folder| folder.expect("an entry").file_name())
             .map(|name| name.into_string().expect("text"))
+            .filter(|name| name != "store-id")
             .collect()
     }
 

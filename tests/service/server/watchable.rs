@@ -107,7 +107,7 @@ async fn dashboard_and_alerts_name_metrics_that_exist() {
         assert!(names.len() > 10);
     }
     let rules: Vec<&str> = alerts.split("- alert: ").skip(1).collect();
-    assert_eq!(rules.len(), 11);
+    assert_eq!(rules.len(), 14);
     for rule in rules {
         let action = rule.split("action: ").nth(1).expect("what to do");
         let sentence = action.lines().next().expect("a line");
@@ -195,6 +195,8 @@ fn config_says_what_is_in_force_and_where_it_comes_from() {
             "postgres://me:hush@host/name?password=hush",
         )
         .env("UNWRAPD_QUEUE_DEPHT", "7")
+        .env("AWS_ENDPOINT_URL", "http://127.0.0.1:9000")
+        .env("AWS_SECRET_ACCESS_KEY", "hush")
         .output()
         .expect("the binary runs");
     assert_status(&output, 0);
@@ -208,7 +210,7 @@ fn config_says_what_is_in_force_and_where_it_comes_from() {
     };
     for (option, value, source) in [
         ("--sessions", "3", "flag"),
-        ("--owner-sessions", "3", "default"),
+        ("--owner-sessions", "2", "default"),
         (
             "--database",
             "postgres://me:***@host/name?***",
@@ -216,6 +218,8 @@ fn config_says_what_is_in_force_and_where_it_comes_from() {
         ),
         ("--queue-depth", "1000", "default"),
         ("--blobs", "s3://a/b", "flag"),
+        ("AWS_ENDPOINT_URL", "http://127.0.0.1:9000", "environment"),
+        ("AWS_SECRET_ACCESS_KEY", "***", "environment"),
     ] {
         let row = row(option);
         assert_eq!(

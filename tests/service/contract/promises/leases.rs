@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use unwrapd::jobs::{Changed, Happening, JobId, JobStore, Refusal, State, Sweep, Wish};
+use unwrapd::jobs::{
+    Changed, Happening, JobId, JobStore, Refusal, SUSPECT, Share, State, Sweep, Wish, WorkerId,
+};
 use unwrapd::store::RecordStore;
 
 use super::{get, succeed, success, swept};
@@ -71,7 +73,10 @@ pub async fn a_silent_worker_loses_its_job(store: Arc<RecordStore>) {
     );
     let swept = swept(&store).await;
     assert_eq!((swept.len(), swept[0].id), (1, job.id));
-    assert_eq!((swept[0].state, swept[0].lost), (State::Queued, 1));
+    assert_eq!(
+        (swept[0].state, swept[0].lost, swept[0].interrupted),
+        (State::Queued, 0, 1)
+    );
     assert_eq!(swept[0].token, job.token + 1);
     let again = claim_soon(&store).await;
     assert_eq!((again.attempt, again.token), (2, job.token + 2));
@@ -98,14 +103,36 @@ pub async fn a_former_holder_changes_nothing(store: Arc<RecordStore>) {
 
 pub async fn a_job_that_kills_its_workers_is_parked(store: Arc<RecordStore>) {
     let id = enqueued(&store, &job()).await.id;
-    for attempt in 1..=RULES.attempts {
+    for attempt in 1..=RULES.interruptions {
         assert_eq!(claim_soon(&store).await.attempt, attempt);
         swept(&store).await;
     }
     let parked = get(&store, id).await;
-    assert_eq!((parked.state, parked.lost), (State::Failed, 3));
+    assert_eq!(
+        (parked.state, parked.lost, parked.interrupted),
+        (State::Failed, 0, RULES.interruptions)
+    );
     assert_eq!(parked.failure.expect("a cause").code, "worker_lost");
     assert!(claim(&store).await.is_none());
+}
+
+/// What may kill its workers is computed by one that computes nothing else.
+pub async fn a_suspect_goes_to_a_free_worker(store: Arc<RecordStore>) {
+    let suspect = enqueued(&store, &job()).await.id;
+    for _ in 0..SUSPECT {
+        assert_eq!(claim_soon(&store).await.id, suspect);
+        swept(&store).await;
+    }
+    let other = enqueued(&store, &job()).await.id;
+    let busy = Share {
+        is_busy: true,
+        ..Share::default()
+    };
+    let claimed = store.claim(WorkerId::fresh(), busy).await;
+    assert_eq!(claimed.expect("an answer").map(|job| job.id), Some(other));
+    let none = store.claim(WorkerId::fresh(), busy).await;
+    assert!(none.expect("an answer").is_none());
+    assert_eq!(claim_soon(&store).await.id, suspect);
 }
 
 pub async fn all_is_abandoned_at_once(store: Arc<RecordStore>) {

@@ -50,6 +50,7 @@ promises!(
     leases::a_silent_worker_loses_its_job,
     leases::a_former_holder_changes_nothing,
     leases::a_job_that_kills_its_workers_is_parked,
+    leases::a_suspect_goes_to_a_free_worker,
     claims::a_job_handed_back_waits_and_counts_no_loss,
     claims::a_retry_does_not_wait_behind_the_backlog,
     leases::all_is_abandoned_at_once,

@@ -211,11 +211,17 @@ async fn lists_sessions_and_results_are_each_owners_own() {
 
 #[tokio::test]
 async fn one_owner_does_not_take_all_sessions() {
-    let settings = [
-        ("UNWRAPD_REQUIRE_KEYS", "1"),
-        ("UNWRAPD_OWNER_SESSIONS", "1"),
-    ];
-    let server = Server::with(&settings);
+    leaves_a_session(("UNWRAPD_OWNER_SESSIONS", "1")).await;
+}
+
+#[tokio::test]
+async fn one_owner_has_half_of_the_sessions_by_default() {
+    leaves_a_session(("UNWRAPD_SESSIONS", "2")).await;
+}
+
+/// An owner who may have one session gets no second one, and another owner does.
+async fn leaves_a_session(setting: (&str, &str)) {
+    let server = Server::with(&[("UNWRAPD_REQUIRE_KEYS", "1"), setting]);
     let [alice, bob] = ["alice", "bob"].map(|owner| key(&server, owner, &[]));
     let opened = session(&server, &alice).await;
     let form = form("deform", "{}", ("sheet.off", sheet(3).1));

@@ -1,0 +1,155 @@
+//! `unwrapd check`: records and files compared.
+
+use serde::Serialize;
+
+use super::console::{print, print_json};
+use super::failure::Failure;
+use super::process::blobs_url;
+use super::store_args::StoreArgs;
+use crate::jobs::{
+    Blobs, Inspection, JobStore, Loss, Quarantined, StoreError, adopt, inspect, purge, repair,
+    shared_identity,
+};
+use crate::store::blobs_at;
+
+/// The arguments of `check`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    store: StoreArgs,
+    /// Place for files, if the service has one: s3://BUCKET/PREFIX or file:///DIR
+    #[arg(long, value_name = "URL", env = "UNWRAPD_BLOBS_URL")]
+    blobs: Option<String>,
+    /// Put files without a job into quarantine, and copy no damaged result for equal jobs
+    #[arg(long)]
+    repair: bool,
+    /// Delete what is in quarantine now, however much it is
+    #[arg(long)]
+    purge: bool,
+    /// Take the database and the files for one store from now on, whatever they were
+    #[arg(long)]
+    adopt: bool,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was found, as it is printed.
+#[derive(Serialize)]
+struct Printed {
+    jobs: usize,
+    files: usize,
+    missing: Vec<String>,
+    damaged: Vec<String>,
+    unknown: Vec<Unknown>,
+}
+
+/// Files without a job, and for how long they have been in quarantine.
+#[derive(Serialize)]
+struct Unknown {
+    job: String,
+    bytes: u64,
+    quarantine_days: Option<f64>,
+}
+
+const DAY_SECONDS: f64 = 86_400.0;
+
+/// Runs the command.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let runtime = super::batch::runtime()?;
+    runtime.block_on(check(args))
+}
+
+async fn check(args: &Args) -> Result<(), Failure> {
+    let data = &args.store.data;
+    if args.store.database.is_none() && !data.exists() {
+        return Err(Failure::other(format!("there is no {}", data.display())));
+    }
+    let store = args.store.opened().await?;
+    let url = blobs_url(data, args.blobs.as_deref()).map_err(Failure::other)?;
+    let blobs = blobs_at(&url).map_err(|error| failed(&error))?;
+    let found = compared(args, &store, blobs.as_ref()).await;
+    let (found, quarantined) = found.map_err(|error| failed(&error))?;
+    let printed = Printed::of(&found, &quarantined);
+    if args.json {
+        print_json(&printed)?;
+    } else {
+        printed.print();
+    }
+    if printed.missing.is_empty() && printed.damaged.is_empty() && printed.unknown.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::other(format!(
+        "{} files missing, {} damaged, files of {} jobs without a record",
+        printed.missing.len(),
+        printed.damaged.len(),
+        printed.unknown.len()
+    )))
+}
+
+fn failed(error: &StoreError) -> Failure {
+    Failure::other(error.to_string())
+}
+
+async fn compared(
+    args: &Args,
+    store: &dyn JobStore,
+    blobs: &dyn Blobs,
+) -> Result<(Inspection, Vec<Quarantined>), StoreError> {
+    if args.adopt {
+        adopt(store, blobs).await?;
+    }
+    shared_identity(store, blobs).await?;
+    if args.purge {
+        let purged = purge(store, blobs).await?;
+        eprintln!("unwrapd: files of {purged} jobs deleted");
+    }
+    let found = inspect(store, blobs).await?;
+    if args.repair {
+        repair(store, &found).await?;
+    }
+    Ok((found, store.quarantined().await?))
+}
+
+impl Printed {
+    fn of(found: &Inspection, quarantined: &[Quarantined]) -> Self {
+        let lost = |loss| {
+            let lost = found.lost.iter().filter(move |file| file.loss == loss);
+            lost.map(|file| file.key.clone()).collect()
+        };
+        let unknown = found.unknown.iter().map(|(job, bytes)| {
+            let held = quarantined.iter().find(|files| files.job == *job);
+            Unknown {
+                job: job.to_string(),
+                bytes: *bytes,
+                quarantine_days: held.map(|files| files.held.as_secs_f64() / DAY_SECONDS),
+            }
+        });
+        Self {
+            jobs: found.jobs,
+            files: found.files,
+            missing: lost(Loss::Missing),
+            damaged: lost(Loss::Damaged),
+            unknown: unknown.collect(),
+        }
+    }
+
+    fn print(&self) {
+        for (word, keys) in [("missing", &self.missing), ("damaged", &self.damaged)] {
+            for key in keys {
+                print(format!("{word}\t{key}"));
+            }
+        }
+        for files in &self.unknown {
+            let held = files.quarantine_days.map_or_else(
+                || "not in quarantine".to_owned(),
+                |days| format!("in quarantine for {days:.1} days"),
+            );
+            print(format!(
+                "unknown\t{}\t{} bytes\t{held}",
+                files.job, files.bytes
+            ));
+        }
+        print(format!("{} jobs, {} files", self.jobs, self.files));
+    }
+}

@@ -1,0 +1,80 @@
+//! Who may read what a process keeps: its user alone, and a group that is meant to.
+
+use std::fs::{DirBuilder, Metadata, Permissions};
+use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
+use std::path::Path;
+
+use nix::sys::stat::{Mode, umask};
+
+/// What there may be in a data folder. Other files in it are not ours.
+const NAMES: [&str; 7] = [
+    "unwrapd.sqlite",
+    "unwrapd.sqlite-wal",
+    "unwrapd.sqlite-shm",
+    "lock",
+    "address",
+    "blobs",
+    "scratch",
+];
+/// Access of the group and of others, and of others alone.
+const GROUP_AND_OTHERS: u32 = 0o077;
+const OTHERS: u32 = 0o007;
+const GROUP_WRITES: u32 = 0o020;
+const SETGID: u32 = 0o2000;
+const STICKY: u32 = 0o1000;
+
+/// Makes a data folder that only this user can read, and has all files that this process creates from
+/// now on be like that. A folder that is looser is tightened if this user owns it; otherwise a
+/// warning says so. A group keeps its access where that is how the folder is shared: it has the
+/// setgid bit, as Kubernetes sets it for `fsGroup`, or it belongs to somebody else and its group
+/// may write.
+pub(super) fn make_private(folder: &Path) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("cannot create {}: {error}", folder.display());
+    let mut builder = DirBuilder::new();
+    builder.recursive(true).mode(0o700);
+    builder.create(folder).map_err(failed)?;
+    let found = folder.metadata().map_err(failed)?;
+    let is_own = |data: &Metadata| is_owner(data.uid());
+    let is_of_group =
+        found.mode() & SETGID != 0 || (!is_own(&found) && found.mode() & GROUP_WRITES != 0);
+    let denied = if is_of_group {
+        OTHERS
+    } else {
+        GROUP_AND_OTHERS
+    };
+    umask(Mode::from_bits_truncate(denied));
+    if found.mode() & denied != 0 {
+        // A folder such as /tmp is meant for all.
+        if is_own(&found) && found.mode() & STICKY == 0 {
+            tighten(folder, &found, denied);
+        } else {
+            let folder = folder.display();
+            tracing::warn!("others can read {folder}, which this user does not own alone");
+        }
+    }
+    for name in NAMES {
+        let path = folder.join(name);
+        let Ok(data) = path.symlink_metadata() else {
+            continue;
+        };
+        if is_own(&data) && !data.is_symlink() && data.mode() & denied != 0 {
+            tighten(&path, &data, denied);
+        }
+    }
+    Ok(())
+}
+
+/// Takes access away.
+fn tighten(path: &Path, data: &Metadata, denied: u32) {
+    let mode = data.mode() & 0o7777 & !denied;
+    let path_shown = path.display();
+    match std::fs::set_permissions(path, Permissions::from_mode(mode)) {
+        Ok(()) => tracing::info!("access to {path_shown} is now {mode:03o}"),
+        Err(error) => tracing::warn!("others can read {path_shown}: {error}"),
+    }
+}
+
+/// Whether this process runs as a user.
+fn is_owner(user: u32) -> bool {
+    std::fs::metadata("/proc/self").is_ok_and(|own| own.uid() == user)
+}

@@ -1,0 +1,112 @@
+//! The identity that a database and its files share.
+//!
+//! A database that is missing, empty or of another service would make every file look like one
+//! without a job. So both have the same random name, and a process starts on no other pair. A store
+//! of version 0.1.0 has no name; it gets one when a job of the database has files.
+
+use std::fmt;
+use std::str::FromStr;
+
+use uuid::Uuid;
+
+use super::blobs::Blobs;
+use super::job::JobId;
+use super::storage::JobStore;
+use super::store_error::{StoreError, StoreResult};
+
+/// Jobs that are looked up at once.
+const TOGETHER: usize = 1000;
+
+/// Names a store: a database together with its files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StoreId(Uuid);
+
+impl StoreId {
+    /// A name that no other store has.
+    pub fn fresh() -> Self {
+        Self(Uuid::now_v7())
+    }
+}
+
+impl fmt::Display for StoreId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for StoreId {
+    type Err = uuid::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        text.trim().parse().map(Self)
+    }
+}
+
+/// Returns the identity that records and files share. New stores, and those of version 0.1.0, get
+/// one.
+///
+/// # Errors
+/// Why the two do not belong together, and what to do about it.
+pub async fn shared_identity(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<StoreId> {
+    match (store.identity().await?, blobs.identity().await?) {
+        (Some(records), Some(files)) if records == files => Ok(records),
+        (Some(records), Some(files)) => Err(StoreError::Other(format!(
+            "the database is of store {records}, but the files are of store {files}: name the \
+             database and the place for files that belong together (see `unwrapd check --help`)"
+        ))),
+        (records, files) => {
+            check_match(store, blobs).await?;
+            let known = files.or(records).unwrap_or_else(StoreId::fresh);
+            // Of processes that start together, the first one chooses.
+            let chosen = store.identify(known).await?;
+            if files.is_none() {
+                blobs.identify(chosen).await?;
+            }
+            Ok(chosen)
+        }
+    }
+}
+
+/// Makes records and files one store, whatever they were.
+pub async fn adopt(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<StoreId> {
+    let chosen = store.identify(StoreId::fresh()).await?;
+    blobs.identify(chosen).await?;
+    Ok(chosen)
+}
+
+/// Whether records and files belong together as far as their contents tell: neither has any, or a
+/// job has both.
+async fn check_match(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<()> {
+    let census = store.census().await?;
+    let owners = blobs.owners().await?;
+    let why = match (census.jobs, owners.len()) {
+        (0, 0) => return Ok(()),
+        (_, 0) if census.with_files == 0 => return Ok(()),
+        (_, 0) => format!(
+            "the database has {} jobs with files, but the place for files is empty: mount it, \
+             restore it, or name the right one",
+            census.with_files
+        ),
+        (0, files) => format!(
+            "the database is empty, but there are files of {files} jobs: restore its backup, or \
+             name the right database"
+        ),
+        _ if is_any_known(store, &owners).await? => return Ok(()),
+        (_, files) => format!(
+            "the database knows none of the {files} jobs that have files: name the database and \
+             the place for files that belong together"
+        ),
+    };
+    Err(StoreError::Other(format!(
+        "{why} (see `unwrapd check --help`)"
+    )))
+}
+
+async fn is_any_known(store: &dyn JobStore, owners: &[JobId]) -> StoreResult<bool> {
+    for owners in owners.chunks(TOGETHER) {
+        if !store.events(owners).await?.is_empty() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}

@@ -1,0 +1,117 @@
+//! Files whose job is not in the database.
+//!
+//! A crash leaves a few: between the storing of files and of their record, or between the removal of
+//! a record and of its files. A database that was restored from an older backup leaves many. So they
+//! are never deleted when they are found. They stay where they are, are listed, count against the
+//! quota, and go only when they have been unknown for days, by a clock that advances normally and
+//! without a gap between looks. A job that is known again takes its files back.
+
+use std::collections::{HashMap, HashSet};
+use std::time::Duration;
+
+use super::job::JobId;
+use super::meters;
+use super::queue::Jobs;
+use super::state::State;
+use super::store_error::StoreResult;
+use super::timestamp::Timestamp;
+
+/// Jobs of files that are looked for at once.
+const TOGETHER: usize = 1000;
+/// More unknown files than this share of all, in percent, and than this number are no accident.
+const MOST_PERCENT: usize = 1;
+const MOST: usize = 20;
+
+/// Files in quarantine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quarantined {
+    /// The job whose folder they are in.
+    pub job: JobId,
+    /// Their size.
+    pub bytes: u64,
+    /// For how long they have been unknown.
+    pub held: Duration,
+}
+
+impl Jobs {
+    /// Puts files without a job into quarantine if their job is older than this, and deletes those
+    /// that have been there for long enough. Nothing is deleted while too many are unknown.
+    pub(super) async fn sweep_unknown_files(&self, age: Duration) -> StoreResult<()> {
+        let owners = self.blobs.owners().await?;
+        let unknown = self.unknown(&owners, age).await?;
+        let held = self.store.quarantined().await?;
+        let known: Vec<JobId> = held.iter().map(|files| files.job).collect();
+        let known: Vec<JobId> = (known.into_iter())
+            .filter(|job| !unknown.contains(job))
+            .collect();
+        self.store.release(&known).await?;
+        for jobs in unknown.iter().copied().collect::<Vec<_>>().chunks(TOGETHER) {
+            let mut found = Vec::new();
+            for &job in jobs {
+                let files = self.blobs.list(&job.to_string()).await?;
+                found.push((job, files.iter().map(|(_, bytes)| bytes).sum()));
+            }
+            self.store.quarantine(&found).await?;
+        }
+        for job in &unknown {
+            if !held.iter().any(|files| files.job == *job) {
+                tracing::warn!(%job, "files without a job are in quarantine");
+            }
+        }
+        let is_stopped = is_too_many(unknown.len(), owners.len());
+        meters::quarantine_stopped(is_stopped);
+        if is_stopped {
+            let (unknown, of) = (unknown.len(), owners.len());
+            tracing::error!(
+                unknown,
+                of,
+                "too many files without a job: none is deleted. Restore the database that knows \
+                 them, or delete them with `unwrapd check --purge`"
+            );
+            return Ok(());
+        }
+        if self.clock_is_steady().await? {
+            self.delete_quarantined().await?;
+        }
+        Ok(())
+    }
+
+    /// The jobs of this age or older that have files and no record. Files of cancelled jobs, which
+    /// need none, are removed.
+    async fn unknown(&self, owners: &[JobId], age: Duration) -> StoreResult<HashSet<JobId>> {
+        let is_old = |id: &JobId| age.as_millis() <= u128::from(Timestamp::now().since(id.made()));
+        let old: Vec<JobId> = owners.iter().copied().filter(is_old).collect();
+        let mut unknown = HashSet::new();
+        for owners in old.chunks(TOGETHER) {
+            let events: HashMap<_, _> = self.store.events(owners).await?.into_iter().collect();
+            for &id in owners {
+                match events.get(&id) {
+                    None => drop(unknown.insert(id)),
+                    Some(event) if event.state == State::Cancelled => {
+                        self.blobs.remove(&id.to_string()).await?;
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+        Ok(unknown)
+    }
+
+    /// Deletes what has been in quarantine for long enough.
+    async fn delete_quarantined(&self) -> StoreResult<()> {
+        for files in self.store.quarantined().await? {
+            let is_due = self.settings.quarantine <= files.held;
+            if is_due && self.store.events(&[files.job]).await?.is_empty() {
+                tracing::warn!(job = %files.job, bytes = files.bytes, "files without a job deleted");
+                self.blobs.remove(&files.job.to_string()).await?;
+                self.store.release(&[files.job]).await?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether so many of all files cannot be unknown by accident.
+fn is_too_many(unknown: usize, all: usize) -> bool {
+    MOST < unknown && MOST_PERCENT * all < 100 * unknown
+}

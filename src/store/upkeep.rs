@@ -1,0 +1,115 @@
+//! What a database knows of the store as a whole: its identity, its clock, files without a job.
+
+use std::time::Duration;
+
+use sqlx::Row;
+use sqlx::any::AnyRow;
+
+use super::database::Database;
+use super::rows;
+use crate::jobs::{Census, JobId, Quarantined, StoreId, StoreResult, Timestamp};
+
+/// Files that were not looked at for this long were not unknown all the time: a process looks every
+/// day. The database may have been restored, or its clock may have jumped.
+const GAP_MS: i64 = 3 * 86_400_000;
+
+/// What time it is.
+pub(super) async fn now(database: &Database) -> StoreResult<Timestamp> {
+    let row = sqlx::query(database.sql("SELECT {now} AS now"))
+        .fetch_one(&database.readers)
+        .await?;
+    rows::now(&row)
+}
+
+/// Which store this is.
+pub(super) async fn identity(database: &Database) -> StoreResult<Option<StoreId>> {
+    let row = sqlx::query("SELECT store FROM identity WHERE id = 1")
+        .fetch_optional(&database.readers)
+        .await?;
+    let parsed = |row: AnyRow| {
+        let text: String = row.try_get("store").map_err(rows::damaged)?;
+        text.parse().map_err(rows::damaged)
+    };
+    row.map(parsed).transpose()
+}
+
+/// Gives the store an identity if it has none. Returns the one that it has then.
+pub(super) async fn identify(database: &Database, identity: StoreId) -> StoreResult<StoreId> {
+    let insert = "INSERT INTO identity (id, store) VALUES (1, $1) ON CONFLICT (id) DO NOTHING";
+    sqlx::query(insert)
+        .bind(identity.to_string())
+        .execute(&database.writers)
+        .await?;
+    let present = self::identity(database).await?;
+    Ok(present.unwrap_or(identity))
+}
+
+/// How many jobs there are, and how many of them have files.
+pub(super) async fn census(database: &Database) -> StoreResult<Census> {
+    let count = "SELECT count(*) AS jobs,
+         CAST(coalesce(sum(CASE WHEN 0 < bytes THEN 1 ELSE 0 END), 0) AS BIGINT) AS with_files
+         FROM job";
+    let row = sqlx::query(count).fetch_one(&database.readers).await?;
+    Ok(Census {
+        jobs: row.try_get::<i64, _>("jobs")? as u64,
+        with_files: row.try_get::<i64, _>("with_files")? as u64,
+    })
+}
+
+/// Notes files without a job, or that they still have none.
+pub(super) async fn quarantine(database: &Database, files: &[(JobId, u64)]) -> StoreResult<()> {
+    let mut transaction = database.begin().await?;
+    for (job, bytes) in files {
+        let note = "INSERT INTO quarantine (job, bytes, since, seen)
+             VALUES ($1, $2, {now}, {now})
+             ON CONFLICT (job) DO UPDATE SET bytes = excluded.bytes, seen = excluded.seen,
+                 since = CASE WHEN quarantine.seen <= excluded.seen
+                                   AND excluded.seen <= quarantine.seen + $3
+                              THEN quarantine.since ELSE excluded.since END";
+        sqlx::query(database.sql(note))
+            .bind(job.to_string())
+            .bind(*bytes as i64)
+            .bind(GAP_MS)
+            .execute(&mut *transaction)
+            .await?;
+    }
+    transaction.commit().await?;
+    Ok(())
+}
+
+/// All files that were noted, the oldest first.
+pub(super) async fn quarantined(database: &Database) -> StoreResult<Vec<Quarantined>> {
+    let all = "SELECT job AS id, bytes, since, {now} AS now FROM quarantine ORDER BY since, job";
+    let found = sqlx::query(database.sql(all))
+        .fetch_all(&database.readers)
+        .await?;
+    let files = |row: &AnyRow| {
+        let since = Timestamp(row.try_get("since").map_err(rows::damaged)?);
+        Ok(Quarantined {
+            job: rows::id(row)?,
+            bytes: row.try_get::<i64, _>("bytes").map_err(rows::damaged)? as u64,
+            held: Duration::from_millis(rows::now(row)?.since(since)),
+        })
+    };
+    found.iter().map(files).collect()
+}
+
+/// Forgets files that were noted.
+pub(super) async fn release(database: &Database, jobs: &[JobId]) -> StoreResult<()> {
+    for job in jobs {
+        sqlx::query("DELETE FROM quarantine WHERE job = $1")
+            .bind(job.to_string())
+            .execute(&database.writers)
+            .await?;
+    }
+    Ok(())
+}
+
+/// Has no job equal this one, whose files are damaged.
+pub(super) async fn spoil(database: &Database, id: JobId) -> StoreResult<()> {
+    sqlx::query("UPDATE job SET digest = '' WHERE id = $1")
+        .bind(id.to_string())
+        .execute(&database.writers)
+        .await?;
+    Ok(())
+}
