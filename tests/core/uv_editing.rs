@@ -431,3 +431,14 @@ fn anchors_are_read_by_either_name() {
         assert_eq!(error.code(), "malformed_handles");
     }
 }
+
+#[test]
+fn an_anchor_outside_every_chart_is_refused() {
+    let sheets = Sheets::new();
+    let place = |at: [f64; 2]| Anchor::Place { at, to: [0.2, 0.2] };
+    let edited = |at| edit_uvs(&sheets.mesh(), &[place(at)], &UvEditOptions::edit(), &go_on);
+    let refused = edited([-5.0, -5.0]).expect_err("no chart");
+    assert_eq!(refused.code(), "handle_outside");
+    // Beside a corner, as a pointer hits it.
+    edited([0.05 - 5e-4, 0.1]).expect("a corner");
+}

@@ -136,3 +136,12 @@ fn what_cannot_be_a_lightmap_is_refused() {
     circular.json["nodes"][2]["children"] = json!([7]);
     assert_eq!(code(&circular, Options::default()), "invalid_gltf");
 }
+
+#[test]
+fn instances_have_no_part_of_their_own() {
+    let mut builder = scene();
+    builder.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": {}}});
+    builder.json["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+    let refused = lightmap(&builder, Options::default()).unwrap_err();
+    assert_eq!(refused.code(), "unsupported_extension");
+}

@@ -308,3 +308,33 @@ fn what_cannot_be_done_is_refused() {
     };
     assert_eq!(code(&many.upload(), &large), "limit_exceeded");
 }
+
+#[test]
+fn what_is_not_resampled_is_not_done() {
+    assert!(!rebaked(&square()).report.partly_done);
+    // A format that is not read, and a picture that is cut off.
+    let webp = "data:image/webp;base64,UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA==";
+    let cut = uri(RED);
+    for image in [webp, &cut[..cut.len() / 2 / 4 * 4]] {
+        let mut builder = square();
+        builder.json["images"][0]["uri"] = json!(image);
+        let report = rebaked(&builder).report;
+        assert!(report.certified && report.partly_done);
+        assert!(report.warnings.iter().any(|w| w.code == "textures_kept"));
+    }
+    // Colors and no texture, and neither.
+    let mut builder = Builder::square();
+    let report = rebaked(&builder).report;
+    assert!(
+        report
+            .warnings
+            .iter()
+            .any(|w| w.code == "nothing_to_resample")
+    );
+    assert!(!report.partly_done);
+    let colors = builder.floats("VEC3", 3, &[1., 0., 0.].repeat(4));
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
+    let report = rebaked(&builder).report;
+    assert!(report.certified && report.partly_done);
+    assert!(report.warnings.iter().any(|w| w.code == "colors_kept"));
+}
