@@ -114,7 +114,7 @@ pub(super) fn layout(
 }
 
 /// Charts whose area takes a smaller share of their room than this are lines: the difference of roots would be rounding.
-const SLIVERS: f64 = 1e-9;
+pub(super) const SLIVERS: f64 = 1e-9;
 
 /// The scale (cells per mesh unit) with the best fill, and its layout.
 fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {

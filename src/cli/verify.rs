@@ -39,6 +39,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                     "required by the record in the file: {required}"
                 ));
             }
+            let made_for = mark.terms.group_by;
+            if made_for != verified.judged.group_by && args.options.judged.group_by.is_none() {
+                say(format_args!(
+                    "the record says that the UVs were made with --group-by {made_for}"
+                ));
+            }
         }
         for group in &verified.groups {
             let text = certificate_text(&group.certificate);

@@ -5,6 +5,9 @@ use super::distances::{Distances, Neighbors, distances};
 use crate::mesh::{CUT, Edges, Surface, UnionFind, next, origin, same_direction};
 use crate::numerics::vec3::distance;
 
+/// Pairs of faces at one edge that are compared at most.
+const MOST_PAIRS: usize = 4096;
+
 /// Joins the disks of each component of a surface to one, where an edge can be found that both have and neither has used.
 ///
 /// Two disks glued along one edge, and only one, are again a disk, holes or not. They are glued only where they are wound alike. So the
@@ -30,6 +33,23 @@ fn glue(twin: &mut [u32], a: u32, b: u32) {
     twin[b as usize] = a;
 }
 
+/// The halfedges of an edge by the direction in which they run: two that run in opposite directions are wound alike.
+fn by_direction(surface: &Surface, edge: &[u32]) -> [Vec<u32>; 2] {
+    let is_forth = |h: &u32| !edge.is_empty() && same_direction(&surface.triangles, edge[0], *h);
+    let (forth, back) = edge.iter().copied().partition(is_forth);
+    [forth, back]
+}
+
+/// Pairs of one and another; of many, each is in one pair or two.
+fn pairs_of<'a, T>(forth: &'a [T], back: &'a [T]) -> Vec<(&'a T, &'a T)> {
+    if forth.len() * back.len() <= MOST_PAIRS {
+        let with_each = |a| back.iter().map(move |b| (a, b));
+        return forth.iter().flat_map(with_each).collect();
+    }
+    let shifted = forth.iter().zip(back.iter().skip(1));
+    forth.iter().zip(back).chain(shifted).collect()
+}
+
 fn join_at_boundaries(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut UnionFind) {
     let mut pairs = Vec::new();
     for edge in edges.iter() {
@@ -38,12 +58,12 @@ fn join_at_boundaries(surface: &Surface, edges: &Edges, twin: &mut [u32], disks:
             .copied()
             .filter(|&h| twin[h as usize] == CUT)
             .collect();
-        for pair in open.windows(2) {
-            let is_alike = !same_direction(&surface.triangles, pair[0], pair[1]);
-            if is_alike && disks.find(pair[0] / 3) != disks.find(pair[1] / 3) {
-                let [a, b] = [pair[0], next(pair[0])]
-                    .map(|h| surface.positions[origin(&surface.triangles, h) as usize]);
-                pairs.push((distance(a, b), pair[0], pair[1]));
+        let [forth, back] = by_direction(surface, &open);
+        for (&a, &b) in pairs_of(&forth, &back) {
+            if disks.find(a / 3) != disks.find(b / 3) {
+                let [p, q] =
+                    [a, next(a)].map(|h| surface.positions[origin(&surface.triangles, h) as usize]);
+                pairs.push((distance(p, q), a.min(b), a.max(b)));
             }
         }
     }
@@ -79,17 +99,22 @@ fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut U
     );
     let mut pairs = Vec::new();
     for edge in edges.iter().filter(|edge| edge.len() > 2) {
-        let mut reach: Vec<(u32, f64, u32)> = edge
-            .iter()
-            .map(|&h| (disks.find(h / 3), slit_length(&whole, &from_boundary, h), h))
-            .filter(|r| r.1.is_finite())
-            .collect();
-        reach.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
-        reach.dedup_by_key(|r| r.0);
-        let is_alike =
-            |pair: &&[(u32, f64, u32)]| !same_direction(&surface.triangles, pair[0].2, pair[1].2);
-        for pair in reach.windows(2).filter(is_alike) {
-            pairs.push((pair[0].1 + pair[1].1, pair[0].2, pair[1].2));
+        let mut nearest_of_each_disk = |halfedges: Vec<u32>| {
+            let mut reach: Vec<(u32, f64, u32)> = (halfedges.into_iter())
+                .map(|h| (disks.find(h / 3), slit_length(&whole, &from_boundary, h), h))
+                .filter(|r| r.1.is_finite())
+                .collect();
+            reach.sort_unstable_by(|a, b| {
+                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2))
+            });
+            reach.dedup_by_key(|r| r.0);
+            reach
+        };
+        let [forth, back] = by_direction(surface, edge).map(&mut nearest_of_each_disk);
+        for (a, b) in pairs_of(&forth, &back) {
+            if a.0 != b.0 {
+                pairs.push((a.1 + b.1, a.2.min(b.2), a.2.max(b.2)));
+            }
         }
     }
     pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));

@@ -1,6 +1,7 @@
 use super::DocumentError;
 use crate::mesh::io::IndexedTriangles;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// The triangles of one primitive, as the file has them.
 ///
@@ -61,6 +62,18 @@ pub enum GroupBy {
     Material,
     /// One atlas per primitive.
     Primitive,
+}
+
+/// As the command line names it.
+impl fmt::Display for GroupBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mesh => "mesh",
+            Self::Scene => "scene",
+            Self::Material => "material",
+            Self::Primitive => "primitive",
+        })
+    }
 }
 
 /// Primitives that share one UV space.

@@ -6,9 +6,9 @@ use std::path::Path;
 use futures_util::future::BoxFuture;
 use futures_util::stream::BoxStream;
 
-use super::identity::StoreId;
 use super::job::JobId;
 use super::store_error::StoreResult;
+use super::store_id::StoreId;
 
 /// The content of a file as it is read.
 pub type Content = BoxStream<'static, StoreResult<Vec<u8>>>;

@@ -4,43 +4,14 @@
 //! without a job. So both have the same random name, and a process starts on no other pair. A store
 //! of version 0.1.0 has no name; it gets one when a job of the database has files.
 
-use std::fmt;
-use std::str::FromStr;
-
-use uuid::Uuid;
-
 use super::blobs::Blobs;
 use super::job::JobId;
 use super::storage::JobStore;
 use super::store_error::{StoreError, StoreResult};
+use super::store_id::StoreId;
 
 /// Jobs that are looked up at once.
 const TOGETHER: usize = 1000;
-
-/// Names a store: a database together with its files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct StoreId(Uuid);
-
-impl StoreId {
-    /// A name that no other store has.
-    pub fn fresh() -> Self {
-        Self(Uuid::now_v7())
-    }
-}
-
-impl fmt::Display for StoreId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
-
-impl FromStr for StoreId {
-    type Err = uuid::Error;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        text.trim().parse().map(Self)
-    }
-}
 
 /// Returns the identity that records and files share. New stores, and those of version 0.1.0, get
 /// one.

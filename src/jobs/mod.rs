@@ -92,6 +92,7 @@ mod space;
 mod state;
 mod storage;
 mod store_error;
+mod store_id;
 mod submit;
 mod subscription;
 mod supervision;
@@ -114,7 +115,7 @@ pub use contained::Contained;
 pub use digest::Digest;
 pub use gates::{Gate, GateError, Gates};
 pub use handling::Handling;
-pub use identity::{StoreId, adopt, shared_identity};
+pub use identity::{adopt, shared_identity};
 pub use input_output::{InputFile, OutputFile};
 pub use inspection::{Inspection, Loss, LostFile, inspect, purge, repair};
 pub use job::{Failure, Job, JobId, Verdict};
@@ -126,7 +127,6 @@ pub use outbox::{Notice, Outbox};
 pub use pace::Pace;
 pub use program::Program;
 pub use progress::{Event, Progress, Saying};
-pub use quarantine::Quarantined;
 pub use queue::{Ended, Jobs};
 pub use quotas::{Capacity, OwnerQuota, OwnerQuotas};
 pub use retry::{Retried, retry_failed};
@@ -135,9 +135,11 @@ pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
 pub use storage::{
-    Beat, Census, Changed, Enqueued, IdempotencyKey, JobStore, Queue, Reason, Share, Sweep,
+    Beat, Census, Changed, Enqueued, IdempotencyKey, JobStore, Quarantined, Queue, Reason, Share,
+    Sweep,
 };
 pub use store_error::{StoreError, StoreResult};
+pub use store_id::StoreId;
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;
 pub use task::{Pictures, TASK, Task, input_file, output_file, read_json, read_upload, write_json};

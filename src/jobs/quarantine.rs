@@ -22,17 +22,6 @@ const TOGETHER: usize = 1000;
 const MOST_PERCENT: usize = 1;
 const MOST: usize = 20;
 
-/// Files in quarantine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Quarantined {
-    /// The job whose folder they are in.
-    pub job: JobId,
-    /// Their size.
-    pub bytes: u64,
-    /// For how long they have been unknown.
-    pub held: Duration,
-}
-
 impl Jobs {
     /// Puts files without a job into quarantine if their job is older than this, and deletes those
     /// that have been there for long enough. Nothing is deleted while too many are unknown.

@@ -10,7 +10,6 @@ use tokio_util::task::TaskTracker;
 use super::access::Reach;
 use super::blobs::Blobs;
 use super::clock::SteadyClock;
-use super::identity::StoreId;
 use super::job::{Job, JobId};
 use super::keys::output_folder;
 use super::lease::WorkerId;
@@ -22,6 +21,7 @@ use super::settings::Settings;
 use super::state::State;
 use super::storage::{Changed, JobStore, Queue, Reason};
 use super::store_error::StoreResult;
+use super::store_id::StoreId;
 use super::transition::{Happening, Wish};
 
 /// For a job that nobody waits for to end.

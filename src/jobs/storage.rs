@@ -5,15 +5,14 @@ use std::time::Duration;
 use futures_util::future::BoxFuture;
 
 use super::access::Reach;
-use super::identity::StoreId;
 use super::job::{Job, JobId};
 use super::lease::{Token, WorkerId};
 use super::listing::Listing;
 use super::progress::{Event, Saying};
-use super::quarantine::Quarantined;
 use super::quotas::{Capacity, OwnerQuota};
 use super::state::State;
 use super::store_error::StoreResult;
+use super::store_id::StoreId;
 use super::timestamp::Timestamp;
 use super::transition::{Happening, Refusal};
 
@@ -104,6 +103,17 @@ pub enum Reason {
     Deleted,
     /// Its time was over. That is remembered.
     Expired,
+}
+
+/// Files in quarantine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quarantined {
+    /// The job whose folder they are in.
+    pub job: JobId,
+    /// Their size.
+    pub bytes: u64,
+    /// For how long they have been unknown.
+    pub held: Duration,
 }
 
 /// Records of jobs. Every call is one transaction, durable when it returns. Times are those of the

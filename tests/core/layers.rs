@@ -91,6 +91,7 @@ const LAYERS: &[(&str, &[&str], &[&str])] = &[
             "serde_json",
             "futures_util",
             "percent_encoding",
+            "uuid",
         ],
     ),
     (

@@ -8,7 +8,7 @@ use std::sync::Arc;
 pub use search::Look;
 
 use super::arrangement::Arrangement;
-use super::layout::padding;
+use super::layout::{SLIVERS, padding};
 use super::mask::{Distances, Rounding};
 use super::outline::{Outline, outlines};
 use super::plan::{HOPE, Plan, by_size, level};
@@ -74,7 +74,7 @@ struct Raster {
 
 impl Draft {
     /// The charts in the order of their sizes; nothing for so many, or so few words, that a search would see only a few layouts,
-    /// where a needle is longer than the raster, or where charts may not be turned by any angle.
+    /// where a needle is longer than the raster, where the charts have no area, or where they may not be turned by any angle.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
         let is_worth_it = outlines.len() <= MOST_CHARTS && options.search_words > 0;
@@ -85,7 +85,10 @@ impl Draft {
     }
 
     fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
-        let area = plan.area().max(f64::MIN_POSITIVE);
+        let area = plan.area();
+        if area <= SLIVERS * plan.longest().powi(2) {
+            return None;
+        }
         let texture = options.texture;
         let side = if plan.order.len() > FEW * texture.pages as usize {
             FINE_RASTER
