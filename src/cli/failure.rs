@@ -61,6 +61,12 @@ impl Failure {
         }
     }
 
+    /// Says first what was not done.
+    pub(super) fn about(mut self, what: impl std::fmt::Display) -> Self {
+        self.message = format!("{what}: {}", self.message);
+        self
+    }
+
     /// Names the input that cannot be used, where the message does not.
     pub(super) fn of_input(mut self, name: Option<&str>) -> Self {
         let name = name.filter(|name| !self.message.contains(name));

@@ -28,7 +28,7 @@ enum Action {
     Create(Create),
     /// Add a key that was made elsewhere, such as one in the secrets of a cluster
     ///
-    /// Its text is unwrapd_ID_SECRET, where ID has 16 and SECRET 64 hexadecimal digits. A key that is there stays as it is, so
+    /// Its text is uw_ID_SECRET, where ID has 16 and SECRET 64 hexadecimal digits. A key that is there stays as it is, so
     /// that every process may add it before it starts.
     Add(Add),
     /// List all keys that were ever made, without their secrets
@@ -153,7 +153,7 @@ async fn add(args: &Add) -> Result<(), Failure> {
     let key = KeyText::parse(text).filter(|_| is_long(text));
     let key = key.ok_or_else(|| {
         Failure::usage(
-            "the key must be unwrapd_ID_SECRET, with 16 and 64 hexadecimal digits in lower case",
+            "the key must be uw_ID_SECRET, with 16 and 64 hexadecimal digits in lower case",
         )
     })?;
     let new = NewKey {
@@ -198,7 +198,9 @@ async fn list(args: &List) -> Result<(), Failure> {
 }
 
 async fn revoke(args: &Revoke) -> Result<(), Failure> {
-    let revoked = args.store.present().await?.revoke(&args.id).await;
+    let store = args.store.present().await;
+    let store = store.map_err(|failure| failure.about(format_args!("no key {}", args.id)))?;
+    let revoked = store.revoke(&args.id).await;
     match revoked {
         Ok(true) => Ok(()),
         Ok(false) => Err(Failure::other(format!(

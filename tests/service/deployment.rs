@@ -66,7 +66,7 @@ fn kubernetes_has_a_key_and_metrics() {
     let arguments = line.trim_start_matches("args: [").trim_end_matches(']');
     let arguments: Vec<&str> = arguments.split(", ").collect();
     let folder = tempfile::tempdir().expect("a folder");
-    let key = format!("unwrapd_{}_{}", "0a".repeat(8), "5b".repeat(32));
+    let key = format!("uw_{}_{}", "0a".repeat(8), "5b".repeat(32));
     let add = |key: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_unwrapd"));
         command.args(&arguments).env("UNWRAPD_INITIAL_KEY", key);
@@ -75,7 +75,7 @@ fn kubernetes_has_a_key_and_metrics() {
     };
     assert_status(&add(&key), 0);
     assert_status(&add(&key), 0);
-    let other = format!("unwrapd_{}_{}", "0a".repeat(8), "5c".repeat(32));
+    let other = format!("uw_{}_{}", "0a".repeat(8), "5c".repeat(32));
     assert_status(&add(&other), 1);
     assert_status(&add("secret"), 2);
     let data = folder.path().to_str().expect("text");
