@@ -82,7 +82,10 @@ fn kubernetes_has_a_key_and_metrics() {
     let listed = unwrapd(&["keys", "list", "--data", data]);
     let listed = String::from_utf8(listed.stdout).expect("text");
     assert_eq!(listed.lines().count(), 2, "{listed}");
-    assert!(listed.contains("valid\tadmin\tadmin"), "{listed}");
+    assert!(
+        listed.contains("valid\tadmin\tread,write,admin"),
+        "{listed}"
+    );
 }
 
 #[test]
