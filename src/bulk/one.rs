@@ -11,6 +11,7 @@ use super::asset::Asset;
 use super::order::{Fate, Order};
 use super::publish::{Published, published};
 use super::record::Record;
+use super::regular::read_regular;
 use super::row::{Row, Status};
 use super::trouble::{Trouble, unwritten};
 use super::worker::{Task, Worker};
@@ -100,7 +101,7 @@ fn settle(order: &Order, asset: &Asset, record: &Record, old: Option<&Record>) -
 /// The files of an asset. The main one is named like the output, since files that belong to an
 /// output are named after its input.
 fn read(asset: &Asset) -> io::Result<Upload> {
-    let bytes = fs::read(&asset.input)?;
+    let bytes = read_regular(&asset.input)?;
     let stem = asset.output.file_stem().unwrap_or_default();
     let mut name = Path::new(stem).to_path_buf();
     if let Some(extension) = asset.input.extension() {
@@ -109,5 +110,5 @@ fn read(asset: &Asset) -> io::Result<Upload> {
     }
     let folder = asset.input.parent().unwrap_or(Path::new(""));
     let upload = Upload::single(name.to_string_lossy(), bytes);
-    Ok(upload.with_references(|reference| fs::read(folder.join(reference)).ok()))
+    Ok(upload.with_references(|reference| read_regular(&folder.join(reference)).ok()))
 }

@@ -1,12 +1,14 @@
 //! What was made of an asset, moved to where it belongs.
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::asset::{Asset, is_inside};
 use super::order::Order;
 use super::place::Place;
 use super::record::Record;
+use super::regular::read_regular;
 use super::row::Figures;
 use super::trouble::{Trouble, unwritten};
 use super::worker::Extra;
@@ -48,10 +50,14 @@ pub(super) fn published(
 /// Writes a file, unless it is there already. One with another content may be somebody else's:
 /// several outputs can have a picture in common.
 fn put(place: &Place, path: &Path, content: &[u8], is_own: bool) -> Result<(), Failure> {
-    match fs::read(place.path(path)) {
+    match read_regular(&place.path(path)) {
         Ok(there) if there == content => Ok(()),
         Ok(_) if !is_own => {
             let detail = format!("{} is there and belongs to something else", path.display());
+            Err(Trouble::OutputConflict.with(detail))
+        }
+        Err(error) if !is_own && error.kind() == io::ErrorKind::InvalidInput => {
+            let detail = format!("{}: {error}", path.display());
             Err(Trouble::OutputConflict.with(detail))
         }
         _ => place

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::asset::Asset;
 use super::place::Place;
+use super::regular::read_regular;
 use super::row::{Row, Status};
 use super::trouble::Trouble;
 
@@ -47,7 +48,7 @@ const PASSING: [&str; 10] = [
 impl Record {
     /// The record of an asset, if there is one that can be read.
     pub(super) fn load(place: &Place, asset: &Asset) -> Option<Self> {
-        let bytes = fs::read(place.path(&Place::record(asset))).ok()?;
+        let bytes = read_regular(&place.path(&Place::record(asset))).ok()?;
         serde_json::from_slice(&bytes).ok()
     }
 

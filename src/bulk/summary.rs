@@ -64,13 +64,26 @@ pub fn csv(rows: &[Row], gates: &Gates) -> std::io::Result<Vec<u8>> {
     table.into_inner().map_err(csv::IntoInnerError::into_error)
 }
 
+/// A text without control characters: a table is also read in terminals and spreadsheets.
+fn shown(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    shown
+}
+
 fn cells(row: &Row, gates: &Gates) -> [String; 13] {
     let number = |number: Option<f64>| number.map_or(String::new(), |x| format!("{x:.4}"));
     let common = |status: &str, code: &str, figures: [String; 6], detail: &str| {
         let [certified, faces, charts, distortion, stretch, warnings] = figures;
         [
-            row.input.clone(),
-            row.output.clone(),
+            shown(&row.input),
+            shown(&row.output),
             status.to_owned(),
             code.to_owned(),
             row.is_accepted(gates).to_string(),
@@ -81,7 +94,7 @@ fn cells(row: &Row, gates: &Gates) -> [String; 13] {
             stretch,
             warnings,
             format!("{:.3}", row.seconds),
-            detail.to_owned(),
+            shown(detail),
         ]
     };
     match &row.status {

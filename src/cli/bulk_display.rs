@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::console::say;
+use super::console::{one_line, say};
 use crate::bulk::{Fate, Figures, Row, Status, Totals};
 use crate::jobs::Gates;
 
@@ -59,7 +59,11 @@ impl<'a> BulkDisplay<'a> {
         let number = self.n_kept + self.n_done;
         if is_told {
             let mark = if is_accepted { "" } else { ", not accepted" };
-            let text = format!("{number} of {}  {}{mark}", self.n_assets, text_of(row));
+            let text = format!(
+                "{number} of {}  {}{mark}",
+                self.n_assets,
+                one_line(&text_of(row))
+            );
             match &self.bar {
                 Some(bar) => bar.println(text),
                 None => eprintln!("{text}"),

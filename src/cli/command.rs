@@ -3,11 +3,12 @@
 use std::ffi::OsString;
 
 use clap::builder::StyledStr;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    batch, check, completions, config, deform, drain, edit_uv, health, keys, man, measure, queue,
-    repack, serve, solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
+    batch, check, completions, config, console, deform, drain, edit_uv, health, keys, man, measure,
+    queue, repack, serve, solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
 };
 use crate::options::as_typed;
 
@@ -156,11 +157,32 @@ pub(super) enum Command {
 /// help.
 pub(super) fn typed(arguments: Vec<OsString>) -> (Command, ArgMatches) {
     let short = command().mut_subcommands(|command| command.mut_args(hidden_if_special));
-    let mut matches = short.get_matches_from(arguments);
+    let matches = short.try_get_matches_from(arguments);
+    let mut matches = matches.unwrap_or_else(|error| refuse(error));
     let cli = Cli::from_arg_matches(&matches);
     let command = cli.unwrap_or_else(|error| error.exit()).command;
     let typed = matches.remove_subcommand();
     (command, typed.map(|(_, typed)| typed).unwrap_or_default())
+}
+
+/// Ends the process as the error of a command line asks for, with a tip where programs of the same kind are called otherwise.
+fn refuse(mut error: clap::Error) -> ! {
+    if let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidArg)
+        && error.kind() == ErrorKind::UnknownArgument
+    {
+        if ["--version", "-V"].contains(&&**unknown) {
+            console::print(concat!("unwrapd ", env!("CARGO_PKG_VERSION")));
+            std::process::exit(0);
+        }
+        if !unknown.starts_with('-') {
+            let tip = format!("an output is named by an option: '-o {unknown}'");
+            error.insert(
+                ContextKind::Suggested,
+                ContextValue::StyledStrs(vec![tip.into()]),
+            );
+        }
+    }
+    error.exit()
 }
 
 /// The program. Options accept negative numbers, so that the range check can name the option. Help

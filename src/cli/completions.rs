@@ -1,6 +1,6 @@
 //! `unwrapd completions`: scripts for shells.
 
-use std::io;
+use std::io::{self, Write};
 
 use clap_complete::Shell;
 
@@ -13,5 +13,8 @@ pub(super) struct Args {
 
 /// Runs `completions` of a program.
 pub(super) fn run(args: &Args, mut program: clap::Command) {
-    clap_complete::generate(args.shell, &mut program, "unwrapd", &mut io::stdout());
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut program, "unwrapd", &mut script);
+    // As with any output, a reader may go away.
+    let _ = io::stdout().write_all(&script);
 }

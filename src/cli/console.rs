@@ -1,6 +1,7 @@
 //! What a command says: lines about its result on standard output, or on standard error where that carries the result itself, and
 //! warnings on standard error.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -27,8 +28,33 @@ pub(super) fn direct(lines: Lines) {
     LINES.store(lines as u8, Ordering::Relaxed);
 }
 
+/// A text without characters that a terminal acts upon: what is not printed is escaped, but for the ends of lines and tabs.
+pub(super) fn escaped(text: &str) -> Cow<'_, str> {
+    let is_active = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(is_active) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_active(c) {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// A name of one line: that of a file, which may have any character but one.
+pub(super) fn one_line(name: &str) -> String {
+    let name = name.replace('\n', "\\n").replace('\t', "\\t");
+    escaped(&name).into_owned()
+}
+
 /// Prints a line about the result. That a reader has gone away, as `head` does, is no failure.
 pub(super) fn say(line: impl Display) {
+    let line = line.to_string();
+    let line = escaped(&line);
     match LINES.load(Ordering::Relaxed) {
         lines if lines == Lines::Output as u8 => drop(writeln!(io::stdout(), "{line}")),
         lines if lines == Lines::Error as u8 => drop(writeln!(io::stderr(), "{line}")),
@@ -45,13 +71,13 @@ pub(super) fn warn(warnings: &[Warning]) {
 
 /// Prints a warning on standard error.
 pub(super) fn warn_of(message: impl Display) {
-    let _ = writeln!(io::stderr(), "warning: {message}");
+    let _ = writeln!(io::stderr(), "warning: {}", escaped(&message.to_string()));
 }
 
 /// Prints what was asked for on standard output, whatever lines about it do.
 pub(super) fn print(text: impl Display) {
     // As with `say`, a reader may go away.
-    let _ = writeln!(io::stdout(), "{text}");
+    let _ = writeln!(io::stdout(), "{}", escaped(&text.to_string()));
 }
 
 /// Prints a value as indented JSON on standard output.

@@ -1,5 +1,8 @@
 //! Why a command ended, in one line, and its exit status.
 
+use std::io::Write;
+
+use super::console;
 use crate::bulk::{ListError, RemoteError};
 use crate::deform::ProblemError;
 use crate::deform::uv::EditError;
@@ -70,9 +73,27 @@ impl Failure {
         }
     }
 
+    /// Says first what was not done.
+    pub(super) fn about(mut self, what: impl std::fmt::Display) -> Self {
+        self.message = format!("{what}: {}", self.message);
+        self
+    }
+
+    /// Names the input that cannot be used, where the message does not.
+    pub(super) fn of_input(mut self, name: Option<&str>) -> Self {
+        let name = name.filter(|name| !self.message.contains(name));
+        if let (3, Some(name)) = (self.exit_code, name) {
+            let name = if name == "-" { "standard input" } else { name };
+            self.message = format!("{name}: {}", self.message);
+        }
+        self
+    }
+
     /// Prints the line and gives the exit status.
     pub(super) fn report(self) -> u8 {
-        eprintln!("unwrapd: {}", self.message);
+        let message = console::escaped(&self.message);
+        // Standard error may be closed.
+        let _ = writeln!(std::io::stderr(), "unwrapd: {message}");
         self.exit_code
     }
 }

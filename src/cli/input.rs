@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{self, Read};
+use std::io;
+use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use crate::bulk::{MOST_BYTES, read_bounded, read_regular};
 use crate::document::Upload;
 
 /// A file that has UVs.
@@ -24,10 +26,9 @@ pub(super) fn is_standard(path: &Path) -> bool {
 /// Reads a file or standard input.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
     let read = if is_standard(path) {
-        let mut bytes = Vec::new();
-        io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+        read_bounded(io::stdin(), MOST_BYTES)
     } else {
-        fs::read(path)
+        read_named(path)
     };
     let name = if is_standard(path) {
         "standard input".to_owned()
@@ -37,10 +38,19 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
     read.map_err(|error| Failure::input(format!("{name}: {error}")))
 }
 
+/// Reads a file that is named on the command line: that may be a pipe, but no device, which may never end.
+fn read_named(path: &Path) -> io::Result<Vec<u8>> {
+    let kind = fs::metadata(path)?.file_type();
+    if kind.is_fifo() || kind.is_socket() {
+        return read_bounded(fs::File::open(path)?, MOST_BYTES);
+    }
+    read_regular(path)
+}
+
 /// Reads a file and the files that it references by relative URI.
 pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
     let (upload, folder) = (upload(path, read_file(path)?, []), folder(path));
-    Ok(upload.with_references(|reference| fs::read(folder.join(reference)).ok()))
+    Ok(upload.with_references(|reference| read_regular(&folder.join(reference)).ok()))
 }
 
 /// A file that was read, with those of the files that it references that are there.
@@ -52,7 +62,7 @@ pub(super) fn upload(
     let folder = folder(path);
     let mut resources = BTreeMap::new();
     for reference in references {
-        if let Ok(content) = fs::read(folder.join(&reference)) {
+        if let Ok(content) = read_regular(&folder.join(&reference)) {
             resources.insert(reference, content);
         }
     }

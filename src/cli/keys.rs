@@ -26,6 +26,11 @@ pub(super) struct Args {
 enum Action {
     /// Make a key and print it. It is not shown again: only a digest of it is kept
     Create(Create),
+    /// Add a key that was made elsewhere, such as one in the secrets of a cluster
+    ///
+    /// Its text is uw_ID_SECRET, where ID has 16 and SECRET 64 hexadecimal digits. A key that is there stays as it is, so
+    /// that every process may add it before it starts.
+    Add(Add),
     /// List all keys that were ever made, without their secrets
     List(List),
     /// Revoke a key. Services refuse it after two seconds at the latest
@@ -47,6 +52,26 @@ struct Create {
     /// Note for those who list keys
     #[arg(long, value_name = "TEXT", value_parser = name)]
     name: Option<String>,
+    #[command(flatten)]
+    store: StoreArgs,
+}
+
+#[derive(clap::Args)]
+struct Add {
+    /// The key. In the environment it is not seen by other users of the machine
+    #[arg(
+        long,
+        value_name = "KEY",
+        env = "UNWRAPD_INITIAL_KEY",
+        hide_env_values = true
+    )]
+    key: String,
+    /// Owner of what is made with the key
+    #[arg(long, value_name = "NAME")]
+    owner: Owner,
+    /// What the key is good for, as with `create`
+    #[arg(long, value_name = "SCOPES", default_value = "read,write")]
+    scope: Scopes,
     #[command(flatten)]
     store: StoreArgs,
 }
@@ -90,6 +115,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     runtime.block_on(async {
         match &args.action {
             Action::Create(args) => create(args).await,
+            Action::Add(args) => add(args).await,
             Action::List(args) => list(args).await,
             Action::Revoke(args) => revoke(args).await,
         }
@@ -115,8 +141,50 @@ async fn create(args: &Create) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Characters of the secret of a key at least: 256 bits.
+const SECRET_DIGITS: usize = 64;
+
+async fn add(args: &Add) -> Result<(), Failure> {
+    let text = args.key.trim();
+    let is_long = |text: &str| {
+        let secret = text.rsplit('_').next().unwrap_or_default();
+        SECRET_DIGITS <= secret.len() && secret.bytes().all(|byte| byte.is_ascii_hexdigit())
+    };
+    let key = KeyText::parse(text).filter(|_| is_long(text));
+    let key = key.ok_or_else(|| {
+        Failure::usage(
+            "the key must be uw_ID_SECRET, with 16 and 64 hexadecimal digits in lower case",
+        )
+    })?;
+    let new = NewKey {
+        id: key.id().clone(),
+        digest: key.digest(),
+        owner: args.owner.clone(),
+        scopes: args.scope.clone(),
+        name: "added".to_owned(),
+        life: None,
+        parent: None,
+    };
+    let store = args.store.opened().await?;
+    let added = store.add_key(&new).await;
+    // It may be there already: another process may have been faster.
+    let keys = store.keys().await;
+    let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
+    match (keys.iter().find(|known| known.id == new.id), added) {
+        (Some(known), _) if !key.has_digest(&known.digest) => Err(Failure::other(format!(
+            "there is another key {} with another secret",
+            new.id
+        ))),
+        (Some(known), _) if known.revoked.is_some() => {
+            Err(Failure::other(format!("the key {} is revoked", new.id)))
+        }
+        (None, Err(error)) => Err(Failure::other(format!("the key was not added: {error}"))),
+        _ => Ok(()),
+    }
+}
+
 async fn list(args: &List) -> Result<(), Failure> {
-    let keys = args.store.opened().await?.keys().await;
+    let keys = args.store.present().await?.keys().await;
     let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
     let rows: Vec<Row> = keys.iter().map(Row::of).collect();
     if args.json {
@@ -130,7 +198,9 @@ async fn list(args: &List) -> Result<(), Failure> {
 }
 
 async fn revoke(args: &Revoke) -> Result<(), Failure> {
-    let revoked = args.store.opened().await?.revoke(&args.id).await;
+    let store = args.store.present().await;
+    let store = store.map_err(|failure| failure.about(format_args!("no key {}", args.id)))?;
+    let revoked = store.revoke(&args.id).await;
     match revoked {
         Ok(true) => Ok(()),
         Ok(false) => Err(Failure::other(format!(

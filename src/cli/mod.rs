@@ -80,8 +80,14 @@ pub fn run(arguments: Vec<OsString>, program: std::io::Result<Program>) -> u8 {
     let (command, typed) = command::typed(arguments);
     match run_typed(command, &typed, program) {
         Ok(()) => 0,
-        Err(failure) => failure.report(),
+        Err(failure) => failure.of_input(input(&typed).as_deref()).report(),
     }
+}
+
+/// The file that a command reads, if it reads one.
+fn input(typed: &ArgMatches) -> Option<String> {
+    let mut given = typed.try_get_raw("input").ok()??;
+    Some(given.next()?.to_string_lossy().into_owned())
 }
 
 fn run_typed(

@@ -10,6 +10,7 @@ use clap::ValueEnum;
 use super::console::{self, Lines};
 use super::failure::Failure;
 use super::input::{folder, is_standard};
+use crate::bulk::read_regular;
 use crate::document::Upload;
 use crate::pipeline::Caller;
 
@@ -141,7 +142,7 @@ impl Outputs {
                 continue;
             }
             let path = self.main.with_file_name(name);
-            if fs::read(&path).is_ok_and(|old| old == *bytes) {
+            if read_regular(&path).is_ok_and(|old| old == *bytes) {
                 continue;
             }
             self.check_apart(&path)?;

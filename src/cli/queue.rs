@@ -71,7 +71,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 async fn set_paused(args: &StoreArgs, paused: bool) -> Result<(), Failure> {
-    let set = args.opened().await?.set_paused(paused).await;
+    let set = args.present().await?.set_paused(paused).await;
     set.map_err(|error| Failure::other(format!("nothing was changed: {error}")))
 }
 
@@ -98,7 +98,7 @@ async fn retry(args: &Retry) -> Result<(), Failure> {
 }
 
 async fn status(args: &Status) -> Result<(), Failure> {
-    let store = args.store.opened().await?;
+    let store = args.store.present().await?;
     let printed = printed(&store).await;
     let printed = printed.map_err(|error| Failure::other(format!("no jobs read: {error}")))?;
     if args.json {

@@ -52,6 +52,18 @@ impl StoreArgs {
         store.map_err(|error| Failure::other(format!("cannot use the database: {error}")))
     }
 
+    /// The records that are there; an error if there are none.
+    pub async fn present(&self) -> Result<RecordStore, Failure> {
+        let file = self.data.join("unwrapd.sqlite");
+        if self.database.is_none() && !file.exists() {
+            return Err(Failure::other(format!(
+                "there is no database {}: name the folder of the service with --data",
+                file.display()
+            )));
+        }
+        self.opened().await
+    }
+
     /// Makes the folder, and keeps it and what is made from now on from others.
     pub fn make_folder(&self) -> Result<(), String> {
         make_private(&self.data)

@@ -1,6 +1,6 @@
 //! Atlases in a table: at most ten lines and totals.
 
-use super::console::say;
+use super::console::{one_line, say};
 use crate::certificate::Certificate;
 use crate::measure::Page;
 use crate::pipeline::{GroupReport, stretch_percent};
@@ -22,7 +22,7 @@ pub(super) fn print(groups: &[GroupReport]) {
     let (shown, rest) = order.split_at(n_shown);
     let width = shown
         .iter()
-        .map(|group| group.label.chars().count())
+        .map(|group| one_line(&group.label).chars().count())
         .max()
         .unwrap_or(0);
     let width = width.clamp(10, NAME);
@@ -41,7 +41,7 @@ pub(super) fn print(groups: &[GroupReport]) {
         "overlapping"
     ));
     for group in shown {
-        let name: String = group.label.chars().take(NAME).collect();
+        let name: String = one_line(&group.label).chars().take(NAME).collect();
         say(line(&name, width, &Sums::of(&[group])));
     }
     if !rest.is_empty() {

@@ -354,3 +354,45 @@ fn quiet_says_nothing_and_json_is_all_there_is() {
     assert_status(&verified, 0);
     assert!(verified.stdout.is_empty() && verified.stderr.is_empty());
 }
+
+/// A reader that goes away, and a disk that is full, are no bugs of the program.
+#[test]
+fn completions_end_with_their_reader() {
+    for to in ["| head -1", "> /dev/full"] {
+        let script = format!("\"$0\" completions bash {to}");
+        let mut shell = std::process::Command::new("bash");
+        let shell = shell.args(["-c", &script, env!("CARGO_BIN_EXE_unwrapd")]);
+        let output = shell.output().expect("a shell");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!said.contains("panicked"), "{to}: {said}");
+        assert_status(&output, 0);
+    }
+}
+
+/// Who calls it as other programs are called is told how it is called.
+#[test]
+fn what_is_typed_from_habit_is_answered() {
+    let output = unwrapd(&["unwrap", "Box.glb", "out.glb"]);
+    assert_status(&output, 2);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("-o out.glb"), "{said}");
+    let output = unwrapd(&["unwrap", "--version"]);
+    assert_status(&output, 0);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(said.trim(), concat!("unwrapd ", env!("CARGO_PKG_VERSION")));
+}
+
+/// Messages about an input begin with its name, and looking at keys makes no database.
+#[test]
+fn messages_name_their_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    std::fs::write(folder.path().join("text.obj"), "no mesh").expect("written");
+    let output = unwrapd(&["unwrap", &path("text.obj"), "-o", &path("out.glb")]);
+    assert_status(&output, 3);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("text.obj: "), "{said}");
+    let output = unwrapd(&["keys", "list", "--data", &path("data")]);
+    assert_status(&output, 1);
+    assert!(!folder.path().join("data").exists());
+}

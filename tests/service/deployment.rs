@@ -43,6 +43,51 @@ fn kustomize_lists_every_file() {
     }
 }
 
+/// The service of the files comes up: a key is added before it starts, metrics need none, and all run the version that this is.
+#[test]
+fn kubernetes_has_a_key_and_metrics() {
+    let text = |name: &str| {
+        let path = places::repository("docker/kubernetes").join(name);
+        std::fs::read_to_string(path).expect("a file")
+    };
+    for name in ["api.yaml", "worker.yaml"] {
+        let text = text(name);
+        assert!(text.contains("UNWRAPD_METRICS_LISTEN"), "{name}");
+        assert!(text.contains("name: metrics"), "{name}");
+        assert!(text.contains("topologySpreadConstraints"), "{name}");
+    }
+    let tag = format!("newTag: \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(text("kustomization.yaml").contains(&tag), "{tag}");
+
+    // What the pods of the service do, one after the other and at once, each with a folder of its own, as if they shared it.
+    let api = text("api.yaml");
+    let line = api.lines().find(|line| line.contains("args: [keys, add"));
+    let line = line.expect("a key is added").trim();
+    let arguments = line.trim_start_matches("args: [").trim_end_matches(']');
+    let arguments: Vec<&str> = arguments.split(", ").collect();
+    let folder = tempfile::tempdir().expect("a folder");
+    let key = format!("uw_{}_{}", "0a".repeat(8), "5b".repeat(32));
+    let add = |key: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_unwrapd"));
+        command.args(&arguments).env("UNWRAPD_INITIAL_KEY", key);
+        command.env("UNWRAPD_DATA", folder.path());
+        command.output().expect("the program runs")
+    };
+    assert_status(&add(&key), 0);
+    assert_status(&add(&key), 0);
+    let other = format!("uw_{}_{}", "0a".repeat(8), "5c".repeat(32));
+    assert_status(&add(&other), 1);
+    assert_status(&add("secret"), 2);
+    let data = folder.path().to_str().expect("text");
+    let listed = unwrapd(&["keys", "list", "--data", data]);
+    let listed = String::from_utf8(listed.stdout).expect("text");
+    assert_eq!(listed.lines().count(), 2, "{listed}");
+    assert!(
+        listed.contains("valid\tadmin\tread,write,admin"),
+        "{listed}"
+    );
+}
+
 #[test]
 fn compose_files_are_valid() {
     for file in ["compose.yaml", "compose.scaled.yaml"] {
@@ -59,7 +104,7 @@ fn compose_files_are_valid() {
 #[test]
 fn every_variable_is_that_of_an_option() {
     let of = |line: &str| unwrapd(&line.split(' ').collect::<Vec<_>>()).stdout;
-    let help = ["serve --help", "worker --help"].map(of);
+    let help = ["serve --help", "worker --help", "keys add --help"].map(of);
     let help = String::from_utf8(help.concat()).expect("text");
     let mut named = BTreeSet::new();
     let deployed = [

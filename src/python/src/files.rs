@@ -39,7 +39,12 @@ impl File<'_> {
             resources: self.resources,
         };
         match self.folder {
-            Some(folder) => upload.with_references(|name| fs::read(folder.join(name)).ok()),
+            Some(folder) => upload.with_references(|name| {
+                // A pipe may never have a writer, and a device may never end.
+                let path = folder.join(name);
+                let is_regular = fs::metadata(&path).is_ok_and(|file| file.is_file());
+                is_regular.then(|| fs::read(path).ok()).flatten()
+            }),
             None => upload,
         }
     }

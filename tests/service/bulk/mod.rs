@@ -7,6 +7,7 @@ mod lists;
 mod resumed;
 mod schedulers;
 mod shards;
+mod special;
 mod unwilling;
 
 use std::collections::BTreeMap;
