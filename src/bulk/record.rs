@@ -32,12 +32,14 @@ pub struct Record {
 
 /// Codes of the service that another run may not meet: they are not those of the input and its
 /// options.
-const PASSING: [&str; 10] = [
+const PASSING: [&str; 12] = [
     "conflict",
     "crashed",
+    "damaged_file",
     "internal_error",
     "job_expired",
     "job_not_found",
+    "missing_file",
     "no_such_file",
     "out_of_memory",
     "storage_full",

@@ -14,6 +14,7 @@ use crate::store::blobs_at;
 
 /// The arguments of `check`.
 #[derive(clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an option")]
 pub(super) struct Args {
     #[command(flatten)]
     store: StoreArgs,

@@ -49,7 +49,9 @@ pub(super) fn make_private(folder: &Path) -> Result<(), String> {
             tighten(folder, &found, denied);
         } else {
             let folder = folder.display();
-            tracing::warn!("others can read {folder}, which this user does not own alone");
+            tracing::warn!(
+                "others can read {folder}: it belongs to another user, or is meant for all"
+            );
         }
     }
     for name in NAMES {

@@ -24,7 +24,6 @@ impl From<Error> for StoreError {
             Error::PoolTimedOut => {
                 Self::Unavailable("no connection to the database became free in time".to_owned())
             }
-            Error::PoolClosed | Error::WorkerCrashed => Self::Unavailable(text),
             Error::Database(error) if error.is_unique_violation() => Self::Conflict(text),
             Error::Database(error) => {
                 let code = error.code().unwrap_or_default();
@@ -40,7 +39,9 @@ impl From<Error> for StoreError {
                     _ => Self::Other(text),
                 }
             }
-            Error::Tls(_) | Error::Protocol(_) => Self::Unavailable(text),
+            Error::PoolClosed | Error::WorkerCrashed | Error::Tls(_) | Error::Protocol(_) => {
+                Self::Unavailable(text)
+            }
             _ => Self::Other(text),
         }
     }

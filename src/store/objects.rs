@@ -176,10 +176,10 @@ impl Blobs for ObjectBlobs {
                 // A bucket that does not exist has no objects either.
                 Err(Error::NotFound { .. }) => {
                     let mut objects = self.store.list(None);
-                    objects.try_next().await.map_err(unusable)?;
+                    objects.try_next().await.map_err(|error| unusable(&error))?;
                     return Ok(None);
                 }
-                Err(error) => return Err(unusable(error)),
+                Err(error) => return Err(unusable(&error)),
             };
             let bytes = object.bytes().await?;
             let parsed = std::str::from_utf8(&bytes).ok().map(str::parse);
@@ -197,7 +197,7 @@ impl Blobs for ObjectBlobs {
         async move {
             let key = Key::from(IDENTITY);
             let put = self.store.put(&key, identity.to_string().into()).await;
-            put.map_err(unusable)?;
+            put.map_err(|error| unusable(&error))?;
             Ok(())
         }
         .boxed()
@@ -214,7 +214,7 @@ impl Blobs for ObjectBlobs {
                 return Ok(());
             }
             let put = self.store.put(&Key::from(PROBE), "probe".into()).await;
-            put.map_err(unusable)?;
+            put.map_err(|error| unusable(&error))?;
             *self.probed.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
             Ok(())
         }
@@ -235,7 +235,7 @@ impl Blobs for ObjectBlobs {
 }
 
 /// Why a bucket cannot be used, with what its user may have to set.
-fn unusable(error: Error) -> StoreError {
+fn unusable(error: &Error) -> StoreError {
     let text = error.to_string();
     let is_absent = matches!(error, Error::NotFound { .. });
     let is_plain = ["builder error", "URL scheme is not allowed"];

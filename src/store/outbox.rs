@@ -12,6 +12,10 @@ use super::rows::damaged;
 use crate::jobs::access::Owner;
 use crate::jobs::{Notice, Outbox, StoreResult};
 
+/// Which notices come now. No pause is longer than a day: one that is was made before the clock was
+/// set back.
+const DUE: &str = "(due <= {now} OR {now} + 86400000 < due)";
+
 impl Outbox for RecordStore {
     fn take(&self, most: u32, lease: Duration) -> BoxFuture<'_, StoreResult<Vec<Notice>>> {
         bounded(take(&self.database, most, lease))
@@ -42,16 +46,18 @@ impl Outbox for RecordStore {
 
 async fn take(database: &Database, most: u32, lease: Duration) -> StoreResult<Vec<Notice>> {
     // Most of the time there is none, and nothing has to be locked to know that.
-    let is_any = database.sql("SELECT id FROM outbox WHERE due <= {now} LIMIT 1");
+    let is_any = database.sql(&format!("SELECT id FROM outbox WHERE {DUE} LIMIT 1"));
     let any = sqlx::query(is_any).fetch_optional(&database.readers);
     if any.await?.is_none() {
         return Ok(Vec::new());
     }
-    let take = "UPDATE outbox SET attempt = attempt + 1, due = {now} + $1
-         WHERE id IN (SELECT id FROM outbox AS job WHERE due <= {now} ORDER BY due LIMIT $2 {free})
-         RETURNING id, owner, url, body, attempt";
+    let take = format!(
+        "UPDATE outbox SET attempt = attempt + 1, due = {{now}} + $1
+         WHERE id IN (SELECT id FROM outbox AS job WHERE {DUE} ORDER BY due LIMIT $2 {{free}})
+         RETURNING id, owner, url, body, attempt"
+    );
     let mut transaction = database.begin().await?;
-    let taken = sqlx::query(database.sql(take))
+    let taken = sqlx::query(database.sql(&take))
         .bind(lease.as_millis() as i64)
         .bind(i64::from(most))
         .fetch_all(&mut *transaction)
