@@ -6,9 +6,9 @@ from maps import distance, flips, pulled
 from paint import BLUE, GREEN, MAGENTA, column, common_box, planar, row
 from plane import NEAR, merged
 from shapes import FEET, HANDS, HEAD, rectangle, woody
-from work import DONE, INVERTED, UNREACHABLE, require
+from work import DONE, ENDED_EARLY, INVERTED, UNREACHABLE, require
 
-ANY = (DONE, INVERTED, UNREACHABLE)
+ANY = (DONE, INVERTED, UNREACHABLE, ENDED_EARLY)
 
 
 def make8(work, fault):

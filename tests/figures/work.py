@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 # Exit status of `solve`: 0 done, 4 inverted elements (only without a barrier), 5 targets that are out of reach.
-DONE, INVERTED, UNREACHABLE = 0, 4, 5
+DONE, INVERTED, UNREACHABLE, ENDED_EARLY = 0, 4, 5, 6
 
 
 @dataclass

@@ -107,7 +107,7 @@ pub fn verify_document(
         let uvs = WrittenUvs::asked(document, question)?;
         let mut verified = Verified::new(uvs, question, promise);
         verified.judged.group_by = question.options.spaces(document).0;
-        verified.mark = question.mark.clone();
+        verified.mark.clone_from(&question.mark);
         verified.warnings = warnings(document, question);
         Ok(verified)
     })

@@ -8,13 +8,13 @@ from pathlib import Path
 
 
 def run(command):
-    """Runs a program and returns processor seconds of the whole process; exit status 0, 4 (no valid map) or 5
-    (targets not reached), or a failure."""
+    """Runs a program and returns processor seconds of the whole process; exit status 0, 4 (no valid map), 5
+    (targets not reached) or 6 (limit of iterations), or a failure."""
     child = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     error = child.stderr.read()
     _, status, usage = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode not in (0, 4, 5):
+    if child.returncode not in (0, 4, 5, 6):
         raise RuntimeError(f"{' '.join(map(str, command))}: {error.strip()}")
     return usage.ru_utime + usage.ru_stime
 
