@@ -1,11 +1,11 @@
 //! What a command says: lines about its result on standard output, or on standard error where that carries the result itself, and
 //! warnings on standard error.
 
-use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicU8, Ordering};
 
+pub(super) use super::escaping::{escaped, one_line};
 use super::failure::Failure;
 use crate::document::Warning;
 
@@ -26,29 +26,6 @@ static LINES: AtomicU8 = AtomicU8::new(Lines::Output as u8);
 /// Says where lines go from now on.
 pub(super) fn direct(lines: Lines) {
     LINES.store(lines as u8, Ordering::Relaxed);
-}
-
-/// A text without characters that a terminal acts upon: what is not printed is escaped, but for the ends of lines and tabs.
-pub(super) fn escaped(text: &str) -> Cow<'_, str> {
-    let is_active = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
-    if !text.contains(is_active) {
-        return Cow::Borrowed(text);
-    }
-    let mut shown = String::with_capacity(text.len());
-    for c in text.chars() {
-        if is_active(c) {
-            shown.extend(c.escape_default());
-        } else {
-            shown.push(c);
-        }
-    }
-    Cow::Owned(shown)
-}
-
-/// A name of one line: that of a file, which may have any character but one.
-pub(super) fn one_line(name: &str) -> String {
-    let name = name.replace('\n', "\\n").replace('\t', "\\t");
-    escaped(&name).into_owned()
 }
 
 /// Prints a line about the result. That a reader has gone away, as `head` does, is no failure.

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::console;
+use super::escaping::escaped;
 use crate::bulk::{ListError, RemoteError};
 use crate::deform::ProblemError;
 use crate::deform::uv::EditError;
@@ -91,7 +91,7 @@ impl Failure {
 
     /// Prints the line and gives the exit status.
     pub(super) fn report(self) -> u8 {
-        let message = console::escaped(&self.message);
+        let message = escaped(&self.message);
         // Standard error may be closed.
         let _ = writeln!(std::io::stderr(), "unwrapd: {message}");
         self.exit_code

@@ -20,6 +20,7 @@ mod console;
 mod deform;
 mod drain;
 mod edit_uv;
+mod escaping;
 mod exposure_args;
 mod failure;
 mod format;
