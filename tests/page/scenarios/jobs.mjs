@@ -26,7 +26,7 @@ export async function run(page, url, ...meshes) {
   await page.click("text=Copy as curl");
   assert.match(await page.evaluate(() => navigator.clipboard.readText()), /^curl -s http/);
   await page.click("#inspector >> text=Delete");
-  await shown(page, "spot.ply");
+  await shown(page);
   await page.waitForFunction((count) => document.querySelectorAll(".row-link").length === count, names.length - 1);
   return { line };
 }
