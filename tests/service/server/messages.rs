@@ -97,7 +97,7 @@ async fn a_file_that_is_gone_is_the_reason() {
     pause("DELETE").await.expect("an answer");
     let job = server.ended(&job).await;
     let said = detail(&job["error"]);
-    assert!(said.contains("No such file"), "{said}");
+    assert!(said.contains("missing"), "{said}");
     // Where it was is nothing for clients.
     assert!(!said.contains("blobs"), "{said}");
 }
