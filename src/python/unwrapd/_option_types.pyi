@@ -86,6 +86,7 @@ class MeasureFileOptions(MeasureOptions, total=False):
     texcoord: int | None
     group_by: Literal["mesh", "scene", "material", "primitive"] | None
     separate_nodes: bool | None
+    skip_missing: bool | None
 
 class VerifyOptions(MeasureOptions, total=False):
     """What is to be proven of UVs."""

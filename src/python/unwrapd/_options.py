@@ -23,6 +23,7 @@ _OF_FILES = frozenset(
         "bake_size",
         "image_format",
         "separate_nodes",
+        "skip_missing",
     )
 )
 
