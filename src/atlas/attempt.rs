@@ -184,8 +184,8 @@ fn rough(size: u32) -> u32 {
     size >> finer << finer
 }
 
-/// The factor by which a chart at so many grid units per mesh unit has to exceed the common scale; 1 for one without area, which no
-/// scale gives any.
+/// Returns the factor by which a chart has to exceed the common scale, `unit` grid units per mesh unit, to be large enough for the
+/// grid. It is 1 for a chart without area.
 pub(super) fn stretch(outline: &Outline, unit: f64) -> f64 {
     if outline.size == 0.0 {
         return 1.0;

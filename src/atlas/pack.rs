@@ -71,7 +71,7 @@ pub fn pack_draft(
     Ok(atlas(charts, &layout, &slack, rounded, options))
 }
 
-/// Whether a vertex of a chart moves farther than the slack of the chart, which is then enlarged.
+/// Enlarges the slack of every chart with a vertex that moves farther than that. Returns whether there is one.
 pub(super) fn is_cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> bool {
     let mut is_cramped = false;
     for (snapped, slack) in snapped.iter().zip(slack) {

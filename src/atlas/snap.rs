@@ -27,12 +27,12 @@ const REACH: i32 = 2;
 /// Neighborhoods tried; each has twice as many rings as the one before.
 const ROUNDS: u32 = 12;
 
-/// What is done for triangles that have no area once rounded.
+/// The treatment of triangles without area after rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Repair {
-    /// Vertices are moved so that they get some, where that is possible.
+    /// Moves vertices to open them, where possible.
     Open,
-    /// Nothing: every vertex goes to the nearest grid point.
+    /// Leaves them: every vertex goes to the nearest grid point.
     Nothing,
 }
 

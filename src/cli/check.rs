@@ -35,7 +35,7 @@ pub(super) struct Args {
     json: bool,
 }
 
-/// What was found, as it is printed.
+/// The findings, as printed.
 #[derive(Serialize)]
 struct Printed {
     jobs: usize,

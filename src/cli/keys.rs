@@ -69,7 +69,7 @@ struct Add {
     /// Owner of what is made with the key
     #[arg(long, value_name = "NAME")]
     owner: Owner,
-    /// What the key is good for, as with `create`
+    /// Scopes of the key, as with `create`
     #[arg(long, value_name = "SCOPES", default_value = "read,write")]
     scope: Scopes,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! Who may read what a process keeps: its user alone, and a group that is meant to.
+//! Permissions of the data folder: its owner, and the group of a setgid folder.
 
 use std::fs::{DirBuilder, Metadata, Permissions};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};

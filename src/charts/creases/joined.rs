@@ -40,8 +40,8 @@ impl Joining<'_> {
     /// since pieces only grow. Both sides of a mirror plane are joined alike; at last what that leaves out,
     /// such as a part of a ring, on one. Maps stay as they are but for their place.
     ///
-    /// Ends early when the observer wants the work to end. `None` if it takes too much work: the surface has so many facets beside
-    /// one vertex, or so many in all, that it is no machine part.
+    /// Ends early when the observer wants the work to end. Returns `None` if the work exceeds its budget, as for a fine fan, in
+    /// which every facet meets all others at one vertex.
     pub fn joined(
         &self,
         charts: Vec<MappedChart>,

@@ -33,7 +33,7 @@ impl Piece {
         }
     }
 
-    /// Whether one of these faces covers a part of it. Adds the pairs that are compared to `work`.
+    /// Returns whether a face overlaps the piece. Adds the number of compared pairs to `work`.
     pub fn meets(&self, faces: &[CornerUvs], work: &mut u64) -> bool {
         let mut grounds = self.grounds.iter();
         grounds.any(|ground| ground.meets(faces, work))

@@ -36,8 +36,8 @@ impl Ground {
         Self::of([&*self.corners, &other.corners].concat())
     }
 
-    /// Whether a face here and one of these, counter-clockwise too, overlap, decided exactly. Adds the pairs that are compared to
-    /// `work`.
+    /// Returns whether one of these counter-clockwise faces overlaps a face here, decided exactly. Adds the number of compared
+    /// pairs to `work`.
     pub fn meets(&self, faces: &[CornerUvs], work: &mut u64) -> bool {
         faces.iter().any(|face| {
             let mut is_met = false;
