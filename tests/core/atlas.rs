@@ -3,6 +3,7 @@ use proptest::prelude::*;
 use std::sync::Mutex;
 use unwrapd::atlas::{AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, Look, Texture, pack};
 use unwrapd::mesh::Resolution;
+use unwrapd::plane::are_disjoint;
 use unwrapd::solver::Control;
 
 use crate::layouts::{Chart, assert_positive_and_inside, bar, blob, disk, maps, smallest_gap};
@@ -314,7 +315,13 @@ fn a_search_ends_when_all_has_been_tried() {
 fn crowds_and_needles_have_no_draft() {
     let crowd: Vec<Chart> = (0..600).map(|_| bar(1)).collect();
     let needle = (vec![[0.0, 0.0], [1e6, 0.0], [1e6, 1.0]], vec![[0, 1, 2]]);
-    for charts in [crowd, vec![needle]] {
+    // On the finer raster of many charts the sheets of such long ones would take hundreds of megabytes.
+    let mut long: Vec<Chart> = (0..80).map(|_| bar(1)).collect();
+    long.push((
+        vec![[0.0, 0.0], [120.0, 0.0], [120.0, 0.1]],
+        vec![[0, 1, 2]],
+    ));
+    for charts in [crowd, vec![needle], long] {
         let draft = Draft::new(&maps(&charts), &AtlasOptions::default());
         assert!(draft.unwrap().is_none());
     }
@@ -370,6 +377,56 @@ fn needles_thinner_than_a_cell_are_opened() {
     assert_positive_and_inside(&charts, &atlas);
     assert!(atlas.moved_vertices > 0);
     assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
+}
+
+/// A square with a slit from its lower side, `width` wide, its sides of `n[0]` and `n[1]` edges.
+fn slit_square(width: f64, n: [u32; 2]) -> Chart {
+    let (mouth, tip) = ([0.3, 0.0], [0.45, 0.8]);
+    let mut uv = vec![tip, [0.0, 1.0], [1.0, 1.0]];
+    let mut triangles = Vec::new();
+    let mut ends = Vec::new();
+    for (side, n) in [0.0, 1.0].into_iter().zip(n) {
+        let first = uv.len() as u32;
+        let mut last = first;
+        for i in 0..=n {
+            let t = f64::from(i) / f64::from(n);
+            uv.push([side, t * tip[1]]);
+            let shift = (side - 0.5) * width * (1.0 - t);
+            let along = |k: usize| mouth[k] + t * (tip[k] - mouth[k]);
+            let on_slit = if i == n { 0 } else { uv.len() as u32 };
+            if i < n {
+                uv.push([along(0) + shift, along(1)]);
+            }
+            if i > 0 {
+                let slit_before = last + 1;
+                let outer = first + 2 * i;
+                let strip = [[last, slit_before, on_slit], [last, on_slit, outer]];
+                let turned = |[a, b, c]: [u32; 3]| if side > 0.5 { [a, c, b] } else { [a, b, c] };
+                triangles.extend(strip.map(turned));
+                last = outer;
+            }
+        }
+        ends.push(last);
+    }
+    triangles.extend([[ends[0], 0, 1], [0, 2, 1], [0, ends[1], 2]]);
+    (uv, triangles)
+}
+
+/// Rounding alone lets the sides of such a slit cross.
+#[test]
+fn a_slit_thinner_than_a_cell_does_not_overlap() {
+    for width in [1e-7, 1e-8, 1e-9, 0.0] {
+        for n in [[3, 7], [11, 5], [31, 29]] {
+            let chart = slit_square(width, n);
+            let triangles = chart.1.clone();
+            assert!(width == 0.0 || are_disjoint(&chart.0, &triangles));
+            let atlas = pack(&maps(&[chart]), &AtlasOptions::default()).unwrap();
+            let grid: Vec<_> = (atlas.placed[0].grid.iter())
+                .map(|p| p.map(f64::from))
+                .collect();
+            assert!(are_disjoint(&grid, &triangles), "{width} {n:?}");
+        }
+    }
 }
 
 #[test]

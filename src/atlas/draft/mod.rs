@@ -34,6 +34,9 @@ const SMALL: f64 = 0.12;
 const SIDES: [u32; 5] = [1, 2, 4, 8, MOST_SIDES];
 /// A chart that is longer is a needle. Ten pages, which one chart may be expected to fill, are as large as 3.2 sides squared.
 const MOST_SIDES: u32 = 16;
+/// Cells of all pages of a sheet at most, unless one side of the page takes more: those of a coarse page of [`MOST_SIDES`]. A search
+/// keeps dozens of sheets, of two bytes a cell or so.
+const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 512;
 
@@ -104,7 +107,8 @@ impl Draft {
         };
         let extents = plan.order.iter().flat_map(|&i| plan.outlines[i].extent);
         let longest = extents.fold(0.0, f64::max) * raster.scale;
-        if longest > f64::from(raster.largest(MOST_SIDES)) {
+        let largest = raster.sides().last().unwrap_or(1);
+        if longest > f64::from(raster.largest(largest)) {
             return None;
         }
         let poses = plan.outlines.iter().map(|o| raster.poses(o)).collect();
@@ -168,7 +172,7 @@ impl Draft {
     /// Places all charts in their order, in a square as large as that takes within reason; false if that is too small.
     fn lay_out(&mut self) -> bool {
         let n = self.state.order.len();
-        SIDES.into_iter().any(|side| {
+        self.raster.sides().any(|side| {
             let largest = self.raster.largest(side);
             let mut sheet = self.raster.sheet(largest);
             let laid_out = self.state.lay_out(&self.poses, &mut sheet, 0..n, largest);
@@ -242,6 +246,13 @@ impl Raster {
     /// Cells along the longer side of the page that the charts are expected to need.
     fn cells(self) -> f64 {
         f64::from(self.texture.raster(self.side))
+    }
+
+    /// Those of [`SIDES`] whose sheets are not too large; the first always.
+    fn sides(self) -> impl Iterator<Item = u32> {
+        let cells =
+            move |sides: u32| u64::from(self.texture.pages) * u64::from(sides * self.side).pow(2);
+        (SIDES.into_iter()).take_while(move |&sides| sides == 1 || cells(sides) <= MOST_CELLS)
     }
 
     /// The same for so many sides of the page.
