@@ -1,8 +1,8 @@
 //! Which textures to make for new UVs.
-use super::GltfDocument;
 use super::json::extension;
 use super::sampling::Resampled;
 use super::textures::{MaterialTextures, TextureUse, materials};
+use super::{GltfDocument, images};
 use crate::document::bake::MaterialPlanes;
 use crate::document::{BakePlan, BakePlane, DocumentError, Encoding, Group, KeptTexture};
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,9 +26,13 @@ pub(super) fn plan(
     unreadable: &BTreeMap<usize, String>,
 ) -> Result<BakePlan, DocumentError> {
     let users = users(document, groups)?;
+    let first_of_equals = images::first_of_equals(&document.body, &document.resources)?;
     let mut slots: BTreeMap<usize, Vec<Slot>> = users
         .keys()
-        .map(|&material| (material, slots_of(document, material, unreadable)))
+        .map(|&material| {
+            let slots = slots_of(document, material, &first_of_equals, unreadable);
+            (material, slots)
+        })
         .collect();
     keep_frames_together(&users, &mut slots);
     let mut plan = BakePlan {
@@ -62,6 +66,7 @@ fn users(document: &GltfDocument, groups: &[Group]) -> Result<Users, DocumentErr
 fn slots_of(
     document: &GltfDocument,
     material: usize,
+    first_of_equals: &[usize],
     unreadable: &BTreeMap<usize, String>,
 ) -> Vec<Slot> {
     let json = &document.body.json;
@@ -70,7 +75,10 @@ fn slots_of(
         .is_some_and(|object| extension(object, ANISOTROPY).is_some());
     let textures = MaterialTextures::of_material(json, material).uses;
     let slot = |texture: TextureUse| {
-        let resampled = Resampled::of(json, &texture).and_then(|resampled| {
+        let resampled = Resampled::of(json, &texture).and_then(|mut resampled| {
+            // Images of equal bytes are decoded once, and resampled once where they are shown alike.
+            let image = &mut resampled.source.image;
+            *image = first_of_equals.get(*image).copied().unwrap_or(*image);
             match unreadable.get(&resampled.source.image) {
                 Some(reason) => Err(reason.clone()),
                 None if is_anisotropic => Err("its material is anisotropic".to_owned()),

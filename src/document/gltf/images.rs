@@ -6,7 +6,21 @@ use crate::document::DocumentError;
 use crate::mesh::io::{Content, Format};
 use serde_json::{Value, json};
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// For each image the first one with the same bytes; itself if it cannot be read.
+pub(super) fn first_of_equals(
+    body: &Body,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<Vec<usize>, DocumentError> {
+    let mut known: HashMap<Cow<[u8]>, usize> = HashMap::new();
+    let first = |index| match bytes(body, index, resources) {
+        Ok(bytes) => *known.entry(bytes).or_insert(index),
+        Err(_) => index,
+    };
+    let n_images = items(&body.json, "images")?.len();
+    Ok((0..n_images).map(first).collect())
+}
 
 /// The resources that images refer to.
 pub(super) fn supplied(

@@ -56,34 +56,23 @@ pub(super) fn rebaked(
     })
 }
 
-/// The side and the file of each texture of a plan.
+/// The side and the file of each texture of a plan. Nothing is resampled if all together have too many texels.
 fn files(
     bake: &Bake,
     plan: &BakePlan,
     groups: &[Group],
     options: &Options,
 ) -> Result<Vec<(u32, Vec<u8>)>, DocumentError> {
-    let least = options
-        .baking
-        .bake_size
-        .unwrap_or(options.layout.resolution.longer().min(MOST_SIDE));
-    check_texels(u64::from(least).pow(2) * plan.planes.len() as u64)?;
+    let sides = sides(bake, plan, groups, options)?;
     let mut files = Vec::new();
-    let mut texels = 0;
     // Textures of one group often have one size.
     let mut last: Option<((usize, u32), Coverage)> = None;
-    for wanted in &plan.planes {
+    for (wanted, side) in plan.planes.iter().zip(sides) {
         let members = &groups[wanted.group].primitives;
-        let (plane, faces) = (bake.plane(wanted, members)?, bake.faces(members));
-        let side = options
-            .baking
-            .bake_size
-            .unwrap_or_else(|| least.max(side_for(&plane, &faces)));
-        texels += u64::from(side).pow(2);
-        check_texels(texels)?;
+        let plane = bake.plane(wanted, members)?;
         let key = (wanted.group, side);
         let known = last.take().filter(|(known, _)| *known == key);
-        let new = || (key, Coverage::new(&faces, side as usize));
+        let new = || (key, Coverage::new(&bake.faces(members), side as usize));
         let (_, coverage) = last.insert(known.unwrap_or_else(new));
         let image = baked(&plane, coverage);
         let file = options
@@ -93,6 +82,35 @@ fn files(
         files.push((side, file));
     }
     Ok(files)
+}
+
+/// The side of each texture of a plan: as asked for, or as fine as what it shows.
+fn sides(
+    bake: &Bake,
+    plan: &BakePlan,
+    groups: &[Group],
+    options: &Options,
+) -> Result<Vec<u32>, DocumentError> {
+    let least = options
+        .baking
+        .bake_size
+        .unwrap_or(options.layout.resolution.longer().min(MOST_SIDE));
+    check_texels(u64::from(least).pow(2) * plan.planes.len() as u64)?;
+    if options.baking.bake_size.is_some() {
+        return Ok(vec![least; plan.planes.len()]);
+    }
+    let (mut sides, mut texels) = (Vec::new(), 0);
+    for wanted in &plan.planes {
+        let members = &groups[wanted.group].primitives;
+        let side = least.max(side_for(
+            &bake.plane(wanted, members)?,
+            &bake.faces(members),
+        ));
+        texels += u64::from(side).pow(2);
+        check_texels(texels)?;
+        sides.push(side);
+    }
+    Ok(sides)
 }
 
 /// Says that nothing was there to resample, and in which textures charts are so near that bilinear filtering at the border of one

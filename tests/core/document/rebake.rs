@@ -173,6 +173,24 @@ fn occlusion_and_roughness_of_one_image_stay_one() {
     assert_eq!(json["textures"].as_array().unwrap().len(), 2);
 }
 
+/// Two image entries of the same bytes are decoded once, and what shows them alike is resampled once.
+#[test]
+fn images_of_equal_bytes_are_one() {
+    let mut builder = square();
+    let copy = builder.json["images"][0].clone();
+    push(&mut builder.json["images"], copy);
+    push(&mut builder.json["textures"], json!({"source": 2}));
+    builder.json["materials"][0]["emissiveTexture"] = json!({"index": 2});
+    let (json, colors) = written(&rebaked(&builder));
+    let material = &json["materials"][0];
+    assert_eq!(
+        material["emissiveTexture"]["index"],
+        material.pointer(BASE).unwrap()["index"]
+    );
+    assert_eq!(colors(0, "/emissiveTexture"), [RED]);
+    assert_eq!(json["textures"].as_array().unwrap().len(), 2);
+}
+
 #[test]
 fn every_variant_of_a_surface_has_its_own() {
     let mut builder = square();
