@@ -3,7 +3,7 @@
 use crate::charts::MappedChart;
 use crate::mesh::CornerUvs;
 use crate::numerics::bounds::bounds_of;
-use crate::plane::{BoxIndex, interiors_intersect};
+use crate::plane::{BoxIndex, interiors_intersect, search_budget};
 
 /// The faces of a map.
 pub struct Ground {
@@ -49,16 +49,21 @@ impl Ground {
         })
     }
 
-    /// How many pairs of a face here and one of these overlap, decided exactly; counted no farther than a first face with which
-    /// they are more than `most`.
+    /// Counts the pairs of a face here and one of these that overlap, decided exactly. Ends after the first face with which they are
+    /// more than `most`; where faces lie in heaps, so that the search exceeds its [budget](search_budget), returns more than `most`.
     pub fn n_overlaps(&self, triangles: &[[u32; 3]], uv: &[[f64; 2]], most: usize) -> usize {
-        let mut n = 0;
+        let budget = search_budget(self.len() + triangles.len());
+        let (mut n, mut n_compared) = (0, 0);
         for face in corners(triangles, uv) {
             self.index.meeting(&bounds_of(&face), |f| {
+                n_compared += 1;
                 n += usize::from(interiors_intersect(&face, &self.corners[f as usize]));
             });
             if n > most {
                 break;
+            }
+            if n_compared > budget {
+                return most + 1;
             }
         }
         n
