@@ -124,7 +124,11 @@ async fn a_database_that_stands_still_is_waited_for() {
     tokio::time::sleep(Duration::from_millis(3500)).await;
     cluster.postgres.signal(Signal::SIGCONT);
     // Whoever looked for silent workers meanwhile is answered first.
-    tokio::time::sleep(Duration::from_millis(500)).await;
+    let waiting = "SELECT count(*) FROM pg_stat_activity WHERE state = 'active' AND query_start < now() - interval '1 s'";
+    soon("what waited is not answered", || {
+        cluster.postgres.psql("unwrapd", waiting).trim() == "0"
+    })
+    .await;
     worker.signal(Signal::SIGCONT);
     finish(&api, job["links"]["self"].as_str().expect("a link")).await;
     assert_whole(&api, &job).await;
