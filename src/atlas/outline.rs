@@ -195,26 +195,32 @@ fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// What remains of all triangles' edges when those that run in opposite directions cancel, in sorted order.
+/// What remains of all triangles' edges when those that run in opposite directions cancel, in an order that follows
+/// from the triangles only.
 ///
 /// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area too: their
-/// edges then run as those of their neighbors do, and stay, twice.
+/// edges then run as those of their neighbors do, and stay, twice. Edges of triangles without area stay, too: they enclose nothing,
+/// but the chart reaches as far. Those of a closed surface whose UVs are a line would all cancel otherwise.
 pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
-    let counter_clockwise = |t: &[u32; 3]| {
-        let [a, b, c] = *t;
-        if doubled_area(map, t) < 0.0 {
+    let edges_of = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+    let mut boundary = Vec::new();
+    // Edges by their ends, and whether they run from the smaller one to the larger.
+    let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * map.triangles.len());
+    for &triangle @ [a, b, c] in map.triangles {
+        let doubled_area = doubled_area(map, &triangle);
+        if doubled_area == 0.0 {
+            boundary.extend(edges_of(triangle));
+            continue;
+        }
+        let counter_clockwise = if doubled_area < 0.0 {
             [a, c, b]
         } else {
-            [a, b, c]
-        }
-    };
-    // Edges by their ends, and whether they run from the smaller one to the larger.
-    let mut edges: Vec<(u32, u32, bool)> = (map.triangles.iter().map(counter_clockwise))
-        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
-        .map(|[p, q]| (p.min(q), p.max(q), p < q))
-        .collect();
+            triangle
+        };
+        let of_triangle = edges_of(counter_clockwise);
+        edges.extend(of_triangle.map(|[p, q]| (p.min(q), p.max(q), p < q)));
+    }
     edges.sort_unstable();
-    let mut boundary = Vec::new();
     for same in edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
         let (low, high, _) = same[0];
         let forward = same.iter().filter(|edge| edge.2).count();

@@ -91,6 +91,29 @@ fn charts_without_area_keep_their_shape_and_have_a_place() {
     }
 }
 
+/// The UVs of a palette: every edge has two faces, and all lie on one line.
+#[test]
+fn a_closed_surface_on_a_line_has_a_place() {
+    let on_line = |x: f64| -> Chart {
+        let uv = [0.1, 0.4, 0.2, 0.9].map(|y| [x, y]).to_vec();
+        (uv, vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]])
+    };
+    for charts in [
+        vec![on_line(0.1)],
+        (1..6).map(|i| on_line(f64::from(i) / 8.0)).collect(),
+    ] {
+        let atlas = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
+        let side = 1 << GRID_BITS;
+        let coordinates = atlas
+            .placed
+            .iter()
+            .flat_map(|placed| placed.grid.as_flattened());
+        assert!(coordinates.into_iter().all(|x| (0..=side).contains(x)));
+        let grid = &atlas.placed[0].grid;
+        assert_ne!(grid[0], grid[3]);
+    }
+}
+
 #[test]
 fn a_chart_finer_than_the_grid_is_rounded_as_it_is() {
     // A fan in a disk of 1e-9 of the chart: no grid has room for its triangles.
