@@ -54,6 +54,9 @@ pub struct Figures {
     /// Whether a limit ended it before it was done.
     #[serde(default)]
     pub ended_early: bool,
+    /// Whether only a part of what was asked for was done: textures or colors were not resampled. `unwrap` ends with 7 then.
+    #[serde(default)]
+    pub partly_done: bool,
 }
 
 impl Row {
@@ -88,6 +91,8 @@ impl From<Failure> for Status {
 #[derive(Deserialize)]
 struct ReportRead {
     certified: bool,
+    #[serde(default)]
+    partly_done: bool,
     warnings: Vec<WarningRead>,
     groups: Vec<GroupRead>,
 }
@@ -125,6 +130,7 @@ impl Figures {
     pub(super) fn of_report(report: &[u8]) -> serde_json::Result<Self> {
         let ReportRead {
             certified,
+            partly_done,
             warnings,
             groups,
         } = serde_json::from_slice(report)?;
@@ -138,6 +144,7 @@ impl Figures {
                 .reduce(f64::max),
             stretch: measures().filter_map(|m| m.stretch_p99).reduce(f64::max),
             warnings: warnings.len() as u64,
+            partly_done,
             ended_early: warnings.iter().any(|it| it.code == "ended_early"),
         })
     }

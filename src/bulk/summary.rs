@@ -6,7 +6,7 @@ use super::row::{Row, Status};
 use crate::jobs::Gates;
 
 /// Names of the columns.
-const HEADER: [&str; 13] = [
+const HEADER: [&str; 14] = [
     "input",
     "output",
     "status",
@@ -20,6 +20,7 @@ const HEADER: [&str; 13] = [
     "warnings",
     "seconds",
     "detail",
+    "partly_done",
 ];
 
 /// How many assets ended how.
@@ -35,6 +36,8 @@ pub struct Totals {
     pub missing: usize,
     /// Those that meet the gates.
     pub accepted: usize,
+    /// Those of which only a part of what was asked for was done.
+    pub partly_done: usize,
 }
 
 impl Totals {
@@ -47,6 +50,7 @@ impl Totals {
             failed: count(|status| matches!(status, Status::Failed { .. })),
             missing: count(|status| matches!(status, Status::Missing)),
             accepted: rows.iter().filter(|row| row.is_accepted(gates)).count(),
+            partly_done: count(|status| matches!(status, Status::Written(it) if it.partly_done)),
         }
     }
 }
@@ -77,10 +81,18 @@ fn shown(text: &str) -> String {
     shown
 }
 
-fn cells(row: &Row, gates: &Gates) -> [String; 13] {
+fn cells(row: &Row, gates: &Gates) -> [String; 14] {
     let number = |number: Option<f64>| number.map_or(String::new(), |x| format!("{x:.4}"));
-    let common = |status: &str, code: &str, figures: [String; 6], detail: &str| {
-        let [certified, faces, charts, distortion, stretch, warnings] = figures;
+    let common = |status: &str, code: &str, figures: [String; 7], detail: &str| {
+        let [
+            certified,
+            faces,
+            charts,
+            distortion,
+            stretch,
+            warnings,
+            partly_done,
+        ] = figures;
         [
             shown(&row.input),
             shown(&row.output),
@@ -95,6 +107,7 @@ fn cells(row: &Row, gates: &Gates) -> [String; 13] {
             warnings,
             format!("{:.3}", row.seconds),
             shown(detail),
+            partly_done,
         ]
     };
     match &row.status {
@@ -106,6 +119,7 @@ fn cells(row: &Row, gates: &Gates) -> [String; 13] {
                 number(it.distortion),
                 number(it.stretch),
                 it.warnings.to_string(),
+                it.partly_done.to_string(),
             ];
             common("written", "", figures, "")
         }

@@ -186,9 +186,9 @@ fn refuse(mut error: clap::Error) -> ! {
 }
 
 /// The program. Options accept negative numbers, so that the range check can name the option. Help
-/// shows option names as they are typed.
+/// shows option names as they are typed, and each option in the same layout.
 pub(super) fn command() -> clap::Command {
-    Cli::command().mut_subcommands(as_people_type)
+    Cli::command().mut_subcommands(|command| as_people_type(command).next_line_help(true))
 }
 
 fn as_people_type(command: clap::Command) -> clap::Command {

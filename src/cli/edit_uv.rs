@@ -76,7 +76,7 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     let edited = edit_document(&upload, editing, &options, &display);
     display.finish()?;
     let edited = edited?;
-    outputs.write(&edited.files, &[(report, &json(&edited.report)?)])?;
+    let written = outputs.write(&edited.files, &[(report, &json(&edited.report)?)])?;
     if output.talk.json {
         print_json(&edited.report)?;
     }
@@ -84,6 +84,7 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     for chart in &edited.report.charts {
         print_pull(&format!("chart {}: ", chart.chart), &chart.map);
     }
+    written.tell();
     if !edited.report.certified {
         let lacking = edited.report.lacking.join(", ");
         return Err(Failure::uncertified(format!(

@@ -6,6 +6,7 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use indicatif::HumanBytes;
 
 use super::console::{self, Lines};
 use super::failure::Failure;
@@ -124,12 +125,12 @@ impl Outputs {
 
     /// Writes the files of a result, the main one where it was asked for and what belongs to it
     /// beside it, and what else was asked for. Each is written whole under another name; once all
-    /// are they are moved into place, the main one last.
+    /// are they are moved into place, the main one last. Returns what was written.
     pub(super) fn write(
         &self,
         files: &[(String, Vec<u8>)],
         others: &[(&Option<PathBuf>, &[u8])],
-    ) -> Result<(), Failure> {
+    ) -> Result<WrittenFiles, Failure> {
         let mut contents: Vec<(PathBuf, &[u8])> = Vec::new();
         for (path, bytes) in others {
             contents.extend(path.iter().map(|path| (path.clone(), *bytes)));
@@ -151,7 +152,11 @@ impl Outputs {
         if let Some((_, bytes)) = files.first() {
             contents.push((self.main.clone(), bytes));
         }
-        write_all(&contents)
+        write_all(&contents)?;
+        let files = contents.iter().rev().filter(|(path, _)| !is_stream(path));
+        Ok(WrittenFiles(
+            (files.map(|(path, bytes)| (path.clone(), bytes.len()))).collect(),
+        ))
     }
 
     /// Refuses to replace a file that is read.
@@ -167,6 +172,31 @@ impl Outputs {
         }
     }
 }
+
+/// Names and sizes in bytes of files that were written, the main one first.
+pub(super) struct WrittenFiles(Vec<(PathBuf, usize)>);
+
+impl WrittenFiles {
+    /// Says which files were written, the last line of a command.
+    pub(super) fn tell(&self) {
+        let named = |(path, bytes): &(PathBuf, usize)| {
+            format!("{} ({})", path.display(), HumanBytes(*bytes as u64))
+        };
+        let (shown, rest) = self.0.split_at(self.0.len().min(MOST_NAMED));
+        let mut files: Vec<String> = shown.iter().map(named).collect();
+        if !rest.is_empty() {
+            let bytes: usize = rest.iter().map(|(_, bytes)| bytes).sum();
+            let bytes = HumanBytes(bytes as u64);
+            files.push(format!("{} more files ({bytes})", rest.len()));
+        }
+        if !files.is_empty() {
+            console::say(format_args!("wrote {}", files.join(", ")));
+        }
+    }
+}
+
+/// Files that the last line of a command names.
+const MOST_NAMED: usize = 4;
 
 fn count_standard(paths: &[&Path]) -> usize {
     paths.iter().filter(|path| is_standard(path)).count()

@@ -1,14 +1,26 @@
 //! Permissions of the data folder: its owner, and the group of a setgid folder.
 
-use std::fs::{DirBuilder, Metadata, Permissions};
+use std::fs::{DirBuilder, Metadata, OpenOptions, Permissions};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
 use std::path::Path;
 
 use nix::sys::stat::{Mode, umask};
 
+/// The database, if it is a file.
+const DATABASE: &str = "unwrapd.sqlite";
+
+/// Where the database is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Database {
+    /// A file in the data folder.
+    Here,
+    /// A server elsewhere.
+    Elsewhere,
+}
+
 /// What there may be in a data folder. Other files in it are not ours.
 const NAMES: [&str; 7] = [
-    "unwrapd.sqlite",
+    DATABASE,
     "unwrapd.sqlite-wal",
     "unwrapd.sqlite-shm",
     "lock",
@@ -20,6 +32,7 @@ const NAMES: [&str; 7] = [
 const GROUP_AND_OTHERS: u32 = 0o077;
 const OTHERS: u32 = 0o007;
 const GROUP_WRITES: u32 = 0o020;
+const GROUP_READS_WRITES: u32 = 0o060;
 const SETGID: u32 = 0o2000;
 const STICKY: u32 = 0o1000;
 
@@ -28,7 +41,7 @@ const STICKY: u32 = 0o1000;
 /// warning says so. A group keeps its access where that is how the folder is shared: it has the
 /// setgid bit, as Kubernetes sets it for `fsGroup`, or it belongs to somebody else and its group
 /// may write.
-pub(super) fn make_private(folder: &Path) -> Result<(), String> {
+pub(super) fn make_private(folder: &Path, has_database: Database) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("cannot create {}: {error}", folder.display());
     let mut builder = DirBuilder::new();
     builder.recursive(true).mode(0o700);
@@ -43,6 +56,11 @@ pub(super) fn make_private(folder: &Path) -> Result<(), String> {
         GROUP_AND_OTHERS
     };
     umask(Mode::from_bits_truncate(denied));
+    let database = folder.join(DATABASE);
+    if is_of_group && has_database == Database::Here {
+        share(&database)
+            .map_err(|error| format!("cannot share {}: {error}", database.display()))?;
+    }
     if found.mode() & denied != 0 {
         // A folder such as /tmp is meant for all.
         if is_own(&found) && found.mode() & STICKY == 0 {
@@ -62,6 +80,21 @@ pub(super) fn make_private(folder: &Path) -> Result<(), String> {
         if is_own(&data) && !data.is_symlink() && data.mode() & denied != 0 {
             tighten(&path, &data, denied);
         }
+    }
+    Ok(())
+}
+
+/// Lets the group write the database. SQLite makes its file for its owner alone to write, and gives its logs the mode of the file:
+/// so the file is made here, empty.
+fn share(database: &Path) -> std::io::Result<()> {
+    let opened = OpenOptions::new()
+        .append(true)
+        .create(true)
+        .open(database)?;
+    let data = opened.metadata()?;
+    let (mode, shared) = (data.mode() & 0o7777, GROUP_READS_WRITES);
+    if is_owner(data.uid()) && mode & shared != shared {
+        opened.set_permissions(Permissions::from_mode(mode | shared))?;
     }
     Ok(())
 }

@@ -152,7 +152,8 @@ fn stage_text(progress: &Progress) -> String {
             "pull, iteration {}, energy {:.6}",
             progress.iteration, progress.energy
         ),
-        Stage::Pack => format!("pack {} charts", progress.charts),
+        // Packing cuts charts further: their number is known at its end.
+        Stage::Pack => "pack the charts".into(),
         Stage::Bake => "resample the textures".into(),
         Stage::Write => "write".into(),
         Stage::Judge => "judge the written bytes".into(),

@@ -51,11 +51,12 @@ impl Records {
         let others = others
             .each_ref()
             .map(|(path, bytes)| (*path, bytes.as_slice()));
-        outputs.write(&deformed.files, &others)?;
+        let written = outputs.write(&deformed.files, &others)?;
         if self.files.output.talk.json {
             print_json(&deformed.report)?;
         }
         summarize(deformed);
+        written.tell();
         Failure::unless_complete(deformed.report.completion)
     }
 }

@@ -63,11 +63,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let outcome = repack_document(&upload, &options, &display);
     display.finish()?;
     let outcome = outcome?;
-    outputs.write(&outcome.files, &[(report, &json(&outcome.report)?)])?;
+    let written = outputs.write(&outcome.files, &[(report, &json(&outcome.report)?)])?;
     if output.talk.json {
         print_json(&outcome.report)?;
     }
     summarize(&outcome);
+    written.tell();
     let seconds = began.elapsed().as_secs_f64();
     args.acceptance.judge(&outcome.report, seconds)
 }

@@ -9,6 +9,7 @@ use super::exposure_args::ExposureArgs;
 use super::listen::{ADDRESS_FILE, Listen, listener};
 use super::owner_args::OwnerArgs;
 use super::process;
+use super::watch_args::measured;
 use super::webhook_args::WebhookArgs;
 use super::work_args::{WorkArgs, seconds};
 use crate::http;
@@ -158,9 +159,12 @@ async fn serve(args: &Args, program: Program) -> Result<(), String> {
     let sessions = Arc::new(Sessions::new(args.session_settings(), settings.clone()));
     let stop = process::stop_on_signals()?;
     let wished = args.listen.address;
+    let measured = measured()?;
     let (jobs, store) = process::queue(&args.work, settings).await?;
     let (watch, shown) = (&args.work.watch, Some(Arc::clone(&sessions)));
-    let exposition = watch.exposition(Arc::clone(&jobs), shown, &stop).await?;
+    let exposition = watch
+        .exposition(measured, Arc::clone(&jobs), shown, &stop)
+        .await?;
     if let Some(settings) = args.webhook.settings() {
         let outbox = Arc::clone(&store);
         tokio::spawn(webhooks::deliver(outbox, settings, stop.clone()));

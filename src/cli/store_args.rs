@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::failure::Failure;
-use super::privacy::make_private;
+use super::privacy::{Database, make_private};
 use crate::jobs::Rules;
 use crate::store::RecordStore;
 
@@ -66,7 +66,11 @@ impl StoreArgs {
 
     /// Makes the folder, and keeps it and what is made from now on from others.
     pub fn make_folder(&self) -> Result<(), String> {
-        make_private(&self.data)
+        let database = match self.database {
+            None => Database::Here,
+            Some(_) => Database::Elsewhere,
+        };
+        make_private(&self.data, database)
     }
 }
 

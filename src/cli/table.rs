@@ -27,15 +27,15 @@ pub(super) fn print(groups: &[GroupReport]) {
         .unwrap_or(0);
     let width = width.clamp(10, NAME);
     say(format_args!(
-        "{:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {:>11}",
+        "{:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>15} {:>15} {:>8} {:>8} {:>11}",
         "",
         "triangles",
         "charts",
         "stretch p99",
         "mean",
         "filled",
-        "texels/unit",
-        "seam/√A",
+        "texels per unit",
+        "seams per √area",
         "flipped",
         "no area",
         "overlapping"
@@ -67,21 +67,34 @@ pub(super) fn print(groups: &[GroupReport]) {
 }
 
 fn line(name: &str, width: usize, sums: &Sums) -> String {
-    let number = |x: Option<f64>, digits: usize| x.map_or("-".into(), |x| format!("{x:.digits$}"));
+    let number = |x: Option<f64>| x.map_or("-".into(), three_digits);
     let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.1} %"));
     let overlapping = sums.overlapping.map_or("-".to_owned(), |n| n.to_string());
     format!(
-        "{name:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>12} {:>9} {:>8} {:>8} {overlapping:>11}",
+        "{name:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>15} {:>15} {:>8} {:>8} {overlapping:>11}",
         sums.faces,
         sums.charts,
         percent(sums.stretch.map(|stretch| 100.0 * (stretch - 1.0))),
         percent(sums.energy().map(stretch_percent)),
         percent(sums.filled.map(|share| 100.0 * share)),
-        number(sums.density(), 4),
-        number(sums.seams(), 2),
+        number(sums.density()),
+        number(sums.seams()),
         sums.flipped,
         sums.degenerate,
     )
+}
+
+/// A number with the three digits that matter: 340, 3.27, 0.0123, 1.2e9.
+fn three_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
+    match rounded {
+        0.0 => "0".into(),
+        1e-4..1e7 => {
+            let decimals = (2 - rounded.log10().floor() as i32).max(0) as usize;
+            format!("{rounded:.decimals$}")
+        }
+        _ => format!("{rounded:e}"),
+    }
 }
 
 /// Figures of several atlases: counts added, means weighted by the areas of the surfaces.

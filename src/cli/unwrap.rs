@@ -34,11 +34,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         others.push((&pictures.layout, &drawn.layout_png));
         others.push((&pictures.heatmap, &drawn.heatmap_png));
     }
-    outputs.write(&outcome.files, &others)?;
+    let written = outputs.write(&outcome.files, &others)?;
     if files.output.talk.json {
         print_json(&outcome.report)?;
     }
     summarize(&outcome);
+    written.tell();
     let seconds = began.elapsed().as_secs_f64();
     args.acceptance.judge(&outcome.report, seconds)
 }

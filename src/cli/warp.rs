@@ -49,12 +49,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let warped = warp_file(&upload, &options, &display);
     display.finish()?;
     let warped = warped?;
-    outputs.write(&warped.files, &[(report, &json(&warped.report)?)])?;
+    let written = outputs.write(&warped.files, &[(report, &json(&warped.report)?)])?;
     if args.files.talk.json {
         print_json(&warped.report)?;
     }
     warn(&warped.report.warnings);
     print_pull("", &warped.report.map);
+    written.tell();
     if !warped.report.certified {
         return Err(Failure::uncertified("the map is not valid"));
     }

@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 
 use clap::ValueEnum;
+use metrics_exporter_prometheus::PrometheusHandle;
 use tokio_util::sync::CancellationToken;
 use tracing_subscriber::EnvFilter;
 
@@ -56,6 +57,11 @@ fn levels(text: &str) -> Result<String, String> {
         .map_err(|error| format!("expected levels such as warn or unwrapd=debug: {error}"))
 }
 
+/// Measures from now on: first of all, so that nothing that a start notes is lost.
+pub(super) fn measured() -> Result<PrometheusHandle, String> {
+    measure().map_err(|error| format!("nothing is measured: {error}"))
+}
+
 impl WatchArgs {
     /// Begins the log.
     pub fn start_log(&self) {
@@ -68,14 +74,14 @@ impl WatchArgs {
         }
     }
 
-    /// Measures from now on, and shows it where it is asked for until told to stop.
+    /// Shows what is measured where it is asked for, until told to stop.
     pub async fn exposition(
         &self,
+        measured: PrometheusHandle,
         jobs: Arc<Jobs>,
         sessions: Option<Arc<Sessions>>,
         stop: &CancellationToken,
     ) -> Result<Exposition, String> {
-        let measured = measure().map_err(|error| format!("nothing is measured: {error}"))?;
         let exposition = Exposition::new(measured, jobs, sessions);
         if let Some(address) = self.metrics_listen {
             let listener = listener(address).await?;

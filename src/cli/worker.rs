@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::process;
+use super::watch_args::measured;
 use super::work_args::WorkArgs;
 use crate::jobs::Program;
 
@@ -28,10 +29,12 @@ pub(super) fn run(args: &Args, program: Program) -> Result<(), String> {
 async fn work(args: &Args, program: Program) -> Result<(), String> {
     let settings = args.work.settings(program);
     let grace = settings.grace;
+    let measured = measured()?;
     let (jobs, _) = process::queue(&args.work, settings).await?;
     let stop = process::stop_on_signals()?;
     let shown = Arc::clone(&jobs);
-    args.work.watch.exposition(shown, None, &stop).await?;
+    let watch = &args.work.watch;
+    watch.exposition(measured, shown, None, &stop).await?;
     tracing::info!("waiting for jobs");
     let queue = tokio::spawn(jobs.run(stop.clone()));
     stop.cancelled().await;

@@ -76,12 +76,15 @@ impl fmt::Display for GroupBy {
     }
 }
 
+/// The label of an atlas for all, here as in the page.
+const WHOLE_SCENE: &str = "Whole scene";
+
 /// Primitives that share one UV space.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
     /// `scene`, `mesh0`, `mesh0/prim0` or `material0`.
     pub name: String,
-    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0`, `material 0` or `Whole scene`.
     pub label: String,
     /// Indices into the document's primitives, ascending.
     pub primitives: Vec<usize>,
@@ -151,7 +154,7 @@ fn group_label(primitive: &Primitive, by: GroupBy, names: &impl Names) -> String
         name.unwrap_or_else(|| format!("mesh {}", primitive.mesh))
     };
     match (by.of(primitive), primitive.material) {
-        (GroupBy::Scene, _) => "scene".to_owned(),
+        (GroupBy::Scene, _) => WHOLE_SCENE.to_owned(),
         (GroupBy::Material, Some(material)) => {
             (names.material(material)).unwrap_or_else(|| format!("material {material}"))
         }

@@ -36,24 +36,43 @@ pub(super) async fn admit(
     let caller = match caller(&app, request.headers(), peer, &needed).await {
         Ok(caller) => caller,
         Err(problem) => {
-            drain_refused(request).await;
+            // The answer comes at once. Meanwhile the body is read, or the connection would be reset before the answer is seen.
+            tokio::spawn(drain_refused(request));
             return Err(problem);
         }
     };
     let taken = app.requests.as_ref();
     let taken = taken.map(|requests| requests.take(caller.owner().clone()));
     let mut response = if let Some(Err(standing)) = taken {
-        drain_refused(request).await;
+        tokio::spawn(drain_refused(request));
         let detail = "the owner of the key has sent too many requests";
         too_many(standing, detail).into_response()
     } else {
         request.extensions_mut().insert(caller);
-        next.run(request).await
+        if is_encoded(request.headers()) {
+            tokio::spawn(drain_refused(request));
+            encoded().into_response()
+        } else {
+            next.run(request).await
+        }
     };
     if let Some(Ok(standing) | Err(standing)) = taken {
         standing.tell(response.headers_mut());
     }
     Ok(response)
+}
+
+/// Whether the body has a content coding, such as gzip.
+fn is_encoded(headers: &HeaderMap) -> bool {
+    let mut codings = headers.get_all(header::CONTENT_ENCODING).iter();
+    codings.any(|coding| !coding.as_bytes().eq_ignore_ascii_case(b"identity"))
+}
+
+/// Refuses a coding, and says which one is read (RFC 9110, 15.5.16).
+fn encoded() -> Response {
+    let detail = "a body is read as it is: send it without Content-Encoding";
+    let refused = Problem::new(Code::UnsupportedMediaType, detail);
+    ([(header::ACCEPT_ENCODING, "identity")], refused).into_response()
 }
 
 fn too_many(standing: Standing, detail: &str) -> Problem {

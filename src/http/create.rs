@@ -40,7 +40,8 @@ use crate::webhooks;
 /// its result and is marked `cached`. `Cache-Control: no-cache` asks for a new computation.
 ///
 /// With `Idempotency-Key`, a repetition within a day returns the same job. It must agree in input,
-/// kind, options, metadata, gates and webhook. With `Prefer: wait=N`,
+/// kind, options, metadata, gates and webhook. Once the job is deleted, the key makes a new one.
+/// With `Prefer: wait=N`,
 /// the answer waits up to N seconds, at most 60. It is 200 if the job has ended by then. Progress
 /// is under `/events`, the result under `/result` and `/report`. Ended jobs are removed with their
 /// files after 30 days, or after the configured time.

@@ -21,6 +21,13 @@ const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with ce
     was asked for, 7 partly done. Once a service has an API key, calls need \
     one: `security` of an operation names its scopes. What belongs to another owner does not exist for a caller.";
 
+const WEBHOOK: &str = "Posted to the `webhook` of a job when the job ends, as [Standard Webhooks](https://www.standardwebhooks.com) \
+    says. To verify it, take the bytes of the body as they came. Join `webhook-id`, `webhook-timestamp` and the body by `.`, and compute \
+    HMAC-SHA256 with the secret of the owner: the base64 after `whsec_` in what `unwrapd webhook-secret --owner NAME` prints. One \
+    of the signatures in `webhook-signature`, the base64 after `v1,`, must be equal; compare in constant time, and refuse a \
+    timestamp that is more than five minutes off. Any answer but 2xx and 410 is repeated after 5 s, 5 and 30 minutes, 2, 5, 10 and 14 \
+    hours. A notice may come twice.";
+
 /// What operations are about, in the order in which they are shown.
 const TAGS: [(&str, &str); 6] = [
     ("synchronous", "Small meshes, answered at once"),
@@ -65,7 +72,10 @@ pub(super) fn document(mut api: OpenApi, open: &[String]) -> String {
         .schemas
         .extend(schemas::schemas());
     let mut document = serde_json::to_value(api).unwrap_or_default();
+    document["servers"] =
+        json!([{ "url": "/", "description": "The service that this document comes from" }]);
     document["x-problems"] = problems();
+    document["webhooks"] = webhooks();
     schemas::merge_groups(&mut document["components"]["schemas"]);
 
     let all = Kind::ALL.map(schemas::options);
@@ -115,6 +125,7 @@ fn complete(operation: &mut Value) {
         {
             if !media_type.contains("json") && !media_type.starts_with("text/")
                 || media_type == "model/gltf+json"
+                || is_list_of_bytes(&content["schema"])
             {
                 content["schema"] = bytes();
             }
@@ -141,6 +152,12 @@ fn complete(operation: &mut Value) {
     }
 }
 
+/// Whether a schema is that of `Vec<u8>`, which is no JSON but the bytes of a file.
+fn is_list_of_bytes(schema: &Value) -> bool {
+    let item = &schema["items"];
+    schema["type"] == "array" && item["type"] == "integer" && item["minimum"] == 0
+}
+
 /// Where a job leads.
 fn links() -> Value {
     let operations = [
@@ -159,6 +176,69 @@ fn links() -> Value {
         (name.to_owned(), to_job)
     };
     Value::Object(operations.into_iter().map(link).collect())
+}
+
+/// What is posted to the address that a job names as `webhook`.
+fn webhooks() -> Value {
+    let header = |name: &str, description: &str| {
+        json!({
+            "name": name, "in": "header", "required": true, "schema": { "type": "string" },
+            "description": description,
+        })
+    };
+    let nullable = |kind: &str| json!({ "type": [kind, "null"] });
+    let time = json!({ "type": "string", "format": "date-time" });
+    let data = json!({
+        "type": "object",
+        "description": "The job, in the words of `getJob`",
+        "required": ["id", "kind", "state", "metadata", "created_at", "finished_at"],
+        "properties": {
+            "id": { "type": "string", "format": "uuid" },
+            "kind": reference("Kind"),
+            "state": { "type": "string", "enum": ["succeeded", "failed", "cancelled"] },
+            "filename": nullable("string"),
+            "metadata": { "type": "object" },
+            "certified": nullable("boolean"),
+            "within_bound": nullable("boolean"),
+            "accepted": nullable("boolean"),
+            "error": {
+                "type": ["object", "null"],
+                "properties": { "code": { "type": "string" }, "detail": { "type": "string" } },
+            },
+            "created_at": time,
+            "started_at": { "type": ["string", "null"], "format": "date-time" },
+            "finished_at": time,
+        },
+    });
+    let body = json!({
+        "type": "object",
+        "required": ["type", "timestamp", "data"],
+        "properties": {
+            "type": { "type": "string", "enum": ["job.succeeded", "job.failed", "job.cancelled"] },
+            "timestamp": time,
+            "data": data,
+        },
+    });
+    json!({ "jobEnded": { "post": {
+        "operationId": "jobEnded",
+        "tags": ["jobs"],
+        "summary": "The end of a job",
+        "description": WEBHOOK,
+        "parameters": [
+            header("webhook-id", "Names the notice; repetitions have the same"),
+            header("webhook-timestamp", "Time of this delivery, in seconds since 1970"),
+            header("webhook-signature", "`v1,` and a signature; several, with spaces between, while a secret is replaced"),
+        ],
+        "requestBody": {
+            "required": true,
+            "content": { "application/json": { "schema": body } },
+        },
+        "responses": {
+            "2XX": { "description": "Received; the notice is not repeated" },
+            "410": { "description": "The receiver wants no more of it; the notice is not repeated" },
+        },
+        "security": [],
+    } } })
 }
 
 /// The table of codes.

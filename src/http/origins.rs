@@ -70,6 +70,10 @@ struct Allowed {
 
 async fn guard(State(allowed): State<Arc<Allowed>>, request: Request, next: Next) -> Response {
     let (headers, uri) = (request.headers(), request.uri());
+    if !names_one_host(headers) {
+        let detail = "a request names one host, as NAME or NAME:PORT";
+        return Problem::new(Code::InvalidRequest, detail).into_response();
+    }
     let host = host(headers, uri);
     if !allowed.knows(host.as_ref()) {
         let detail = "the service is not known under this name; --allow-host adds one";
@@ -79,6 +83,23 @@ async fn guard(State(allowed): State<Arc<Allowed>>, request: Request, next: Next
         return foreign().into_response();
     }
     next.run(request).await
+}
+
+/// Whether there is no more than one `Host`, and that is a name with at most a port (RFC 9112, 3.2).
+fn names_one_host(headers: &HeaderMap) -> bool {
+    let mut hosts = headers.get_all(header::HOST).iter();
+    let (first, second) = (hosts.next(), hosts.next());
+    first.is_none_or(is_host) && second.is_none()
+}
+
+fn is_host(value: &HeaderValue) -> bool {
+    let Some(authority) = (value.to_str().ok()).and_then(|text| text.parse::<Authority>().ok())
+    else {
+        // An empty one is that of a request for no host.
+        return value.is_empty();
+    };
+    let rest = authority.as_str().strip_prefix(authority.host());
+    rest.is_some_and(|rest| rest.is_empty() || rest == ":" || authority.port_u16().is_some())
 }
 
 /// The name and port under which a request reaches the service.

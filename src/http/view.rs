@@ -64,8 +64,7 @@ pub(super) struct JobView {
     accepted: Option<bool>,
     /// Warnings about the input, the work and the result; empty until the job succeeded.
     warnings: Vec<Warning>,
-    /// Cause of the failure; absent unless the job failed.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Cause of the failure; null unless the job failed.
     error: Option<Problem>,
     /// Paths of related resources.
     links: Links,

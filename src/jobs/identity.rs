@@ -69,7 +69,8 @@ async fn check_match(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<()>
         ),
     };
     Err(StoreError::Other(format!(
-        "{why} (see `unwrapd check --help`)"
+        "{why}. If they do belong together, as after a restore, or where only files are left, run \
+         `unwrapd check --adopt` (see `unwrapd check --help`)"
     )))
 }
 

@@ -20,9 +20,9 @@ pub struct Progress {
     pub charts: u64,
     /// Iteration of the solver on the chart at hand.
     pub iteration: u64,
-    /// Energy of the chart at hand.
+    /// Energy of the chart at hand; null before the first iteration, and where flat charts need none.
     pub energy: Option<f64>,
-    /// Smallest face of the chart at hand, as a share of its rest area: positive means no flip.
+    /// Smallest face of the chart at hand, as a share of its rest area: positive means no flip. Null where `energy` is.
     pub smallest: Option<f64>,
 }
 

@@ -117,14 +117,16 @@ impl Told {
 
 impl Observer for Reporter {
     fn progress(&self, progress: &pipeline::Progress) -> Control {
+        // Flat charts are laid out without an iteration: there is no energy then, and no smallest face.
+        let has_iterate = (progress.iteration, progress.energy, progress.smallest) != (0, 0.0, 0.0);
         let progress = Progress {
             stage: Some(progress.stage),
             fraction: progress.fraction,
             chart: progress.chart as u64,
             charts: progress.charts as u64,
             iteration: progress.iteration as u64,
-            energy: Some(progress.energy).filter(|e| e.is_finite()),
-            smallest: Some(progress.smallest).filter(|s| s.is_finite()),
+            energy: Some(progress.energy).filter(|e| has_iterate && e.is_finite()),
+            smallest: Some(progress.smallest).filter(|s| has_iterate && s.is_finite()),
         };
         lock(&self.told).report(progress, self.start.elapsed());
         if self.finish.load(Ordering::Relaxed) {

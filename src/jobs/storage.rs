@@ -191,6 +191,9 @@ pub trait JobStore: Send + Sync {
     /// minutes after its end.
     fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
+    /// Forgets the idempotency keys of submissions that were made more than a day ago.
+    fn forget_keys(&self) -> BoxFuture<'_, StoreResult<()>>;
+
     /// The jobs that belong to calls.
     fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 

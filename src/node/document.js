@@ -3,12 +3,14 @@
 import { createRequire } from 'node:module';
 import { unwrapBytes } from './bytes.js';
 import { InvalidInput, InvalidOptions } from './errors.js';
+import { optionsOf } from './native.js';
 
 /** Options that change more of a document than its meshes. */
 const OF_FILES = ['rebake', 'bakeSize', 'imageFormat', 'format', 'name', 'resources'];
 
 /** Unwraps every mesh of a document; all else stays as it is. */
-export function unwrapd({ onReport, ...options } = {}) {
+export function unwrapd(given) {
+  const { onReport, ...options } = optionsOf(given);
   const refused = OF_FILES.find((name) => options[name] !== undefined);
   if (refused) {
     throw new InvalidOptions(`\`${refused}\` concerns files: unwrapBytes takes it`, 'invalid_options', 2);

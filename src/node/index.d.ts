@@ -40,8 +40,8 @@ export interface WrittenFile {
  * `signal` ends the work; the promise is then rejected with its reason.
  */
 export function unwrapBytes(
-  bytes: Uint8Array,
-  options?: UnwrapFileOptions,
+  bytes: ArrayBufferView | ArrayBufferLike,
+  options?: UnwrapFileOptions | null,
 ): Promise<{ bytes: Uint8Array; others: WrittenFile[]; report: Report }>;
 
 /**

@@ -56,7 +56,7 @@ export interface UnwrapFileOptions extends CalledOptions {
   /** The file's name, which tells the format where the bytes do not. */
   name?: string;
   /** The files that it refers to, by relative path. */
-  resources?: Record<string, Uint8Array>;
+  resources?: Record<string, ArrayBufferView | ArrayBufferLike>;
   format?: 'glb' | 'gltf' | 'obj';
   rebake?: boolean;
   bakeSize?: number;

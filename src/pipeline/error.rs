@@ -39,9 +39,18 @@ pub enum PipelineError {
         /// How many it may have.
         limit: u64,
     },
-    /// No face has three distinct positions.
+    /// There is no face.
     #[error("the mesh has no triangles")]
     NoTriangles,
+    /// No face has an area.
+    #[error(
+        "none of the {triangles} triangles has an area: corners coincide or lie on a line; 32-bit coordinates far from \
+         the origin may be too coarse to tell them apart"
+    )]
+    NoArea {
+        /// How many there are.
+        triangles: usize,
+    },
     /// The UV set asked for is not there.
     #[error("{group} has no UV set {texcoord}")]
     NoUvs {
@@ -116,7 +125,7 @@ impl PipelineError {
             Self::Warp(error) => error.code(),
             Self::Seams(_) => "invalid_seams",
             Self::UnknownMaterial(_) => "unknown_material",
-            Self::NoTriangles => "no_triangles",
+            Self::NoTriangles | Self::NoArea { .. } => "no_triangles",
             Self::NoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
@@ -144,6 +153,7 @@ impl PipelineError {
             Self::Mesh(_)
             | Self::TooManyTriangles { .. }
             | Self::NoTriangles
+            | Self::NoArea { .. }
             | Self::TextureTooSmall(_)
             | Self::Islands(_)
             | Self::Cage(_)

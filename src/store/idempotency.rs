@@ -5,23 +5,18 @@ use sqlx::{Any, Row, Transaction};
 use super::database::Database;
 use super::rows;
 use crate::jobs::access::Owner;
-use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult, Timestamp};
+use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult};
 
-/// How long a key is remembered: one day.
+/// How long a key is remembered at least: one day.
 const LIFE_MS: i64 = 86_400_000;
 
-/// What a key was used for before, if it was. Forgets the keys that are too old by now.
+/// What a key was used for before, if it was.
 pub(super) async fn earlier_use(
     database: &Database,
     key: &IdempotencyKey,
     owner: &Owner,
-    now: Timestamp,
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Option<Enqueued>> {
-    sqlx::query("DELETE FROM idempotency WHERE created < $1")
-        .bind(now.0 - LIFE_MS)
-        .execute(&mut **transaction)
-        .await?;
     let used = "SELECT {columns}, fingerprint FROM job
          JOIN (SELECT job AS of_key, fingerprint FROM idempotency WHERE key = $1) AS used
          ON id = of_key";
@@ -36,6 +31,17 @@ pub(super) async fn earlier_use(
         return Ok(Some(Enqueued::KeyReused));
     }
     Ok(Some(Enqueued::Replay(Box::new(rows::job(&row)?))))
+}
+
+/// Forgets the keys that are too old.
+pub(super) async fn forget(database: &Database) -> StoreResult<()> {
+    let mut transaction = database.begin().await?;
+    sqlx::query(database.sql("DELETE FROM idempotency WHERE created < {now} - $1"))
+        .bind(LIFE_MS)
+        .execute(&mut *transaction)
+        .await?;
+    transaction.commit().await?;
+    Ok(())
 }
 
 /// A key with its owner. Neither has a line break in it.

@@ -7,7 +7,7 @@ use futures_util::future::BoxFuture;
 
 use super::database::Database;
 use super::hints::Hints;
-use super::{claims, listing, reading, reserve, submissions, transitions, upkeep};
+use super::{claims, idempotency, listing, reading, reserve, submissions, transitions, upkeep};
 use crate::jobs::access::Reach;
 use crate::jobs::{
     Beat, Capacity, Census, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId,
@@ -154,6 +154,10 @@ impl JobStore for RecordStore {
                          OR (ephemeral = 1 AND finished < {now} - $2) LIMIT 1000";
             reading::ids(&self.database, ended, &[kept_ms, EPHEMERAL_MS]).await
         })
+    }
+
+    fn forget_keys(&self) -> BoxFuture<'_, StoreResult<()>> {
+        bounded(idempotency::forget(&self.database))
     }
 
     fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {

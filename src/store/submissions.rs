@@ -28,7 +28,7 @@ pub(super) async fn enqueue(
     job.finished = job.finished.map(|_| now);
     if let Some(key) = key
         && let Some(earlier) =
-            idempotency::earlier_use(database, key, &job.owner, now, &mut transaction).await?
+            idempotency::earlier_use(database, key, &job.owner, &mut transaction).await?
     {
         return Ok(earlier);
     }

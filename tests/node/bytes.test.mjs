@@ -54,3 +54,23 @@ test('errors have the codes of the service', async () => {
   await refused(unwrapBytes(new TextEncoder().encode('v 0 0 0\n'), { name: 'm.obj' }), InvalidInput, 'no_triangles');
   await assert.rejects(unwrapBytes(box.subarray(0, 100)), InvalidInput);
 });
+
+test('bytes may be any buffer, and nothing else', async () => {
+  const box = await assetBytes('Box.glb');
+  const buffer = box.buffer.slice(box.byteOffset, box.byteOffset + box.byteLength);
+  const { report } = await unwrapBytes(buffer, null);
+  assert.equal(report.certified, true);
+  await assert.rejects(unwrapBytes('Box.glb'), (error) => error instanceof InvalidInput && /fs\.readFile/.test(error.message));
+  await assert.rejects(unwrapBytes(), (error) => error instanceof InvalidInput && /not undefined/.test(error.message));
+  await assert.rejects(unwrapBytes(buffer, 'fast'), InvalidOptions);
+});
+
+test('an unknown option is told the nearest, in camel case', async () => {
+  const box = await assetBytes('Box.glb');
+  for (const options of [{ max_charts: 3 }, { maxChart: 3 }]) {
+    await assert.rejects(
+      unwrapBytes(box, options),
+      (error) => error instanceof InvalidOptions && error.message.includes("did you mean 'maxCharts'?"),
+    );
+  }
+});

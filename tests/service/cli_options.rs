@@ -196,6 +196,14 @@ fn messages_are_about_what_was_typed() {
             "--padding must lie between 0 and 128, not 129",
         ),
         (
+            &["--padding", "9999"],
+            "--padding must lie between 0 and 128, not 9999: at --resolution 1024, an eighth of the shorter side is the most",
+        ),
+        (
+            &["--padding", "9999", "--resolution", "4096x2048"],
+            "--padding must lie between 0 and 256, not 9999: at --resolution 4096x2048",
+        ),
+        (
             &["--preset", "lightmap", "--padding", "40"],
             "--mips 2 turns --padding 40 into 160 texels",
         ),
@@ -220,6 +228,85 @@ fn messages_are_about_what_was_typed() {
     assert_status(&negative, 2);
     let error = String::from_utf8_lossy(&negative.stderr).into_owned();
     assert!(error.contains("'-1' for '--padding"), "{error}");
+    assert!(
+        error.contains("from 0 on; an eighth of the shorter side"),
+        "{error}"
+    );
+    assert!(!error.contains("4294967295"), "{error}");
+}
+
+/// A tip is a texture that does: the largest is not suggested where it is too small, too.
+#[test]
+fn a_texture_that_is_too_small_as_well_is_no_tip() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let input = asset("Box.glb").to_string_lossy().into_owned();
+    let output = path("out.glb");
+    let run = |options: &[&str]| unwrapd(&[&["unwrap", &input, "-o", &output], options].concat());
+    for options in [
+        &["--texels-per-unit", "1e9"][..],
+        &["--texels-per-unit", "1e9", "--resolution", "65536"],
+    ] {
+        let refused = run(options);
+        assert_status(&refused, 3);
+        let said = last_error(&refused);
+        assert!(said.contains("and so is the largest texture"), "{said}");
+        assert!(!said.contains("use resolution"), "{said}");
+    }
+    let refused = run(&["--texels-per-unit", "20000"]);
+    assert_status(&refused, 3);
+    let said = last_error(&refused);
+    let (_, tip) = said.split_once("use resolution ").expect("a tip");
+    let resolution: String = tip.chars().take_while(char::is_ascii_digit).collect();
+    let followed = ["--texels-per-unit", "20000", "--resolution", &resolution];
+    assert_status(&run(&followed), 0);
+}
+
+/// The summary is in plain words, says what was written, and nothing that is not known yet.
+#[test]
+fn the_summary_is_plain_and_names_what_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let input = asset("Box.glb").to_string_lossy().into_owned();
+    let (output, report) = (path("out.glb"), path("r.json"));
+    let run = unwrapd(&["unwrap", &input, "-o", &output, "--report", &report]);
+    assert_status(&run, 0);
+    let progress = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(progress.contains("pack the charts"), "{progress}");
+    let said = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(said.contains("texels per unit  seams per √area"), "{said}");
+    assert!(said.contains(" 340 ") && said.contains(" 3.27 "), "{said}");
+    let last = said.lines().last().expect("lines");
+    let files = format!("wrote {output} (2.1");
+    assert!(last.starts_with(&files) && last.contains(&report), "{last}");
+    // The model has no texture, so nothing is resampled.
+    let run = unwrapd(&["unwrap", &input, "-o", &output, "--rebake"]);
+    assert_status(&run, 0);
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(said.contains("no textures to resample"), "{said}");
+    assert!(!said.contains("resample the textures"), "{said}");
+}
+
+/// No line of the help is wider than a terminal of 100 columns, and all options have one layout.
+#[test]
+fn help_is_wrapped() {
+    for command in ["unwrap", "batch", "serve", "verify"] {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_unwrapd"))
+            .args([command, "-h"])
+            .env("COLUMNS", "80")
+            .output()
+            .expect("the binary runs");
+        let text = String::from_utf8(output.stdout).expect("text");
+        let widest = text.lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(80), "{command}: {widest:?}");
+        let options = text
+            .lines()
+            .filter(|line| line.trim_start().starts_with("--"));
+        for line in options {
+            let is_alone = !line.trim().contains("  ");
+            assert!(is_alone, "{command}: {line}");
+        }
+    }
 }
 
 #[test]

@@ -53,7 +53,10 @@ impl<'a> Divided<'a> {
             .map(|piece| piece.surface(plan))
             .collect::<Result<_, _>>()?;
         if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
-            return Err(PipelineError::NoTriangles);
+            return Err(match meshes.iter().map(|mesh| mesh.triangles.len()).sum() {
+                0 => PipelineError::NoTriangles,
+                triangles => PipelineError::NoArea { triangles },
+            });
         }
         let seams: Vec<&Seams> = pieces.iter().map(|piece| &*piece.seams).collect();
         let shapes = alike(&surfaces.iter().collect::<Vec<_>>(), &seams);

@@ -18,6 +18,9 @@ const PACKINGS: usize = 8;
 /// Times that charts are opened for rounding at most: what is opened takes room, at a smaller scale more is too thin.
 const OPENINGS: usize = 4;
 
+/// Texels along the longer side of the largest texture.
+const LARGEST: u32 = 65_536;
+
 /// The share of pages that charts are hoped to fill at a scale that is given.
 const HOPE: f64 = 0.85;
 /// The search for a layout on more than one page may read such a part of what the one on a single page may: there is one for each
@@ -107,7 +110,21 @@ fn fewest(
             done => return Ok(done?),
         }
     }
-    let enough = atlas::enough(&chart_maps(&last.0), options)?;
+    let mut enough = atlas::enough(&chart_maps(&last.0), options)?;
+    // The estimate ends at the largest texture, which may be too small as well.
+    let largest = enough.resolution.filter(|it| it.longer() == LARGEST);
+    if let Some(largest) = largest {
+        let mut on = options.clone();
+        on.texture.resolution = largest;
+        let whole = Drafted {
+            charts: last.0,
+            draft: None,
+        };
+        match settled(whole, &on, plan, on_read) {
+            Err(AtlasError::TextureTooSmall) => enough.resolution = None,
+            tried => drop(tried?),
+        }
+    }
     Err(PipelineError::TextureTooSmall(enough))
 }
 

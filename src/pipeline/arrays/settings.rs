@@ -25,12 +25,12 @@ pub struct Settings {
 impl Settings {
     /// Checks every number against its range, and what goes with what; the text names the option.
     pub fn validate(&self) -> Result<(), String> {
+        self.layout.check()?;
         self.cutting.check_ranges()?;
         self.mapping.check_ranges()?;
         self.layout.check_ranges()?;
         self.workers.check_ranges()?;
         self.budget.check_ranges()?;
-        self.layout.check()?;
         if self.layout.pages > 1 && self.mapping.quantization_safe.is_some() {
             return Err(
                 "`quantization_safe` requires a single page: on several, rounding leaves fewer bits per page".to_owned(),

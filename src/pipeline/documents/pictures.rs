@@ -59,6 +59,12 @@ impl Pictures {
     }
 }
 
+/// The label of an atlas as reports have it, or its name where the letters of pictures do not spell the label.
+fn title(group: &GroupUvs) -> String {
+    let is_spelt = group.label.is_ascii();
+    if is_spelt { &group.label } else { &group.name }.clone()
+}
+
 /// What a panel borrows: faces that share a page.
 struct Faces {
     name: String,
@@ -74,7 +80,7 @@ impl Faces {
         let scaled = |face: &CornerUvs| face.map(|uv| [uv[0] * u, uv[1] * v]);
         let uvs: Vec<CornerUvs> = group.uvs.iter().map(scaled).collect();
         Self {
-            name: group.name.clone(),
+            name: title(group),
             charts: chart_ids(&group.positions, &group.triangles, &uvs),
             distortion: face_distortion(
                 &group.positions,

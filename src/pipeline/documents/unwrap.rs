@@ -100,8 +100,7 @@ fn unwrap_in_pool(
     let uvs = new_uvs(&document, &groups, &atlases, options)?;
     let mut baked = None;
     if options.baking.rebake {
-        tracker.stage(Stage::Bake);
-        baked = Some(rebaked(&document, &groups, &uvs, options)?);
+        baked = Some(rebaked(&document, &groups, &uvs, options, tracker)?);
     }
     seconds.bake = watch.lap();
 

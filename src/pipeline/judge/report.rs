@@ -60,7 +60,7 @@ pub struct Report {
 pub struct GroupReport {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
-    /// Name for display: the name of the mesh or material, otherwise `mesh 0` or `material 0`.
+    /// Name for display: the name of the mesh or material, otherwise `mesh 0`, `material 0` or `Whole scene`.
     pub label: String,
     /// Mean number of texels per unit of length of the mesh, for materials of weight 1: the square root of
     /// UV area in texels over weighted surface area. Null if the surface has no area.

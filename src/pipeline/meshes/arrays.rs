@@ -45,7 +45,7 @@ fn label(n_meshes: usize) -> (String, String) {
     if n_meshes == 1 {
         ("mesh0".to_owned(), "mesh 0".to_owned())
     } else {
-        ("scene".to_owned(), "scene".to_owned())
+        ("scene".to_owned(), "Whole scene".to_owned())
     }
 }
 

@@ -39,7 +39,8 @@ options! {
         pub resolution: Resolution = Resolution::square(1024), value "N|WxH", arg(help_heading = None::<&'static str>);
         /// Minimum distance between two charts, in texels. Charts keep half of it from the borders
         /// of a page. At most an eighth of the shorter side.
-        pub padding: u32 = 2, in 0..=8192, value "TEXELS", arg(help_heading = None::<&'static str>);
+        pub padding: u32 = 2, in 0..=8192, value "TEXELS",
+            arg(help_heading = None::<&'static str>, value_parser = padding_texels);
         /// Number of texture pages. Page k covers u from k to k + 1, the UDIM tile 1001 + k. All
         /// pages have the same texel density.
         pub pages: u32 = 1, in 1..=10, value "N";
@@ -61,7 +62,7 @@ impl Layout {
 }
 
 /// Checks a resolution, and a padding in its texels.
-fn check_texels(resolution: Resolution, padding: u32) -> Result<(), String> {
+pub(super) fn check_texels(resolution: Resolution, padding: u32) -> Result<(), String> {
     for side in [resolution.width, resolution.height] {
         within("resolution", f64::from(side), 16.0, 65_536.0)?;
     }
@@ -73,6 +74,18 @@ fn check_texels(resolution: Resolution, padding: u32) -> Result<(), String> {
     }
     let most = f64::from(most_padding(resolution));
     within("padding", f64::from(padding), 0.0, most)
+        .map_err(|text| format!("{text}: at `resolution` {resolution}, {MOST_PADDING}"))
+}
+
+/// The bound on the padding in words.
+const MOST_PADDING: &str = "an eighth of the shorter side is the most";
+
+/// Reads a padding as it is typed. The upper bound depends on the resolution and is checked with it.
+#[cfg(feature = "service")]
+pub(super) fn padding_texels(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| {
+        format!("a padding is a whole number of texels from 0 on; {MOST_PADDING}, 128 at 1024")
+    })
 }
 
 /// The largest padding, in texels.

@@ -1,6 +1,8 @@
 //! What of a document is measured.
 
-use super::layout::check_mips;
+#[cfg(feature = "service")]
+use super::layout::padding_texels;
+use super::layout::{check_mips, check_texels};
 use super::{Caller, CommandOptions, Layout, Workers};
 use crate::certificate::{Claims, Overlap, Padding};
 use crate::document::{Document, GroupBy, Terms};
@@ -28,7 +30,7 @@ options! {
         pub skip_missing: bool;
         /// Prove this minimum distance between charts, in texels of the coarsest mip level that
         /// counts. The default is what the file records, otherwise nothing.
-        pub padding: Option<u32>, in 0..=8192, value "TEXELS";
+        pub padding: Option<u32>, in 0..=8192, value "TEXELS", arg(value_parser = padding_texels);
         /// Texture size that `padding`, `aligned` and texel densities refer to: the side in texels,
         /// or width and height. The default is what the file records, unless `padding` or `aligned`
         /// is given; otherwise 1024.
@@ -58,7 +60,9 @@ options! {
 impl CommandOptions for MeasureOptions {
     fn check(&self) -> Result<(), PipelineError> {
         let (padding, mips) = (self.padding.unwrap_or(0), self.mips.unwrap_or(0));
-        (self.check_ranges())
+        // Before the ranges: that of the padding depends on the resolution.
+        check_texels(self.resolution(), padding)
+            .and_then(|()| self.check_ranges())
             .and_then(|()| check_mips(padding, mips, self.resolution()))
             .map_err(PipelineError::InvalidOptions)
     }

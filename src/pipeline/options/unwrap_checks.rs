@@ -9,6 +9,8 @@ use crate::pipeline::documents::texel_weight::TexelWeight;
 
 impl Options {
     fn validate(&self) -> Result<(), String> {
+        // Before the ranges: that of the padding depends on the resolution.
+        self.layout.check()?;
         self.check_ranges()?;
         check_mips(self.layout.padding, self.mips(), self.layout.resolution)?;
         self.settings().validate()?;

@@ -11,7 +11,9 @@ use std::collections::BTreeMap;
 use crate::bake::{Coverage, MOST_TEXELS, baked, side_for};
 use crate::document::{BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning};
 use crate::pipeline::PipelineError;
+use crate::pipeline::observer::Stage;
 use crate::pipeline::options::Options;
+use crate::pipeline::tracker::Tracker;
 pub use format::ImageFormat;
 use images::read_images;
 use planes::Bake;
@@ -22,18 +24,28 @@ pub(super) const MOST_SIDE: u32 = 8192;
 /// The distance of charts from which on bilinear filtering does not mix them.
 const FILTER_TEXELS: f64 = 2.0;
 
-/// Textures for `uvs`, v up, in place of all that can be read and are understood.
+/// Makes textures for `uvs`, v up, in place of all that can be read and are understood. The stage begins only if there are any.
 pub(super) fn rebaked(
     document: &Document,
     groups: &[Group],
     uvs: &NewUvs,
     options: &Options,
+    tracker: &Tracker,
 ) -> Result<BakedTextures, PipelineError> {
     let Document::Gltf(document) = document else {
         let what = "new textures for another format than glTF".to_owned();
         return Err(DocumentError::UnsupportedOutput(what).into());
     };
     let hoped = document.bake_plan(groups, &BTreeMap::new())?;
+    if hoped.planes.is_empty() && hoped.kept.is_empty() {
+        return Ok(BakedTextures {
+            has_colors_only: document.has_vertex_colors(),
+            plan: hoped,
+            files: Vec::new(),
+            tangents: vec![None; document.primitives().len()],
+        });
+    }
+    tracker.stage(Stage::Bake);
     let (images, unreadable) = read_images(document, &hoped.planes)?;
     let plan = document.bake_plan(groups, &unreadable)?;
     let surfaces: Vec<Surface> = (0..document.primitives().len())

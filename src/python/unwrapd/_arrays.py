@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, Callable, Optional, overload
+import os
+from typing import TYPE_CHECKING, Any, Callable, Optional, Union, overload
 
 import numpy as np
 
 from . import _meshes, _native
 from ._atlas import Atlas
 from ._options import to_json
+from ._progress import heard
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
         VerifyOptions,
     )
 
-Listener = Callable[[_native.Progress], Any]
+Listener = Union[bool, Callable[[_native.Progress], Any]]
 
 
 @overload
@@ -65,8 +67,8 @@ def unwrap(
         For ``seams="normals"``, which cuts along hard edges.
     uvs : (V, 2) or (F, 3, 2) array
         Present UVs, v up, for ``cut="keep"`` and ``cut="seams"``.
-    progress : callable
-        Called now and then, on this thread, with a `Progress`. Returning False ends the work with the present map, which
+    progress : callable or bool
+        True shows a bar if ``tqdm`` is there. A function is called now and then, on this thread, with a `Progress`. Returning False ends the work with the present map, which
         is valid; an exception cancels it.
     **options
         The options of ``unwrapd unwrap`` in snake case, such as ``cut="fast"``, ``quality="few"``, ``resolution=2048``,
@@ -86,7 +88,9 @@ def unwrap(
     The interpreter is released meanwhile, and Ctrl-C ends the call at once.
     """
     meshes, is_list = _taken(mesh, faces, uvs, normals, options.get("cut") in ("keep", "seams"))
-    return _atlas(_native.unwrap(meshes, to_json("unwrap", options), progress), is_list)
+    given = to_json("unwrap", options)
+    with heard(progress) as listener:
+        return _atlas(_native.unwrap(meshes, given, listener), is_list)
 
 
 @overload
@@ -116,7 +120,9 @@ def repack(
     `unwrap`; `uvs` are (V, 2) or (F, 3, 2), v up.
     """
     meshes, is_list = _taken(mesh, faces, uvs, None, True)
-    return _atlas(_native.repack(meshes, to_json("repack", options), progress), is_list)
+    given = to_json("repack", options)
+    with heard(progress) as listener:
+        return _atlas(_native.repack(meshes, given, listener), is_list)
 
 
 def measure(
@@ -207,8 +213,19 @@ def _taken(
     if isinstance(mesh, (list, tuple)) and all(_is_entry(entry) for entry in mesh):
         return [_meshes.of(entry, with_uvs) for entry in mesh], True
     raise TypeError(
-        "faces are missing: give vertices and faces, a mesh with both, or a list of meshes"
+        f"expected vertices and faces, a mesh with both, or a list of meshes, not {_named(mesh)}"
     )
+
+
+def _named(given: Any) -> str:
+    """What was given instead of a mesh, and what it is for."""
+    if isinstance(given, (str, bytes, os.PathLike)):
+        return f"{given!r}: a path is for unwrap_file(path, output)"
+    if isinstance(given, dict):
+        return "a dict: give its arrays of vertices and faces"
+    if isinstance(given, tuple):
+        return "a tuple: give its parts, as in unwrap(*mesh), or a list of such tuples"
+    return f"{type(given).__name__} alone: faces are missing"
 
 
 def _is_entry(entry: Any) -> bool:

@@ -75,7 +75,9 @@ class Atlas:
 
     def __repr__(self) -> str:
         proven = "certified" if self.certified else "not certified"
-        return f"<unwrapd.Atlas: {len(self.indices)} faces, {self.n_charts} charts, {proven}>"
+        # Of a list of meshes this is one: the report counts the charts of all.
+        own = len(np.unique(self.charts))
+        return f"<unwrapd.Atlas: {len(self.indices)} faces, {own} charts, {proven}>"
 
     def __getstate__(self) -> tuple[Any, ...]:
         return (self.vmapping, self.indices, self.uvs, self.charts, self._report)

@@ -65,7 +65,48 @@ class ServiceError(Error):
         return type(self), (str(self), self.code, self.exit_code, self.column, self.status)
 
 
+#: What the library expects, in Python's words.
+_EXPECTED = {
+    "u32": "a whole number from 0 on",
+    "u64": "a whole number from 0 on",
+    "usize": "a whole number from 0 on",
+    "f64": "a number",
+    "a boolean": "True or False",
+    "a string": "a str",
+    "a sequence": "a list",
+}
+
+
+def in_words(message: str) -> str:
+    """What the library says of an option that it cannot read, as Python says it: the argument, what is allowed, the value."""
+    import re
+
+    wrong = re.fullmatch(
+        r"`(\w+)`: invalid (?:type|value): (?:[a-z ]*?)(?:`(.*)`|(\".*\")|(sequence|map|null)), expected (.+?)"
+        r"(?: at line \d+ column \d+)?",
+        message,
+    )
+    if wrong:
+        name, number, text, kind, expected = wrong.groups()
+        given = {"true": "True", "false": "False"}.get(number or "", number) or text
+        given = given or {"sequence": "a list", "map": "a dict", "null": "None"}[kind]
+        return f"{name} must be {_EXPECTED.get(expected, expected)}, not {given}"
+    unknown = re.fullmatch(r"`(\w+)`: unknown variant `(.*)`, expected (?:one of )?(.+)", message)
+    if unknown:
+        import difflib
+
+        name, given, choices = unknown.groups()
+        words = re.findall(r"`([^`]+)`", choices)
+        listed = ", ".join(map(repr, words[:-1])) + (" or " if words[1:] else "") + repr(words[-1])
+        near = difflib.get_close_matches(given, words, n=1)
+        tip = f"; did you mean {near[0]!r}?" if near else ""
+        return f"{name} must be {listed}, not {given!r}{tip}"
+    return message
+
+
 def of(code: str, exit_code: int, message: str, column: Optional[int] = None) -> Error:
     """The exception for an error of the library."""
     kind = {2: InvalidOptions, 3: InvalidInput, 4: NoValidResult}.get(exit_code, Error)
+    if kind is InvalidOptions:
+        message = in_words(message)
     return kind(message, code, exit_code, column)

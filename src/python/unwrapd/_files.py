@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Union
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Union
 from . import _native
 from ._errors import InvalidOptions
 from ._options import to_json
+from ._progress import heard
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     )
 
 Path = Union[str, "os.PathLike[str]"]
-Listener = Callable[[_native.Progress], Any]
+Listener = Union[bool, Callable[[_native.Progress], Any]]
 
 
 def unwrap_file(
@@ -39,7 +41,7 @@ def unwrap_file(
     input : path of a .glb, .gltf, .obj, .off, .ply or .stl
         Files that it refers to are read from its folder.
     output : path of a .glb, .gltf or .obj
-        Written when all is done, with the files beside it that the format needs.
+        Written when all is done, with the files beside it that the format needs. Its folder must exist.
     **options
         Those of ``unwrapd unwrap`` in snake case.
 
@@ -108,7 +110,8 @@ def unwrap_bytes(
         "folder": None,
     }
     given = to_json("unwrap", options, of_files=True)
-    files, report = _native.unwrap_document(file, given, None, progress)
+    with heard(progress) as listener:
+        files, report = _native.unwrap_document(file, given, None, listener)
     return files[0][1], _parsed(report)
 
 
@@ -130,7 +133,10 @@ def _converted(
     if os.path.exists(output) and os.path.samefile(source, output):
         raise InvalidOptions(f"{name} would replace the input", "invalid_options", 2)
     given = to_json(function, {**options, "format": written_as}, of_files=True)
-    (main, *others), report = make(file_of(source), given, stem, progress)
+    if folder and not os.path.isdir(folder):
+        raise FileNotFoundError(errno.ENOENT, "the directory does not exist", folder)
+    with heard(progress) as listener:
+        (main, *others), report = make(file_of(source), given, stem, listener)
     for relative, content in others:
         write(os.path.join(folder, relative), content)
     write(os.fspath(output), main[1])

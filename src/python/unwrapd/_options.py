@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 from typing import Any, Mapping
 
 from . import _native
+from ._errors import InvalidOptions
 
 #: What of `unwrap` concerns files, and what the functions on files take from names.
 _OF_FILES = frozenset(
@@ -43,6 +45,11 @@ def to_json(function: str, options: Mapping[str, Any], of_files: bool = False) -
     resolution = given.get("resolution")
     if isinstance(resolution, (tuple, list)) and len(resolution) == 2:
         given["resolution"] = f"{resolution[0]}x{resolution[1]}"
+    for name, value in given.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InvalidOptions(
+                f"{name} must be a finite number, not {value}", "invalid_options", 2
+            )
     return json.dumps(given, default=plain)
 
 

@@ -49,6 +49,16 @@ def told(progress: Optional[Listener]) -> Iterator[Callable[[JobProgress], Any]]
 
 
 @contextlib.contextmanager
+def heard(progress: Any) -> Iterator[Optional[Callable[[Any], Any]]]:
+    """What the native part calls: a function as it is, a bar for True, nobody for None and False."""
+    if progress is None or progress is False:
+        yield None
+        return
+    with told(progress) as tell:
+        yield tell
+
+
+@contextlib.contextmanager
 def bar(is_wanted: bool, **settings: Any) -> Iterator[Callable[[float], Any]]:
     """What moves a bar on, if one is wanted and ``tqdm`` is there."""
     found = importlib.util.find_spec("tqdm") if is_wanted else None

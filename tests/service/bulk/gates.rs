@@ -3,7 +3,7 @@
 use unwrapd::jobs::{GateError, Gates};
 
 use super::Folders;
-use crate::cli::assert_status;
+use crate::cli::{assert_status, asset};
 
 #[test]
 fn gates_name_the_part_that_is_wrong() {
@@ -83,4 +83,20 @@ fn what_is_not_certified_is_written_and_told() {
     assert_eq!(row["status"], "written");
     assert_eq!(status == Some(0), row["certified"] == "true");
     assert_status(&run("written"), 0);
+}
+
+/// What `unwrap` ends with 7 for is told apart in the summary.
+#[test]
+fn what_is_partly_done_is_told_apart() {
+    let folders = Folders::with(&["plain.obj"]);
+    for name in ["22_vertex_color.gltf", "22_vertex_color.bin"] {
+        let from = asset(&format!("gltf/22_vertex_color/{name}"));
+        std::fs::copy(from, folders.path(&format!("in/{name}"))).expect("copied");
+    }
+    // Colors at vertices are not resampled.
+    assert_status(&folders.batch(&["--rebake"]), 0);
+    let summary = folders.summary("summary.csv");
+    let told = |name: &str| summary[name]["partly_done"].as_str();
+    assert_eq!(told("22_vertex_color.gltf"), "true");
+    assert_eq!(told("plain.obj"), "false");
 }

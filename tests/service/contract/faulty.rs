@@ -195,6 +195,10 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.inner.ended_before(kept)
     }
 
+    fn forget_keys(&self) -> BoxFuture<'_, StoreResult<()>> {
+        self.inner.forget_keys()
+    }
+
     fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
         self.inner.ephemeral()
     }

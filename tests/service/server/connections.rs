@@ -10,6 +10,7 @@ use tokio::net::{TcpSocket, TcpStream};
 use crate::cli::assert_status;
 use crate::harness::program;
 use crate::meshes;
+use crate::server::keys;
 use crate::server::watchable::{metrics, value};
 use crate::server::{SOON, Server};
 
@@ -44,6 +45,57 @@ fn upload(length: u64, more: &str) -> String {
         "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: {length}\r\n\
          Content-Type: application/octet-stream\r\n{more}\r\n"
     )
+}
+
+/// RFC 9112, 3.2: two names are no name, and what is behind one is a port.
+#[tokio::test]
+async fn a_request_names_one_host() {
+    let server = Server::start();
+    for hosts in [
+        "Host: localhost\r\nHost: localhost",
+        "Host: localhost\r\nHost: evil.com",
+        "Host: 127.0.0.1:18083.evil.com",
+        "Host: user@localhost",
+    ] {
+        let sent = format!("GET /healthz HTTP/1.1\r\n{hosts}\r\nConnection: close\r\n\r\n");
+        let answered = answer(connected(&server, &sent).await).await;
+        assert!(answered.starts_with("HTTP/1.1 400"), "{hosts}: {answered}");
+        assert!(answered.contains("invalid_request"), "{hosts}: {answered}");
+    }
+    for host in [
+        "localhost",
+        "127.0.0.1:18083",
+        "[::1]:80",
+        "[::1]",
+        "localhost:",
+    ] {
+        let sent = format!("GET /healthz HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n");
+        let answered = answer(connected(&server, &sent).await).await;
+        assert!(answered.starts_with("HTTP/1.1 200"), "{host}: {answered}");
+    }
+}
+
+/// Who has no key learns that before the body is sent, and at once.
+#[tokio::test]
+async fn an_upload_without_a_key_is_refused_at_once() {
+    let server = keys::closed();
+    let mut stream = connected(&server, &upload(100_000_000, "")).await;
+    let start = Instant::now();
+    let mut answered = vec![0; 64];
+    let read = tokio::time::timeout(SOON, stream.read(&mut answered)).await;
+    let count = read.expect("soon").expect("it can be read");
+    let answered = String::from_utf8_lossy(&answered[..count]).into_owned();
+    assert!(answered.starts_with("HTTP/1.1 401"), "{answered}");
+    assert!(
+        start.elapsed() < Duration::from_secs(3),
+        "{:?}",
+        start.elapsed()
+    );
+    // The rest of the body is read meanwhile: the connection is not reset.
+    stream
+        .write_all(&[0; 1 << 16])
+        .await
+        .expect("it takes more");
 }
 
 #[tokio::test]

@@ -54,8 +54,10 @@ async fn a_group_that_shares_the_data_keeps_its_access() {
     let job = server.submit(meshes::small(), "").await;
     server.ended(&job).await;
     assert_eq!(mode(server.data()), 0o2770);
-    // SQLite gives its files to nobody for writing but their owner.
-    assert_eq!(mode(&server.data().join("unwrapd.sqlite")), 0o640);
+    // Another user of the group goes on with it.
+    for name in ["unwrapd.sqlite", "unwrapd.sqlite-wal", "unwrapd.sqlite-shm"] {
+        assert_eq!(mode(&server.data().join(name)), 0o660, "{name}");
+    }
     for path in all(server.data()) {
         assert_eq!(mode(&path) & 0o007, 0, "{}", path.display());
     }

@@ -21,6 +21,19 @@ fn raw(
         .body(body)
 }
 
+/// A body that is packed is not read as a mesh; the answer says what is read.
+#[tokio::test]
+async fn a_content_coding_is_refused() {
+    let server = Server::start();
+    let packed = || raw(&server, "", "model/gltf-binary", meshes::small());
+    let answer = packed().header("content-encoding", "gzip").send().await;
+    let answer = answer.expect("an answer");
+    assert_eq!(answer.headers()["accept-encoding"], "identity");
+    assert_problem(answer, 415, "unsupported_media_type").await;
+    let plain = packed().header("content-encoding", "identity").send().await;
+    assert_eq!(plain.expect("an answer").status(), 202);
+}
+
 #[tokio::test]
 async fn what_is_not_a_mesh_is_refused_before_202() {
     let server = Server::start();

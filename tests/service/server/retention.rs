@@ -75,12 +75,36 @@ async fn too_many_files_without_a_job_stay() {
         ("UNWRAPD_QUARANTINE_DAYS", "0"),
         ("UNWRAPD_RETAIN_DAYS", "0"),
     ]);
-    // It has looked at them before it answers.
+    // It has looked at them before it answers, and the alert comes at once.
     assert_eq!(server.owners_of_files().len(), 21);
+    let stopped = metrics(&server).await;
+    assert_eq!(
+        value(&stopped, "unwrapd_quarantine_stopped"),
+        Some(1.0),
+        "{stopped}"
+    );
     let data = server.data().to_string_lossy().into_owned();
     let check = unwrapd(&["check", "--purge", "--data", &data]);
     assert_status(&check, 0);
     assert_eq!(server.owners_of_files().len(), 0);
+}
+
+/// A repetition finds its job whatever the clock says meanwhile.
+#[tokio::test]
+async fn a_jump_of_the_clock_forgets_no_idempotency_key() {
+    let clock = Clock::ahead(0);
+    let data = tempfile::tempdir().expect("a folder");
+    let server = Server::on(data, &clock.settings());
+    let submitted = async || {
+        let request = server.post("/v1/jobs").header("idempotency-key", "one");
+        let request = request.header("content-type", "model/gltf-binary");
+        let answer = request.body(meshes::small()).send().await;
+        let job: Value = answer.expect("an answer").json().await.expect("a job");
+        job["id"].as_str().expect("an id").to_owned()
+    };
+    let first = submitted().await;
+    clock.set(2 * 86_400);
+    assert_eq!(submitted().await, first);
 }
 
 /// Until the clock can be trusted, what it says has expired stays.
