@@ -92,8 +92,9 @@ struct FileLink {
     href: String,
     /// Suggested file name, for an input that of the upload.
     name: String,
-    /// Its size.
-    bytes: u64,
+    /// Its size; absent while it is a picture that nobody has asked for: the first request draws it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bytes: Option<u64>,
 }
 
 /// The path of a job, behind what a proxy puts in front.
@@ -105,15 +106,20 @@ impl JobView {
     /// A job as clients of a service with these settings see it.
     pub fn new(job: &Job, settings: &Settings, base: &str) -> Self {
         let path = job_path(base, job);
-        let files = job.output.iter().map(|file| FileLink {
+        let files = job.results().map(|file| FileLink {
             href: format!("{path}/{}", file.role),
             name: file.name.clone(),
-            bytes: file.bytes,
+            bytes: Some(file.bytes),
+        });
+        let pictures = job.pictures().iter().map(|picture| FileLink {
+            href: format!("{path}/{}", picture.role()),
+            name: picture.role().to_owned(),
+            bytes: job.drawn(*picture).map(|file| file.bytes),
         });
         let inputs = job.input.iter().enumerate().map(|(index, file)| FileLink {
             href: format!("{path}/input/{index}"),
             name: file.name.clone(),
-            bytes: file.bytes,
+            bytes: Some(file.bytes),
         });
         Self {
             id: job.id.to_string(),
@@ -146,7 +152,7 @@ impl JobView {
             error: job.failure.as_ref().map(Problem::of_failure),
             links: Links {
                 inputs: inputs.collect(),
-                files: files.collect(),
+                files: files.chain(pictures).collect(),
                 events: format!("{path}/events"),
                 itself: path,
             },
