@@ -40,6 +40,7 @@ mod probes;
 mod problem;
 mod received;
 mod receiver;
+mod references;
 mod refused;
 mod results;
 mod router;

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::problem::Problem;
 use crate::document::Warning;
-use crate::jobs::{Event, Job, Kind, Metadata, Settings, Timestamp};
+use crate::jobs::{Event, Job, Kind, Metadata, OutputFile, Settings, Timestamp};
 
 /// A job: request, state and outcome.
 #[derive(Serialize, utoipa::ToSchema)]
@@ -116,6 +116,11 @@ impl JobView {
             name: picture.role().to_owned(),
             bytes: job.drawn(*picture).map(|file| file.bytes),
         });
+        // People look at pictures before they look at numbers.
+        let is_number = |file: &OutputFile| matches!(&*file.role, "uvs.bin" | "report");
+        let place = job.results().take_while(|file| !is_number(file)).count();
+        let mut files: Vec<FileLink> = files.collect();
+        files.splice(place..place, pictures);
         let inputs = job.input.iter().enumerate().map(|(index, file)| FileLink {
             href: format!("{path}/input/{index}"),
             name: file.name.clone(),
@@ -152,7 +157,7 @@ impl JobView {
             error: job.failure.as_ref().map(Problem::of_failure),
             links: Links {
                 inputs: inputs.collect(),
-                files: files.chain(pictures).collect(),
+                files,
                 events: format!("{path}/events"),
                 itself: path,
             },
