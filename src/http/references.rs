@@ -59,7 +59,9 @@ fn of_problem(bytes: &[u8], known: &BTreeSet<String>) -> BTreeSet<String> {
     let problem: Value = serde_json::from_slice(bytes).unwrap_or_default();
     let mut words = BTreeSet::new();
     gather_words(&problem, &mut words);
-    let names = words.iter().flat_map(|word| [Some(*word), word.rsplit('/').next()]);
+    let names = words
+        .iter()
+        .flat_map(|word| [Some(*word), word.rsplit('/').next()]);
     let names: BTreeSet<&str> = names.flatten().collect();
     let is_named = |name: &&String| names.contains(name.as_str());
     known.iter().filter(is_named).cloned().collect()
@@ -69,7 +71,9 @@ fn gather_words<'a>(value: &'a Value, words: &mut BTreeSet<&'a str>) {
     match value {
         Value::String(word) => drop(words.insert(word)),
         Value::Array(values) => values.iter().for_each(|value| gather_words(value, words)),
-        Value::Object(members) => members.values().for_each(|value| gather_words(value, words)),
+        Value::Object(members) => members
+            .values()
+            .for_each(|value| gather_words(value, words)),
         _ => {}
     }
 }

@@ -204,7 +204,11 @@ async fn what_nothing_refers_to_is_dropped() {
     ] {
         let request = server.post("/v1/jobs");
         let request = request.header("content-type", "application/zip");
-        let answer = request.body(zipped(&files)).send().await.expect("an answer");
+        let answer = request
+            .body(zipped(&files))
+            .send()
+            .await
+            .expect("an answer");
         assert_eq!(names(&json(answer).await["links"]["inputs"]), kept);
         let mut form = Form::new();
         for (name, content) in files {

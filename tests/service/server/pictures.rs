@@ -43,7 +43,10 @@ fn stored(server: &Server, job: &Value) -> Vec<PathBuf> {
 /// The sizes of the pictures, as the job lists them.
 async fn sizes(server: &Server, job: &Value) -> Vec<Option<u64>> {
     let job = server.get(&path(job, "")[..path(job, "").len() - 1]);
-    let job: Value = (job.send().await.expect("an answer")).json().await.expect("JSON");
+    let job: Value = (job.send().await.expect("an answer"))
+        .json()
+        .await
+        .expect("JSON");
     let files = job["links"]["files"].as_array().expect("files").clone();
     let size = |name: &&str| {
         let file = files.iter().find(|file| file["name"] == **name);
@@ -203,4 +206,3 @@ async fn a_process_without_workers_draws() {
         assert!(picture(&server, &job, name).await.starts_with(b"\x89PNG"));
     }
 }
-
