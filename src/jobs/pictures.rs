@@ -42,9 +42,9 @@ use crate::pipeline::{self, AtlasPicture, PipelineError};
 const DRAWING: &str = "drawing.json";
 const PICTURE: &str = "picture.png";
 
-/// For a picture to be drawn. One of five million triangles, the largest mesh that a service takes by default, needs a few seconds.
+/// For a picture to be drawn while its client waits: the default of synchronous calls.
 const PATIENCE: Duration = Duration::from_mins(1);
-/// Threads of a child that draws: pictures of small meshes hardly use a second one.
+/// Threads of a child that draws: each has one of the cores on which children may draw.
 const THREADS: usize = 1;
 
 /// A picture that can be had of a result.
@@ -214,7 +214,14 @@ impl Jobs {
         let drawn = self.tasks.spawn(async move {
             let drawn = jobs.draw(&job, picture).await;
             drop((turn, place));
-            drawn
+            match drawn {
+                Err(Undrawn::Store(error)) if error.is_loss() => {
+                    // Its files go after its record.
+                    let now = jobs.store.get(&Reach::All, job.id).await?;
+                    Err(now.map_or(Undrawn::Removed, |_| error.into()))
+                }
+                drawn => drawn,
+            }
         });
         drawn
             .await
