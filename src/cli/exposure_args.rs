@@ -98,6 +98,15 @@ pub(super) struct ExposureArgs {
         value_parser = seconds
     )]
     upload_seconds: f64,
+    /// Bytes in a second that an upload must bring, on average over each `silence-seconds` spent
+    /// waiting for it. 0: any number
+    #[arg(
+        long,
+        value_name = "N",
+        env = "UNWRAPD_UPLOAD_RATE",
+        default_value_t = 1024
+    )]
+    pub upload_rate: u64,
 }
 
 fn base_path(text: &str) -> Result<String, String> {

@@ -68,11 +68,14 @@ use crate::jobs::Program;
 ///
 /// A usage error, and help, end the process.
 pub fn run(arguments: Vec<OsString>, program: std::io::Result<Program>) -> u8 {
-    // `compute FOLDER` is one job of the service, `session FOLDER` one live session, started by `serve` with the folder of it: no
-    // help, suggestion or completion knows them.
+    // `compute FOLDER` is one job of the service, `draw FOLDER` one picture of a result, `session FOLDER` one live session, started by
+    // `serve` with the folder of it: no help, suggestion or completion knows them.
     if let [_, word, folder, ..] = &arguments[..] {
         if word == "compute" {
             return crate::jobs::compute::run(Path::new(folder));
+        }
+        if word == "draw" {
+            return crate::jobs::compute::draw(Path::new(folder));
         }
         if word == "session" {
             return crate::sessions::run(Path::new(folder));

@@ -137,6 +137,7 @@ impl Args {
             synchronous_time: Duration::from_secs_f64(self.synchronous_seconds),
             connections: self.exposure.connections(),
             upload_time: self.exposure.upload_time(),
+            upload_rate: self.exposure.upload_rate,
             owner_requests: self.owner.owner_requests,
             wrong_keys: self.exposure.wrong_keys,
             origins: self.exposure.origins.clone(),

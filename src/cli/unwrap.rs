@@ -1,5 +1,6 @@
 //! `unwrapd unwrap`: a mesh file in, the same with certified UVs out.
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use super::console::{json, print_json, say, warn};
@@ -7,7 +8,7 @@ use super::failure::Failure;
 use super::input::read_upload;
 use super::progress::Display;
 use super::unwrap_args::Args;
-use crate::pipeline::{self, CommandOptions, Outcome};
+use crate::pipeline::{self, AtlasPicture, CommandOptions, Outcome};
 
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -25,15 +26,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let report = json(&outcome.report)?;
     let mut others = vec![(&files.report, report.as_slice())];
     let pictures = &args.pictures;
-    let drawn = if pictures.layout.is_some() || pictures.heatmap.is_some() {
-        Some(outcome.pictures.draw()?)
-    } else {
-        None
-    };
-    if let Some(drawn) = &drawn {
-        others.push((&pictures.layout, &drawn.layout_png));
-        others.push((&pictures.heatmap, &drawn.heatmap_png));
-    }
+    let layout = drawn(&outcome, AtlasPicture::Layout, pictures.layout.as_ref())?;
+    let heatmap = drawn(&outcome, AtlasPicture::Heatmap, pictures.heatmap.as_ref())?;
+    others.extend(layout.iter().map(|png| (&pictures.layout, png.as_slice())));
+    others.extend(
+        heatmap
+            .iter()
+            .map(|png| (&pictures.heatmap, png.as_slice())),
+    );
     let written = outputs.write(&outcome.files, &others)?;
     if files.output.talk.json {
         print_json(&outcome.report)?;
@@ -42,6 +42,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     written.tell();
     let seconds = began.elapsed().as_secs_f64();
     args.acceptance.judge(&outcome.report, seconds)
+}
+
+/// A picture, if there is a path for it.
+fn drawn(
+    outcome: &Outcome,
+    picture: AtlasPicture,
+    path: Option<&PathBuf>,
+) -> Result<Option<Vec<u8>>, Failure> {
+    let drawn = path.map(|_| outcome.pictures.draw(picture));
+    Ok(drawn.transpose()?)
 }
 
 /// The atlases, the warnings, and what is certified.

@@ -13,39 +13,70 @@ type Responses = BTreeMap<String, RefOr<Response>>;
 /// What asking for a file that a job made is answered, apart from the file.
 pub(super) struct FileAnswers;
 
+/// What asking for a picture is answered, apart from the picture.
+pub(super) struct PictureAnswers;
+
 /// What asking for all files of a job is answered, apart from these.
 pub(super) struct ArchiveProblems;
 
 /// What a synchronous call is answered, apart from its result.
 pub(super) struct CallProblems;
 
+/// Why there may be no file.
+const OF_FILES: [Code; 9] = [
+    Code::JobNotFound,
+    Code::JobExpired,
+    Code::NoSuchFile,
+    Code::NotFinished,
+    Code::NoResult,
+    Code::RangeNotSatisfiable,
+    Code::DamagedFile,
+    Code::MissingFile,
+    Code::StoreUnavailable,
+];
+
+/// Why a picture may not be drawn.
+const OF_DRAWING: [Code; 6] = [
+    Code::OutOfMemory,
+    Code::InternalError,
+    Code::Crashed,
+    Code::WorkerLost,
+    Code::TimedOut,
+    Code::StorageFull,
+];
+
 impl IntoResponses for FileAnswers {
     fn responses() -> Responses {
-        let mut answers = problems(&[
-            Code::JobNotFound,
-            Code::JobExpired,
-            Code::NoSuchFile,
-            Code::NotFinished,
-            Code::NoResult,
-            Code::RangeNotSatisfiable,
-            Code::DamagedFile,
-            Code::MissingFile,
-            Code::StoreUnavailable,
-        ]);
-        for (status, description) in [
-            ("206", "The requested range"),
-            ("304", "The file is unchanged"),
-        ] {
-            let answer = ResponseBuilder::new().description(description);
-            answers.insert(status.to_owned(), answer.into());
-        }
+        let mut answers = problems(&OF_FILES);
+        answers.extend(parts());
         answers
     }
 }
 
+impl IntoResponses for PictureAnswers {
+    fn responses() -> Responses {
+        let mut answers = problems(&[&OF_FILES[..], &OF_DRAWING].concat());
+        answers.extend(parts());
+        answers
+    }
+}
+
+/// What is answered if not the whole file is asked for.
+fn parts() -> Responses {
+    let mut answers = Responses::new();
+    for (status, description) in [
+        ("206", "The requested range"),
+        ("304", "The file is unchanged"),
+    ] {
+        let answer = ResponseBuilder::new().description(description);
+        answers.insert(status.to_owned(), answer.into());
+    }
+    answers
+}
+
 impl IntoResponses for ArchiveProblems {
     fn responses() -> Responses {
-        problems(&[
+        let others = [
             Code::JobNotFound,
             Code::JobExpired,
             Code::NotFinished,
@@ -53,8 +84,8 @@ impl IntoResponses for ArchiveProblems {
             Code::DamagedFile,
             Code::MissingFile,
             Code::StoreUnavailable,
-            Code::StorageFull,
-        ])
+        ];
+        problems(&[&others[..], &OF_DRAWING].concat())
     }
 }
 

@@ -7,8 +7,10 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::App;
+use super::missing::missing;
 use super::problem::{Code, Problem};
-use crate::jobs::{Content, InputFile, Job, OutputFile, StoreResult};
+use crate::jobs::access::Reach;
+use crate::jobs::{InputFile, Job, OutputFile, Picture, Undrawn};
 use crate::mesh::io::Format;
 
 /// Formats whose media types are answered with, as the `OpenAPI` document says; files of others are bytes.
@@ -27,22 +29,18 @@ const TYPED: [Format; 7] = [
 pub(super) enum File<'a> {
     /// One that it made.
     Output(&'a OutputFile),
+    /// A picture of its result, which it has.
+    Picture(Picture),
     /// One that it was made of, with its number.
     Input(usize, &'a InputFile),
 }
 
-impl File<'_> {
+impl<'a> File<'a> {
     fn name(&self) -> &str {
         match self {
             Self::Output(file) => &file.name,
+            Self::Picture(picture) => picture.role(),
             Self::Input(_, file) => &file.name,
-        }
-    }
-
-    fn bytes(&self) -> u64 {
-        match self {
-            Self::Output(file) => file.bytes,
-            Self::Input(_, file) => file.bytes,
         }
     }
 
@@ -53,15 +51,55 @@ impl File<'_> {
                 let role = file.role.replace('/', "-");
                 format!("\"{}-{}-{role}\"", job.id, job.token)
             }
+            Self::Picture(picture) => format!("\"{}-{}-{}\"", job.id, job.token, picture.role()),
             Self::Input(index, _) => format!("\"{}-input-{index}\"", job.id),
         }
     }
 
-    async fn read(&self, app: &App, job: &Job, part: Range<u64>) -> StoreResult<Content> {
+    /// Opens it; a picture is drawn if it is not kept.
+    async fn open(self, app: &App, job: &Job) -> Result<Opened<'a>, Problem> {
+        Ok(match self {
+            Self::Output(file) => Opened::Output(file),
+            Self::Input(_, file) => Opened::Input(file),
+            Self::Picture(wanted) => Opened::Picture(picture(app, job, wanted).await?),
+        })
+    }
+}
+
+/// A file whose size is known.
+enum Opened<'a> {
+    Output(&'a OutputFile),
+    Input(&'a InputFile),
+    Picture(Vec<u8>),
+}
+
+impl Opened<'_> {
+    fn bytes(&self) -> u64 {
         match self {
-            Self::Output(file) => app.jobs.read(job, file, part).await,
-            Self::Input(_, file) => app.jobs.read_input(job, file, part).await,
+            Self::Output(file) => file.bytes,
+            Self::Input(file) => file.bytes,
+            Self::Picture(content) => content.len() as u64,
         }
+    }
+
+    async fn read(self, app: &App, job: &Job, part: Range<u64>) -> Result<Body, Problem> {
+        Ok(match self {
+            Self::Output(file) => Body::from_stream(app.jobs.read(job, file, part).await?),
+            Self::Input(file) => Body::from_stream(app.jobs.read_input(job, file, part).await?),
+            Self::Picture(content) => {
+                Body::from(content[part.start as usize..part.end as usize].to_vec())
+            }
+        })
+    }
+}
+
+/// A picture that a job has, or why there is none.
+pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Vec<u8>, Problem> {
+    match app.jobs.picture(job, picture).await {
+        Ok(content) => Ok(content),
+        Err(Undrawn::Removed) => Err(missing(app, &Reach::All, job.id).await),
+        Err(Undrawn::Failed(failure)) => Err(Problem::of_failure(&failure)),
+        Err(Undrawn::Store(error)) => Err(error.into()),
     }
 }
 
@@ -73,10 +111,11 @@ pub(super) async fn answer(
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
     let tag = file.tag(job);
-    let bytes = file.bytes();
     if names(headers, header::IF_NONE_MATCH, &tag) {
         return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
     }
+    let opened = file.open(app, job).await?;
+    let bytes = opened.bytes();
     let is_same =
         (headers.get(header::IF_RANGE)).is_none_or(|given| given.as_bytes() == tag.as_bytes());
     let range = match headers.get(header::RANGE).filter(|_| is_same) {
@@ -90,9 +129,9 @@ pub(super) async fn answer(
         return Ok((size, problem).into_response());
     };
     let part = range.clone().unwrap_or(0..bytes);
-    let content = file.read(app, job, part.clone()).await?;
+    let content = opened.read(app, job, part.clone()).await?;
     let length = part.end - part.start;
-    let mut response = Body::from_stream(content).into_response();
+    let mut response = content.into_response();
     let headers = response.headers_mut();
     let mut set = |name, value: &str| {
         if let Ok(value) = HeaderValue::from_str(value) {

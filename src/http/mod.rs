@@ -1,6 +1,6 @@
 //! The HTTP interface: routes, problems, OpenAPI, progress, the page.
 //!
-//! It accepts, records and relays; it computes nothing. Every handler is a few lines around one call of
+//! It accepts, records and relays; it computes nothing, and has pictures drawn. Every handler is a few lines around one call of
 //! [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI document. Whatever goes wrong is
 //! answered with an RFC 9457 problem that carries a stable code (`code.rs` has the table).
 
@@ -40,6 +40,7 @@ mod probes;
 mod problem;
 mod received;
 mod receiver;
+mod references;
 mod refused;
 mod results;
 mod router;

@@ -22,7 +22,7 @@ use super::extract::PathId;
 use super::missing::existing;
 use super::problem::{Code, Problem};
 use super::results::check_succeeded;
-use super::{App, Shared};
+use super::{App, Shared, download};
 use crate::jobs::access::Caller;
 use crate::jobs::{Job, JobId, Scratch};
 
@@ -37,7 +37,7 @@ const LATER: u64 = 5;
 /// Get all files that a job produced as one ZIP.
 ///
 /// The archive is complete when the answer begins. Files have the names of `links.files`, and are
-/// stored as they are. An owner can receive 16 archives at a time.
+/// stored as they are. Pictures that nobody has asked for are drawn first. An owner can receive 16 archives at a time.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/files.zip", operation_id = "getFiles", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
@@ -95,7 +95,7 @@ fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64),
         .open(path)?;
     let mut archive = ZipWriter::new(file);
     let mut names = BTreeSet::new();
-    for output in &job.output {
+    for output in job.results() {
         let name = if names.insert(&output.name) {
             &output.name
         } else {
@@ -109,6 +109,12 @@ fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64),
         while let Some(block) = handle.block_on(content.next()) {
             archive.write_all(&block?)?;
         }
+    }
+    for &picture in job.pictures() {
+        let content = handle.block_on(download::picture(app, job, picture))?;
+        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
+        archive.start_file(picture.role(), options)?;
+        archive.write_all(&content)?;
     }
     let mut file = archive.finish()?;
     let bytes = file.stream_position()?;

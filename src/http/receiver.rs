@@ -15,6 +15,7 @@ use super::options::{self, UploadQuery};
 use super::parts::{INPUT_PARTS, MAX_FILES, at_most, at_most_name, malformed, text, unexpected};
 use super::problem::{Code, Problem};
 use super::received::Received;
+use super::references::referenced;
 use super::unpack::{self, Files};
 use crate::deform::from_json;
 use crate::jobs::{InputFile, Kind, Scratch};
@@ -192,6 +193,8 @@ fn looked_at(
         files = unpack::unpacked(&files[0].1, kind, limit)?;
         // It was that of the archive.
         filename = None;
+    } else {
+        retain_referenced(&mut files, kind)?;
     }
     let (input, path) = &mut files[0];
     let format = framing::format(path, kind)?;
@@ -199,6 +202,26 @@ fn looked_at(
     input.name = file_name(name, kind, format.extension());
     at_most(&input.name, MAX_INPUT_NAME)?;
     Ok(files)
+}
+
+/// Drops the resources of a form that its input does not refer to.
+fn retain_referenced(files: &mut Files, kind: Kind) -> Result<(), Problem> {
+    let resources = &files[1..];
+    let known = resources.iter().map(|(file, _)| file.name.clone());
+    let (input, path) = &files[0];
+    let kept = referenced(
+        kind,
+        &input.name,
+        &known.collect(),
+        || Ok(std::fs::read(path)?),
+        |name| match resources.iter().find(|(file, _)| file.name == name) {
+            Some((_, path)) => Ok(std::fs::read(path)?),
+            None => Ok(Vec::new()),
+        },
+    )?;
+    let mut is_input = true;
+    files.retain(|(file, _)| std::mem::take(&mut is_input) || kept.contains(&file.name));
+    Ok(())
 }
 
 /// A name for the input: what the client calls it, without folders and control characters, with an extension that is one of

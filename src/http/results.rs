@@ -4,14 +4,14 @@ use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::Response;
 
-use super::answers::FileAnswers;
+use super::answers::{FileAnswers, PictureAnswers};
 use super::download::{self, File};
 use super::extract::{PathId, PathName};
 use super::missing::existing;
 use super::problem::{Code, Problem};
 use super::{App, Shared};
 use crate::jobs::access::Caller;
-use crate::jobs::{Job, JobId, State as JobState};
+use crate::jobs::{Job, JobId, Picture, State as JobState};
 
 /// Get the result: the mesh with its new UVs, the deformed body, the warped picture.
 ///
@@ -59,12 +59,15 @@ pub(super) async fn get_report(
 }
 
 /// Get a picture of the UV layout, oriented like the texture.
+///
+/// The first request draws it, which takes a fraction of a second for a small mesh; from then on it is
+/// kept with the job.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/layout.png", operation_id = "getLayout", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
         (status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png"),
-        FileAnswers,
+        PictureAnswers,
     )
 )]
 pub(super) async fn get_layout(
@@ -73,18 +76,19 @@ pub(super) async fn get_layout(
     PathId(id): PathId,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, &caller, id, "layout.png", &headers).await
+    picture(&app, &caller, id, Picture::Layout, &headers).await
 }
 
 /// Get a heat map of the distortion, oriented like the texture.
 ///
 /// It shows the measure of the option `heatmap_measure`, with a legend. Flipped faces are yellow.
+/// The first request draws it, and it is kept with the job.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/heatmap.png", operation_id = "getHeatmap", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
         (status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png"),
-        FileAnswers,
+        PictureAnswers,
     )
 )]
 pub(super) async fn get_heatmap(
@@ -93,18 +97,19 @@ pub(super) async fn get_heatmap(
     PathId(id): PathId,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, &caller, id, "heatmap.png", &headers).await
+    picture(&app, &caller, id, Picture::Heatmap, &headers).await
 }
 
 /// Get a small picture for lists, 72 pixels along its shorter side.
 ///
 /// It shows the UV layout, or the warped picture. Jobs of other kinds have none.
+/// The first request draws it, and it is kept with the job.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/thumbnail.png", operation_id = "getThumbnail", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
         (status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png"),
-        FileAnswers,
+        PictureAnswers,
     )
 )]
 pub(super) async fn get_thumbnail(
@@ -113,7 +118,7 @@ pub(super) async fn get_thumbnail(
     PathId(id): PathId,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    file(&app, &caller, id, "thumbnail.png", &headers).await
+    picture(&app, &caller, id, Picture::Thumbnail, &headers).await
 }
 
 /// Get the UVs as arrays, with the vertices and faces that they belong to.
@@ -197,9 +202,26 @@ async fn file(
 ) -> Result<Response, Problem> {
     let job = existing(app, &caller.reach(), id).await?;
     check_succeeded(&job)?;
-    let file = job.output(role).ok_or_else(|| {
-        let detail = format!("this {} job made no {role}", job.kind.word());
-        Problem::new(Code::NoSuchFile, detail)
-    })?;
+    let file = job.output(role).ok_or_else(|| no_such_file(&job, role))?;
     download::answer(app, &job, File::Output(file), headers).await
+}
+
+async fn picture(
+    app: &App,
+    caller: &Caller,
+    id: JobId,
+    picture: Picture,
+    headers: &HeaderMap,
+) -> Result<Response, Problem> {
+    let job = existing(app, &caller.reach(), id).await?;
+    check_succeeded(&job)?;
+    if !job.pictures().contains(&picture) {
+        return Err(no_such_file(&job, picture.role()));
+    }
+    download::answer(app, &job, File::Picture(picture), headers).await
+}
+
+fn no_such_file(job: &Job, role: &str) -> Problem {
+    let detail = format!("this {} job made no {role}", job.kind.word());
+    Problem::new(Code::NoSuchFile, detail)
 }

@@ -15,6 +15,8 @@ pub struct Settings {
     pub connections: Connections,
     /// How long an upload may take in all.
     pub upload_time: Duration,
+    /// Bytes in a second that a body has to bring, on average over each time of `connections.silence`.
+    pub upload_rate: u64,
     /// Requests that each owner may send in a minute.
     pub owner_requests: Option<u32>,
     /// Wrong keys that an address may send in a minute before it is told to wait.

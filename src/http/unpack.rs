@@ -1,4 +1,4 @@
-//! Uploads as one ZIP: an input with the files that it references.
+//! Uploads as one ZIP: an input with the files that it references. Others stay packed.
 //!
 //! What an archive says of the sizes of its files is checked first, and what comes out of it is
 //! counted. Files get names of this program's own; those of the archive are only what the input
@@ -15,6 +15,7 @@ use zip::read::ZipFile;
 use super::framing;
 use super::parts::{MAX_FILES, at_most_name};
 use super::problem::{Code, Problem};
+use super::references::referenced;
 use crate::jobs::{InputFile, Kind};
 
 /// What archives begin with, also those without files.
@@ -34,40 +35,91 @@ pub(super) fn is_archive(path: &Path) -> io::Result<bool> {
         .any(|signature| head.starts_with(signature)))
 }
 
-/// Unpacks an archive of at most so many bytes into its folder: the input of a kind first, then all
-/// others under the paths by which it references them.
+/// An entry of an archive: its number, and what the input calls it.
+type Entry = (usize, String);
+
+/// Unpacks an archive of at most so many bytes into its folder: the input of a kind first, then what it refers to, under the paths by
+/// which it does. Nothing else is unpacked.
 pub(super) fn unpacked(path: &Path, kind: Kind, limit: u64) -> Result<Files, Problem> {
     let mut archive = ZipArchive::new(File::open(path)?).map_err(|e| invalid(&e))?;
     if MAX_FILES < archive.len() {
         let detail = format!("an upload can have at most {MAX_FILES} files");
         return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_FILES as u64));
     }
-    let too_large = || {
-        let detail = format!("an upload can have at most {limit} bytes, unpacked");
-        Problem::new(Code::UploadTooLarge, detail).with_limit(limit)
-    };
     if (archive.decompressed_size()).is_some_and(|declared| u128::from(limit) < declared) {
-        return Err(too_large());
+        return Err(too_large(limit));
     }
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let (mut files, mut left) = (Vec::new(), limit);
+    let mut entries = Vec::new();
     for index in 0..archive.len() {
         let entry = archive.by_index(index).map_err(|e| invalid(&e))?;
         let name = name(&entry)?;
-        if entry.is_dir() || is_of_a_system(&name) {
-            continue;
+        if !entry.is_dir() && !is_of_a_system(&name) {
+            entries.push((index, name));
         }
-        let place = folder.join(format!("unpacked-{index}"));
-        let (bytes, sha256) = unpack(entry, &place, left)?.ok_or_else(too_large)?;
-        left -= bytes;
+    }
+    let mut entries = with_input_first(entries, kind)?.into_iter();
+    let mut unpacker = Unpacker {
+        archive,
+        folder: path.parent().unwrap_or(Path::new(".")).to_owned(),
+        left: limit,
+        limit,
+    };
+    let input = entries.next().ok_or_else(|| invalid(&"it is empty"))?;
+    let mut files = vec![unpacker.unpack(&input)?];
+
+    let others: Vec<Entry> = entries.collect();
+    let known = others.iter().map(|(_, name)| name.clone()).collect();
+    let mut materials = Vec::new();
+    let kept = referenced(
+        kind,
+        &input.1,
+        &known,
+        || Ok(std::fs::read(&files[0].1)?),
+        |name| {
+            let entry = others.iter().find(|(_, known)| known == name);
+            let entry = entry.ok_or_else(|| invalid(&"an entry is gone"))?;
+            let file = unpacker.unpack(entry)?;
+            let content = std::fs::read(&file.1)?;
+            materials.push(file);
+            Ok(content)
+        },
+    )?;
+    for entry in others.iter().filter(|(_, name)| kept.contains(name)) {
+        match materials.iter().position(|(file, _)| file.name == entry.1) {
+            Some(index) => files.push(materials.swap_remove(index)),
+            None => files.push(unpacker.unpack(entry)?),
+        }
+    }
+    Ok(files)
+}
+
+/// Takes files out of an archive, as many bytes as are left.
+struct Unpacker {
+    archive: ZipArchive<File>,
+    folder: PathBuf,
+    left: u64,
+    limit: u64,
+}
+
+impl Unpacker {
+    fn unpack(&mut self, (index, name): &Entry) -> Result<(InputFile, PathBuf), Problem> {
+        let entry = self.archive.by_index(*index).map_err(|e| invalid(&e))?;
+        let place = self.folder.join(format!("unpacked-{index}"));
+        let unpacked = unpack(entry, &place, self.left)?;
+        let (bytes, sha256) = unpacked.ok_or_else(|| too_large(self.limit))?;
+        self.left -= bytes;
         let file = InputFile {
-            name,
+            name: name.clone(),
             bytes,
             sha256: Some(sha256),
         };
-        files.push((file, place));
+        Ok((file, place))
     }
-    with_input_first(files, kind)
+}
+
+fn too_large(limit: u64) -> Problem {
+    let detail = format!("an upload can have at most {limit} bytes, unpacked");
+    Problem::new(Code::UploadTooLarge, detail).with_limit(limit)
 }
 
 /// Copies an entry and returns its size and its digest; none if it has more bytes than are left.
@@ -104,11 +156,9 @@ fn is_of_a_system(name: &str) -> bool {
 }
 
 /// The only file that the kind reads first; the others below its folder are named from there.
-fn with_input_first(mut files: Files, kind: Kind) -> Result<Files, Problem> {
-    let is_input = |(file, _): &&(InputFile, PathBuf)| framing::is_named(&file.name, kind);
-    let inputs: Vec<&str> = (files.iter().filter(is_input))
-        .map(|(file, _)| file.name.as_str())
-        .collect();
+fn with_input_first(mut entries: Vec<Entry>, kind: Kind) -> Result<Vec<Entry>, Problem> {
+    let names = entries.iter().map(|(_, name)| name.as_str());
+    let inputs: Vec<&str> = names.filter(|name| framing::is_named(name, kind)).collect();
     let [input] = *inputs else {
         let found: Vec<&str> = inputs.iter().take(5).copied().collect();
         let (kind, count, found) = (kind.word(), inputs.len(), found.join(", "));
@@ -128,13 +178,13 @@ fn with_input_first(mut files: Files, kind: Kind) -> Result<Files, Problem> {
         .unwrap_or(Path::new(""))
         .to_owned();
     let input = input.to_owned();
-    files.sort_by_key(|(file, _)| file.name != input);
-    for (file, _) in files.iter_mut().skip(1) {
-        if let Ok(name) = Path::new(&file.name).strip_prefix(&folder) {
-            file.name = name.to_string_lossy().into_owned();
+    entries.sort_by_key(|(_, name)| *name != input);
+    for (_, name) in entries.iter_mut().skip(1) {
+        if let Ok(inside) = Path::new(name).strip_prefix(&folder) {
+            *name = inside.to_string_lossy().into_owned();
         }
     }
-    Ok(files)
+    Ok(entries)
 }
 
 fn invalid(error: &dyn std::fmt::Display) -> Problem {

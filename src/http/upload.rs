@@ -1,7 +1,6 @@
 //! From a request to a received upload.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use axum::BoxError;
@@ -15,12 +14,12 @@ use super::options::UploadQuery;
 use super::problem::{Code, Problem};
 use super::received::Received;
 use super::receiver::Receiver;
-use super::steady::Steady;
+use super::steady::{Steady, Tardy, Tempo};
 use crate::jobs::{JobId, Kind};
 use crate::mesh::io::{Content, Format};
 
-/// How long the rest of a refused body is waited for.
-const DRAIN_TIME: Duration = Duration::from_secs(5);
+/// How long the rest of a refused body is waited for. What comes later finds the connection closed.
+const DRAIN_TIME: Duration = Duration::from_secs(1);
 
 /// What the parts of a form may have around their files.
 const FRAMING_BYTES: u64 = 8 << 20;
@@ -61,9 +60,12 @@ pub(super) async fn receive(
     let (head, body) = request.into_parts();
     let asks_first = head.headers.contains_key(header::EXPECT);
     let may_come = accepts(app).and_then(|()| may_fit(app, &head.headers));
-    let was_silent = Arc::new(AtomicBool::new(false));
-    let silence = app.settings.connections.silence;
-    let body = Steady::new(body.into_data_stream(), silence, Arc::clone(&was_silent));
+    let tardy = Arc::new(OnceLock::new());
+    let tempo = Tempo {
+        silence: app.settings.connections.silence,
+        rate: app.settings.upload_rate,
+    };
+    let body = Steady::new(body.into_data_stream(), tempo, Arc::clone(&tardy));
     let body = Arc::new(Mutex::new(body));
     let mut rest = shared(Arc::clone(&body));
     let received = match may_come {
@@ -76,8 +78,10 @@ pub(super) async fn receive(
                 .unwrap_or_else(|_| Err(late("the upload", app.settings.upload_time)))
         }
     };
-    if was_silent.load(Ordering::Relaxed) {
-        return Err(late("the next piece of the body", silence));
+    match tardy.get() {
+        Some(Tardy::Silent) => return Err(late("the next piece of the body", tempo.silence)),
+        Some(Tardy::Slow) => return Err(slow(tempo)),
+        None => {}
     }
     if received.is_err() {
         drain(&mut rest).await;
@@ -110,6 +114,12 @@ fn late(what: &str, time: Duration) -> Problem {
     let seconds = time.as_secs();
     let detail = format!("{what} did not arrive within {seconds} s");
     Problem::new(Code::RequestTimeout, detail).with_limit(seconds)
+}
+
+fn slow(Tempo { silence, rate }: Tempo) -> Problem {
+    let seconds = silence.as_secs_f64();
+    let detail = format!("the body came with less than {rate} bytes a second for {seconds} s");
+    Problem::new(Code::RequestTimeout, detail).with_limit(rate)
 }
 
 /// Whether the length that is announced can be that of an upload.

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::problem::Problem;
 use crate::document::Warning;
-use crate::jobs::{Event, Job, Kind, Metadata, Settings, Timestamp};
+use crate::jobs::{Event, Job, Kind, Metadata, OutputFile, Settings, Timestamp};
 
 /// A job: request, state and outcome.
 #[derive(Serialize, utoipa::ToSchema)]
@@ -91,8 +91,9 @@ struct FileLink {
     href: String,
     /// Suggested file name, for an input that of the upload.
     name: String,
-    /// Its size.
-    bytes: u64,
+    /// Its size; absent while it is a picture that nobody has asked for: the first request draws it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bytes: Option<u64>,
 }
 
 /// The path of a job, behind what a proxy puts in front.
@@ -104,15 +105,25 @@ impl JobView {
     /// A job as clients of a service with these settings see it.
     pub fn new(job: &Job, settings: &Settings, base: &str) -> Self {
         let path = job_path(base, job);
-        let files = job.output.iter().map(|file| FileLink {
+        let files = job.results().map(|file| FileLink {
             href: format!("{path}/{}", file.role),
             name: file.name.clone(),
-            bytes: file.bytes,
+            bytes: Some(file.bytes),
         });
+        let pictures = job.pictures().iter().map(|picture| FileLink {
+            href: format!("{path}/{}", picture.role()),
+            name: picture.role().to_owned(),
+            bytes: job.drawn(*picture).map(|file| file.bytes),
+        });
+        // People look at pictures before they look at numbers.
+        let is_number = |file: &OutputFile| matches!(&*file.role, "uvs.bin" | "report");
+        let place = job.results().take_while(|file| !is_number(file)).count();
+        let mut files: Vec<FileLink> = files.collect();
+        files.splice(place..place, pictures);
         let inputs = job.input.iter().enumerate().map(|(index, file)| FileLink {
             href: format!("{path}/input/{index}"),
             name: file.name.clone(),
-            bytes: file.bytes,
+            bytes: Some(file.bytes),
         });
         Self {
             id: job.id.to_string(),
@@ -145,7 +156,7 @@ impl JobView {
             error: job.failure.as_ref().map(Problem::of_failure),
             links: Links {
                 inputs: inputs.collect(),
-                files: files.collect(),
+                files,
                 events: format!("{path}/events"),
                 itself: path,
             },

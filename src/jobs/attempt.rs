@@ -10,7 +10,6 @@ use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
 
 use super::cgroup::Kills;
-use super::checksum;
 use super::child::{Child, Exit};
 use super::conclusion::{conclude, disown};
 use super::job::{Failure, Job};
@@ -98,13 +97,9 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
     made.map_err(StoreError::at(folder))?;
     for (index, file) in job.input.iter().enumerate() {
         let to = folder.join(task::input_file(index));
-        let fetched = async {
-            jobs.blobs.fetch(&input_key(job.id, index), &to).await?;
-            checksum::check(&to, file.sha256.as_deref()).await
-        };
-        if let Err(error) = fetched.await {
-            return Err(jobs.lost_file(error).await);
-        }
+        let key = input_key(job.id, index);
+        jobs.fetch_verified(&key, file.sha256.as_deref(), &to)
+            .await?;
     }
     let settings = &jobs.settings;
     let task = Task {
@@ -117,7 +112,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
             seconds: Some(settings.time.as_secs_f64()),
         },
         memory: settings.memory,
-        pictures: Pictures::Drawn,
+        pictures: Pictures::OnRequest,
     };
     Ok(task::write_json(folder, TASK, &task)?)
 }
@@ -131,7 +126,7 @@ async fn compute(
     leave: &CancellationToken,
 ) -> StoreResult<Option<Ending>> {
     let kills = Kills::so_far();
-    let mut child = Child::start(&jobs.settings.program, folder)?;
+    let mut child = Child::start(&jobs.settings.program, "compute", folder)?;
     let watched = watch(jobs, job, attempt, (&mut child, folder), leave).await;
     if !matches!(watched, Watched::Silent) {
         child.terminate().await?;

@@ -59,9 +59,9 @@ pub fn spawn(
 }
 
 impl Child {
-    /// Starts the program with `compute FOLDER`.
-    pub fn start(program: &Program, folder: &Path) -> std::io::Result<Self> {
-        let mut process = spawn(program, "compute", folder)?;
+    /// Starts the program with `WORD FOLDER`.
+    pub fn start(program: &Program, word: &str, folder: &Path) -> std::io::Result<Self> {
+        let mut process = spawn(program, word, folder)?;
         let gone = || std::io::Error::other("a pipe of the compute child is missing");
         let stdout = process.stdout.take().ok_or_else(gone)?;
         let stderr = process.stderr.take().ok_or_else(gone)?;

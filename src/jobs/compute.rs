@@ -17,15 +17,25 @@ use super::frames::Frames;
 use super::input_output::OutputFile;
 use super::job::Failure;
 use super::maps::Maps;
+use super::pictures::{DrawingError, DrawingTask};
 use super::reporter::Reporter;
 use super::store_error::StoreError;
-use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
+use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, TASK, Task};
 use super::work::Work;
 use crate::pipeline::PipelineError;
 
 /// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
 pub fn run(folder: &Path) -> u8 {
-    match attempt(folder) {
+    reported(attempt(folder), folder)
+}
+
+/// Draws the picture of a result in `folder`, and returns the exit code of the process in the same way.
+pub fn draw(folder: &Path) -> u8 {
+    reported(drawn(folder), folder)
+}
+
+fn reported(attempt: Attempt<()>, folder: &Path) -> u8 {
+    match attempt {
         Ok(()) => 0,
         Err((exit_code, failure)) => {
             eprintln!("{}: {}", failure.code, failure.detail);
@@ -51,9 +61,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
     let mut made = work
         .run(&upload, task.limits, &reporter)
         .map_err(|e| refusal(&e))?;
-    if task.pictures == Pictures::Drawn {
-        made.draw().map_err(|e| refusal(&e))?;
-    }
+    made.complete(task.pictures).map_err(|e| refusal(&e))?;
     let mut output = Vec::new();
     for (index, (role, name, bytes)) in made.files.into_iter().enumerate() {
         std::fs::write(folder.join(task::output_file(index)), &bytes).map_err(unwritten)?;
@@ -69,6 +77,17 @@ fn attempt(folder: &Path) -> Attempt<()> {
     frames.into_output(&mut output).map_err(unwritten)?;
     let verdict = made.verdict;
     task::write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(unwritten)
+}
+
+fn drawn(folder: &Path) -> Attempt<()> {
+    end_with_server(|| {}).map_err(internal)?;
+    let task = DrawingTask::read(folder).map_err(internal)?;
+    contain(task.memory()).map_err(internal)?;
+    let png = task.png(folder).map_err(|error| match error {
+        DrawingError::Pipeline(error) => refusal(&error),
+        DrawingError::Io(error) => internal(error),
+    })?;
+    DrawingTask::write(folder, &png).map_err(unwritten)
 }
 
 /// Limits the memory of this process, in bytes.
@@ -91,10 +110,15 @@ fn listen(finish: &Arc<AtomicBool>, maps: &Arc<Maps>) -> std::io::Result<()> {
         }
     })?;
     let maps = Arc::clone(maps);
+    end_with_server(move || maps.ask())
+}
+
+/// Starts the thread that ends this process when its standard input closes. `hear` is called for every byte before that.
+fn end_with_server(hear: impl Fn() + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new().spawn(move || {
         let mut byte = [0];
         while matches!(std::io::stdin().read(&mut byte), Ok(1..)) {
-            maps.ask();
+            hear();
         }
         std::process::exit(1);
     })?;

@@ -23,7 +23,7 @@ pub struct Contained {
     pub time: Duration,
     /// Memory, in bytes.
     pub memory: u64,
-    /// Whether an atlas is drawn.
+    /// When an atlas is drawn.
     pub pictures: Pictures,
 }
 
@@ -54,27 +54,34 @@ impl Contained {
             pictures: self.pictures,
         };
         prepare(&task, upload, folder).await?;
-        let mut child = Child::start(&self.program, folder)?;
-        let heard = async { while child.next_message().await.is_some() {} };
-        if tokio::time::timeout(given_up_after(self.time), heard)
-            .await
-            .is_err()
-        {
-            child.terminate().await?;
-            return Err(timed_out(self.time));
+        let child = Child::start(&self.program, "compute", folder)?;
+        let at_most = given_up_after(self.time);
+        finished(child, folder, at_most, timed_out(self.time)).await?;
+        let outcome: Outcome = task::read_json(folder, OUTCOME)?;
+        Ok(outcome.output)
+    }
+}
+
+/// Waits until a child that works in `folder` has done its work. After a time it is ended, and the failure is `late`.
+pub(super) async fn finished(
+    mut child: Child,
+    folder: &Path,
+    at_most: Duration,
+    late: Failure,
+) -> Result<(), Failure> {
+    let heard = async { while child.next_message().await.is_some() {} };
+    if tokio::time::timeout(at_most, heard).await.is_err() {
+        child.terminate().await?;
+        return Err(late);
+    }
+    let exit = child.wait().await?;
+    match exit {
+        Exit::Code(0) => Ok(()),
+        Exit::Code(NO_SPACE) => {
+            let detail = format!("no space left in {}", folder.display());
+            Err(Failure::new("storage_full", detail))
         }
-        let exit = child.wait().await?;
-        match exit {
-            Exit::Code(0) => {
-                let outcome: Outcome = task::read_json(folder, OUTCOME)?;
-                Ok(outcome.output)
-            }
-            Exit::Code(NO_SPACE) => {
-                let detail = format!("no space left in {}", folder.display());
-                Err(Failure::new("storage_full", detail))
-            }
-            _ => Err(task::read_json(folder, ERROR).unwrap_or_else(|_| exit.cause())),
-        }
+        _ => Err(task::read_json(folder, ERROR).unwrap_or_else(|_| exit.cause())),
     }
 }
 

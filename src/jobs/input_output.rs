@@ -18,8 +18,8 @@ pub struct InputFile {
 /// One file that a job made.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OutputFile {
-    /// Where it is found: `result`, `report`, `layout.png`, `heatmap.png`, `thumbnail.png`, `uvs.bin`, or `files/NAME` for
-    /// what belongs to the result.
+    /// Where it is found: `result`, `report`, `uvs.bin`, `files/NAME` for what belongs to the result, or the role of a
+    /// [`Picture`](super::Picture).
     pub role: String,
     /// Name under which it should be saved.
     pub name: String,

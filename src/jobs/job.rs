@@ -107,6 +107,8 @@ pub struct Job {
     pub input: Vec<InputFile>,
     /// What it made; empty until it succeeded. The main result is first.
     pub output: Vec<OutputFile>,
+    /// Pictures that were drawn of that after its end.
+    pub drawn: Vec<OutputFile>,
     /// What is known of that; empty until it succeeded.
     pub verdict: Verdict,
     /// How often it was started.
@@ -166,6 +168,7 @@ impl Job {
             options,
             input: Vec::new(),
             output: Vec::new(),
+            drawn: Vec::new(),
             verdict: Verdict::default(),
             attempt: 0,
             digest: String::new(),
@@ -221,7 +224,8 @@ impl Job {
             return 0;
         }
         let input = self.input.iter().map(|file| file.bytes);
-        input.chain(self.output.iter().map(|file| file.bytes)).sum()
+        let made = self.output.iter().chain(&self.drawn);
+        input.chain(made.map(|file| file.bytes)).sum()
     }
 
     /// The output found under a role.

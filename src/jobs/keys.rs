@@ -1,5 +1,6 @@
 //! The names under which blobs of a job are stored.
 
+use super::input_output::OutputFile;
 use super::job::JobId;
 use super::lease::Token;
 
@@ -18,4 +19,11 @@ pub(super) fn output_folder(id: JobId, token: Token) -> String {
 
 pub(super) fn output_key(id: JobId, token: Token, index: usize) -> String {
     format!("{}/{index}", output_folder(id, token))
+}
+
+/// Where a picture lies that was drawn after the job ended. The name says what is in it: who draws the same again stores the same,
+/// and who draws another one does not overwrite it.
+pub(super) fn picture_key(id: JobId, token: Token, file: &OutputFile) -> String {
+    let sha256 = file.sha256.as_deref().unwrap_or_default();
+    format!("{}/{sha256}-{}", output_folder(id, token), file.role)
 }

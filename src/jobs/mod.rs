@@ -26,7 +26,8 @@
 //! lease for that before anybody takes jobs from them.
 //!
 //! A job whose input, options and engine equal those of an earlier one gets a copy of its result
-//! instead (`reuse.rs`), unless the client refuses.
+//! instead (`reuse.rs`), unless the client refuses. Pictures of a result are drawn when they are first
+//! asked for (`pictures.rs`).
 //!
 //! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its
 //! files.
@@ -75,6 +76,7 @@ pub mod meters;
 mod outbox;
 mod output;
 mod pace;
+mod pictures;
 mod program;
 mod progress;
 mod quarantine;
@@ -125,6 +127,7 @@ pub use listing::{Listing, Order};
 pub use metadata::{Metadata, MetadataError};
 pub use outbox::{Notice, Outbox};
 pub use pace::Pace;
+pub use pictures::{Picture, Undrawn};
 pub use program::Program;
 pub use progress::{Event, Progress, Saying};
 pub use queue::{Ended, Jobs};

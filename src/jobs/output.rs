@@ -1,6 +1,7 @@
 //! What jobs made, and what they made it of, as it is read.
 
 use std::ops::Range;
+use std::path::Path;
 
 use futures_util::TryStreamExt;
 
@@ -69,6 +70,23 @@ impl Jobs {
     ) -> StoreResult<()> {
         let verified = self.verify_stored(&Stored::output(job, index, file)).await;
         match verified {
+            Err(error) => Err(self.lost_file(error).await),
+            Ok(()) => Ok(()),
+        }
+    }
+
+    /// Brings a stored file to a local path and compares its checksum, if that is known.
+    pub(super) async fn fetch_verified(
+        &self,
+        key: &str,
+        sha256: Option<&str>,
+        to: &Path,
+    ) -> StoreResult<()> {
+        let fetched = async {
+            self.blobs.fetch(key, to).await?;
+            checksum::check(to, sha256).await
+        };
+        match fetched.await {
             Err(error) => Err(self.lost_file(error).await),
             Ok(()) => Ok(()),
         }

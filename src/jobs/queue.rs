@@ -16,6 +16,7 @@ use super::lease::WorkerId;
 use super::listing::Listing;
 use super::live::Live;
 use super::meters;
+use super::pictures::DrawingQueue;
 use super::running::Running;
 use super::settings::Settings;
 use super::state::State;
@@ -43,6 +44,7 @@ pub struct Jobs {
     pub(super) identity: OnceCell<StoreId>,
     pub(super) clock: SteadyClock,
     pub(super) has_told_wait: AtomicBool,
+    pub(super) drawing: DrawingQueue,
 }
 
 /// Whether a wait saw the end of the job.
@@ -58,6 +60,7 @@ impl Jobs {
     /// A queue on these stores. Nothing runs before [`Jobs::recover`] and [`Jobs::run`].
     pub fn new(settings: Settings, store: Arc<dyn JobStore>, blobs: Arc<dyn Blobs>) -> Self {
         Self {
+            drawing: DrawingQueue::new(&settings),
             store,
             blobs,
             settings,

@@ -48,16 +48,18 @@ pub struct Task {
     pub limits: Limits,
     /// Bytes.
     pub memory: u64,
-    /// Whether an atlas is drawn.
+    /// When an atlas is drawn.
     pub pictures: Pictures,
 }
 
-/// Whether an atlas is drawn.
+/// When the layout and the distortion of an atlas are drawn. For a small mesh that takes longer than unwrapping it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pictures {
-    /// Its layout and its distortion.
+    /// With the atlas.
     Drawn,
-    /// Not at all: for a small mesh that takes longer than unwrapping it.
+    /// When somebody asks for them, which may also ask for the UVs as arrays: these are made with the atlas.
+    OnRequest,
+    /// Never.
     LeftOut,
 }
 

@@ -27,6 +27,8 @@ pub enum Happening {
     Ended(Token, Saying, Ending),
     /// A client asks for something.
     Wished(Wish),
+    /// A picture of what it made was drawn and stored.
+    Drawn(Token, OutputFile),
 }
 
 /// What a client may ask of a job.
@@ -99,6 +101,7 @@ pub fn after(
             ended(&mut job, ending, rules, now);
         }
         Happening::Wished(wish) => wished(&mut job, *wish, now)?,
+        Happening::Drawn(token, file) => drawn(&mut job, *token, file)?,
     }
     Ok(job)
 }
@@ -241,6 +244,18 @@ fn wished(job: &mut Job, wish: Wish, now: Timestamp) -> Result<(), Refusal> {
         }
         _ => return Err(Refusal::WrongState),
     }
+    Ok(())
+}
+
+/// Notes a picture in the place of an earlier one, which was lost or drawn at the same time.
+fn drawn(job: &mut Job, token: Token, file: &OutputFile) -> Result<(), Refusal> {
+    match job.state {
+        _ if job.token != token => return Err(Refusal::Outdated),
+        State::Succeeded => {}
+        _ => return Err(Refusal::WrongState),
+    }
+    job.drawn.retain(|earlier| earlier.role != file.role);
+    job.drawn.push(file.clone());
     Ok(())
 }
 

@@ -6,13 +6,13 @@ use serde_json::Value;
 
 use super::job::Verdict;
 use super::kind::Kind;
+use super::task::Pictures;
 use super::worth::Worth;
 use crate::document::{Upload, Warning};
-use crate::mesh::io::Format;
-use crate::picture::thumbnail_png;
 use crate::pipeline::{
-    self, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits, MeasureOptions,
-    Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions, WarpOptions,
+    self, AtlasPicture, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits,
+    MeasureOptions, Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions,
+    WarpOptions,
 };
 
 /// What a job leaves.
@@ -177,27 +177,21 @@ impl Made {
         }
     }
 
-    /// Adds the pictures of an atlas, a small one of these or of a picture that was warped, and the UVs of an atlas as arrays. For a
-    /// small mesh this takes longer than unwrapping it.
-    pub fn draw(&mut self) -> Result<(), PipelineError> {
-        let mut pictures = Vec::new();
-        let mut arrays = None;
-        if let Some((drawn, uvs)) = self.atlas.take() {
-            let drawn = drawn.draw()?;
-            arrays = Some(("uvs.bin", uvs.to_bytes()));
-            pictures.push(("layout.png", drawn.layout_png));
-            pictures.push(("heatmap.png", drawn.heatmap_png));
-        }
-        let shown = pictures.first().map(|(_, layout)| layout);
-        let result = self.files.first();
-        let result = result.filter(|(_, name, _)| Format::of_name(name) == Some(Format::Png));
-        let shown = shown.or(result.map(|(.., bytes)| bytes));
-        if let Some(Ok(small)) = shown.map(|picture| thumbnail_png(picture)) {
-            pictures.push(("thumbnail.png", small));
-        }
-        let files = pictures.into_iter().chain(arrays);
+    /// Adds what comes with an atlas, before the report: its pictures, or its UVs as arrays.
+    pub fn complete(&mut self, wanted: Pictures) -> Result<(), PipelineError> {
+        let Some((drawn, uvs)) = self.atlas.take() else {
+            return Ok(());
+        };
+        let files = match wanted {
+            Pictures::LeftOut => Vec::new(),
+            Pictures::OnRequest => vec![("uvs.bin", uvs.to_bytes())],
+            Pictures::Drawn => vec![
+                ("layout.png", drawn.draw(AtlasPicture::Layout)?),
+                ("heatmap.png", drawn.draw(AtlasPicture::Heatmap)?),
+            ],
+        };
+        let files = files.into_iter();
         let files = files.map(|(name, bytes)| (name.to_owned(), name.to_owned(), bytes));
-        // The report stays last.
         let place = self.files.iter().position(|(role, ..)| role == "report");
         let place = place.unwrap_or(self.files.len());
         self.files.splice(place..place, files);

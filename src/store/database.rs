@@ -12,7 +12,7 @@ use crate::jobs::{StoreError, StoreResult};
 
 /// The n-th leads from version n to the next. A program of the version before must be able to go on
 /// after it: columns are added, never taken away.
-const SQLITE: [&str; 13] = [
+const SQLITE: [&str; 14] = [
     include_str!("schema/sqlite/1.sql"),
     include_str!("schema/sqlite/2.sql"),
     include_str!("schema/sqlite/3.sql"),
@@ -26,8 +26,9 @@ const SQLITE: [&str; 13] = [
     include_str!("schema/sqlite/11.sql"),
     include_str!("schema/sqlite/12.sql"),
     include_str!("schema/sqlite/13.sql"),
+    include_str!("schema/sqlite/14.sql"),
 ];
-const POSTGRES: [&str; 10] = [
+const POSTGRES: [&str; 11] = [
     include_str!("schema/postgres/1.sql"),
     include_str!("schema/postgres/2.sql"),
     include_str!("schema/postgres/3.sql"),
@@ -38,6 +39,7 @@ const POSTGRES: [&str; 10] = [
     include_str!("schema/postgres/8.sql"),
     include_str!("schema/postgres/9.sql"),
     include_str!("schema/postgres/10.sql"),
+    include_str!("schema/postgres/11.sql"),
 ];
 
 /// What every connection to SQLite is set to. What is committed is durable; the log is copied into

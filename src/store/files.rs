@@ -18,6 +18,9 @@ use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult, free_
 /// The file that says which store this is. It is no name of a job.
 const IDENTITY: &str = "store-id";
 
+/// Further tries to remove a folder into which somebody stored a file meanwhile: a picture, of which a job has three.
+const REMOVALS: usize = 3;
+
 /// A folder with one subfolder per job. Files are moved rather than copied where it is on one file
 /// system with the folder they come from.
 pub struct FileBlobs {
@@ -229,7 +232,17 @@ impl Blobs for FileBlobs {
 
     fn remove<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<()>> {
         async move {
-            match fs::remove_dir_all(self.root.join(folder)).await {
+            let folder = self.root.join(folder);
+            let mut removed = fs::remove_dir_all(&folder).await;
+            for _ in 0..REMOVALS {
+                match removed {
+                    Err(error) if error.kind() == ErrorKind::DirectoryNotEmpty => {
+                        removed = fs::remove_dir_all(&folder).await;
+                    }
+                    _ => break,
+                }
+            }
+            match removed {
                 Err(error) if error.kind() != ErrorKind::NotFound => Err(StoreError::from(error)),
                 _ => Ok(()),
             }

@@ -13,7 +13,7 @@ use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 pub(super) const COLUMNS: &str =
     "id, owner, kind, state, options, input, output, verdict, attempt, digest,
     priority, token, worker, lease, due, lost, cancel, finish_early, ephemeral, seq, progress,
-    failure, created, started, finished, trace, metadata, accept, webhook, interrupted";
+    failure, created, started, finished, trace, metadata, accept, webhook, interrupted, drawn";
 
 /// Adds a job that nobody works on.
 pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
@@ -73,8 +73,8 @@ pub(super) async fn update(
         "UPDATE job SET state = $1, output = $2, verdict = $3, attempt = $4, token = $5,
                         worker = $6, lease = $7, due = $8, lost = $9, cancel = $10,
                         finish_early = $11, seq = $12, progress = $13, failure = $14,
-                        started = $15, finished = $16, bytes = $17, interrupted = $18
-         WHERE id = $19 AND token = $20",
+                        started = $15, finished = $16, bytes = $17, interrupted = $18, drawn = $19
+         WHERE id = $20 AND token = $21",
     )
     .bind(job.state.word())
     .bind(json(&job.output)?)
@@ -94,6 +94,7 @@ pub(super) async fn update(
     .bind(job.finished.map(|time| time.0))
     .bind(job.stored_bytes() as i64)
     .bind(i64::from(job.interrupted))
+    .bind(json(&job.drawn)?)
     .bind(job.id.to_string())
     .bind(token as i64)
     .execute(&mut **transaction)
@@ -155,6 +156,7 @@ pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
         options: parsed(&text("options")?)?,
         input: parsed(&text("input")?)?,
         output: parsed(&text("output")?)?,
+        drawn: parsed(&text("drawn")?)?,
         verdict: parsed(&text("verdict")?)?,
         attempt: number("attempt")? as u32,
         digest: text("digest")?,

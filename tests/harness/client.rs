@@ -49,10 +49,15 @@ impl Seen {
     }
 }
 
-/// Whether a value has all that is in another.
+/// Whether a value has all that is in another: a picture gets its size when it is drawn.
 fn has(value: &Value, part: &Value) -> bool {
     match part {
         Value::Object(members) => members.iter().all(|(name, part)| has(&value[name], part)),
+        Value::Array(parts) => {
+            let values = value.as_array().map_or(&[][..], Vec::as_slice);
+            let mut pairs = values.iter().zip(parts);
+            values.len() == parts.len() && pairs.all(|(value, part)| has(value, part))
+        }
         _ => value == part,
     }
 }

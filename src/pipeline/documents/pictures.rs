@@ -1,16 +1,22 @@
-//! The pictures of a result, drawn from the written bytes when they are asked for.
+//! The pictures of a result, drawn from the written bytes when they are asked for: at once, or later from the files that were kept.
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
+use super::prepared::Prepared;
+use super::texel_weight::face_weights;
 use crate::certificate::chart_ids;
+use crate::document::{Document, GroupBy, Upload};
 use crate::measure::{FaceDistortion, face_distortion};
 use crate::mesh::{CornerUvs, Resolution};
 use crate::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
 use crate::pipeline::PipelineError;
+use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::judge::group_uvs::GroupUvs;
 use crate::pipeline::judge::groups::WrittenUvs;
-use crate::pipeline::options::Workers;
+use crate::pipeline::options::{CommandOptions, Options, Workers};
 
 /// Side of a picture in pixels.
 const SIDE: u32 = 1024;
@@ -24,21 +30,72 @@ pub struct Pictures {
     pub(in crate::pipeline) workers: Workers,
 }
 
-/// The pictures of a result, as the texture lies.
-#[derive(Clone, Debug)]
-pub struct Drawn {
-    /// The UV layout.
-    pub layout_png: Vec<u8>,
+/// A picture of an atlas, as the texture lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum AtlasPicture {
+    /// The charts.
+    Layout,
     /// The distortion.
-    pub heatmap_png: Vec<u8>,
+    Heatmap,
+}
+
+/// The part of a report that says how its result is drawn.
+#[derive(Deserialize)]
+struct DrawnReport {
+    options: Options,
+    written: DrawnNotes,
+}
+
+#[derive(Deserialize)]
+struct DrawnNotes {
+    primitives: Vec<DrawnNote>,
+}
+
+#[derive(Deserialize)]
+struct DrawnNote {
+    texcoord: u32,
 }
 
 impl Pictures {
-    /// Draws both. For a mesh of a few thousand faces this takes longer than unwrapping it.
+    /// Returns what the pictures of a stored result are drawn from, equal to those of the computation that made it. `report` is its
+    /// report as JSON; `input` is what it was made of, which only a heat map with weights of materials needs.
+    ///
+    /// # Errors
+    /// If the report is not that of an atlas, or a file cannot be read.
+    pub fn of_result(
+        result: &Upload,
+        report: &[u8],
+        input: Option<&Upload>,
+        threads: usize,
+    ) -> Result<Self, PipelineError> {
+        let report: DrawnReport = serde_json::from_slice(report)
+            .map_err(|error| PipelineError::InvalidOptions(error.to_string()))?;
+        let mut options = report.options;
+        options.caller_mut().limits.threads = Some(threads);
+        let group_by = options.group_by.unwrap_or(GroupBy::Scene);
+        let sets = report.written.primitives.iter();
+        let sets: Vec<u32> = sets.map(|note| note.texcoord).collect();
+        let document = Document::read(result)?;
+        let mut uvs = WrittenUvs::of_sets(&document, (group_by, options.nodes()), &sets)?;
+        if let Some(input) = input.filter(|_| !options.texel_weight.is_empty()) {
+            let weights = weights(input, &options)?;
+            for (group, weights) in uvs.groups.iter_mut().zip(weights) {
+                group.weights = Some(weights);
+            }
+        }
+        Ok(Self {
+            uvs,
+            texture: options.layout.resolution,
+            shown: options.heatmap_measure,
+            workers: options.settings().workers,
+        })
+    }
+
+    /// Draws one picture. For a mesh of a few thousand faces this takes longer than unwrapping it.
     ///
     /// # Errors
     /// If no thread can be started.
-    pub fn draw(&self) -> Result<Drawn, PipelineError> {
+    pub fn draw(&self, picture: AtlasPicture) -> Result<Vec<u8>, PipelineError> {
         in_pool(self.workers, || {
             let texture = self.texture;
             let [width, _] = texture.sides();
@@ -47,13 +104,9 @@ impl Pictures {
                 .flat_map(|group| Faces::new(group, texture).pages(width))
                 .collect();
             let panels: Vec<Panel> = pages.iter().map(Faces::panel).collect();
-            let (layout_png, heatmap_png) = rayon::join(
-                || layout_png(&panels, SIDE, self.uvs.v_axis),
-                || heatmap_png(&panels, self.shown, SIDE, self.uvs.v_axis),
-            );
-            Drawn {
-                layout_png,
-                heatmap_png,
+            match picture {
+                AtlasPicture::Layout => layout_png(&panels, SIDE, self.uvs.v_axis),
+                AtlasPicture::Heatmap => heatmap_png(&panels, self.shown, SIDE, self.uvs.v_axis),
             }
         })
     }
@@ -63,6 +116,16 @@ impl Pictures {
 fn title(group: &GroupUvs) -> String {
     let is_spelt = group.label.is_ascii();
     if is_spelt { &group.label } else { &group.name }.clone()
+}
+
+/// The texel density intended for each face of each group of a document.
+fn weights(input: &Upload, options: &Options) -> Result<Vec<Vec<f64>>, PipelineError> {
+    let prepared = Prepared::read(input, options, &Plan::new(&options.settings()))?;
+    let document = &prepared.document;
+    let primitives = options.nodes().primitives(document)?;
+    let groups = document.groups(prepared.group_by);
+    let weighed = |group| face_weights(document, &primitives, group, &options.texel_weight);
+    groups.iter().map(weighed).collect()
 }
 
 /// What a panel borrows: faces that share a page.

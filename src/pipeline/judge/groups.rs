@@ -34,14 +34,18 @@ impl WrittenUvs {
         written: &Written,
         (group_by, nodes): (GroupBy, Nodes),
     ) -> Result<Self, PipelineError> {
-        let document = written.read_again()?;
-        let sets: Vec<u32> = written
-            .notes
-            .primitives
-            .iter()
-            .map(|note| note.texcoord)
-            .collect();
-        Self::gather(&document, (group_by, nodes), |primitive| {
+        let notes = written.notes.primitives.iter();
+        let sets: Vec<u32> = notes.map(|note| note.texcoord).collect();
+        Self::of_sets(&written.read_again()?, (group_by, nodes), &sets)
+    }
+
+    /// Gathers the UVs of a document from the set that is named for each primitive.
+    pub fn of_sets(
+        document: &Document,
+        (group_by, nodes): (GroupBy, Nodes),
+        sets: &[u32],
+    ) -> Result<Self, PipelineError> {
+        Self::gather(document, (group_by, nodes), |primitive| {
             Some(sets.get(primitive).copied().unwrap_or(0))
         })
     }

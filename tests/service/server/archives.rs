@@ -3,6 +3,7 @@
 use std::io::{Cursor, Read, Write};
 
 use reqwest::Response;
+use reqwest::multipart::{Form, Part};
 use serde_json::{Value, json as object};
 use zip::write::SimpleFileOptions;
 use zip::{ZipArchive, ZipWriter};
@@ -166,5 +167,58 @@ async fn an_owner_receives_only_so_many_archives_at_a_time() {
     drop(unread);
     while asked().await.status() != 200 {
         tokio::task::yield_now().await;
+    }
+}
+
+/// What an input does not refer to is not kept: zeros pack well.
+#[tokio::test]
+async fn what_nothing_refers_to_is_dropped() {
+    let server = Server::start();
+    let (gltf, bytes) = triangle();
+    let zeros = vec![0; 8 << 20];
+    let obj = format!("mtllib m.mtl\n{}", meshes::TRIANGLE);
+    let off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let material = "newmtl m\nmap_Kd t/p.png\n";
+    for (files, kept) in [
+        (
+            vec![
+                ("scene.gltf", gltf.as_bytes()),
+                ("data/a b.bin", &bytes[..]),
+                ("z.bin", &zeros),
+            ],
+            vec!["scene.gltf", "data/a b.bin"],
+        ),
+        (
+            vec![
+                ("a/z.bin", &zeros[..]),
+                ("a/t/p.png", b"p"),
+                ("a/m.mtl", material.as_bytes()),
+                ("a/a.obj", obj.as_bytes()),
+            ],
+            vec!["a.obj", "t/p.png", "m.mtl"],
+        ),
+        (
+            vec![("a.off", off.as_bytes()), ("z.bin", &zeros)],
+            vec!["a.off"],
+        ),
+    ] {
+        let request = server.post("/v1/jobs");
+        let request = request.header("content-type", "application/zip");
+        let answer = request
+            .body(zipped(&files))
+            .send()
+            .await
+            .expect("an answer");
+        assert_eq!(names(&json(answer).await["links"]["inputs"]), kept);
+        let mut form = Form::new();
+        for (name, content) in files {
+            let name = name.strip_prefix("a/").unwrap_or(name);
+            let role = if name == kept[0] { "mesh" } else { "resource" };
+            let part = Part::bytes(content.to_vec()).file_name(name.to_owned());
+            form = form.part(role, part);
+        }
+        let answer = server.post("/v1/jobs").multipart(form).send().await;
+        let job = json(answer.expect("an answer")).await;
+        assert_eq!(names(&job["links"]["inputs"]), kept);
     }
 }

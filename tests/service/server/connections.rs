@@ -115,6 +115,41 @@ async fn who_is_silent_loses_the_connection() {
     assert!(stalled.contains("request_timeout"), "{stalled}");
 }
 
+/// A byte now and then is no silence, and still holds a connection and two files.
+#[tokio::test]
+async fn a_body_that_drips_ends() {
+    let server = Server::with(&[
+        ("UNWRAPD_SILENCE_SECONDS", "0.3"),
+        ("UNWRAPD_UPLOAD_RATE", "1000"),
+    ]);
+    let stream = connected(&server, &upload(100_000, "")).await;
+    let (mut reader, mut writer) = stream.into_split();
+    let drip = tokio::spawn(async move {
+        while writer.write_all(b"#").await.is_ok() {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    });
+    let mut answer = [0; 4096];
+    let read = tokio::time::timeout(SOON, reader.read(&mut answer)).await;
+    let length = read.expect("it is answered soon").expect("an answer");
+    let answer = String::from_utf8_lossy(&answer[..length]);
+    assert!(answer.starts_with("HTTP/1.1 408"), "{answer}");
+    assert!(answer.contains("request_timeout") && answer.contains("1000 bytes a second"));
+    drip.abort();
+
+    // One that comes in small pieces, but fast enough, is taken.
+    let steady = connected(&server, &upload(2_000, "")).await;
+    let (mut reader, mut writer) = steady.into_split();
+    for _ in 0..20 {
+        writer.write_all(&[b'#'; 100]).await.expect("it is taken");
+        tokio::time::sleep(Duration::from_millis(25)).await;
+    }
+    let mut head = [0; 12];
+    let read = tokio::time::timeout(SOON, reader.read_exact(&mut head)).await;
+    read.expect("it is answered soon").expect("an answer");
+    assert_eq!(&head, b"HTTP/1.1 422");
+}
+
 #[tokio::test]
 async fn an_upload_that_trickles_ends() {
     let server = Server::with(&[("UNWRAPD_UPLOAD_SECONDS", "0.5")]);

@@ -20,6 +20,7 @@ mod maps;
 mod messages;
 mod noted;
 mod origins;
+mod pictures;
 mod private;
 pub mod progress;
 mod requests;

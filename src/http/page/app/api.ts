@@ -39,7 +39,8 @@ export interface Job {
   links: { self: string; events: string; inputs: FileLink[]; files: FileLink[] };
 }
 
-export interface FileLink { href: string; name: string; bytes: number }
+/** A file of a job. Pictures have a size once they were drawn, which the first request does. */
+export interface FileLink { href: string; name: string; bytes?: number }
 export interface Problem { code: string; title: string; detail: string; status: number }
 
 /** What changes of a job while it runs. */

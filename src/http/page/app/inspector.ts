@@ -152,7 +152,7 @@ export function generic(report: Report): HTMLElement {
 
 function files(job: Job): HTMLElement {
   return element("ul", { className: "files" }, ...job.links.files.map(({ href, name, bytes: size }, k) => element("li", {},
-    element("a", { href: address(href), download: name, className: k ? "" : "primary", textContent: name }), element("small", { textContent: bytes(size) }))));
+    element("a", { href: address(href), download: name, className: k ? "" : "primary", textContent: name }), element("small", { textContent: size === undefined ? "" : bytes(size) }))));
 }
 
 function about(job: Job, options: Record<string, unknown>): HTMLElement {

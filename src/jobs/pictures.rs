@@ -1,0 +1,416 @@
+//! Pictures of results, drawn when they are first asked for and kept from then on.
+//!
+//! Drawing a small mesh costs more than unwrapping it, and most pictures are never looked at. So a job leaves what a picture can be
+//! drawn from: its result and its report. The first request for a picture starts a child (`unwrapd draw FOLDER`) in the process that
+//! answers it, whether or not that process computes jobs. The child draws what the computation would have drawn, and the picture is
+//! stored beside the result and noted in the record.
+//!
+//! The record decides. A picture that is not noted there does not exist, one of a job that was removed meanwhile is removed again, and
+//! one that is missing or damaged is drawn anew. Its key names its content, so that two processes which draw the same picture do
+//! not overwrite each other.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::time::Duration;
+
+use futures_util::TryStreamExt;
+use serde::{Deserialize, Serialize};
+use tokio::sync::{OwnedMutexGuard, Semaphore};
+
+use super::access::Reach;
+use super::checksum::{self, sha256};
+use super::child::Child;
+use super::contained::finished;
+use super::input_output::OutputFile;
+use super::job::{Failure, Job, JobId};
+use super::keys::{input_key, output_key, picture_key};
+use super::kind::Kind;
+use super::queue::Jobs;
+use super::scratch::Scratch;
+use super::settings::Settings;
+use super::storage::Changed;
+use super::store_error::{StoreError, StoreResult};
+use super::task::{self, input_file, output_file};
+use super::transition::Happening;
+use crate::document::Upload;
+use crate::mesh::io::Format;
+use crate::picture::thumbnail_png;
+use crate::pipeline::{self, AtlasPicture, PipelineError};
+
+/// The files of a [`Drawing`] and of what is drawn, in the folder of a child.
+const DRAWING: &str = "drawing.json";
+const PICTURE: &str = "picture.png";
+
+/// For a picture to be drawn while its client waits: the default of synchronous calls.
+const PATIENCE: Duration = Duration::from_mins(1);
+/// Threads of a child that draws: each has one of the cores on which children may draw.
+const THREADS: usize = 1;
+
+/// A picture that can be had of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Picture {
+    /// The UV layout.
+    Layout,
+    /// The distortion.
+    Heatmap,
+    /// A small copy of the layout, or of a result that is itself a picture.
+    Thumbnail,
+}
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum Undrawn {
+    /// The job was removed meanwhile.
+    #[error("the job was removed")]
+    Removed,
+    /// It could not be drawn.
+    #[error("{}", .0.detail)]
+    Failed(Failure),
+    /// Records or files cannot be used.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// What is drawn in this process.
+pub(super) struct DrawingQueue {
+    /// Jobs of which a picture is drawn, or waits to be. Others wait for their turn, and find it drawn.
+    turns: Mutex<HashMap<JobId, Weak<tokio::sync::Mutex<()>>>>,
+    /// Children that draw at the same time: on half of the cores, so that jobs keep the others.
+    places: Arc<Semaphore>,
+}
+
+/// What a child draws. The files that it needs lie under the names that those of an attempt have.
+#[derive(Serialize, Deserialize)]
+struct Drawing {
+    picture: Picture,
+    /// Names of the input files; empty where the result says all.
+    input: Vec<String>,
+    /// Files of the job.
+    output: Vec<OutputFile>,
+    /// Bytes.
+    memory: u64,
+}
+
+impl Picture {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Layout, Self::Heatmap, Self::Thumbnail];
+
+    /// Where it is found among the files of a job, and the name under which it is saved.
+    pub fn role(self) -> &'static str {
+        match self {
+            Self::Layout => "layout.png",
+            Self::Heatmap => "heatmap.png",
+            Self::Thumbnail => "thumbnail.png",
+        }
+    }
+
+    /// Whether it is drawn from this file of a job. Everything that belongs to a mesh is read with it.
+    fn needs(self, file: &OutputFile, is_atlas: bool) -> bool {
+        file.role == "result"
+            || (is_atlas && (file.role == "report" || file.role.starts_with("files/")))
+    }
+}
+
+impl Job {
+    /// The pictures that can be had of its result.
+    pub fn pictures(&self) -> &'static [Picture] {
+        match self.output.first() {
+            Some(_) if self.is_atlas() => &Picture::ALL,
+            Some(result) if Format::of_name(&result.name) == Some(Format::Png) => {
+                &[Picture::Thumbnail]
+            }
+            _ => &[],
+        }
+    }
+
+    /// What it made beside pictures.
+    pub fn results(&self) -> impl Iterator<Item = &OutputFile> {
+        let is_picture = |file: &OutputFile| Picture::ALL.iter().any(|it| it.role() == file.role);
+        self.output.iter().filter(move |file| !is_picture(file))
+    }
+
+    /// A picture that was drawn: when it was asked for, or by a version of the program that drew all when the job ended.
+    pub fn drawn(&self, picture: Picture) -> Option<&OutputFile> {
+        let drawn = self.drawn.iter().chain(&self.output);
+        drawn.into_iter().find(|file| file.role == picture.role())
+    }
+
+    /// Where a picture is that was drawn.
+    fn key_of_drawn(&self, picture: Picture) -> Option<(String, &OutputFile)> {
+        let file = self.drawn(picture)?;
+        let key = match self
+            .output
+            .iter()
+            .position(|other| std::ptr::eq(other, file))
+        {
+            Some(index) => output_key(self.id, self.token, index),
+            None => picture_key(self.id, self.token, file),
+        };
+        Some((key, file))
+    }
+
+    fn is_atlas(&self) -> bool {
+        matches!(self.kind, Kind::Unwrap | Kind::Repack)
+    }
+
+    /// Whether a picture shows densities that only the input tells.
+    fn needs_input(&self, picture: Picture) -> bool {
+        let weights = self.options.get("texel_weight");
+        let is_weighed = weights
+            .and_then(|list| list.as_array())
+            .is_some_and(|list| !list.is_empty());
+        picture == Picture::Heatmap && is_weighed
+    }
+}
+
+impl DrawingQueue {
+    pub fn new(settings: &Settings) -> Self {
+        Self {
+            turns: Mutex::default(),
+            places: Arc::new(Semaphore::new((settings.cores / 2).max(1))),
+        }
+    }
+
+    /// Waits until no picture of a job is drawn.
+    async fn turn(&self, id: JobId) -> OwnedMutexGuard<()> {
+        let turn = {
+            let mut turns = self.turns.lock().unwrap_or_else(PoisonError::into_inner);
+            turns.retain(|_, turn| 0 < turn.strong_count());
+            let known = turns.get(&id).and_then(Weak::upgrade);
+            known.unwrap_or_else(|| {
+                let turn = Arc::default();
+                turns.insert(id, Arc::downgrade(&turn));
+                turn
+            })
+        };
+        turn.lock_owned().await
+    }
+}
+
+impl Jobs {
+    /// Returns a picture of a job that has it: the one that is kept, or one that is drawn now and kept.
+    ///
+    /// # Errors
+    /// If the job was removed meanwhile, the picture cannot be drawn, or the stores cannot be used.
+    pub async fn picture(
+        self: &Arc<Self>,
+        job: &Job,
+        picture: Picture,
+    ) -> Result<Vec<u8>, Undrawn> {
+        if let Some(kept) = self.kept(job, picture).await? {
+            return Ok(kept);
+        }
+        let turn = self.drawing.turn(job.id).await;
+        let now = self.store.get(&Reach::All, job.id).await?;
+        let job = now.ok_or(Undrawn::Removed)?;
+        // Another request may have had the turn before.
+        if let Some(kept) = self.kept(&job, picture).await? {
+            return Ok(kept);
+        }
+        let place = Arc::clone(&self.drawing.places).acquire_owned().await;
+        let jobs = Arc::clone(self);
+        // A client that leaves does not stop it between storing and noting.
+        let drawn = self.tasks.spawn(async move {
+            let drawn = jobs.draw(&job, picture).await;
+            drop((turn, place));
+            match drawn {
+                Err(Undrawn::Store(error)) if error.is_loss() => {
+                    // Its files go after its record.
+                    let now = jobs.store.get(&Reach::All, job.id).await?;
+                    Err(now.map_or(Undrawn::Removed, |_| error.into()))
+                }
+                drawn => drawn,
+            }
+        });
+        drawn
+            .await
+            .map_err(|error| Undrawn::Failed(Failure::new("internal_error", error.to_string())))?
+    }
+
+    /// The picture as it is stored; `None` if there is none, or it is damaged.
+    async fn kept(&self, job: &Job, picture: Picture) -> StoreResult<Option<Vec<u8>>> {
+        let Some((key, file)) = job.key_of_drawn(picture) else {
+            return Ok(None);
+        };
+        match self.whole(&key, file).await {
+            Ok(content) => Ok(Some(content)),
+            Err(error) => match self.lost_file(error).await {
+                error if error.is_loss() => {
+                    tracing::warn!(key, %error, "a picture is drawn again");
+                    Ok(None)
+                }
+                error => Err(error),
+            },
+        }
+    }
+
+    async fn whole(&self, key: &str, file: &OutputFile) -> StoreResult<Vec<u8>> {
+        let mut content = self.blobs.read(key, 0..file.bytes).await?;
+        if let Some(expected) = &file.sha256 {
+            content = checksum::checked(content, expected.clone());
+        }
+        let append = async |mut all: Vec<u8>, block: Vec<u8>| {
+            all.extend(block);
+            Ok(all)
+        };
+        content.try_fold(Vec::new(), append).await
+    }
+
+    /// Draws a picture, stores it and notes it.
+    async fn draw(&self, job: &Job, picture: Picture) -> Result<Vec<u8>, Undrawn> {
+        self.has_room()?;
+        let path = self
+            .settings
+            .scratch
+            .join(format!("draw-{}", JobId::fresh()));
+        let scratch = Scratch::make(path).map_err(StoreError::from)?;
+        let folder = scratch.path();
+        self.bring(job, picture, folder).await?;
+        let child = Child::start(&self.settings.program, "draw", folder)?;
+        let detail = format!("the picture was not drawn within {} s", PATIENCE.as_secs());
+        let late = Failure::new("timed_out", detail);
+        finished(child, folder, PATIENCE, late).await?;
+
+        let path = folder.join(PICTURE);
+        let content = tokio::fs::read(&path).await?;
+        let file = OutputFile {
+            role: picture.role().to_owned(),
+            name: picture.role().to_owned(),
+            bytes: content.len() as u64,
+            sha256: Some(sha256(&content)),
+        };
+        let key = picture_key(job.id, job.token, &file);
+        self.blobs.put(&key, &path).await?;
+        let drawn = Happening::Drawn(job.token, file);
+        if let Changed::Missing = self.store.change(&Reach::All, job.id, &drawn).await? {
+            // Whoever removed the record has removed its files already, or is about to.
+            self.blobs.remove(&job.id.to_string()).await?;
+            return Err(Undrawn::Removed);
+        }
+        Ok(content)
+    }
+
+    /// Brings what a picture is drawn from to the folder of a child.
+    async fn bring(&self, job: &Job, picture: Picture, folder: &Path) -> StoreResult<()> {
+        let mut output = Vec::new();
+        for (index, file) in job.output.iter().enumerate() {
+            if !picture.needs(file, job.is_atlas()) {
+                continue;
+            }
+            let to = folder.join(output_file(output.len()));
+            let key = output_key(job.id, job.token, index);
+            let fetched = self.fetch_verified(&key, file.sha256.as_deref(), &to).await;
+            if fetched.as_ref().is_err_and(StoreError::is_loss) {
+                self.spoil(job).await;
+            }
+            fetched?;
+            output.push(file.clone());
+        }
+        let mut input = Vec::new();
+        if job.needs_input(picture) {
+            for (index, file) in job.input.iter().enumerate() {
+                let to = folder.join(input_file(index));
+                let key = input_key(job.id, index);
+                self.fetch_verified(&key, file.sha256.as_deref(), &to)
+                    .await?;
+                input.push(file.name.clone());
+            }
+        }
+        let drawing = Drawing {
+            picture,
+            input,
+            output,
+            memory: self.settings.memory,
+        };
+        Ok(task::write_json(folder, DRAWING, &drawing)?)
+    }
+}
+
+/// A folder, a file in it, or the child could not be used.
+impl From<std::io::Error> for Undrawn {
+    fn from(error: std::io::Error) -> Self {
+        Self::Store(error.into())
+    }
+}
+
+impl From<Failure> for Undrawn {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+/// What a child is told; its memory is limited from then on.
+pub(super) struct DrawingTask(Drawing);
+
+impl DrawingTask {
+    /// Reads the task of the child in a folder.
+    pub fn read(folder: &Path) -> std::io::Result<Self> {
+        task::read_json(folder, DRAWING).map(Self)
+    }
+
+    /// Bytes that the child may use.
+    pub fn memory(&self) -> u64 {
+        self.0.memory
+    }
+
+    /// Draws the picture.
+    pub fn png(&self, folder: &Path) -> Result<Vec<u8>, DrawingError> {
+        match self.0.picture {
+            Picture::Layout => self.atlas(folder, AtlasPicture::Layout),
+            Picture::Heatmap => self.atlas(folder, AtlasPicture::Heatmap),
+            Picture::Thumbnail => {
+                let shown = match &self.0.output[..] {
+                    [_] => std::fs::read(folder.join(output_file(0)))?,
+                    _ => self.atlas(folder, AtlasPicture::Layout)?,
+                };
+                Ok(thumbnail_png(&shown).map_err(PipelineError::from)?)
+            }
+        }
+    }
+
+    /// Writes the picture where the service looks for it.
+    pub fn write(folder: &Path, png: &[u8]) -> std::io::Result<()> {
+        std::fs::write(folder.join(PICTURE), png)
+    }
+
+    fn atlas(&self, folder: &Path, picture: AtlasPicture) -> Result<Vec<u8>, DrawingError> {
+        let mut report = Vec::new();
+        let mut result = Upload::default();
+        for (index, file) in self.0.output.iter().enumerate() {
+            let content = std::fs::read(folder.join(output_file(index)))?;
+            let (role, name) = (file.role.as_str(), file.name.clone());
+            match role {
+                "report" => report = content,
+                "result" => (result.name, result.bytes) = (name, content),
+                _ => drop(result.resources.insert(name, content)),
+            }
+        }
+        let input = match &self.0.input[..] {
+            [] => None,
+            names => Some(task::read_upload(folder, names)?),
+        };
+        let pictures = pipeline::Pictures::of_result(&result, &report, input.as_ref(), THREADS)?;
+        Ok(pictures.draw(picture)?)
+    }
+}
+
+/// Why a child draws nothing.
+pub(super) enum DrawingError {
+    /// The files cannot be drawn.
+    Pipeline(PipelineError),
+    /// They cannot be read.
+    Io(std::io::Error),
+}
+
+impl From<PipelineError> for DrawingError {
+    fn from(error: PipelineError) -> Self {
+        Self::Pipeline(error)
+    }
+}
+
+impl From<std::io::Error> for DrawingError {
+    fn from(error: std::io::Error) -> Self {
+        Self::Io(error)
+    }
+}
