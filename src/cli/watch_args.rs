@@ -5,12 +5,11 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 
 use clap::ValueEnum;
-use metrics_exporter_prometheus::PrometheusHandle;
 use tokio_util::sync::CancellationToken;
 use tracing_subscriber::EnvFilter;
 
 use super::listen::listener;
-use crate::http::{Exposition, measure};
+use crate::http::{Exposition, Measured, measure};
 use crate::jobs::Jobs;
 use crate::sessions::Sessions;
 
@@ -58,7 +57,7 @@ fn levels(text: &str) -> Result<String, String> {
 }
 
 /// Measures from now on: first of all, so that nothing that a start notes is lost.
-pub(super) fn measured() -> Result<PrometheusHandle, String> {
+pub(super) fn measured() -> Result<Measured, String> {
     measure().map_err(|error| format!("nothing is measured: {error}"))
 }
 
@@ -77,7 +76,7 @@ impl WatchArgs {
     /// Shows what is measured where it is asked for, until told to stop.
     pub async fn exposition(
         &self,
-        measured: PrometheusHandle,
+        measured: Measured,
         jobs: Arc<Jobs>,
         sessions: Option<Arc<Sessions>>,
         stop: &CancellationToken,

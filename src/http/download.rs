@@ -97,7 +97,7 @@ impl Opened<'_> {
 pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Vec<u8>, Problem> {
     match app.jobs.picture(job, picture).await {
         Ok(content) => Ok(content),
-        Err(Undrawn::Removed) => Err(missing(app, &Reach::All, job.id).await),
+        Err(Undrawn::Removed) => Err(missing(app, &Reach::Own(job.owner.clone()), job.id).await),
         Err(Undrawn::Failed(failure)) => Err(Problem::of_failure(&failure)),
         Err(Undrawn::Store(error)) => Err(error.into()),
     }

@@ -86,11 +86,14 @@ pub struct Exposition {
     jobs: Arc<Jobs>,
     /// A worker has none.
     sessions: Option<Arc<Sessions>>,
-    measured: PrometheusHandle,
+    measured: Measured,
 }
 
+/// What was measured since [`measure`].
+pub type Measured = PrometheusHandle;
+
 /// Measures from now on, once in a process.
-pub fn measure() -> Result<PrometheusHandle, BuildError> {
+pub fn measure() -> Result<Measured, BuildError> {
     let measured = PrometheusBuilder::new()
         .set_buckets(&SECONDS)?
         .install_recorder()?;
@@ -107,11 +110,7 @@ pub fn measure() -> Result<PrometheusHandle, BuildError> {
 
 impl Exposition {
     /// What was measured, and the present state of these.
-    pub fn new(
-        measured: PrometheusHandle,
-        jobs: Arc<Jobs>,
-        sessions: Option<Arc<Sessions>>,
-    ) -> Self {
+    pub fn new(measured: Measured, jobs: Arc<Jobs>, sessions: Option<Arc<Sessions>>) -> Self {
         Self {
             jobs,
             sessions,

@@ -72,7 +72,7 @@ use tokio_util::task::TaskTracker;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-pub use self::exposition::{Exposition, measure};
+pub use self::exposition::{Exposition, Measured, measure};
 pub use self::origins::origin;
 use self::problem::Problem;
 pub use self::settings::{Connections, Settings};

@@ -54,6 +54,7 @@ mod contained;
 mod deadline;
 mod digest;
 mod drain;
+mod drawing_queue;
 mod frames;
 mod gates;
 mod handling;

@@ -9,14 +9,12 @@
 //! one that is missing or damaged is drawn anew. Its key names its content, so that two processes which draw the same picture do
 //! not overwrite each other.
 
-use std::collections::HashMap;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::Arc;
 use std::time::Duration;
 
 use futures_util::TryStreamExt;
 use serde::{Deserialize, Serialize};
-use tokio::sync::{OwnedMutexGuard, Semaphore};
 
 use super::access::Reach;
 use super::checksum::{self, sha256};
@@ -28,7 +26,6 @@ use super::keys::{input_key, output_key, picture_key};
 use super::kind::Kind;
 use super::queue::Jobs;
 use super::scratch::Scratch;
-use super::settings::Settings;
 use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
 use super::task::{self, input_file, output_file};
@@ -70,14 +67,6 @@ pub enum Undrawn {
     /// Records or files cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
-}
-
-/// What is drawn in this process.
-pub(super) struct DrawingQueue {
-    /// Jobs of which a picture is drawn, or waits to be. Others wait for their turn, and find it drawn.
-    turns: Mutex<HashMap<JobId, Weak<tokio::sync::Mutex<()>>>>,
-    /// Children that draw at the same time: on half of the cores, so that jobs keep the others.
-    places: Arc<Semaphore>,
 }
 
 /// What a child draws. The files that it needs lie under the names that those of an attempt have.
@@ -164,30 +153,6 @@ impl Job {
     }
 }
 
-impl DrawingQueue {
-    pub fn new(settings: &Settings) -> Self {
-        Self {
-            turns: Mutex::default(),
-            places: Arc::new(Semaphore::new((settings.cores / 2).max(1))),
-        }
-    }
-
-    /// Waits until no picture of a job is drawn.
-    async fn turn(&self, id: JobId) -> OwnedMutexGuard<()> {
-        let turn = {
-            let mut turns = self.turns.lock().unwrap_or_else(PoisonError::into_inner);
-            turns.retain(|_, turn| 0 < turn.strong_count());
-            let known = turns.get(&id).and_then(Weak::upgrade);
-            known.unwrap_or_else(|| {
-                let turn = Arc::default();
-                turns.insert(id, Arc::downgrade(&turn));
-                turn
-            })
-        };
-        turn.lock_owned().await
-    }
-}
-
 impl Jobs {
     /// Returns a picture of a job that has it: the one that is kept, or one that is drawn now and kept.
     ///
@@ -208,7 +173,7 @@ impl Jobs {
         if let Some(kept) = self.kept(&job, picture).await? {
             return Ok(kept);
         }
-        let place = Arc::clone(&self.drawing.places).acquire_owned().await;
+        let place = self.drawing.place().await;
         let jobs = Arc::clone(self);
         // A client that leaves does not stop it between storing and noting.
         let drawn = self.tasks.spawn(async move {
@@ -390,7 +355,8 @@ impl DrawingTask {
             [] => None,
             names => Some(task::read_upload(folder, names)?),
         };
-        let pictures = pipeline::Pictures::of_result(&result, &report, input.as_ref(), THREADS)?;
+        let report = serde_json::from_slice(&report).map_err(std::io::Error::from)?;
+        let pictures = pipeline::Pictures::of_result(&result, report, input.as_ref(), THREADS)?;
         Ok(pictures.draw(picture)?)
     }
 }

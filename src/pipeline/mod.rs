@@ -76,7 +76,7 @@ pub use deform::solve::{solve_file, solve_problem};
 #[cfg(feature = "files")]
 pub use deform::warp::{WarpReport, WarpedPicture, warp_file};
 #[cfg(feature = "files")]
-pub use documents::pictures::{AtlasPicture, Pictures};
+pub use documents::pictures::{AtlasPicture, Pictures, ReportOfAtlas};
 #[cfg(feature = "files")]
 pub use documents::repack::repack_document;
 #[cfg(feature = "files")]

@@ -290,7 +290,7 @@ fn the_summary_is_plain_and_names_what_was_written() {
 /// No line of the help is wider than a terminal of 100 columns, and all options have one layout.
 #[test]
 fn help_is_wrapped() {
-    for command in ["unwrap", "batch", "serve", "verify"] {
+    for command in ["unwrap", "batch", "worker", "verify"] {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_unwrapd"))
             .args([command, "-h"])
             .env("COLUMNS", "80")

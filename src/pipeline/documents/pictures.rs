@@ -41,7 +41,7 @@ pub enum AtlasPicture {
 
 /// The part of a report that says how its result is drawn.
 #[derive(Deserialize)]
-struct DrawnReport {
+pub struct ReportOfAtlas {
     options: Options,
     written: DrawnNotes,
 }
@@ -57,19 +57,17 @@ struct DrawnNote {
 }
 
 impl Pictures {
-    /// Returns what the pictures of a stored result are drawn from, equal to those of the computation that made it. `report` is its
-    /// report as JSON; `input` is what it was made of, which only a heat map with weights of materials needs.
+    /// Returns what the pictures of a stored result are drawn from, equal to those of the computation that made it. `report` is part
+    /// of its report; `input` is what it was made of, which only a heat map with weights of materials needs.
     ///
     /// # Errors
-    /// If the report is not that of an atlas, or a file cannot be read.
+    /// If a file cannot be read, or is not what the report says.
     pub fn of_result(
         result: &Upload,
-        report: &[u8],
+        report: ReportOfAtlas,
         input: Option<&Upload>,
         threads: usize,
     ) -> Result<Self, PipelineError> {
-        let report: DrawnReport = serde_json::from_slice(report)
-            .map_err(|error| PipelineError::InvalidOptions(error.to_string()))?;
         let mut options = report.options;
         options.caller_mut().limits.threads = Some(threads);
         let group_by = options.group_by.unwrap_or(GroupBy::Scene);
