@@ -27,7 +27,7 @@ pub(super) fn print(groups: &[GroupReport]) {
         .unwrap_or(0);
     let width = width.clamp(10, NAME);
     say(format_args!(
-        "{:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>15} {:>15} {:>8} {:>8} {:>11}",
+        "{:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>15} {:>16} {:>8} {:>8} {:>11}",
         "",
         "triangles",
         "charts",
@@ -71,7 +71,7 @@ fn line(name: &str, width: usize, sums: &Sums) -> String {
     let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.1} %"));
     let overlapping = sums.overlapping.map_or("-".to_owned(), |n| n.to_string());
     format!(
-        "{name:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>15} {:>15} {:>8} {:>8} {overlapping:>11}",
+        "{name:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>15} {:>16} {:>8} {:>8} {overlapping:>11}",
         sums.faces,
         sums.charts,
         percent(sums.stretch.map(|stretch| 100.0 * (stretch - 1.0))),

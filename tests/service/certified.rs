@@ -225,10 +225,10 @@ fn equal_meshes_are_mapped_once_and_summed_up() {
     assert_eq!(groups[3]["label"], "Crate 3");
     let density = |i: usize| groups[i]["texels_per_unit"].as_f64().expect("a density");
     assert!((density(12) * 3.0 / density(0) - 1.0).abs() < 1e-4);
-    // A head, ten lines, totals, and what is certified.
+    // A head, ten lines, totals, what is certified, and what was written.
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     let lines: Vec<&str> = said.lines().collect();
-    assert_eq!(lines.len(), 13, "{said}");
+    assert_eq!(lines.len(), 14, "{said}");
     assert!(
         lines[1].starts_with("Crate 0") && lines[10].starts_with("6 others"),
         "{said}"

@@ -12,7 +12,7 @@ export async function tried(page, tag, operation) {
 
 export async function run(page, url) {
   const api = await (await fetch(`${url}openapi.json`)).json();
-  const operations = Object.values(api.paths).flatMap(Object.values);
+  const operations = [api.paths, api.webhooks].flatMap(Object.values).flatMap(Object.values);
   await page.goto(`${url}docs`);
   await page.waitForSelector(".opblock");
   assert.equal(await page.locator(".opblock").count(), operations.length);

@@ -112,7 +112,7 @@ fn a_manifest_may_come_from_a_pipe() {
     assert_status(&output, 0);
     let totals: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let expected = serde_json::json!({
-        "assets": 1, "written": 1, "failed": 0, "missing": 0, "accepted": 1
+        "assets": 1, "written": 1, "failed": 0, "missing": 0, "accepted": 1, "partly_done": 0
     });
     assert_eq!(totals, expected);
     assert_eq!(folders.outputs(), ["in/b.glb"]);

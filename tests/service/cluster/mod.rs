@@ -98,6 +98,9 @@ pub async fn assert_whole(api: &Server, job: &Value) {
         let answer = api.get(href).send().await.expect("an answer");
         assert_eq!(answer.status(), 200);
         let bytes = answer.bytes().await.expect("a whole file");
-        assert_eq!(Some(bytes.len() as u64), file["bytes"].as_u64());
+        assert!(!bytes.is_empty());
+        // The size of a picture is known once it is drawn.
+        let size = file["bytes"].as_u64();
+        assert!(size.is_none_or(|size| size == bytes.len() as u64), "{file}");
     }
 }
