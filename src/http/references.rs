@@ -54,9 +54,11 @@ fn of_surface(
     Ok(upload.references())
 }
 
-/// What the words of a problem file name: by path, or by name alone.
+/// What the words of a problem file name: by path, or by name alone. One that is not JSON may mean any of them: it is refused later.
 fn of_problem(bytes: &[u8], known: &BTreeSet<String>) -> BTreeSet<String> {
-    let problem: Value = serde_json::from_slice(bytes).unwrap_or_default();
+    let Ok(problem) = serde_json::from_slice::<Value>(bytes) else {
+        return known.clone();
+    };
     let mut words = BTreeSet::new();
     gather_words(&problem, &mut words);
     let names = words

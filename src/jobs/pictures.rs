@@ -93,12 +93,6 @@ impl Picture {
             Self::Thumbnail => "thumbnail.png",
         }
     }
-
-    /// Whether it is drawn from this file of a job. Everything that belongs to a mesh is read with it.
-    fn needs(self, file: &OutputFile, is_atlas: bool) -> bool {
-        file.role == "result"
-            || (is_atlas && (file.role == "report" || file.role.starts_with("files/")))
-    }
 }
 
 impl Job {
@@ -260,7 +254,7 @@ impl Jobs {
     async fn bring(&self, job: &Job, picture: Picture, folder: &Path) -> StoreResult<()> {
         let mut output = Vec::new();
         for (index, file) in job.output.iter().enumerate() {
-            if !picture.needs(file, job.is_atlas()) {
+            if !is_drawn_from(file, job.is_atlas()) {
                 continue;
             }
             let to = folder.join(output_file(output.len()));
@@ -290,6 +284,12 @@ impl Jobs {
         };
         Ok(task::write_json(folder, DRAWING, &drawing)?)
     }
+}
+
+/// Whether pictures are drawn from this file of a job. Everything that belongs to a mesh is read with it.
+fn is_drawn_from(file: &OutputFile, is_atlas: bool) -> bool {
+    file.role == "result"
+        || (is_atlas && (file.role == "report" || file.role.starts_with("files/")))
 }
 
 /// A folder, a file in it, or the child could not be used.

@@ -186,7 +186,7 @@ test('hard edges are cut where that is asked for', async () => {
 test('errors have the codes of the service', async () => {
   await assert.rejects(atlasOf(unwrapd.withOptions({ seamWieght: 1 }), [CUBE]), (error) => {
     assert.ok(error instanceof unwrapd.InvalidOptions && error instanceof unwrapd.UnwrapdError);
-    assert.match(error.message, /seam_wieght/);
+    assert.match(error.message, /seamWieght/);
     assert.deepEqual([error.name, error.code, error.exitCode], ['InvalidOptions', 'invalid_options', 2]);
     return true;
   });

@@ -44,6 +44,7 @@ native::tests_of_files!(
         readme,
         session,
         trimesh,
+        words,
         xatlas
     ]
 );

@@ -93,7 +93,7 @@ async fn an_upload_without_a_key_is_refused_at_once() {
     );
     // The rest of the body is read meanwhile: the connection is not reset.
     stream
-        .write_all(&[0; 1 << 16])
+        .write_all(&vec![0; 1 << 16])
         .await
         .expect("it takes more");
 }

@@ -3,17 +3,18 @@
 use reqwest::multipart::Part;
 
 use super::{Server, ended, form};
-use crate::meshes::PLATE;
+/// A triangle whose material file is named.
+const PLATE: &str = "mtllib plate.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 #[tokio::test]
 async fn inputs_are_listed_and_answered() {
     let server = Server::start();
     let second = Part::bytes(b"# none".to_vec()).file_name("plate.mtl");
-    let input = form("unwrap", "{}", ("plate.off", PLATE.into())).part("resource", second);
+    let input = form("unwrap", "{}", ("plate.obj", PLATE.into())).part("resource", second);
     let job = ended(&server, input).await;
     let inputs = job["links"]["inputs"].as_array().expect("a list");
     assert_eq!(inputs.len(), 2);
-    assert_eq!(inputs[0]["name"], "plate.off");
+    assert_eq!(inputs[0]["name"], "plate.obj");
     let path = inputs[0]["href"].as_str().expect("a path");
     let answer = server.get(path).send().await.expect("an answer");
     assert_eq!(answer.status(), 200);

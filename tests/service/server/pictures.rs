@@ -107,6 +107,7 @@ async fn a_picture_is_kept() {
     };
     let before = inodes(&server);
     assert_eq!(before.len(), 3);
+    server.kill();
     server.restart();
     for (name, drawn) in PICTURES.iter().zip(drawn) {
         assert!(picture(&server, &job, name).await == drawn, "{name}");
@@ -201,6 +202,7 @@ async fn nothing_is_drawn_of_a_damaged_result() {
 async fn a_process_without_workers_draws() {
     let mut server = Server::start();
     let job = unwrapped(&server, "").await;
+    server.kill();
     server.restart_with(&[("UNWRAPD_WORKERS", "0"), ("UNWRAPD_SMALL_KIB", "0")]);
     for name in PICTURES {
         assert!(picture(&server, &job, name).await.starts_with(b"\x89PNG"));

@@ -10,6 +10,7 @@ use unwrapd::mesh::PlanarMesh;
 
 use super::applications::{asset, form};
 use super::{Server, assert_problem, json as read};
+use crate::cli::unwrapd;
 use crate::harness::live::{Frame, Heard, Live};
 use crate::meshes::{self, bar};
 
@@ -323,13 +324,19 @@ async fn uvs_of_a_job_are_pulled() {
     let frame = live.settled(n).await;
     assert_ne!(frame.positions, live.mesh.rest);
     let job = baked(&server, &session).await;
-    // The end of the chart came toward its other end, and upon no other chart.
     assert_eq!(
         (&job["state"], &job["kind"]),
         (&"succeeded".into(), &"edit_uv".into()),
         "{job}"
     );
-    assert_eq!(job["certified"], true, "{job}");
+    // What is said of the file is what the command says of it.
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("baked.glb");
+    let result = job["links"]["files"][0]["href"].as_str().expect("a link");
+    let result = server.get(result).send().await.expect("an answer");
+    std::fs::write(&file, result.bytes().await.expect("bytes")).expect("a file");
+    let verify = unwrapd(&["verify", &file.to_string_lossy(), "--bijective"]);
+    assert_eq!(job["certified"], verify.status.success(), "{job}");
     let path = format!("/v1/sessions?job={}", job["id"].as_str().expect("an id"));
     let session = read(server.post(&path).send().await.expect("an answer")).await;
     let again = session["links"]["live"].as_str().expect("a link");
