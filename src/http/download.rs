@@ -7,9 +7,8 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::App;
-use super::missing::missing;
+use super::missing::job_not_found;
 use super::problem::{Code, Problem};
-use crate::jobs::access::Reach;
 use crate::jobs::{InputFile, Job, OutputFile, Picture, Undrawn};
 use crate::mesh::io::Format;
 
@@ -97,7 +96,7 @@ impl Opened<'_> {
 pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Vec<u8>, Problem> {
     match app.jobs.picture(job, picture).await {
         Ok(content) => Ok(content),
-        Err(Undrawn::Removed) => Err(missing(app, &Reach::Own(job.owner.clone()), job.id).await),
+        Err(Undrawn::Removed) => Err(job_not_found()),
         Err(Undrawn::Failed(failure)) => Err(Problem::of_failure(&failure)),
         Err(Undrawn::Store(error)) => Err(error.into()),
     }
