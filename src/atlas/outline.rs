@@ -195,8 +195,8 @@ fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// What remains of all triangles' edges when those that run in opposite directions cancel, in an order that follows
-/// from the triangles only.
+/// Returns the edges of all triangles but those that cancel, since they run in opposite directions. Their order follows from the
+/// triangles only.
 ///
 /// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area too: their
 /// edges then run as those of their neighbors do, and stay, twice. Edges of triangles without area stay, too: they enclose nothing,

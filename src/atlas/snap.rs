@@ -124,8 +124,8 @@ pub(super) fn near_vertices(map: &ChartMap, outline: &Outline, unit: f64) -> Vec
     vertices.into_iter().collect()
 }
 
-/// Whether two edges of a border may cross once they are rounded. Edges that meet at a vertex do if an end of one comes near the
-/// other.
+/// Returns true if two edges of a border may cross once they are rounded. Edges that meet at a vertex may if an end of one lies near
+/// the other.
 fn are_near(a: Segment, b: Segment) -> bool {
     let apart =
         |ends: Segment, other: Segment| ends.into_iter().filter(move |p| !other.contains(p));

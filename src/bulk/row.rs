@@ -54,7 +54,7 @@ pub struct Figures {
     /// Whether a limit ended it before it was done.
     #[serde(default)]
     pub ended_early: bool,
-    /// Whether only a part of what was asked for was done: textures or colors were not resampled. `unwrap` ends with 7 then.
+    /// True if textures or colors were not resampled as requested. `unwrap` ends with 7 then.
     #[serde(default)]
     pub partly_done: bool,
 }

@@ -36,7 +36,7 @@ pub struct Totals {
     pub missing: usize,
     /// Those that meet the gates.
     pub accepted: usize,
-    /// Those of which only a part of what was asked for was done.
+    /// Written assets whose textures or colors were not resampled as requested.
     pub partly_done: usize,
 }
 

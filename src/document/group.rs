@@ -84,7 +84,7 @@ const WHOLE_SCENE: &str = "Whole scene";
 pub struct Group {
     /// `scene`, `mesh0`, `mesh0/prim0` or `material0`.
     pub name: String,
-    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0`, `material 0` or `Whole scene`.
+    /// Label for people: the name of the mesh or the material, else `mesh 0`, `material 0` or `Whole scene`.
     pub label: String,
     /// Indices into the document's primitives, ascending.
     pub primitives: Vec<usize>,

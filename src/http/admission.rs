@@ -62,7 +62,7 @@ pub(super) async fn admit(
     Ok(response)
 }
 
-/// Whether the body has a content coding, such as gzip.
+/// Returns true if the body has a content coding, such as gzip.
 fn is_encoded(headers: &HeaderMap) -> bool {
     let mut codings = headers.get_all(header::CONTENT_ENCODING).iter();
     codings.any(|coding| !coding.as_bytes().eq_ignore_ascii_case(b"identity"))

@@ -13,7 +13,7 @@ type Responses = BTreeMap<String, RefOr<Response>>;
 /// What asking for a file that a job made is answered, apart from the file.
 pub(super) struct FileAnswers;
 
-/// What asking for a picture is answered, apart from the picture.
+/// Responses to a request for a picture, other than the picture itself.
 pub(super) struct PictureAnswers;
 
 /// What asking for all files of a job is answered, apart from these.
@@ -61,7 +61,7 @@ impl IntoResponses for PictureAnswers {
     }
 }
 
-/// What is answered if not the whole file is asked for.
+/// Responses to conditional and range requests.
 fn parts() -> Responses {
     let mut answers = Responses::new();
     for (status, description) in [

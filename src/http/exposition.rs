@@ -89,7 +89,7 @@ pub struct Exposition {
     measured: Measured,
 }
 
-/// What was measured since [`measure`].
+/// Measurements since [`measure`] was called.
 pub type Measured = PrometheusHandle;
 
 /// Measures from now on, once in a process.

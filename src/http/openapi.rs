@@ -152,7 +152,7 @@ fn complete(operation: &mut Value) {
     }
 }
 
-/// Whether a schema is that of `Vec<u8>`, which is no JSON but the bytes of a file.
+/// Returns true for the schema of `Vec<u8>`, which stands for the bytes of a file, not for JSON.
 fn is_list_of_bytes(schema: &Value) -> bool {
     let item = &schema["items"];
     schema["type"] == "array" && item["type"] == "integer" && item["minimum"] == 0
@@ -178,7 +178,7 @@ fn links() -> Value {
     Value::Object(operations.into_iter().map(link).collect())
 }
 
-/// What is posted to the address that a job names as `webhook`.
+/// Describes the request that is posted to the `webhook` of a job.
 fn webhooks() -> Value {
     let header = |name: &str, description: &str| {
         json!({
