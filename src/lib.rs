@@ -69,18 +69,9 @@
 //! | [`atlas`] | orientation, packing, pages, the integer grid |
 //! | [`certificate`] | exact judgment of UVs as a file has them |
 //! | [`measure`] | distortion, seams, packing, overlaps of any UV map |
-#![cfg_attr(
-    feature = "files",
-    doc = "| [`document`] | glTF, OBJ and others, with everything else preserved |"
-)]
-#![cfg_attr(
-    feature = "files",
-    doc = "| [`picture`] | UV layouts and distortion as PNG, pictures with transparency |"
-)]
-#![cfg_attr(
-    feature = "files",
-    doc = "| [`bake`] | textures resampled from one UV map of a surface to another |"
-)]
+//! | [`document`] | glTF, OBJ and others, with everything else preserved |
+//! | [`picture`] | UV layouts and distortion as PNG, pictures with transparency |
+//! | [`bake`] | textures resampled from one UV map of a surface to another |
 //! | [`deform`] | bodies of the plane and of space pulled by handles, at once or in a session, an iteration at a time; from pictures, drawings and surfaces in cages |
 //! | [`pipeline`] | every application as a function from arrays or a file's bytes to files' bytes and a report |
 #![cfg_attr(
@@ -244,41 +235,12 @@
 //! 5. Whoever has no key for it learns nothing of what others made, not even that it exists.
 //! 6. No input makes the process panic, hang, read a file or open a connection it was not given, or exceed its memory.
 
-pub mod options;
-
-pub mod numerics;
-
-pub mod mesh;
-
-pub mod plane;
-
-pub mod cut;
-
-pub mod energy;
-
-pub mod barrier;
-
-pub mod solver;
-
-pub mod embed;
-
-pub mod charts;
-
-pub mod atlas;
-
-pub mod certificate;
-
-pub mod measure;
-
-#[cfg(feature = "files")]
-pub mod document;
-#[cfg(feature = "files")]
-pub mod picture;
-
-#[cfg(feature = "files")]
-pub mod bake;
-
-pub mod deform;
+pub use unwrapd_api::options;
+pub use unwrapd_deform as deform;
+pub use unwrapd_files::{bake, document, io, picture, polygon};
+pub use unwrapd_layout::{atlas, charts};
+pub use unwrapd_maps::{certificate, cut, embed, measure, mesh, plane};
+pub use unwrapd_method::{barrier, energy, numerics, solver};
 
 pub mod pipeline;
 

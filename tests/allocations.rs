@@ -1,6 +1,6 @@
 //! The loops of the solver allocate nothing: counted over the whole process, from one iterate to the next.
 
-#[path = "core/bodies.rs"]
+#[path = "support/bodies.rs"]
 mod bodies;
 
 use std::sync::{Barrier, Mutex};
@@ -9,10 +9,10 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
-use unwrapd::deform::{Body, Handle, Model, Problem};
-use unwrapd::embed::{Options, parameterize};
-use unwrapd::mesh::{Disk, PlanarMesh};
-use unwrapd::solver::{Control, Iterate, Settings, Watch};
+use unwrapd_deform::{Body, Handle, Model, Problem};
+use unwrapd_maps::embed::{Options, parameterize};
+use unwrapd_maps::mesh::{Disk, PlanarMesh};
+use unwrapd_method::solver::{Control, Iterate, Settings, Watch};
 
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;

@@ -1,6 +1,6 @@
 //! Files that are made to use up memory or time: what they take is counted in bytes and in what is left undone, not in seconds.
 
-#[path = "core/document/build.rs"]
+#[path = "support/build.rs"]
 #[allow(dead_code)]
 mod build;
 

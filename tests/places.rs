@@ -5,8 +5,12 @@ use std::path::PathBuf;
 
 /// A file or folder of the repository.
 pub fn repository(path: &str) -> PathBuf {
-    let root = std::env::var_os("CARGO_MANIFEST_DIR").expect("tests are run by cargo");
-    PathBuf::from(root).join(path)
+    let member = std::env::var_os("CARGO_MANIFEST_DIR").expect("tests are run by cargo");
+    let member = PathBuf::from(member);
+    let root = member
+        .ancestors()
+        .find(|folder| folder.join("Cargo.lock").is_file());
+    root.expect("the root has the lock file").join(path)
 }
 
 /// A file of the tests' own.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 use super::list_error::ListError;
-use crate::document::OutputFormat;
+use unwrapd_files::document::OutputFormat;
 
 /// One input file and the place of its output.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! What an output follows from, as one digest.
 
 use super::worker::Extra;
-use crate::document::Upload;
 use crate::jobs::Digest;
 use crate::pipeline::{Options, Workers};
+use unwrapd_files::document::Upload;
 
 /// What all assets of a run have in common.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::asset::{self, Asset};
 use super::list_error::ListError;
-use crate::document::OutputFormat;
-use crate::mesh::io::{Content, Format};
+use unwrapd_files::document::OutputFormat;
+use unwrapd_files::io::{Content, Format};
 
 /// The assets of a folder, sorted by path.
 #[derive(Debug, Default)]

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::asset::{self, Asset, is_inside, plain};
 use super::list_error::ListError;
-use crate::document::OutputFormat;
+use unwrapd_files::document::OutputFormat;
 
 /// The assets of a manifest, in its order. Each line is the path of an input, counted from `root`,
 /// and, after a tab, the path of its output within the output folder. Without one the output is named

@@ -15,8 +15,8 @@ use super::regular::read_regular;
 use super::row::{Row, Status};
 use super::trouble::{Trouble, unwritten};
 use super::worker::{Task, Worker};
-use crate::document::Upload;
 use crate::jobs::Failure;
+use unwrapd_files::document::Upload;
 
 /// Does an asset unless that was done before.
 pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate) {

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::time::Duration;
 
-use crate::document::Upload;
 use crate::jobs::Failure;
+use unwrapd_files::document::Upload;
 
 /// What is written beside an output if it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

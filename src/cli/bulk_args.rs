@@ -6,10 +6,10 @@ use super::console::warn_of;
 use super::failure::Failure;
 use super::input::{folder, read_file};
 use crate::bulk::{self, Asset, Extra, ShardChoice, array_variable};
-use crate::document::OutputFormat;
 use crate::jobs::Gates;
-use crate::options::help_of;
 use crate::pipeline::{CommandOptions, GivenSeams, NamedSeams, Options};
+use unwrapd_api::options::help_of;
+use unwrapd_files::document::OutputFormat;
 
 /// The arguments of commands over many files.
 #[derive(clap::Args)]

@@ -10,7 +10,7 @@ use super::{
     batch, check, completions, config, console, deform, drain, edit_uv, health, keys, man, measure,
     queue, repack, serve, solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
 };
-use crate::options::as_typed;
+use unwrapd_api::options::as_typed;
 
 /// The exit statuses of all commands. The README and the description of the HTTP API repeat them.
 pub const EXIT_STATUSES: &str = "\

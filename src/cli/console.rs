@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 pub(super) use super::escaping::{escaped, one_line};
 use super::failure::Failure;
-use crate::document::Warning;
+use unwrapd_files::document::Warning;
 
 /// Where lines about a result go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,11 +4,11 @@ use std::io::Write;
 
 use super::escaping::escaped;
 use crate::bulk::{ListError, RemoteError};
-use crate::deform::ProblemError;
-use crate::deform::uv::EditError;
-use crate::deform::warp::WarpError;
-use crate::options::as_typed;
 use crate::pipeline::{Completion, PipelineError};
+use unwrapd_api::options::as_typed;
+use unwrapd_deform::ProblemError;
+use unwrapd_deform::uv::EditError;
+use unwrapd_deform::warp::WarpError;
 
 /// Why a command ended, in one line, and its exit status.
 #[derive(Debug)]

@@ -6,9 +6,9 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::output::is_stream;
-use crate::document::OutputFormat;
-use crate::mesh::io::Format;
 use crate::pipeline::BodyFormat;
+use unwrapd_files::document::OutputFormat;
+use unwrapd_files::io::Format;
 
 /// The format of a document to write.
 pub(super) fn output_format(

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use crate::bulk::{MOST_BYTES, read_bounded, read_regular};
-use crate::document::Upload;
+use unwrapd_files::document::Upload;
 
 /// A file that has UVs.
 #[derive(clap::Args)]

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::failure::Failure;
 use super::output::{Talk, write_whole};
 use crate::pipeline::{Observer, Progress, Stage};
-use crate::solver::Control;
+use unwrapd_method::solver::Control;
 
 /// Steps of the bar.
 const STEPS: u64 = 1000;

@@ -1,9 +1,9 @@
 //! Atlases in a table: at most ten lines and totals.
 
 use super::console::{one_line, say};
-use crate::certificate::Certificate;
-use crate::measure::Page;
 use crate::pipeline::{GroupReport, stretch_percent};
+use unwrapd_maps::certificate::Certificate;
+use unwrapd_maps::measure::Page;
 
 /// Lines at most, without those of the head and the totals.
 const LINES: usize = 10;

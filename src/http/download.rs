@@ -10,7 +10,7 @@ use super::App;
 use super::missing::job_not_found;
 use super::problem::{Code, Problem};
 use crate::jobs::{InputFile, Job, OutputFile, Picture, Undrawn};
-use crate::mesh::io::Format;
+use unwrapd_files::io::Format;
 
 /// Formats whose media types are answered with, as the `OpenAPI` document says; files of others are bytes.
 const TYPED: [Format; 7] = [

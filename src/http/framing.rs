@@ -12,7 +12,7 @@ use serde::de::IgnoredAny;
 
 use super::problem::{Code, Problem};
 use crate::jobs::{Failure, Kind};
-use crate::mesh::io::{Format, SEARCHED_BYTES, without_mark};
+use unwrapd_files::io::{Format, SEARCHED_BYTES, without_mark};
 
 /// Whether a name ends like those of a kind's files.
 pub(super) fn is_named(name: &str, kind: Kind) -> bool {

@@ -6,8 +6,8 @@ use serde_json::{Map, Value};
 
 use super::handling::{Said, once};
 use super::problem::{Code, Problem};
-use crate::deform::from_json;
 use crate::jobs::{Failure, Kind, Work};
+use unwrapd_deform::from_json;
 
 /// What the query of an upload says.
 #[derive(Default)]

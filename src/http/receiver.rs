@@ -17,8 +17,8 @@ use super::problem::{Code, Problem};
 use super::received::Received;
 use super::references::referenced;
 use super::unpack::{self, Files};
-use crate::deform::from_json;
 use crate::jobs::{InputFile, Kind, Scratch};
+use unwrapd_deform::from_json;
 
 /// Bytes of the name of the input: answers name their files after it, in a header.
 const MAX_INPUT_NAME: usize = 255;

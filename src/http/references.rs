@@ -7,10 +7,10 @@ use std::sync::{Mutex, PoisonError};
 use serde_json::Value;
 
 use super::problem::Problem;
-use crate::document::Upload;
 use crate::jobs::Kind;
-use crate::mesh::io::{Content, Format};
 use crate::pipeline::START;
+use unwrapd_files::document::Upload;
+use unwrapd_files::io::{Content, Format};
 
 /// Held while an input is in memory to look for what it refers to: it may be as large as an upload.
 static LOOKING: Mutex<()> = Mutex::new(());

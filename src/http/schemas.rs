@@ -7,12 +7,12 @@ use utoipa::ToSchema;
 use utoipa::openapi::{RefOr, Schema};
 
 use super::session_input::JobFile;
-use crate::deform::ProblemFile;
 use crate::jobs::{Event, Kind, Order};
 use crate::pipeline::{
     DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, RepackOptions,
     Report, SolveOptions, Verified, VerifyOptions, WarpOptions, WarpReport,
 };
+use unwrapd_deform::ProblemFile;
 
 /// Schemas that no handler names, with those that they refer to.
 pub(super) fn schemas() -> Vec<(String, RefOr<Schema>)> {

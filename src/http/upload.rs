@@ -16,7 +16,7 @@ use super::received::Received;
 use super::receiver::Receiver;
 use super::steady::{Steady, Tardy, Tempo};
 use crate::jobs::{JobId, Kind};
-use crate::mesh::io::{Content, Format};
+use unwrapd_files::io::{Content, Format};
 
 /// How long the rest of a refused body is waited for. What comes later finds the connection closed.
 const DRAIN_TIME: Duration = Duration::from_secs(1);

@@ -4,8 +4,8 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::problem::Problem;
-use crate::document::Warning;
 use crate::jobs::{Event, Job, Kind, Metadata, OutputFile, Settings, Timestamp};
+use unwrapd_files::document::Warning;
 
 /// A job: request, state and outcome.
 #[derive(Serialize, utoipa::ToSchema)]

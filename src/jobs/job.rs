@@ -17,7 +17,7 @@ use super::state::State;
 use super::timestamp::Timestamp;
 use super::webhook::Webhook;
 use super::worth::Worth;
-use crate::document::Warning;
+use unwrapd_files::document::Warning;
 
 /// Names a job; ids sort by the time of their making (UUID version 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

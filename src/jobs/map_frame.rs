@@ -14,8 +14,8 @@
 //! Faces are those of the welded surface in the order in which it is cut. Where there are too many to be drawn, every 2ⁿ-th follows. Seams of large charts are
 //! planned on a simplification: each face of a plan stands for one near it.
 
-use crate::charts::MapUnderway;
-use crate::numerics::predicates::orient2d_sign;
+use unwrapd_layout::charts::MapUnderway;
+use unwrapd_method::numerics::predicates::orient2d_sign;
 
 /// Bytes before the maps of a frame.
 pub(super) const HEADER: usize = 16;

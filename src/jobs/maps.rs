@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::map_frame::{self, ChartKey};
 use super::task::Message;
-use crate::charts::MapUnderway;
+use unwrapd_layout::charts::MapUnderway;
 
 /// The file of the latest frame in the folder of an attempt.
 pub(super) const MAPS: &str = "maps";

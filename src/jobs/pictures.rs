@@ -30,10 +30,10 @@ use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
 use super::task::{self, input_file, output_file};
 use super::transition::Happening;
-use crate::document::Upload;
-use crate::mesh::io::Format;
-use crate::picture::thumbnail_png;
 use crate::pipeline::{self, AtlasPicture, PipelineError};
+use unwrapd_files::document::Upload;
+use unwrapd_files::io::Format;
+use unwrapd_files::picture::thumbnail_png;
 
 /// The files of a [`Drawing`] and of what is drawn, in the folder of a child.
 const DRAWING: &str = "drawing.json";

@@ -12,9 +12,9 @@ use super::maps::Maps;
 use super::pace::Pace;
 use super::progress::Progress;
 use super::task::Message;
-use crate::charts::MapUnderway;
 use crate::pipeline::{self, Observer};
-use crate::solver::Control;
+use unwrapd_layout::charts::MapUnderway;
+use unwrapd_method::solver::Control;
 
 /// Least time between two reports of one stage.
 const TELL_INTERVAL: Duration = Duration::from_millis(25);

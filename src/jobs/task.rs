@@ -14,8 +14,8 @@ use super::input_output::OutputFile;
 use super::job::Verdict;
 use super::kind::Kind;
 use super::progress::Progress;
-use crate::document::Upload;
 use crate::pipeline::Limits;
+use unwrapd_files::document::Upload;
 
 /// The file of a [`Task`].
 pub const TASK: &str = "job.json";

@@ -8,12 +8,12 @@ use super::job::Verdict;
 use super::kind::Kind;
 use super::task::Pictures;
 use super::worth::Worth;
-use crate::document::{Upload, Warning};
 use crate::pipeline::{
     self, AtlasPicture, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits,
     MeasureOptions, Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions,
     WarpOptions,
 };
+use unwrapd_files::document::{Upload, Warning};
 
 /// What a job leaves.
 pub(super) struct Made {

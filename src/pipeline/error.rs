@@ -1,22 +1,16 @@
 //! Why a file could not be worked on.
 
 use super::island_error::IslandError;
-use crate::atlas::{AtlasError, Enough};
-use crate::deform::ProblemError;
-use crate::deform::cage::CageError;
-#[cfg(feature = "files")]
-use crate::deform::outline::OutlineError;
-#[cfg(feature = "files")]
-use crate::deform::uv::EditError;
-#[cfg(feature = "files")]
-use crate::deform::warp::WarpError;
-#[cfg(feature = "files")]
-use crate::document::DocumentError;
-#[cfg(feature = "files")]
-use crate::mesh::io::ReadError;
-use crate::mesh::{ElementError, MeshError};
-#[cfg(feature = "files")]
-use crate::picture::ImageError;
+use unwrapd_deform::ProblemError;
+use unwrapd_deform::cage::CageError;
+use unwrapd_deform::outline::OutlineError;
+use unwrapd_deform::uv::EditError;
+use unwrapd_deform::warp::WarpError;
+use unwrapd_files::document::DocumentError;
+use unwrapd_files::io::ReadError;
+use unwrapd_files::picture::ImageError;
+use unwrapd_layout::atlas::{AtlasError, Enough};
+use unwrapd_maps::mesh::{ElementError, MeshError};
 
 /// Why a file could not be worked on. Every variant has a stable [`code`](Self::code).
 #[derive(Debug, thiserror::Error)]
@@ -28,7 +22,6 @@ pub enum PipelineError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// The file cannot be read or written.
-    #[cfg(feature = "files")]
     #[error(transparent)]
     Document(#[from] DocumentError),
     /// More triangles than the limits allow.
@@ -75,19 +68,15 @@ pub enum PipelineError {
     #[error(transparent)]
     Islands(#[from] IslandError),
     /// The UVs that were to be written have flips where none were promised: a mistake of this program, found by the certificate.
-    #[cfg(feature = "files")]
     #[error("nothing was written because the result is not valid: {0}")]
     NotValid(String),
     /// The UVs cannot be edited.
-    #[cfg(feature = "files")]
     #[error(transparent)]
     Edit(#[from] EditError),
     /// The picture or drawing gives no mesh.
-    #[cfg(feature = "files")]
     #[error(transparent)]
     Outline(#[from] OutlineError),
     /// The picture cannot be warped.
-    #[cfg(feature = "files")]
     #[error(transparent)]
     Warp(#[from] WarpError),
     /// Handles were pulled to a map with an inverted element.
@@ -115,13 +104,9 @@ impl PipelineError {
             Self::Mesh(MeshError::IndexOutOfRange { .. }) => "index_out_of_range",
             Self::Mesh(MeshError::NonFinitePosition { .. }) => "non_finite_position",
             Self::Mesh(MeshError::TooLarge) | Self::TooManyTriangles { .. } => "limit_exceeded",
-            #[cfg(feature = "files")]
             Self::Document(error) => error.code(),
-            #[cfg(feature = "files")]
             Self::Edit(error) => error.code(),
-            #[cfg(feature = "files")]
             Self::Outline(error) => error.code(),
-            #[cfg(feature = "files")]
             Self::Warp(error) => error.code(),
             Self::Seams(_) => "invalid_seams",
             Self::UnknownMaterial(_) => "unknown_material",
@@ -132,7 +117,6 @@ impl PipelineError {
             Self::TextureTooSmall(_) => "texture_too_small",
             Self::Islands(error) => error.code(),
             Self::Atlas(_) | Self::Inverted | Self::Crossed => "no_valid_result",
-            #[cfg(feature = "files")]
             Self::NotValid(_) => "no_valid_result",
             Self::Threads(_) => "internal_error",
         }
@@ -161,10 +145,8 @@ impl PipelineError {
             | Self::Seams(_)
             | Self::UnknownMaterial(_)
             | Self::NoUvs { .. } => 3,
-            #[cfg(feature = "files")]
             Self::Document(_) | Self::Edit(_) | Self::Outline(_) | Self::Warp(_) => 3,
             Self::Atlas(_) | Self::Inverted | Self::Crossed => 4,
-            #[cfg(feature = "files")]
             Self::NotValid(_) => 4,
             Self::Threads(_) => 1,
         }
@@ -179,7 +161,6 @@ impl From<ElementError> for PipelineError {
 }
 
 /// A file of elements that cannot be read.
-#[cfg(feature = "files")]
 impl From<ReadError> for PipelineError {
     fn from(error: ReadError) -> Self {
         ProblemError::from(error).into()
@@ -187,7 +168,6 @@ impl From<ReadError> for PipelineError {
 }
 
 /// A picture that cannot be read.
-#[cfg(feature = "files")]
 impl From<ImageError> for PipelineError {
     fn from(error: ImageError) -> Self {
         WarpError::from(error).into()

@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::PipelineError;
-use crate::document::Document;
+use unwrapd_files::document::Document;
 
 /// Limits set by the operator, beside the options of the user. Absent limits do not apply.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(default)]
 pub struct Limits {
     /// Maximum number of triangles or tetrahedra; larger documents are refused.

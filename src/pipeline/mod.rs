@@ -26,23 +26,14 @@ mod options;
 mod portion;
 mod tracker;
 
-#[cfg(feature = "files")]
 mod deform;
-#[cfg(feature = "files")]
 mod documents;
-#[cfg(feature = "files")]
 mod edit;
-#[cfg(feature = "files")]
 mod judge;
-#[cfg(feature = "files")]
 mod limits;
-#[cfg(feature = "files")]
 mod meshes;
-#[cfg(feature = "files")]
 mod rebake;
-#[cfg(feature = "files")]
 mod start;
-#[cfg(feature = "files")]
 mod stop_watch;
 
 pub use arrays::placement::Placement;
@@ -55,67 +46,37 @@ pub use island_error::IslandError;
 pub use observer::{Observer, Progress, Stage, Unobserved};
 pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
 
-#[cfg(feature = "files")]
 pub use deform::cage_report::CageReport;
-#[cfg(feature = "files")]
 pub use deform::caged::{CageOptions, CagedDocument, Surfaces};
-#[cfg(feature = "files")]
 pub use deform::file::deform_file;
-#[cfg(feature = "files")]
 pub use deform::formats::BodyFormat;
-#[cfg(feature = "files")]
 pub use deform::held::{HeldBody, Skin, hold_body, hold_picture};
-#[cfg(feature = "files")]
 pub use deform::missed::Completion;
-#[cfg(feature = "files")]
 pub use deform::pull_report::PullReport;
-#[cfg(feature = "files")]
 pub use deform::solution::{DeformReport, Deformed};
-#[cfg(feature = "files")]
 pub use deform::solve::{solve_file, solve_problem};
-#[cfg(feature = "files")]
 pub use deform::warp::{WarpReport, WarpedPicture, warp_file};
-#[cfg(feature = "files")]
 pub use documents::pictures::{AtlasPicture, Pictures, ReportOfAtlas};
-#[cfg(feature = "files")]
 pub use documents::repack::repack_document;
-#[cfg(feature = "files")]
 pub use documents::texel_weight::TexelWeight;
-#[cfg(feature = "files")]
 pub use documents::unwrap::{Outcome, unwrap_document};
-#[cfg(feature = "files")]
 pub use documents::uv_arrays::UvArrays;
-#[cfg(feature = "files")]
 pub use edit::held::hold_uvs;
-#[cfg(feature = "files")]
 pub use edit::report::{ChartEditReport, EditReport};
-#[cfg(feature = "files")]
 pub use edit::uvs::{EditedDocument, edit_document};
-#[cfg(feature = "files")]
 pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
-#[cfg(feature = "files")]
 pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
-#[cfg(feature = "files")]
 pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
-#[cfg(feature = "files")]
 pub use judge::verify::{Judged, Verified, VerifiedGroup, measure_document, verify_document};
-#[cfg(feature = "files")]
 pub use limits::Limits;
-#[cfg(feature = "files")]
 pub use meshes::arrays::MeshArrays;
-#[cfg(feature = "files")]
 pub use meshes::judged::{measure_meshes, verify_meshes};
-#[cfg(feature = "files")]
 pub use meshes::unwrap::{UnwrappedMeshes, repack_meshes, unwrap_meshes};
-#[cfg(feature = "files")]
 pub use meshes::welded::WeldedUvs;
-#[cfg(feature = "files")]
 pub use options::{
     Baking, Caller, CommandOptions, Course, DeformOptions, EditOptions, Editing, GivenSeams,
     Island, MeasureOptions, NamedSeams, Options, Preset, Pulling, RepackOptions, Sets,
     SolveOptions, VerifyOptions, WarpOptions,
 };
-#[cfg(feature = "files")]
 pub use rebake::ImageFormat;
-#[cfg(feature = "files")]
 pub use start::{START, start_file};

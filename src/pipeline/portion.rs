@@ -4,8 +4,8 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use super::tracker::Tracker;
-use crate::charts::{self, MapUnderway};
-use crate::solver::{Control, Iterate};
+use unwrapd_layout::charts::{self, MapUnderway};
+use unwrapd_method::solver::{Control, Iterate};
 
 /// A part of the work of a stage, of which it is known about how much it takes.
 ///

@@ -1,8 +1,8 @@
 //! Maps at which work starts, as files beside its input.
 
-use crate::deform::ProblemError;
-use crate::document::Upload;
 use crate::pipeline::PipelineError;
+use unwrapd_deform::ProblemError;
+use unwrapd_files::document::Upload;
 
 /// The name of the file beside an input that says where vertices are when handles begin to pull: coordinates one after another,
 /// `f64`, little-endian.

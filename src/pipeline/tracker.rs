@@ -5,10 +5,9 @@ use std::time::Duration;
 
 use super::observer::{Observer, Progress, Stage};
 use super::options::Budget;
-use crate::charts::MapUnderway;
-#[cfg(feature = "files")]
-use crate::document::Warning;
-use crate::solver::{Control, Iterate, Watch};
+use unwrapd_files::document::Warning;
+use unwrapd_layout::charts::MapUnderway;
+use unwrapd_method::solver::{Control, Iterate, Watch};
 
 /// Turns the work that is done into a fraction that never falls, and applies the time budget.
 pub(super) struct Tracker<'a> {
@@ -165,7 +164,6 @@ impl<'a> Tracker<'a> {
     }
 
     /// Shows the map of an iteration.
-    #[cfg(feature = "files")]
     pub(super) fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
         self.observer.frame(number, file);
     }
@@ -193,7 +191,6 @@ impl<'a> Tracker<'a> {
     }
 
     /// Tells users that the work ended early, if it did.
-    #[cfg(feature = "files")]
     pub(super) fn warning(&self) -> Option<Warning> {
         let cause = match (self.state().ended?, self.time_budget) {
             (EarlyEnd::OutOfTime, Some(limit)) => {

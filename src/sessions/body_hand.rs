@@ -6,11 +6,11 @@ use super::frame::{Drawn, Elements};
 use super::hand::{Hand, check_model, parsed};
 use super::message::Named;
 use super::names::Names;
-use crate::deform::warp::PictureHandle;
-use crate::deform::{Handle, HandleId, Model, ProblemError};
 use crate::jobs::Failure;
 use crate::pipeline::HeldBody;
-use crate::solver::Stage;
+use unwrapd_deform::warp::PictureHandle;
+use unwrapd_deform::{Handle, HandleId, Model, ProblemError};
+use unwrapd_method::solver::Stage;
 
 /// How handles are written.
 #[derive(Clone, Copy, PartialEq, Eq)]

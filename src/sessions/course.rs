@@ -8,13 +8,13 @@ use super::frame::{self, Header};
 use super::hand::{Hand, check_model};
 use super::message::{Message, Reply, Wish};
 use super::uv_hand::UvHand;
-use crate::document::Upload;
 use crate::jobs::{Failure, Kind};
 use crate::pipeline::{
     CommandOptions, DeformOptions, EditOptions, Editing, Limits, PipelineError, WarpOptions,
     hold_body, hold_picture, hold_uvs,
 };
-use crate::solver::Stage;
+use unwrapd_files::document::Upload;
+use unwrapd_method::solver::Stage;
 
 /// All that a session does. It depends on nothing but the input and the messages, and on which iterations these come before.
 pub struct Course {

@@ -16,10 +16,10 @@
 //!                                                      of the skin's vertices u32; their weights f32
 //! ```
 
-use crate::deform::{Body, BodyElements};
-use crate::numerics::predicates::{orient2d_sign, orient3d_sign};
 use crate::pipeline::Skin;
-use crate::solver::Stage;
+use unwrapd_deform::{Body, BodyElements};
+use unwrapd_method::numerics::predicates::{orient2d_sign, orient3d_sign};
+use unwrapd_method::solver::Stage;
 
 /// The first byte of a mesh.
 const MESH: u8 = 1;

@@ -5,10 +5,10 @@ use serde_json::Value;
 
 use super::frame::{Drawn, Elements};
 use super::message::Named;
-use crate::barrier::BarrierKind;
-use crate::deform::Model;
 use crate::jobs::Failure;
-use crate::solver::Stage;
+use unwrapd_deform::Model;
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::solver::Stage;
 
 /// A body or UVs in the hand of a client, who names handles.
 pub(super) trait Hand: Send {

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::deform::Model;
 use crate::jobs::Failure;
+use unwrapd_deform::Model;
 
 /// One message of a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -6,10 +6,10 @@ use super::frame::{Drawn, Elements};
 use super::hand::{Hand, check_model, parsed};
 use super::message::Named;
 use super::names::Names;
-use crate::deform::Model;
-use crate::deform::uv::{Anchor, AnchorId, EditError, UvSession};
 use crate::jobs::Failure;
-use crate::solver::Stage;
+use unwrapd_deform::Model;
+use unwrapd_deform::uv::{Anchor, AnchorId, EditError, UvSession};
+use unwrapd_method::solver::Stage;
 
 /// UVs in the hand.
 pub(super) struct UvHand {

@@ -16,8 +16,8 @@ use std::hint::black_box;
 
 use clock::Clock;
 use unwrapd::deform::{Body, Handle, Model, Problem};
+use unwrapd::io::gmsh;
 use unwrapd::mesh::PlanarMesh;
-use unwrapd::mesh::io::gmsh;
 use unwrapd::solver::{Control, Iterate, Objective, Settings};
 
 /// Name, and formula in the plane and in space.

@@ -15,8 +15,8 @@ use std::hint::black_box;
 
 use clock::Clock;
 use unwrapd::deform::{Body, Handle, HandleId, Model, Problem, Session};
+use unwrapd::io::gmsh;
 use unwrapd::mesh::PlanarMesh;
-use unwrapd::mesh::io::gmsh;
 use unwrapd::solver::{Control, Iterate, Objective, Settings, Stage};
 
 /// Without arguments.

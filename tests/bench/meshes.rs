@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use unwrapd::io::{obj, off, ply, stl};
 use unwrapd::mesh::Surface;
-use unwrapd::mesh::io::{obj, off, ply, stl};
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
 

@@ -19,7 +19,7 @@ use std::hint::black_box;
 use clock::{Clock, Seconds, peak_megabytes};
 use unwrapd::deform::cage::{Cage, Caged, CagedSurface};
 use unwrapd::deform::{Body, DeformationEnergy, Handle, Model, Problem, Solution};
-use unwrapd::mesh::io::gmsh;
+use unwrapd::io::gmsh;
 use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::solver::{Control, Iterate, Objective, Settings};
 

@@ -5,14 +5,14 @@
 //! turned three times, with its elements in three other orders, and all of that at once. Tells for each problem its energy, by how
 //! much the others differ from it at worst, iterations, the fewest and the most of the others, and which pose differs most.
 
-#[path = "../core/elsewhere.rs"]
+#[path = "../deform/elsewhere.rs"]
 mod elsewhere;
 
 use std::path::{Path, PathBuf};
 
 use elsewhere::{Elsewhere, HERE};
 use unwrapd::deform::{Problem, ProblemFile, Solution, Units};
-use unwrapd::mesh::io::ElementFormat;
+use unwrapd::io::ElementFormat;
 use unwrapd::solver::{Control, Iterate, Settings};
 
 const PROBLEMS: [&str; 20] = [

@@ -2,10 +2,10 @@
 //!
 //! `cargo run --release --example own_density`
 
-use unwrapd::barrier::{Barrier, BarrierKind};
-use unwrapd::energy::{Density, RestShape, Triangles};
-use unwrapd::numerics::square::Matrix;
-use unwrapd::solver::{Control, Handles, Iterate, Objective, Settings, follow};
+use unwrapd_method::barrier::{Barrier, BarrierKind};
+use unwrapd_method::energy::{Density, RestShape, Triangles};
+use unwrapd_method::numerics::square::Matrix;
+use unwrapd_method::solver::{Control, Handles, Iterate, Objective, Settings, follow};
 
 /// ψ = Σᵢ cosh(k(σᵢ − 1)) − 1: soft near rest, stiff far from it.
 struct Stiffening {

@@ -3,11 +3,11 @@
 //!
 //! `cargo run --release --example own_term`
 
-use unwrapd::barrier::{Barrier, BarrierKind};
-use unwrapd::energy::{Assembly, RestShape, Term, Triangles, Zero};
-use unwrapd::numerics::square::{Matrix, identity};
-use unwrapd::numerics::stencils::Stencils;
-use unwrapd::solver::{Control, Iterate, Objective, Settings, minimize};
+use unwrapd_method::barrier::{Barrier, BarrierKind};
+use unwrapd_method::energy::{Assembly, RestShape, Term, Triangles, Zero};
+use unwrapd_method::numerics::square::{Matrix, identity};
+use unwrapd_method::numerics::stencils::Stencils;
+use unwrapd_method::solver::{Control, Iterate, Objective, Settings, minimize};
 
 /// ½ Σ A‖J − T‖²: every triangle wants a Jacobian of its own. Quadratic, so its Hessian needs no projection.
 struct TargetJacobians {

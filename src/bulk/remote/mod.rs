@@ -15,8 +15,8 @@ use reqwest::{Method, Url};
 
 use super::trouble::Trouble;
 use super::worker::{Extra, Task, Worker};
-use crate::document::Upload;
 use crate::jobs::{Failure, output_file};
+use unwrapd_files::document::Upload;
 
 pub use client::RemoteError;
 use client::{Client, answered, unreadable};

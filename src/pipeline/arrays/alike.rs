@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use super::seams::Seams;
-use crate::mesh::Surface;
-use crate::numerics::vec3::{cross, dot, norm, sub};
+use unwrapd_maps::mesh::Surface;
+use unwrapd_method::numerics::vec3::{cross, dot, norm, sub};
 
 /// How far numbers of f32 may be off after a motion, in units of the largest coordinate: a few roundings of 2⁻²⁴.
 const ROUNDINGS: f64 = 8.0 / 16_777_216.0;

@@ -7,12 +7,12 @@ use super::placement::Placement;
 use super::plan::Plan;
 use super::settings::Settings;
 use super::soup::Soup;
-use crate::atlas::{AroundError, Atlas, OnRead, Stay, pack_around};
-use crate::charts::MappedChart;
-use crate::mesh::{CornerUvs, Resolution};
-use crate::numerics::bounds::bounds_of;
 use crate::pipeline::PipelineError;
 use crate::pipeline::island_error::IslandError;
+use unwrapd_layout::atlas::{AroundError, Atlas, OnRead, Stay, pack_around};
+use unwrapd_layout::charts::MappedChart;
+use unwrapd_maps::mesh::{CornerUvs, Resolution};
+use unwrapd_method::numerics::bounds::bounds_of;
 
 /// The charts around those that `placed` says where to put: first those that are packed, then those that stay.
 pub fn arranged(

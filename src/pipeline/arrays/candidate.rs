@@ -1,10 +1,10 @@
 //! Charts to choose from, and the search for the fullest layout of any.
 
 use super::chart_maps::chart_maps;
-use crate::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead};
-use crate::charts::MappedChart;
 use rayon::prelude::*;
 use std::sync::Arc;
+use unwrapd_layout::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead};
+use unwrapd_layout::charts::MappedChart;
 
 /// What cuts may cost at most, as a share of the square.
 pub const MOST_COST: f64 = 1.0;

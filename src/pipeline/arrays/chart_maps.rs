@@ -1,7 +1,7 @@
 //! Charts as the packer sees them.
 
-use crate::atlas::ChartMap;
-use crate::charts::MappedChart;
+use unwrapd_layout::atlas::ChartMap;
+use unwrapd_layout::charts::MappedChart;
 
 /// Charts as the packer sees them.
 pub fn chart_maps<'a>(charts: impl IntoIterator<Item = &'a MappedChart>) -> Vec<ChartMap<'a>> {

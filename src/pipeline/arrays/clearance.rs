@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::atlas::{ChartMap, cleared};
-use crate::charts::MappedChart;
+use unwrapd_layout::atlas::{ChartMap, cleared};
+use unwrapd_layout::charts::MappedChart;
 
 /// How far tools that round to `bits` may move a coordinate of the unit square: half a step of
 /// theirs, and what storing the result in 16 bits may add.

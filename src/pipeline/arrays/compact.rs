@@ -3,9 +3,9 @@
 use super::candidate::{Candidate, LOOKS, LOOKS_FURTHER, Search, wanted_words};
 use super::chart_maps::chart_maps;
 use super::cutter::{Cutter, WORDS_PER_CUT};
-use crate::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead, Scale, Texture};
-use crate::charts::MappedChart;
 use std::sync::Arc;
+use unwrapd_layout::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead, Scale, Texture};
+use unwrapd_layout::charts::MappedChart;
 
 /// Candidates at most for each page beside the charts as they are, in all and for each chart that there was. There are as many in
 /// all where the charts were cut for one page less before.

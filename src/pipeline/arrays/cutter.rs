@@ -2,11 +2,11 @@
 
 use super::candidate::{Candidate, MOST_COST, Search};
 use super::expected_fill::{Extent, expected_fill};
-use crate::atlas::{AtlasError, Draft, OnRead, Scale, Texture};
-use crate::charts::{MappedChart, Split, parted_alike, seam_length};
-use crate::solver::Control;
 use rayon::prelude::*;
 use std::sync::Arc;
+use unwrapd_layout::atlas::{AtlasError, Draft, OnRead, Scale, Texture};
+use unwrapd_layout::charts::{MappedChart, Split, parted_alike, seam_length};
+use unwrapd_method::solver::Control;
 
 /// The share of a page that new seams must gain if they are as long as those there are. Where those are shorter than the square
 /// root of the surface's area, that counts as their length.

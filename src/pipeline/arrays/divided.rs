@@ -10,10 +10,10 @@ use super::plan::Plan;
 use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::{Piece, Soup};
-use crate::charts::MappedChart;
-use crate::mesh::{Defects, Surface, canonical_order};
 use crate::pipeline::PipelineError;
 use crate::pipeline::tracker::Tracker;
+use unwrapd_layout::charts::MappedChart;
+use unwrapd_maps::mesh::{Defects, Surface, canonical_order};
 
 /// How much a size may differ from 1 where a density is given.
 const SAME_SIZE: f64 = 1e-6;

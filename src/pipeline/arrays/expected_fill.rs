@@ -1,7 +1,7 @@
 //! How full an atlas is going to be, told by its charts alone.
 
-use crate::charts::MappedChart;
-use crate::numerics::support::{Directions, Support};
+use unwrapd_layout::charts::MappedChart;
+use unwrapd_method::numerics::support::{Directions, Support};
 
 /// The fill changes with the area of the hulls; with the excess of the largest square around a chart over a limit; and with the root of
 /// the sum of squared areas and the sum of areas to the power 3/2, which are small where charts are many and alike. All areas are

@@ -5,13 +5,13 @@ use std::cmp::Reverse;
 
 use super::plan::{Plan, Refinement, Start};
 use super::seams::Seams;
-use crate::charts::{
+use crate::pipeline::portion::Portion;
+use crate::pipeline::tracker::Tracker;
+use unwrapd_layout::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
     given_back, map_chart, map_chart_from,
 };
-use crate::mesh::{CornerUvs, Resolution, Surface};
-use crate::pipeline::portion::Portion;
-use crate::pipeline::tracker::Tracker;
+use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
 
 /// What UVs were made for of which that is not known.
 const SQUARE: Resolution = Resolution::square(1);

@@ -6,10 +6,12 @@ use super::chart_maps::chart_maps;
 use super::clearance::open_charts;
 use super::compact::{Before, Drafted, MOST_CHARTS, compacted};
 use super::plan::Plan;
-use crate::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale, Turns};
-use crate::charts::{Folds, MappedChart};
 use crate::pipeline::PipelineError;
-use crate::solver::Control;
+use unwrapd_layout::atlas::{
+    self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale, Turns,
+};
+use unwrapd_layout::charts::{Folds, MappedChart};
+use unwrapd_method::solver::Control;
 
 /// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
 /// another scale rounds it differently.

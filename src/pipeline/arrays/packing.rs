@@ -4,8 +4,8 @@ use super::clearance::texels_apart;
 use super::compact::{self, MOST_CHARTS};
 use super::plan::{Plan, Search};
 use super::settings::Settings;
-use crate::atlas::{AtlasOptions, Look, Scale, Texture};
-use crate::charts::MappedChart;
+use unwrapd_layout::atlas::{AtlasOptions, Look, Scale, Texture};
+use unwrapd_layout::charts::MappedChart;
 
 /// Words that packing all meshes of a document may read, and the least and most of one: a hundred meshes shall not take a hundred times
 /// as long.

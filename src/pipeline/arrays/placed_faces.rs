@@ -2,8 +2,8 @@
 
 use super::placement::Placement;
 use super::seams::Seams;
-use crate::certificate::chart_ids;
 use crate::pipeline::island_error::IslandError;
+use unwrapd_maps::certificate::chart_ids;
 
 /// Which faces belong to islands that stay.
 pub struct PlacedFaces<'a> {

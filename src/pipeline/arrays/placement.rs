@@ -1,6 +1,6 @@
 //! Islands that stay where they are put.
 
-use crate::mesh::Resolution;
+use unwrapd_maps::mesh::Resolution;
 
 /// An island of given UVs that stays where it is put: it is moved, turned and scaled, and the others are packed around it.
 #[derive(Clone, Copy, Debug, PartialEq)]

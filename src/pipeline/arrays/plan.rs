@@ -1,12 +1,12 @@
 //! The plan of a run: what is cut, mapped, given back, compacted and packed.
 
 use super::settings::Settings;
-use crate::atlas::Turns;
-use crate::barrier::BarrierKind;
-use crate::charts::{Bound, Cut, Folds, Symmetry};
-use crate::embed::{self, Pins};
 use crate::pipeline::options::{KeptMaps, Mapping};
-use crate::solver;
+use unwrapd_layout::atlas::Turns;
+use unwrapd_layout::charts::{Bound, Cut, Folds, Symmetry};
+use unwrapd_maps::embed::{self, Pins};
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::solver;
 
 /// What happens to charts from the first cut to the layout. Computed once from the options; no
 /// later stage asks where to cut or whether there is a barrier.
@@ -19,12 +19,10 @@ pub struct Plan {
     /// How charts are mapped.
     pub embedding: embed::Options,
     /// Whether the result must be valid.
-    #[cfg(feature = "files")]
     pub is_promised: bool,
     /// The distortion that charts may have.
     pub bound: Bound,
     /// The same, if the report says whether it is kept.
-    #[cfg(feature = "files")]
     pub reported_bound: Option<Bound>,
     /// Whether both sides of a mirror plane are cut alike.
     pub symmetry: Symmetry,
@@ -96,10 +94,8 @@ impl Plan {
             cut,
             start,
             embedding: embedding(mapping),
-            #[cfg(feature = "files")]
             is_promised,
             bound: cutting.bound(),
-            #[cfg(feature = "files")]
             reported_bound: (cut == Cut::Auto).then(|| cutting.bound()),
             symmetry: cutting.symmetry,
             refinement: match cut {

@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use super::placement::Placement;
 use super::position_key::position_key;
-use crate::cut::surface_fans;
-use crate::mesh::{CUT, CornerUvs, Resolution, Surface, next};
-use crate::numerics::vec3::dot;
 use crate::pipeline::PipelineError;
+use unwrapd_maps::cut::surface_fans;
+use unwrapd_maps::mesh::{CUT, CornerUvs, Resolution, Surface, next};
+use unwrapd_method::numerics::vec3::dot;
 
 /// Cosine of the least angle between normals on the two sides of a hard edge: 1°.
 const SOFT: f64 = 0.999_85;
@@ -17,7 +17,7 @@ const SOFT: f64 = 0.999_85;
 /// face.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seams {
-    /// UVs, v up: an edge at which those of two faces differ is a seam. With [`Cut::Keep`](crate::charts::Cut::Keep) maps begin here.
+    /// UVs, v up: an edge at which those of two faces differ is a seam. With [`Cut::Keep`](unwrapd_layout::charts::Cut::Keep) maps begin here.
     pub uvs: Option<Vec<CornerUvs>>,
     /// The texture that the UVs were made for, whose texels are square on the surface; a square one if absent.
     pub texture: Option<Resolution>,

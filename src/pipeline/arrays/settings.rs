@@ -1,8 +1,8 @@
 //! How a mesh given as arrays is unwrapped.
 
-use crate::atlas::Borders;
-use crate::options::OptionSet;
 use crate::pipeline::options::{Budget, Cutting, Layout, Mapping, Workers};
+use unwrapd_api::options::OptionSet;
+use unwrapd_layout::atlas::Borders;
 
 /// How a mesh given as arrays is unwrapped.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,9 +10,9 @@ use super::alike::alike;
 use super::plan::Plan;
 use super::position_key::{PositionKey, position_key};
 use super::seams::Seams;
-use crate::charts::Cut;
-use crate::mesh::Surface;
 use crate::pipeline::PipelineError;
+use unwrapd_layout::charts::Cut;
+use unwrapd_maps::mesh::Surface;
 
 /// A mesh as arrays.
 #[derive(Clone, Copy)]

@@ -12,15 +12,15 @@ use super::repeated::{self, GridCorners};
 use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::Soup;
-use crate::atlas::{self, Atlas};
-use crate::charts::MappedChart;
-use crate::mesh::Defects;
 use crate::pipeline::PipelineError;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::Workers;
 use crate::pipeline::portion::Portion;
 use crate::pipeline::tracker::Tracker;
-use crate::solver::Summary;
+use unwrapd_layout::atlas::{self, Atlas};
+use unwrapd_layout::charts::MappedChart;
+use unwrapd_maps::mesh::Defects;
+use unwrapd_method::solver::Summary;
 
 /// An unwrapped mesh.
 #[derive(Clone, Debug)]
@@ -74,8 +74,8 @@ pub fn unwrap<T: Copy + Into<f64>>(
     unwrap_along(positions, triangles, &Seams::default(), settings, observer)
 }
 
-/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](crate::charts::Cut::Seams) and
-/// [`Cut::Keep`](crate::charts::Cut::Keep) along no others than it takes to open what they enclose.
+/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](unwrapd_layout::charts::Cut::Seams) and
+/// [`Cut::Keep`](unwrapd_layout::charts::Cut::Keep) along no others than it takes to open what they enclose.
 pub fn unwrap_along<T: Copy + Into<f64>>(
     positions: &[[T; 3]],
     triangles: &[[u32; 3]],

@@ -1,7 +1,7 @@
 //! The map of space that a deformed cage is, and the pieces of triangles on which it is linear.
 
-use crate::deform::cage::{Cage, CagedSurface, Embedding};
-use crate::document::{AddedVertex, Primitive, SpaceMap, Subdivision};
+use unwrapd_deform::cage::{Cage, CagedSurface, Embedding};
+use unwrapd_files::document::{AddedVertex, Primitive, SpaceMap, Subdivision};
 
 use crate::pipeline::PipelineError;
 

@@ -1,12 +1,12 @@
 //! What deforming in a cage did.
 
-use crate::certificate::Crossings;
-use crate::document::Warning;
 use serde::Serialize;
+use unwrapd_files::document::Warning;
+use unwrapd_maps::certificate::Crossings;
 
 /// What a cage is and what deforming it did to the surfaces in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CageReport {
     /// Cubes the cage consists of.
     pub voxels: usize,

@@ -6,11 +6,6 @@ use super::formats::BodyFormat;
 use super::frames::Frames;
 use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::solution::{Deformed, solve};
-use crate::certificate::{Crossings, crossings};
-use crate::deform::cage::{Cage, Caged, CagedSurface};
-use crate::deform::{Body, Handle, Model, Problem, ProblemError, Solution};
-use crate::document::{Document, GroupBy, OutputFormat, Upload, Written};
-use crate::mesh::io::Format;
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::limits::Limits;
@@ -18,7 +13,12 @@ use crate::pipeline::observer::Stage;
 use crate::pipeline::options::DeformOptions;
 use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
-use crate::solver::Watch;
+use unwrapd_deform::cage::{Cage, Caged, CagedSurface};
+use unwrapd_deform::{Body, Handle, Model, Problem, ProblemError, Solution};
+use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload, Written};
+use unwrapd_files::io::Format;
+use unwrapd_maps::certificate::{Crossings, crossings};
+use unwrapd_method::solver::Watch;
 
 /// A document with all its triangles in one cage.
 ///

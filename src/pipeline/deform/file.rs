@@ -4,15 +4,15 @@ use super::caged;
 use super::frames::Frames;
 use super::solution::{Deformed, solve};
 use super::source::Source;
-use crate::deform::{Problem, ProblemError};
-use crate::document::Upload;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, DeformOptions};
 use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
-use crate::solver::Watch;
+use unwrapd_deform::{Problem, ProblemError};
+use unwrapd_files::document::Upload;
+use unwrapd_method::solver::Watch;
 
 /// Pulls a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a barrier no
 /// element is inverted in any iterate.

@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::deform::Problem;
-use crate::document::OutputFormat;
-use crate::mesh::io::{ElementFormat, Elements, Format, text_positions, vtu};
 use crate::pipeline::PipelineError;
+use unwrapd_deform::Problem;
+use unwrapd_files::document::OutputFormat;
+use unwrapd_files::io::{ElementFormat, Elements, Format, text_positions, vtu};
 
 /// What a deformed body is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum BodyFormat {
     /// Positions, one per line, 17 digits.

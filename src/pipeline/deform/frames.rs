@@ -1,7 +1,7 @@
 //! Iterates as files.
 
 use crate::pipeline::tracker::Tracker;
-use crate::solver::{Control, Iterate, Watch};
+use unwrapd_method::solver::{Control, Iterate, Watch};
 
 /// Writes a map as the result will be.
 pub type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;

@@ -2,14 +2,14 @@
 
 use super::caged::{positions, surfaces};
 use super::source::Source;
-use crate::deform::cage::{Cage, Embedding};
-use crate::deform::warp::{WarpError, picture_grid};
-use crate::deform::{Body, BodyElements, Boundary, Handle, Session};
-use crate::document::{Document, Upload};
-use crate::mesh::boundary_triangles;
-use crate::picture::Image;
 use crate::pipeline::PipelineError;
 use crate::pipeline::options::{CommandOptions, DeformOptions, WarpOptions};
+use unwrapd_deform::cage::{Cage, Embedding};
+use unwrapd_deform::warp::{WarpError, picture_grid};
+use unwrapd_deform::{Body, BodyElements, Boundary, Handle, Session};
+use unwrapd_files::document::{Document, Upload};
+use unwrapd_files::picture::Image;
+use unwrapd_maps::mesh::boundary_triangles;
 
 /// A file as a body in the hand, and what of it is seen.
 pub struct HeldBody {

@@ -2,16 +2,16 @@
 
 use serde::Serialize;
 
-use crate::deform::Unreached;
-use crate::document::Warning;
-use crate::solver::Status;
+use unwrapd_deform::Unreached;
+use unwrapd_files::document::Warning;
+use unwrapd_method::solver::Status;
 
 /// Handles named in a warning at most.
 const NAMED: usize = 8;
 
 /// How much was done of what was asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Completion {
     /// Every handle is at its target, and the energy is minimal.

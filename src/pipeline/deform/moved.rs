@@ -1,9 +1,9 @@
 //! Documents with their surfaces where a map carries them, everything else as it was.
 
-use crate::document::{
+use crate::pipeline::PipelineError;
+use unwrapd_files::document::{
     Document, DocumentError, Layout, NewUvs, OutputFormat, SpaceMap, WriteOptions, Written,
 };
-use crate::pipeline::PipelineError;
 
 /// The document moved, and its files under the name `stem`.
 pub fn moved(

@@ -1,7 +1,7 @@
 //! How a problem is solved.
 
-use crate::deform::Method;
-use crate::solver::Settings;
+use unwrapd_deform::Method;
+use unwrapd_method::solver::Settings;
 
 /// What is done beside minimizing once.
 #[derive(Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use crate::document::SpaceMap;
-use crate::mesh::io::Elements;
-use crate::numerics::square::{Matrix, Square, apply, apply_transposed, times};
-use crate::numerics::vec3;
+use unwrapd_files::document::SpaceMap;
+use unwrapd_files::io::Elements;
+use unwrapd_method::numerics::square::{Matrix, Square, apply, apply_transposed, times};
+use unwrapd_method::numerics::vec3;
 
 /// A map of the places of vertices in a plane z = const, which it keeps. Other places, those of vertices without triangles, stay.
 pub struct PlanarMap<'a> {

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use crate::certificate::PlanarCertificate;
-use crate::deform::PullSummary;
+use unwrapd_deform::PullSummary;
+use unwrapd_maps::certificate::PlanarCertificate;
 
 /// What a map that was pulled is worth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PullReport {
     /// How it was pulled.
     #[serde(flatten)]

@@ -8,12 +8,12 @@ use serde::Serialize;
 use super::cage_report::CageReport;
 use super::missed::Completion;
 use super::plan::Plan;
-use crate::certificate::boundary_crossings;
-use crate::deform::{BodyElements, Method, Problem, Solution, Turns, Units, Unreached, Worth};
-use crate::document::Warning;
 use crate::pipeline::PipelineError;
 use crate::pipeline::tracker::Tracker;
-use crate::solver::{Control, Iterate, Summary, Watch};
+use unwrapd_deform::{BodyElements, Method, Problem, Solution, Turns, Units, Unreached, Worth};
+use unwrapd_files::document::Warning;
+use unwrapd_maps::certificate::boundary_crossings;
+use unwrapd_method::solver::{Control, Iterate, Summary, Watch};
 
 /// What a body became.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub struct Deformed {
 
 /// What a deformation is worth and how it was found.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct DeformReport {
     /// How it was solved.
     pub method: Method,

@@ -2,16 +2,16 @@
 
 use super::frames::Frames;
 use super::solution::{DeformReport, Deformed, solve};
-use crate::deform::{Problem, ProblemError, ProblemFile, Solution};
-use crate::document::{DocumentError, Upload};
-use crate::mesh::io::{ElementFormat, Elements};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::limits::Limits;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, SolveOptions};
 use crate::pipeline::tracker::Tracker;
-use crate::solver::Watch;
+use unwrapd_deform::{Problem, ProblemError, ProblemFile, Solution};
+use unwrapd_files::document::{DocumentError, Upload};
+use unwrapd_files::io::{ElementFormat, Elements};
+use unwrapd_method::solver::Watch;
 
 /// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in any iterate.
 pub fn solve_file(

@@ -3,15 +3,15 @@
 use super::formats::BodyFormat;
 use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::planar_map::PlanarMap;
-use crate::deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
-use crate::deform::{Body, Problem};
-use crate::document::{Document, GroupBy, OutputFormat, Upload};
-use crate::mesh::Surface;
-use crate::mesh::io::{Content, ElementFormat, Elements, Format};
-use crate::picture::Image;
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::limits::Limits;
+use unwrapd_deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
+use unwrapd_deform::{Body, Problem};
+use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload};
+use unwrapd_files::io::{Content, ElementFormat, Elements, Format};
+use unwrapd_files::picture::Image;
+use unwrapd_maps::mesh::Surface;
 
 /// About how many triangles an outline is filled with, unless an option says otherwise.
 pub const TRIANGLES: usize = 5000;

@@ -4,18 +4,18 @@ use serde::Serialize;
 
 use super::missed::Completion;
 use super::pull_report::PullReport;
-use crate::barrier::BarrierKind;
-use crate::certificate::{boundary_crossings, certify_planar};
-use crate::deform::Boundary;
-use crate::deform::warp::{WarpError, picture_grid, warp_picture_from};
-use crate::document::{Upload, Warning};
-use crate::picture::Image;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, WarpOptions};
 use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
+use unwrapd_deform::Boundary;
+use unwrapd_deform::warp::{WarpError, picture_grid, warp_picture_from};
+use unwrapd_files::document::{Upload, Warning};
+use unwrapd_files::picture::Image;
+use unwrapd_maps::certificate::{boundary_crossings, certify_planar};
+use unwrapd_method::barrier::BarrierKind;
 
 /// A warped picture.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ pub struct WarpedPicture {
 
 /// What a warp of a picture is worth.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WarpReport {
     /// Whether the map is proven to have no inverted triangle and, with a fixed border or if asked for, to be bijective.
     pub certified: bool,

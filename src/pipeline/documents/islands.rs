@@ -1,9 +1,9 @@
 //! Islands that a user names, among the meshes of a document.
 
-use crate::document::{Document, Group};
 use crate::pipeline::arrays::placement::Placement;
 use crate::pipeline::island_error::IslandError;
 use crate::pipeline::options::Island;
+use unwrapd_files::document::{Document, Group};
 
 /// For each group the islands of it that stay where they are put.
 pub fn placements(

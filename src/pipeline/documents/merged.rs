@@ -1,13 +1,13 @@
 //! The primitives of a group as one mesh.
 
 use super::texel_weight::face_weights;
-use crate::document::{Document, Group, Primitive};
-use crate::mesh::{CornerUvs, VAxis};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::seams::Seams;
 use crate::pipeline::arrays::soup::{Part, Soup};
 use crate::pipeline::options::{GivenSeams, NamedSeams, Options};
+use unwrapd_files::document::{Document, Group, Primitive};
+use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
 /// The primitives of a group as one mesh.
 pub struct Merged {

@@ -1,12 +1,12 @@
 //! Atlases as UVs of a document.
 
-use crate::atlas::GRID_BITS;
-use crate::document::{Corners, Document, Group, Layout, NewUvs};
-use crate::mesh::VAxis;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::repeated::GridCorners;
 use crate::pipeline::arrays::unwrap::Unwrapped;
 use crate::pipeline::options::Options;
+use unwrapd_files::document::{Corners, Document, Group, Layout, NewUvs};
+use unwrapd_layout::atlas::GRID_BITS;
+use unwrapd_maps::mesh::VAxis;
 
 /// The atlases as UVs of the document, those of islands that stay where they are as the document has them.
 pub fn new_uvs(

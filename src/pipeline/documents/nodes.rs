@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::document::{Document, DocumentError, Primitive};
+use unwrapd_files::document::{Document, DocumentError, Primitive};
 
 /// What counts as a surface of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

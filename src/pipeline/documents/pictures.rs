@@ -6,17 +6,17 @@ use serde::{Deserialize, Serialize};
 
 use super::prepared::Prepared;
 use super::texel_weight::face_weights;
-use crate::certificate::chart_ids;
-use crate::document::{Document, GroupBy, Upload};
-use crate::measure::{FaceDistortion, face_distortion};
-use crate::mesh::{CornerUvs, Resolution};
-use crate::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::judge::group_uvs::GroupUvs;
 use crate::pipeline::judge::groups::WrittenUvs;
 use crate::pipeline::options::{CommandOptions, Options, Workers};
+use unwrapd_files::document::{Document, GroupBy, Upload};
+use unwrapd_files::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
+use unwrapd_maps::certificate::chart_ids;
+use unwrapd_maps::measure::{FaceDistortion, face_distortion};
+use unwrapd_maps::mesh::{CornerUvs, Resolution};
 
 /// Side of a picture in pixels.
 const SIDE: u32 = 1024;

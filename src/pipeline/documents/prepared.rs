@@ -3,11 +3,13 @@
 use std::collections::HashMap;
 
 use super::merged::check_edges;
-use crate::document::{Document, DocumentError, GroupBy, OldUvs, OutputFormat, Primitive, Upload};
-use crate::mesh::Resolution;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::options::{GivenSeams, Options, check_grouping};
+use unwrapd_files::document::{
+    Document, DocumentError, GroupBy, OldUvs, OutputFormat, Primitive, Upload,
+};
+use unwrapd_maps::mesh::Resolution;
 
 /// A document in the form in which it is written.
 pub struct Prepared {

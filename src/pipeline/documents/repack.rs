@@ -1,10 +1,10 @@
 //! UVs packed anew, as they are.
 
 use super::unwrap::{Outcome, unwrap_around};
-use crate::document::Upload;
 use crate::pipeline::PipelineError;
 use crate::pipeline::observer::Observer;
 use crate::pipeline::options::{CommandOptions, RepackOptions};
+use unwrapd_files::document::Upload;
 
 /// Packs the islands of all primitives of a group into one atlas. Each stays as it is but for quarter turns, shifts and one scale for
 /// all; those that the options put somewhere stay there, and the others are packed around them. Faces that are flipped or overlap

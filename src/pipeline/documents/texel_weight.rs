@@ -6,9 +6,9 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::document::{Document, Group, Primitive};
-use crate::options::within;
 use crate::pipeline::PipelineError;
+use unwrapd_api::options::within;
+use unwrapd_files::document::{Document, Group, Primitive};
 
 /// How many times as many texels along a line a material gets as one without a weight; written `MATERIAL=W`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,10 +6,6 @@ use super::new_uvs::new_uvs;
 use super::pictures::Pictures;
 use super::prepared::Prepared;
 use super::uv_arrays::UvArrays;
-use crate::document::{
-    BakedTextures, Document, GroupBy, NewUvs, OutputFormat, Upload, WriteOptions, Written,
-};
-use crate::mesh::VAxis;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::soup::Soup;
@@ -23,6 +19,10 @@ use crate::pipeline::options::{CommandOptions, Island, Options};
 use crate::pipeline::rebake::{self, rebaked};
 use crate::pipeline::stop_watch::StopWatch;
 use crate::pipeline::tracker::Tracker;
+use unwrapd_files::document::{
+    BakedTextures, Document, GroupBy, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+};
+use unwrapd_maps::mesh::VAxis;
 
 /// Everything that comes out of unwrapping a document.
 #[derive(Clone, Debug)]

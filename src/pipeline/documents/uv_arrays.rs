@@ -1,8 +1,8 @@
 //! The UVs of a result as plain arrays, for programs that keep the mesh that they sent.
 
 use super::prepared::Origins;
-use crate::document::{Corners, Document, NewUvs, PrimitiveNote};
-use crate::mesh::VAxis;
+use unwrapd_files::document::{Corners, Document, NewUvs, PrimitiveNote};
+use unwrapd_maps::mesh::VAxis;
 
 /// The first bytes of the file: what it is, and its version.
 const MAGIC: [u8; 4] = *b"UVS1";

@@ -1,10 +1,10 @@
 //! UVs of documents in the hand.
 
 use super::uvs::Whole;
-use crate::deform::uv::UvSession;
-use crate::document::{Document, Upload};
 use crate::pipeline::PipelineError;
 use crate::pipeline::options::{CommandOptions, EditOptions, Editing};
+use unwrapd_deform::uv::UvSession;
+use unwrapd_files::document::{Document, Upload};
 
 /// Takes the UVs that [`edit_document`](crate::pipeline::edit_document) would edit into the hand. Its anchors are for the caller to add.
 pub fn hold_uvs(

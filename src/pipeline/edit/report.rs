@@ -2,16 +2,16 @@
 
 use serde::Serialize;
 
-use crate::deform::Unreached;
-use crate::deform::uv::{EditedUvs, UvRest};
-use crate::document::Warning;
 use crate::pipeline::deform::missed::Completion;
 use crate::pipeline::deform::pull_report::PullReport;
 use crate::pipeline::judge::proven::Proven;
+use unwrapd_deform::Unreached;
+use unwrapd_deform::uv::{EditedUvs, UvRest};
+use unwrapd_files::document::Warning;
 
 /// What was done to the UVs of a document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct EditReport {
     /// Whether the whole UV set is proven in the bytes written: no face is flipped or degenerate, and no two faces that share
     /// a UV space overlap, whether their charts have anchors or not. Warnings name what is missing.
@@ -34,7 +34,7 @@ pub struct EditReport {
 
 /// What was done to a chart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ChartEditReport {
     /// Its number among the charts of the document, in the order of their first faces.
     pub chart: u32,

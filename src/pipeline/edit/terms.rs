@@ -1,12 +1,12 @@
 //! What the record of a document with edited UVs promises.
 
-use crate::certificate::Overlap;
-use crate::document::{Document, GroupBy, Marked, OutputFormat, Sets, Terms, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::judge::groups::WrittenUvs;
 use crate::pipeline::judge::proven::{Mirrored, Proven};
 use crate::pipeline::judge::shortfalls::unproven;
 use crate::pipeline::options::{EditOptions, MeasureOptions};
+use unwrapd_files::document::{Document, GroupBy, Marked, OutputFormat, Sets, Terms, Warning};
+use unwrapd_maps::certificate::Overlap;
 
 /// The record of a document with edited UVs, in which no two faces overlap. Distances between charts are not promised: the edit
 /// did not look at them.

@@ -2,13 +2,6 @@
 
 use super::report::{ChartEditReport, EditReport, completion};
 use super::terms::{WholeJudgment, edited_terms};
-use crate::barrier::BarrierKind;
-use crate::certificate::{PlanarCertificate, boundary_crossings, certify_planar};
-use crate::deform::uv::{ChartFaces, EditedUvs, UvMesh, edit_uvs_from};
-use crate::document::{
-    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
-};
-use crate::mesh::CornerUvs;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::deform::pull_report::PullReport;
@@ -16,6 +9,13 @@ use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, EditOptions, Editing};
 use crate::pipeline::start::start;
 use crate::pipeline::tracker::Tracker;
+use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, edit_uvs_from};
+use unwrapd_files::document::{
+    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
+};
+use unwrapd_maps::certificate::{PlanarCertificate, boundary_crossings, certify_planar};
+use unwrapd_maps::mesh::CornerUvs;
+use unwrapd_method::barrier::BarrierKind;
 
 /// A document with edited UVs.
 #[derive(Clone, Debug)]

@@ -5,14 +5,14 @@ use serde::Serialize;
 use super::group_uvs::GroupUvs;
 use super::mean_energy::MeanEnergy;
 use super::smoothed_distortion::smoothed_distortion;
-use crate::certificate::chart_ids;
-use crate::charts::{Bound, Bounded};
-use crate::measure::{Distortion, face_distortion};
-use crate::mesh::CornerUvs;
+use unwrapd_layout::charts::{Bound, Bounded};
+use unwrapd_maps::certificate::chart_ids;
+use unwrapd_maps::measure::{Distortion, face_distortion};
+use unwrapd_maps::mesh::CornerUvs;
 
 /// A bound on the distortion of an atlas, and what was reached.
 #[derive(Clone, Copy, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BoundReport {
     /// The largest mean symmetric Dirichlet energy that was asked for.
     pub max_distortion: f64,
@@ -40,7 +40,7 @@ pub struct BoundReport {
 
 /// The chart with the largest mean symmetric Dirichlet energy.
 #[derive(Clone, Copy, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WorstChart {
     /// Its number, in the order of the first faces of charts.
     pub chart: u32,

@@ -2,12 +2,12 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use crate::certificate::{Certificate, Claims, certify};
-use crate::document::{Document, Group, Primitive};
-use crate::measure::{self, Measures};
-use crate::mesh::{CornerUvs, Resolution, VAxis};
-use crate::numerics::vec3::{area_vector, norm};
 use crate::pipeline::PipelineError;
+use unwrapd_files::document::{Document, Group, Primitive};
+use unwrapd_maps::certificate::{Certificate, Claims, certify};
+use unwrapd_maps::measure::{self, Measures};
+use unwrapd_maps::mesh::{CornerUvs, Resolution, VAxis};
+use unwrapd_method::numerics::vec3::{area_vector, norm};
 
 /// The UVs of one group with its mesh.
 #[derive(Clone, Debug)]

@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use super::group_uvs::GroupUvs;
 use super::question::Question;
 use super::report::GroupReport;
-use crate::certificate::{Certificate, Claims};
-use crate::document::{Document, GroupBy, Written};
-use crate::measure::{self, Measures};
-use crate::mesh::{Resolution, VAxis};
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::nodes::Nodes;
 use crate::pipeline::options::MeasureOptions;
+use unwrapd_files::document::{Document, GroupBy, Written};
+use unwrapd_maps::certificate::{Certificate, Claims};
+use unwrapd_maps::measure::{self, Measures};
+use unwrapd_maps::mesh::{Resolution, VAxis};
 
 /// Texels of all rasters together on which coverage is counted, and the least side of each: 256 groups have the finest.
 const MOST_RASTER_TEXELS: u64 = 1 << 32;

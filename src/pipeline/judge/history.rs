@@ -3,11 +3,11 @@
 use super::bound_report::BoundReport;
 use super::groups::WrittenUvs;
 use super::report::{AtlasReport, GroupReport};
-use crate::document::Warning;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::unwrap::Unwrapped;
 use crate::pipeline::options::Options;
+use unwrapd_files::document::Warning;
 
 /// Adds to each group what only unwrapping knows.
 pub fn add_history(

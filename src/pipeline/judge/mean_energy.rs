@@ -1,7 +1,7 @@
 //! Energies of some faces put together.
 
-use crate::measure::FaceDistortion;
-use crate::numerics::vec3::{area_vector, norm};
+use unwrapd_maps::measure::FaceDistortion;
+use unwrapd_method::numerics::vec3::{area_vector, norm};
 
 /// The mean of symmetric Dirichlet energies, weighted by area; faces without area and negligible needles do not count.
 #[derive(Clone, Copy, Default)]

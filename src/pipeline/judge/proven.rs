@@ -4,12 +4,12 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::certificate::{Certificate, Overlap};
-use crate::mesh::Resolution;
+use unwrapd_maps::certificate::{Certificate, Overlap};
+use unwrapd_maps::mesh::Resolution;
 
 /// What is proven about the UVs of all groups, beside what was requested.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Proven {
     /// No face is flipped or degenerate.
     pub locally_injective: bool,
@@ -32,7 +32,7 @@ pub struct Proven {
 
 /// Whether charts keep a distance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ProvenPadding {
     /// The requested distance, in texels.
     pub asked_texels: u32,
@@ -46,7 +46,7 @@ pub struct ProvenPadding {
 
 /// Whether every chart lies on one page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ProvenPages {
     /// The requested number of pages.
     pub asked: u32,
@@ -58,7 +58,7 @@ pub struct ProvenPages {
 
 /// Whether the map holds at the requested bits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ProvenBits {
     /// The requested bits.
     pub asked: u32,

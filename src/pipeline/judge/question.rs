@@ -3,10 +3,10 @@
 //! A record in the file may name the UV set and add requirements. The faces that are judged, and what shares a UV space, follow
 //! from the file's meshes and materials and from the caller alone: a file cannot talk its way out of a test.
 
-use crate::certificate::Overlap;
-use crate::document::{Document, DocumentError, Mark, Marked, Sets, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::options::{CommandOptions, MeasureOptions};
+use unwrapd_files::document::{Document, DocumentError, Mark, Marked, Sets, Warning};
+use unwrapd_maps::certificate::Overlap;
 
 /// Which UVs of a document are judged, and what of them.
 pub struct Question {

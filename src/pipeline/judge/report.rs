@@ -5,21 +5,21 @@ use serde::Serialize;
 use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
 use super::proven::{Mirrored, Proven};
-use crate::certificate::{Certificate, Overlap};
-use crate::document::{Warning, WriteNotes};
-use crate::measure::Measures;
-use crate::mesh::{Defects, Resolution};
 use crate::pipeline::arrays::unwrap::{ChartRecord, Unwrapped};
 use crate::pipeline::limits::Limits;
 use crate::pipeline::options::Options;
-use crate::solver::Status;
+use unwrapd_files::document::{Warning, WriteNotes};
+use unwrapd_maps::certificate::{Certificate, Overlap};
+use unwrapd_maps::measure::Measures;
+use unwrapd_maps::mesh::{Defects, Resolution};
+use unwrapd_method::solver::Status;
 
 /// Version of the report schema. It increases when a key is removed or changes its meaning.
 pub const SCHEMA_VERSION: u32 = 2;
 
 /// The report of a document: what was read, what was done, and the quality of the written bytes.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Report {
     /// Version of this schema.
     pub schema_version: u32,
@@ -56,7 +56,7 @@ pub struct Report {
 
 /// One atlas.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct GroupReport {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
@@ -79,7 +79,7 @@ pub struct GroupReport {
 
 /// How an atlas was made.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct AtlasReport {
     /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
@@ -97,7 +97,7 @@ pub struct AtlasReport {
 
 /// How a chart was mapped.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ChartReport {
     /// Triangles of the chart.
     pub faces: usize,
@@ -117,7 +117,7 @@ pub struct ChartReport {
 
 /// Wall-clock time of each stage, in seconds.
 #[derive(Clone, Debug, Default, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Seconds {
     /// Reading the document.
     pub read: f64,

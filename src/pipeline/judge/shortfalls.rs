@@ -4,8 +4,8 @@ use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
 use super::proven::{Mirrored, Proven};
 use super::report::GroupReport;
-use crate::certificate::{Certificate, Overlap, PaddingVerdict, chart_ids};
-use crate::document::Warning;
+use unwrapd_files::document::Warning;
+use unwrapd_maps::certificate::{Certificate, Overlap, PaddingVerdict, chart_ids};
 
 /// Warnings of one code at most; the last of them counts the rest.
 const MOST_OF_A_CODE: usize = 8;

@@ -2,9 +2,9 @@
 
 use super::group_uvs::GroupUvs;
 use super::mean_energy::MeanEnergy;
-use crate::charts::smoothed_where_rough;
-use crate::measure::face_distortion;
-use crate::mesh::{CornerUvs, Surface};
+use unwrapd_layout::charts::smoothed_where_rough;
+use unwrapd_maps::measure::face_distortion;
+use unwrapd_maps::mesh::{CornerUvs, Surface};
 
 /// The mean symmetric Dirichlet energy of the smoothed map of the smoothed surface, if the surface is rough. Faces at borders of
 /// charts, which have neighbors on one side only, do not count.

@@ -8,15 +8,15 @@ use super::groups::WrittenUvs;
 use super::proven::{Mirrored, Proven};
 use super::question::Question;
 use super::report::Report;
-use crate::certificate::{Certificate, Overlap};
-use crate::document::{Document, GroupBy, Mark, Sets, Upload, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::options::{CommandOptions, MeasureOptions, VerifyOptions};
+use unwrapd_files::document::{Document, GroupBy, Mark, Sets, Upload, Warning};
+use unwrapd_maps::certificate::{Certificate, Overlap};
 
 /// The exact judgment of a document's UVs.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Verified {
     /// Whether everything requested holds.
     pub certified: bool,
@@ -29,7 +29,7 @@ pub struct Verified {
     /// A certificate per group.
     pub groups: Vec<VerifiedGroup>,
     /// The record in the document, if it fits the UVs: what it requires was judged, too.
-    #[cfg_attr(feature = "service", schema(value_type = Option<Object>))]
+    #[cfg_attr(feature = "schema", schema(value_type = Option<Object>))]
     pub mark: Option<Mark>,
     /// What users should know of the file that was read.
     pub warnings: Vec<Warning>,
@@ -37,10 +37,10 @@ pub struct Verified {
 
 /// Which UVs of a document were judged.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Judged {
     /// The UV set, or one for each triangle primitive in file order.
-    #[cfg_attr(feature = "service", schema(value_type = Object))]
+    #[cfg_attr(feature = "schema", schema(value_type = Object))]
     pub texcoord: Sets,
     /// What shares a UV space.
     pub group_by: GroupBy,
@@ -74,7 +74,7 @@ impl fmt::Display for Judged {
 
 /// The exact judgment of a group's UVs.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct VerifiedGroup {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,

@@ -1,6 +1,5 @@
 //! Meshes given as arrays, and several as one.
 
-use crate::mesh::{CornerUvs, MeshError, VAxis};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::placement::Placement;
 use crate::pipeline::arrays::plan::Plan;
@@ -10,6 +9,7 @@ use crate::pipeline::documents::merged::Merged;
 use crate::pipeline::island_error::IslandError;
 use crate::pipeline::judge::group_uvs::GroupUvs;
 use crate::pipeline::options::{GivenSeams, Island, NamedSeams, Options};
+use unwrapd_maps::mesh::{CornerUvs, MeshError, VAxis};
 
 /// A mesh given as arrays. Each list of corners is absent or has an entry per triangle.
 #[derive(Clone, Debug, Default, PartialEq)]

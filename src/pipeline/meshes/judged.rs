@@ -1,8 +1,6 @@
 //! What the UVs of meshes given as arrays are worth, and what can be proven of them.
 
 use super::arrays::{MeshArrays, with_uvs};
-use crate::certificate::Overlap;
-use crate::mesh::VAxis;
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::unwrap::in_pool;
 use crate::pipeline::judge::groups::WrittenUvs;
@@ -10,6 +8,8 @@ use crate::pipeline::judge::question::Question;
 use crate::pipeline::judge::report::Report;
 use crate::pipeline::judge::verify::{Promise, Verified};
 use crate::pipeline::options::{CommandOptions, MeasureOptions, VerifyOptions};
+use unwrapd_maps::certificate::Overlap;
+use unwrapd_maps::mesh::VAxis;
 
 /// Measures the UVs that meshes have, which share one UV space.
 pub fn measure_meshes(

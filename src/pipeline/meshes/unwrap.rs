@@ -1,8 +1,6 @@
 //! From meshes given as arrays to one atlas and its report.
 
 use super::arrays::{MeshArrays, judged, merged, placements};
-use crate::certificate::chart_ids;
-use crate::mesh::{CornerUvs, VAxis};
 use crate::pipeline::PipelineError;
 use crate::pipeline::arrays::plan::Plan;
 use crate::pipeline::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
@@ -14,6 +12,8 @@ use crate::pipeline::observer::{Observer, Stage};
 use crate::pipeline::options::{CommandOptions, Island, Options, RepackOptions};
 use crate::pipeline::stop_watch::StopWatch;
 use crate::pipeline::tracker::Tracker;
+use unwrapd_maps::certificate::chart_ids;
+use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
 /// Meshes that share an atlas.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::mesh::CornerUvs;
+use unwrapd_maps::mesh::CornerUvs;
 
 /// A mesh in which every vertex has one UV: each vertex of the given mesh as often as its corners differ in UVs, in the
 /// order in which triangles name them. Vertices of no triangle are left out.

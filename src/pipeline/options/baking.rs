@@ -1,7 +1,7 @@
 //! Whether textures are resampled, and into what.
 
-use crate::options::options;
 use crate::pipeline::rebake::{ImageFormat, MOST_SIDE};
+use unwrapd_api::options::options;
 
 options! {
     /// Whether textures are resampled, and into what.

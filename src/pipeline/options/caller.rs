@@ -1,9 +1,9 @@
 //! Settings of the code that calls the pipeline, beside the options of the user.
 
 use super::{Budget, Workers};
-use crate::document::Upload;
 use crate::pipeline::PipelineError;
 use crate::pipeline::limits::Limits;
+use unwrapd_files::document::Upload;
 
 /// Settings of the code that calls the pipeline. They are options neither in JSON nor on the command
 /// line.

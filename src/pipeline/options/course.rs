@@ -1,9 +1,9 @@
 //! What is done beside minimizing once.
 
-use crate::deform::Method;
-use crate::options::options;
 use crate::pipeline::deform::plan::Plan;
-use crate::solver::Settings;
+use unwrapd_api::options::options;
+use unwrapd_deform::Method;
+use unwrapd_method::solver::Settings;
 
 options! {
     /// What the solver does besides one minimization.

@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::charts::{Bound, Bounded, Cut, Quality, Symmetry};
-use crate::options::options;
+use unwrapd_api::options::options;
+use unwrapd_layout::charts::{Bound, Bounded, Cut, Quality, Symmetry};
 
 /// What happens to the maps of islands that are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum KeptMaps {
     /// Optimize each map from its present position.
     #[default]

@@ -1,13 +1,13 @@
 //! What is deformed and how.
 
 use super::{Budget, Caller, CommandOptions, Course, Pulling, Workers, idle};
-use crate::barrier::BarrierKind;
-use crate::deform::{Handle, Method, Model};
-use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
 use crate::pipeline::deform::formats::BodyFormat;
 use crate::pipeline::deform::plan::Plan;
 use crate::pipeline::deform::source::TRIANGLES;
+use unwrapd_api::options::{OptionSet, options};
+use unwrapd_deform::{Handle, Method, Model};
+use unwrapd_method::barrier::BarrierKind;
 
 options! {
     /// What is deformed and how. The command line's long names in snake case; a file of handles is

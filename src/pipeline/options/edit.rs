@@ -1,11 +1,11 @@
 //! How UVs are edited.
 
 use super::{Budget, Caller, CommandOptions, Pulling, Workers, idle};
-use crate::deform::uv::{Anchor, UvEditOptions, UvRest};
-use crate::deform::{Boundary, Model};
-use crate::document::OutputFormat;
-use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
+use unwrapd_api::options::{OptionSet, options};
+use unwrapd_deform::uv::{Anchor, UvEditOptions, UvRest};
+use unwrapd_deform::{Boundary, Model};
+use unwrapd_files::document::OutputFormat;
 
 /// What UVs are edited for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

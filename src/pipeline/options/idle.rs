@@ -1,11 +1,11 @@
 //! Refuses options that would have no effect: their user expects one.
 
 use super::{Course, KeptMaps, Options, Preset, Pulling};
-use crate::barrier::BarrierKind;
-use crate::charts::Cut;
-use crate::deform::{Method, Model};
-use crate::document::{GroupBy, OutputFormat};
 use crate::pipeline::rebake::ImageFormat;
+use unwrapd_deform::{Method, Model};
+use unwrapd_files::document::{GroupBy, OutputFormat};
+use unwrapd_layout::charts::Cut;
+use unwrapd_method::barrier::BarrierKind;
 
 /// An option, what it goes with, and whether it is given without effect.
 type Idle = (&'static str, &'static str, bool);

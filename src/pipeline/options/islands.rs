@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::mesh::VAxis;
-use crate::options::within;
 use crate::pipeline::arrays::placement::Placement;
+use unwrapd_api::options::within;
+use unwrapd_maps::mesh::VAxis;
 
 /// How far an island may be moved, in UV, and its pivot lie from the origin.
 const FARTHEST: f64 = 1e6;
@@ -15,7 +15,7 @@ const SCALES: [f64; 2] = [1e-6, 1e6];
 
 /// An island, named by one of its faces, that is put somewhere and stays there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Island {
     /// The triangle primitive, counted over the result from 0.

@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::atlas::Texture;
-use crate::mesh::Resolution;
-use crate::options::{options, within};
+use unwrapd_api::options::{options, within};
+use unwrapd_layout::atlas::Texture;
+use unwrapd_maps::mesh::Resolution;
 
 /// How long to search for the fullest layout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum PackingMode {
     /// The default search budget: at most a few processor seconds per mesh.
     #[default]
@@ -81,7 +81,7 @@ pub(super) fn check_texels(resolution: Resolution, padding: u32) -> Result<(), S
 const MOST_PADDING: &str = "an eighth of the shorter side is the most";
 
 /// Reads a padding as it is typed. The upper bound depends on the resolution and is checked with it.
-#[cfg(feature = "service")]
+#[cfg(feature = "schema")]
 pub(super) fn padding_texels(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| {
         format!("a padding is a whole number of texels from 0 on; {MOST_PADDING}, 128 at 1024")
@@ -94,7 +94,6 @@ fn most_padding(resolution: Resolution) -> u32 {
 }
 
 /// Checks a padding that holds for so many mip levels.
-#[cfg(feature = "files")]
 pub(super) fn check_mips(padding: u32, mips: u32, resolution: Resolution) -> Result<(), String> {
     check_texels(resolution, padding)?;
     let (texels, most) = (u64::from(padding) << mips, most_padding(resolution));

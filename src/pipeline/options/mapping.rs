@@ -1,9 +1,9 @@
 //! How charts are mapped.
 
-use crate::barrier::BarrierKind;
-use crate::charts::Cut;
-use crate::energy::EnergyKind;
-use crate::options::options;
+use unwrapd_api::options::options;
+use unwrapd_layout::charts::Cut;
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::energy::EnergyKind;
 
 options! {
     /// How charts are mapped.

@@ -1,15 +1,15 @@
 //! What of a document is measured.
 
-#[cfg(feature = "service")]
+#[cfg(feature = "schema")]
 use super::layout::padding_texels;
 use super::layout::{check_mips, check_texels};
 use super::{Caller, CommandOptions, Layout, Workers};
-use crate::certificate::{Claims, Overlap, Padding};
-use crate::document::{Document, GroupBy, Terms};
-use crate::mesh::Resolution;
-use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::nodes::Nodes;
+use unwrapd_api::options::{OptionSet, options};
+use unwrapd_files::document::{Document, GroupBy, Terms};
+use unwrapd_maps::certificate::{Claims, Overlap, Padding};
+use unwrapd_maps::mesh::Resolution;
 
 options! {
     /// Which UVs of a document to measure or verify. A record that unwrapd left in the file names

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Purpose of the UVs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum Preset {
     /// Textures of materials.
     #[default]

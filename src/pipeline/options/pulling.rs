@@ -1,6 +1,6 @@
 //! Which ways handles go.
 
-use crate::options::options;
+use unwrapd_api::options::options;
 
 options! {
     /// Which ways handles go.

@@ -1,10 +1,10 @@
 //! How the UVs of a document are packed.
 
 use super::{Caller, CommandOptions, Cutting, Island, KeptMaps, Layout, Options, Sets, Workers};
-use crate::charts::Cut;
-use crate::document::{GroupBy, OutputFormat};
-use crate::options::options;
 use crate::pipeline::PipelineError;
+use unwrapd_api::options::options;
+use unwrapd_files::document::{GroupBy, OutputFormat};
+use unwrapd_layout::charts::Cut;
 
 options! {
     /// How the UVs of a document are packed. The command line's long names in snake case.

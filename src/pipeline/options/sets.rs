@@ -1,6 +1,6 @@
 //! Which UVs are read and written.
 
-use crate::options::options;
+use unwrapd_api::options::options;
 
 options! {
     /// Which UV sets are read and written.

@@ -1,11 +1,11 @@
 //! How a problem file is solved.
 
 use super::{Budget, Caller, CommandOptions, Course, Pulling, Workers, idle};
-use crate::deform::Method;
-use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
 use crate::pipeline::deform::formats::BodyFormat;
 use crate::pipeline::deform::plan::Plan;
+use unwrapd_api::options::{OptionSet, options};
+use unwrapd_deform::Method;
 
 options! {
     /// How a problem file is solved. The command line's long names in snake case.

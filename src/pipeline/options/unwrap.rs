@@ -3,18 +3,18 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Baking, Budget, Caller, Cutting, Layout, Mapping, Preset, Sets, Workers};
-use crate::atlas::Borders;
-use crate::certificate::{Claims, Overlap, Padding};
-use crate::document::{GroupBy, OutputFormat, Terms};
-use crate::options::options;
-use crate::picture::HeatmapMeasure;
 use crate::pipeline::arrays::settings::Settings;
 use crate::pipeline::documents::nodes::Nodes;
 use crate::pipeline::documents::texel_weight::TexelWeight;
+use unwrapd_api::options::options;
+use unwrapd_files::document::{GroupBy, OutputFormat, Terms};
+use unwrapd_files::picture::HeatmapMeasure;
+use unwrapd_layout::atlas::Borders;
+use unwrapd_maps::certificate::{Claims, Overlap, Padding};
 
 /// Edges of a document to cut in any mode.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(untagged)]
 pub enum GivenSeams {
     /// Seams named by a word.
@@ -26,7 +26,7 @@ pub enum GivenSeams {
 
 /// Seams that the document itself defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum NamedSeams {
     /// Hard edges: those where the normals of two faces differ.

@@ -2,10 +2,10 @@
 
 use super::layout::check_mips;
 use super::{Caller, CommandOptions, Options, idle};
-use crate::charts::Cut;
-use crate::options::OptionSet;
 use crate::pipeline::PipelineError;
 use crate::pipeline::documents::texel_weight::TexelWeight;
+use unwrapd_api::options::OptionSet;
+use unwrapd_layout::charts::Cut;
 
 impl Options {
     fn validate(&self) -> Result<(), String> {

@@ -1,8 +1,8 @@
 //! What of a document is proven.
 
 use super::{Caller, CommandOptions, MeasureOptions};
-use crate::options::options;
 use crate::pipeline::PipelineError;
+use unwrapd_api::options::options;
 
 options! {
     /// What to prove of the UVs of a document.

@@ -1,10 +1,10 @@
 //! How a picture is warped.
 
 use super::{Budget, Caller, CommandOptions, Pulling, Workers, idle};
-use crate::deform::warp::{self, PictureHandle};
-use crate::deform::{Boundary, Model};
-use crate::options::{OptionSet, options};
 use crate::pipeline::PipelineError;
+use unwrapd_api::options::{OptionSet, options};
+use unwrapd_deform::warp::{self, PictureHandle};
+use unwrapd_deform::{Boundary, Model};
 
 options! {
     /// How a picture is warped. The command line's long names in snake case; a file of handles is

@@ -1,6 +1,6 @@
 //! What the work may take.
 
-use crate::options::options;
+use unwrapd_api::options::options;
 
 options! {
     /// What works.

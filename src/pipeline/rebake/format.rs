@@ -3,14 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::MOST_SIDE;
-use crate::document::gltf::GltfDocument;
-use crate::document::{BakePlane, DocumentError};
-use crate::picture::Image;
+use unwrapd_files::document::gltf::GltfDocument;
+use unwrapd_files::document::{BakePlane, DocumentError};
+use unwrapd_files::picture::Image;
 
 /// The format of the files of resampled textures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum ImageFormat {
     /// JPEG if all source images are JPEG, otherwise PNG.
     #[default]

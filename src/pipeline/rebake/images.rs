@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::gltf::GltfDocument;
-use crate::document::{BakePlane, DocumentError};
-use crate::picture::Image;
+use unwrapd_files::document::gltf::GltfDocument;
+use unwrapd_files::document::{BakePlane, DocumentError};
+use unwrapd_files::picture::Image;
 
 /// Pixels of all images together at most: a gigabyte.
 const MOST_PIXELS: usize = 1 << 28;

@@ -8,8 +8,6 @@ mod surface;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-use crate::bake::{Coverage, MOST_TEXELS, baked, side_for};
-use crate::document::{BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning};
 use crate::pipeline::PipelineError;
 use crate::pipeline::observer::Stage;
 use crate::pipeline::options::Options;
@@ -18,6 +16,10 @@ pub use format::ImageFormat;
 use images::read_images;
 use planes::Bake;
 use surface::Surface;
+use unwrapd_files::bake::{Coverage, MOST_TEXELS, baked, side_for};
+use unwrapd_files::document::{
+    BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning,
+};
 
 /// The largest side of a texture.
 pub(super) const MOST_SIDE: u32 = 8192;

@@ -2,9 +2,9 @@
 
 use super::images::Images;
 use super::surface::Surface;
-use crate::bake::{Frames, Plane, Sampled, Texture};
-use crate::document::gltf::{GltfDocument, tangents};
-use crate::document::{BakePlane, DocumentError, Encoding, TextureSource};
+use unwrapd_files::bake::{Frames, Plane, Sampled, Texture};
+use unwrapd_files::document::gltf::{GltfDocument, tangents};
+use unwrapd_files::document::{BakePlane, DocumentError, Encoding, TextureSource};
 
 /// What textures are made of.
 pub(super) struct Bake<'a> {

@@ -1,8 +1,8 @@
 //! Primitives with their new UVs.
 
-use crate::document::gltf::{GltfDocument, tangents};
-use crate::document::{CornerTangents, DocumentError, NewUvs};
-use crate::mesh::VAxis;
+use unwrapd_files::document::gltf::{GltfDocument, tangents};
+use unwrapd_files::document::{CornerTangents, DocumentError, NewUvs};
+use unwrapd_maps::mesh::VAxis;
 
 /// A primitive with its new UVs.
 pub(super) struct Surface {

@@ -6,7 +6,7 @@
 //! a third bijective; `impossible` sends one of five handles through a fixed wall, in the plane and in space. Seconds are those of
 //! the processor.
 
-#[path = "../../core/bodies.rs"]
+#[path = "../../support/bodies.rs"]
 mod bodies;
 #[expect(dead_code, reason = "only seconds are wanted")]
 #[path = "../clock.rs"]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use unwrapd::deform::{Problem, ProblemFile};
-use unwrapd::mesh::io::ElementFormat;
+use unwrapd::io::ElementFormat;
 use unwrapd::solver::{Settings, Status};
 
 use crate::clock::Clock;

@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use unwrapd::document::{Document, GroupBy, Upload};
-use unwrapd::mesh::io::ElementFormat;
+use unwrapd::io::ElementFormat;
 
 const NAMES: [&str; 9] = [
     "a.glb", "a.gltf", "a.obj", "a.off", "a.ply", "a.stl", "a.msh", "a.mesh", "a.tet",

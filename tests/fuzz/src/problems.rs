@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use unwrapd::deform::ProblemFile;
-use unwrapd::mesh::io::ElementFormat;
+use unwrapd::io::ElementFormat;
 
 const MESH: &[u8] = b"OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 

@@ -1,0 +1,44 @@
+//! Options from JSON objects.
+
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer};
+use serde_json::{Map, Value};
+
+use super::OptionSet;
+
+/// A JSON object of options.
+pub type Object = Map<String, Value>;
+
+/// The options of an object that has no others.
+pub fn deserialized<'de, O, D>(deserializer: D) -> Result<O, D::Error>
+where
+    O: OptionSet,
+    D: Deserializer<'de>,
+{
+    let mut given = Object::deserialize(deserializer)?;
+    let options = O::taken_from(&mut given).map_err(D::Error::custom)?;
+    match given.keys().next() {
+        None => Ok(options),
+        Some(name) => {
+            let known: Vec<String> = O::names().iter().map(|name| format!("`{name}`")).collect();
+            let text = format!(
+                "unknown option `{name}`, expected one of {}",
+                known.join(", ")
+            );
+            Err(D::Error::custom(text))
+        }
+    }
+}
+
+/// Takes an option out of an object, by its name or another that is known; if it is absent, the
+/// default.
+pub fn taken<T: DeserializeOwned>(
+    given: &mut Object,
+    names: &[&str],
+    default: T,
+) -> Result<T, String> {
+    let Some((name, value)) = names.iter().find_map(|name| given.remove_entry(*name)) else {
+        return Ok(default);
+    };
+    serde_json::from_value(value).map_err(|error| format!("`{name}`: {error}"))
+}

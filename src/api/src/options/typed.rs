@@ -1,0 +1,39 @@
+//! Options as they are typed in the command line.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::OptionSet;
+
+/// A value as it is typed: what JSON has for it, without quotes.
+pub fn typed<T: Serialize>(value: &T) -> String {
+    match serde_json::to_value(value) {
+        Ok(Value::String(word)) => word,
+        Ok(Value::Number(number)) => number
+            .as_f64()
+            .map_or(number.to_string(), |number| number.to_string()),
+        Ok(value) => value.to_string(),
+        // Defaults are plain data, which serialization cannot refuse.
+        Err(_) => String::new(),
+    }
+}
+
+/// What is said of an option, for an argument that the command line declares itself. A name that is
+/// none has no help, which a test finds.
+pub fn help_of<O: OptionSet>(name: &str) -> String {
+    let lines = O::about(name).unwrap_or_default().lines();
+    let text = lines.map(str::trim).collect::<Vec<_>>().join(" ");
+    text.trim_end_matches('.').to_owned()
+}
+
+/// A text about options with their names as they are typed: what stands in backticks and
+/// `is_option` becomes `--seam-weight`.
+pub fn as_typed(text: &str, is_option: impl Fn(&str) -> bool) -> String {
+    let parts = text.split('`').enumerate();
+    let typed = parts.map(|(i, part)| match i % 2 {
+        0 => part.to_owned(),
+        _ if is_option(part) => format!("--{}", part.replace('_', "-")),
+        _ => format!("`{part}`"),
+    });
+    typed.collect()
+}

@@ -1,0 +1,54 @@
+//! Options that are a word or a text, in the command line.
+
+use std::ffi::OsStr;
+use std::fmt::Display;
+use std::marker::PhantomData;
+use std::str::FromStr;
+
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Arg, Command, Error, ValueEnum};
+
+/// Parses an option whose words are the variants of an enum, which can be a text of another kind too: help and
+/// completions know the words, its `FromStr` knows both.
+pub struct WordOrText<T>(PhantomData<fn() -> T>);
+
+impl<T> WordOrText<T> {
+    /// The parser of options of type `T`.
+    pub fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<T> Default for WordOrText<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T> Clone for WordOrText<T> {
+    fn clone(&self) -> Self {
+        Self::new()
+    }
+}
+
+impl<T> TypedValueParser for WordOrText<T>
+where
+    T: ValueEnum + FromStr<Err: Display> + Send + Sync + 'static,
+{
+    type Value = T;
+
+    fn parse_ref(&self, command: &Command, _: Option<&Arg>, text: &OsStr) -> Result<T, Error> {
+        let refused = |kind, why: &dyn Display| Error::raw(kind, why).with_cmd(command);
+        let text = text
+            .to_str()
+            .ok_or_else(|| refused(ErrorKind::InvalidUtf8, &"an option is not UTF-8"))?;
+        text.parse()
+            .map_err(|why| refused(ErrorKind::ValueValidation, &why))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let words = T::value_variants().iter();
+        Some(Box::new(words.filter_map(ValueEnum::to_possible_value)))
+    }
+}

@@ -1,0 +1,148 @@
+//! A map whose handles are on their way.
+
+use super::problem::Problem;
+use super::problem_error::ProblemError;
+use super::solve::Solution;
+use unwrapd_method::numerics::rotation::Rotation;
+use unwrapd_method::numerics::square::{Matrix, Square};
+use unwrapd_method::solver::{
+    Continued, Handles, Journey, Objective, Pace, Settings, Status, Summary, Watch,
+};
+
+/// What is tried with, and the work of all attempts so far.
+pub(super) struct Trial<'a> {
+    pub problem: &'a Problem,
+    pub objective: Objective,
+    pub settings: Settings,
+    pub watch: &'a dyn Watch,
+    pub total: Summary,
+}
+
+impl Trial<'_> {
+    /// Is the effort spent?
+    pub fn is_spent(&self) -> bool {
+        self.total.iterations >= self.settings.max_iterations
+    }
+
+    /// Adds the work of one more.
+    pub fn add(&mut self, more: &Summary) {
+        self.total = self.total.followed_by(more);
+    }
+
+    /// A map as a solution, with the work of all attempts.
+    pub fn solution(&self, x: Vec<f64>, status: Status, energy_last: f64) -> Solution {
+        let summary = Summary {
+            status,
+            energy_last,
+            ..self.total
+        };
+        self.problem.solution(x, summary)
+    }
+}
+
+/// A map and the journey that its handles are on.
+pub(super) struct Attempt<const D: usize> {
+    x: Vec<f64>,
+    journey: Journey<D>,
+    settings: Settings,
+}
+
+impl<const D: usize> Attempt<D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    /// From the map `x` to these stations, in so many iterations at most to each.
+    pub fn new(
+        trial: &mut Trial,
+        x: Vec<f64>,
+        (stations, max_iterations): (Vec<Handles>, usize),
+    ) -> Result<Self, ProblemError> {
+        let settings = Settings {
+            max_iterations,
+            ..trial.settings
+        };
+        let journey = Journey::new(&mut trial.objective, &x, stations, &settings)?;
+        Ok(Self {
+            x,
+            journey,
+            settings,
+        })
+    }
+
+    /// From the start on ways with these bends, straight ones if there are none.
+    pub fn bent(
+        trial: &mut Trial,
+        start: &[f64],
+        bends: &[[f64; 3]],
+    ) -> Result<Self, ProblemError> {
+        let stations = trial.problem.stations.iter().map(|handles| Handles {
+            bends: bends.to_vec(),
+            ..handles.clone()
+        });
+        let course = (stations.collect(), trial.settings.max_iterations);
+        Self::new(trial, start.to_vec(), course)
+    }
+
+    /// Goes on as long as it keeps the pace.
+    pub fn go_on(&mut self, trial: &mut Trial, pace: Pace) -> Result<(), ProblemError> {
+        let before = self.journey.summary();
+        let watch = Continued {
+            watch: trial.watch,
+            before: trial.total.iterations - before.iterations,
+        };
+        let course = (&self.settings, pace);
+        (self.journey).go_on(&mut trial.objective, &mut self.x, course, &watch)?;
+        let now = self.journey.summary();
+        trial.add(&Summary {
+            iterations: now.iterations - before.iterations,
+            factorizations: now.factorizations - before.factorizations,
+            ..now
+        });
+        Ok(())
+    }
+
+    /// May it go on at a slower pace?
+    pub fn is_paused(&self) -> bool {
+        self.journey.is_paused()
+    }
+
+    pub fn is_stopped(&self) -> bool {
+        self.journey.summary().status == Status::Stopped
+    }
+
+    /// Need no more be tried? With `search` all is, unless it is stopped.
+    pub fn is_enough(&self, search: bool) -> bool {
+        self.is_stopped() || self.has_arrived() && !search
+    }
+
+    pub fn has_arrived(&self) -> bool {
+        let status = self.journey.summary().status;
+        !matches!(status, Status::TargetsUnreachable | Status::Stopped)
+    }
+
+    /// The energy of its map.
+    pub fn energy(&self) -> f64 {
+        self.journey.summary().energy_last
+    }
+
+    /// The better one: that of the lower energy where both have arrived, otherwise the one that has or has come farther.
+    pub fn or(self, other: Self) -> Self {
+        let is_better = match (self.has_arrived(), other.has_arrived()) {
+            (true, true) => other.energy() < self.energy(),
+            (false, false) => other.journey.share() > self.journey.share(),
+            (_, arrived) => arrived,
+        };
+        if is_better { other } else { self }
+    }
+
+    /// Its map.
+    pub fn into_map(self) -> Vec<f64> {
+        self.x
+    }
+
+    /// Its map as a solution.
+    pub fn into_solution(self, trial: &Trial) -> Solution {
+        let summary = self.journey.summary();
+        trial.solution(self.x, summary.status, summary.energy_last)
+    }
+}

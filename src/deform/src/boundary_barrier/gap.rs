@@ -1,0 +1,103 @@
+//! The distance of a vertex from an edge, and what functions of it look like to second order.
+
+use unwrapd_method::numerics::vec2::{cross, dot, sub};
+
+/// The way from the nearest point of an edge to a vertex.
+///
+/// Continuously differentiable in all three positions while it is longer than zero; the second derivative jumps where the
+/// nearest point reaches an end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    pub distance: f64,
+    /// Its direction, of length 1.
+    normal: [f64; 2],
+    /// A direction across it: the edge's where the nearest point is not an end.
+    tangent: [f64; 2],
+    /// How the distance follows the vertex and the ends of the edge along the normal.
+    weights: [f64; 3],
+    /// One over the edge's length, likewise.
+    curvature: Option<f64>,
+}
+
+/// A share of a Hessian, λuuᵀ, u being given at the vertex and the ends of the edge.
+pub(super) type Mode = (f64, [[f64; 2]; 3]);
+
+impl Gap {
+    /// Between the vertex at `p` and the edge from `a` to `b`.
+    pub fn new([p, a, b]: [[f64; 2]; 3]) -> Self {
+        let (edge, arm) = (sub(b, a), sub(p, a));
+        let length_squared = dot(edge, edge);
+        let along = dot(arm, edge);
+        if along <= 0.0 {
+            return Self::to_end(arm, [1.0, -1.0, 0.0]);
+        }
+        if along >= length_squared {
+            return Self::to_end(sub(p, b), [1.0, 0.0, -1.0]);
+        }
+        let length = length_squared.sqrt();
+        let height = cross(edge, arm) / length;
+        let side = 1.0_f64.copysign(height);
+        let tangent = edge.map(|x| x / length);
+        let share = along / length_squared;
+        Self {
+            distance: height.abs(),
+            normal: [-side * tangent[1], side * tangent[0]],
+            tangent,
+            weights: [1.0, share - 1.0, -share],
+            curvature: Some(1.0 / length),
+        }
+    }
+
+    fn to_end(arm: [f64; 2], weights: [f64; 3]) -> Self {
+        let distance = arm[0].hypot(arm[1]);
+        let normal = arm.map(|x| x / distance);
+        Self {
+            distance,
+            normal,
+            tangent: [-normal[1], normal[0]],
+            weights,
+            curvature: None,
+        }
+    }
+
+    /// The derivative of a function of the distance with this derivative.
+    pub fn gradient(&self, first: f64) -> [[f64; 2]; 3] {
+        self.weights.map(|w| self.normal.map(|n| first * w * n))
+    }
+
+    /// The Hessian of a function of the distance with these derivatives, the first of them negative or zero.
+    ///
+    /// With q the moves weighted, h = n·q and k = τ·q along normal and edge, θ the turn of the edge, it is φ″h² + φ′(k²/d) at an
+    /// end and φ″h² − φ′(2θk + dθ²) along the edge. k and θ are orthogonal, so the eigenvectors of what has φ′ are known.
+    pub fn modes(&self, [first, second]: [f64; 2]) -> [Mode; 3] {
+        let spread = |direction: [f64; 2], weights: [f64; 3], factor: f64| {
+            weights.map(|w| direction.map(|x| factor * w * x))
+        };
+        let pushing = (second, spread(self.normal, self.weights, 1.0));
+        let Some(curvature) = self.curvature else {
+            let sliding = spread(self.tangent, self.weights, 1.0);
+            return [
+                pushing,
+                (first / self.distance, sliding),
+                (0.0, [[0.0; 2]; 3]),
+            ];
+        };
+        let norm = self.weights.iter().map(|w| w * w).sum::<f64>().sqrt();
+        let sliding = spread(self.tangent, self.weights, 1.0 / norm);
+        let turning = spread(self.normal, [0.0, -1.0, 1.0], 0.5_f64.sqrt());
+        let mixed = 2.0_f64.sqrt() * norm * curvature;
+        let half = self.distance * curvature * curvature;
+        let root = half.hypot(mixed);
+        let mode = |lambda: f64| {
+            let length = lambda.hypot(mixed);
+            let (c, s) = (mixed / length, lambda / length);
+            let mix = |k: usize| [0, 1].map(|i| c * sliding[k][i] + s * turning[k][i]);
+            (-first * lambda, [mix(0), mix(1), mix(2)])
+        };
+        [
+            pushing,
+            mode(half + root),
+            mode(-mixed * mixed / (half + root)),
+        ]
+    }
+}

@@ -1,0 +1,177 @@
+//! The sum over pairs.
+
+use super::contact::time_of_contact;
+use super::gap::Gap;
+use super::pairs::{Pair, near_pairs, place};
+use unwrapd_maps::mesh::boundary_edges;
+use unwrapd_method::barrier::InverseSpline;
+use unwrapd_method::energy::{Assembly, Guard, Term};
+use unwrapd_method::numerics::stencils::Stencils;
+use unwrapd_method::numerics::vec2::sub;
+
+/// The largest support, in units of the boundary's mean edge: less than ordinary vertices are apart.
+const SUPPORT: f64 = 0.25;
+
+/// Pairs up to so many times their support apart are in the pattern, so that those that come near are mostly there already.
+const FORESIGHT: f64 = 2.0;
+
+/// Σ over the pairs of a boundary vertex and a boundary edge of φ(distance): infinite where they meet.
+///
+/// ```text
+/// φ(d) = β (1/g(y) − 1)   for y < 1, 0 above     y = d/d⁰     g(y) = y³ − 3y² + 3y
+/// ```
+/// [`InverseSpline`] of the distance; d⁰ is a quarter of the boundary's mean edge, or what the pair is apart at the start if that is
+/// less. Minimum 0, at the start and wherever nothing is near. Domain: d > 0, connected with the start. Twice continuously
+/// differentiable but where the point of the edge that is nearest reaches an end. Tests: `bijective::taylor_*`,
+/// `bijective::no_step_passes_through`.
+#[derive(Clone, Debug)]
+pub struct BoundaryBarrier {
+    edges: Vec<[u32; 2]>,
+    start: Vec<f64>,
+    support: f64,
+    beta: f64,
+    /// In the pattern, ascending.
+    pairs: Vec<Pair>,
+}
+
+impl BoundaryBarrier {
+    /// Around `triangles`, which neither overlap nor touch where their vertices are at `start`.
+    pub fn new(triangles: &[[u32; 3]], start: &[f64]) -> Self {
+        let edges = boundary_edges(start.len() / 2, triangles);
+        let length = |[a, b]: &[u32; 2]| {
+            let [x, y] = sub(place(start, *a), place(start, *b));
+            x.hypot(y)
+        };
+        let mean = edges.iter().map(length).sum::<f64>() / edges.len().max(1) as f64;
+        Self {
+            support: SUPPORT * mean,
+            start: start.to_vec(),
+            beta: 0.0,
+            pairs: Vec::new(),
+            edges,
+        }
+    }
+
+    /// The same of strength β.
+    #[must_use]
+    pub fn with_beta(&self, beta: f64) -> Self {
+        Self {
+            beta,
+            ..self.clone()
+        }
+    }
+
+    /// φ for a pair.
+    fn spline(&self, pair: &Pair) -> InverseSpline {
+        InverseSpline {
+            beta: self.beta,
+            s: self
+                .support
+                .min(Gap::new(pair.places(&self.start)).distance),
+            epsilon: 0.0,
+        }
+    }
+
+    /// Visits the pairs that are nearer at `x` than `times` their support.
+    fn near(&self, x: &[f64], times: f64, mut visit: impl FnMut(Pair, &InverseSpline, Gap)) {
+        near_pairs(&self.edges, (x, x), times * self.support, |pair| {
+            let gap = Gap::new(pair.places(x));
+            if gap.distance < times * self.support {
+                let spline = self.spline(&pair);
+                if gap.distance < times * spline.s || gap.distance == 0.0 {
+                    visit(pair, &spline, gap);
+                }
+            }
+        });
+    }
+}
+
+impl Term for BoundaryBarrier {
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn stencils(&self) -> Stencils {
+        let vertices = self.pairs.iter().flat_map(|pair| {
+            let mut vertices = pair.vertices();
+            vertices.sort_unstable();
+            vertices
+        });
+        Stencils::uniform(3, vertices)
+    }
+
+    fn renew(&mut self, x: &[f64]) -> bool {
+        let mut is_missing = false;
+        self.near(x, 1.0, |pair, _, _| {
+            is_missing |= self.pairs.binary_search(&pair).is_err();
+        });
+        if is_missing {
+            let mut pairs = Vec::new();
+            self.near(x, FORESIGHT, |pair, _, _| pairs.push(pair));
+            pairs.sort_unstable();
+            self.pairs = pairs;
+        }
+        is_missing
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        self.near(x, 1.0, |_, spline, gap| {
+            sum += spline.value(gap.distance, 1.0);
+        });
+        sum
+    }
+
+    fn barrier(&self, x: &[f64]) -> f64 {
+        self.value(x)
+    }
+
+    fn add_derivatives(&self, x: &[f64], tau: f64, assembly: &mut Assembly) {
+        for (stencil, pair) in self.pairs.iter().enumerate() {
+            let gap = Gap::new(pair.places(x));
+            let spline = self.spline(pair);
+            if gap.distance < spline.s {
+                let derivatives = spline.derivatives(gap.distance, 1.0);
+                add(pair, stencil, (&gap, derivatives, tau), assembly);
+            }
+        }
+    }
+
+    fn largest_step(&self, x: &[f64], direction: &[f64]) -> f64 {
+        time_of_contact(&self.edges, x, direction, self.support)
+    }
+}
+
+/// Adds the derivatives of one summand.
+fn add(
+    pair: &Pair,
+    stencil: usize,
+    (gap, derivatives, tau): (&Gap, [f64; 2], f64),
+    assembly: &mut Assembly,
+) {
+    let vertices = pair.vertices();
+    for (vertex, gradient) in vertices.iter().zip(gap.gradient(derivatives[0])) {
+        assembly.add_gradient(*vertex, &gradient);
+    }
+    let modes = gap.modes(derivatives);
+    let block = |i: usize, j: usize| {
+        let mut block = [[0.0; 2]; 2];
+        for (lambda, u) in &modes {
+            let lambda = lambda.max(tau * lambda);
+            for r in 0..2 {
+                for c in 0..2 {
+                    block[r][c] += lambda * u[i][r] * u[j][c];
+                }
+            }
+        }
+        block
+    };
+    let mut order = [0, 1, 2];
+    order.sort_unstable_by_key(|&i| vertices[i]);
+    for (k, &i) in order.iter().enumerate() {
+        assembly.add_diagonal(vertices[i], &block(i, i));
+        for (l, &j) in order[..k].iter().enumerate() {
+            assembly.add_pair(stencil, k * (k - 1) / 2 + l, &block(i, j));
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Points in a cage, and where they go when it is deformed.
+
+use super::grid::{ORDERS, path_slots};
+use super::{ABSENT, Cage, CageError};
+use unwrapd_method::numerics::vec3::{add_scaled, cross, sub, unit};
+
+/// For each of some points the tetrahedron it lies in and its place there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Embedding {
+    /// The element of each point; of several that have it on their boundary the lowest.
+    pub tets: Vec<u32>,
+    /// Barycentric weights of the element's corners, of sum 1 up to rounding; not negative for points inside the cage.
+    pub weights: Vec<[f64; 4]>,
+}
+
+impl Cage {
+    /// Finds the tetrahedron of every position.
+    ///
+    /// All points of the surfaces that the cage was made for are inside. Others may not be (vertices that no triangle uses): they
+    /// follow an element of a near voxel, whose map is extended.
+    pub fn embed(&self, positions: &[[f64; 3]]) -> Result<Embedding, CageError> {
+        let mut embedding = Embedding::default();
+        let mut near = None;
+        for (vertex, position) in positions.iter().enumerate() {
+            if !position.iter().all(|x| x.is_finite()) {
+                return Err(CageError::NonFinitePosition { vertex });
+            }
+            let local = self.grid.local(*position);
+            let cell = self.lowest_voxel(local).unwrap_or_else(|| {
+                let near = near.get_or_insert_with(|| self.near_voxels());
+                self.grid
+                    .place(near[self.grid.cell(self.nearest_cell(local))])
+            });
+            let (tet, weights) = self.place(local, cell);
+            embedding.tets.push(tet);
+            embedding.weights.push(weights);
+        }
+        Ok(embedding)
+    }
+
+    /// The element of a voxel in which a point lies, and its weights; for points outside of the voxel an element in whose direction
+    /// it lies.
+    fn place(&self, local: [f64; 3], cell: [usize; 3]) -> (u32, [f64; 4]) {
+        let part = [0, 1, 2].map(|k| local[k] - cell[k] as f64);
+        let falls = |order: &[usize; 3]| {
+            part[order[0]] >= part[order[1]] && part[order[1]] >= part[order[2]]
+        };
+        let order = ORDERS.iter().position(falls).unwrap_or(0); // finite numbers have an order
+        let [a, b, c] = ORDERS[order].map(|axis| part[axis]);
+        let along_path = [1.0 - a, a - b, b - c, c];
+        let mut weights = [0.0; 4];
+        for (slot, weight) in path_slots(order).into_iter().zip(along_path) {
+            weights[slot] = weight;
+        }
+        let voxel = self.voxel_of_cell[self.grid.cell(cell)];
+        (6 * voxel + order as u32, weights)
+    }
+
+    /// The voxel of the grid, part of the cage or not, nearest to a point.
+    fn nearest_cell(&self, local: [f64; 3]) -> [usize; 3] {
+        [0, 1, 2].map(|k| local[k].clamp(0.0, (self.grid.counts[k] - 1) as f64) as usize)
+    }
+
+    /// For every voxel of the grid the number of one of the cage that is reached in the fewest steps.
+    fn near_voxels(&self) -> Vec<u32> {
+        let in_cage = |cell: &u32| self.voxel_of_cell[*cell as usize] != ABSENT;
+        let mut front: Vec<u32> = (0..self.grid.n_cells() as u32).filter(in_cage).collect();
+        let mut near = vec![ABSENT; self.grid.n_cells()];
+        for &cell in &front {
+            near[cell as usize] = cell;
+        }
+        while !front.is_empty() {
+            let mut next = Vec::new();
+            for cell in front {
+                for neighbor in self.grid.neighbors(self.grid.place(cell)) {
+                    let neighbor = self.grid.cell(neighbor);
+                    if near[neighbor] == ABSENT {
+                        near[neighbor] = near[cell as usize];
+                        next.push(neighbor as u32);
+                    }
+                }
+            }
+            front = next;
+        }
+        near
+    }
+
+    /// The lowest voxel of the cage that has a point inside or on its boundary.
+    fn lowest_voxel(&self, local: [f64; 3]) -> Option<[usize; 3]> {
+        let candidates = |axis: usize| {
+            let n = self.grid.counts[axis];
+            let floor = local[axis].floor();
+            let lower = if local[axis] == floor {
+                floor - 1.0
+            } else {
+                floor
+            };
+            [lower, floor]
+                .into_iter()
+                .filter(move |&x| (0.0..n as f64).contains(&x))
+                .map(|x| x as usize)
+        };
+        for z in candidates(2) {
+            for y in candidates(1) {
+                for x in candidates(0) {
+                    if self.voxel_of_cell[self.grid.cell([x, y, z])] != ABSENT {
+                        return Some([x, y, z]);
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// Where the points are when the cage's vertices are at `deformed`.
+    pub fn interpolate(&self, embedding: &Embedding, deformed: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let places = embedding.tets.iter().zip(&embedding.weights);
+        places
+            .map(|(&tet, weights)| {
+                let corners = self.mesh.tets()[tet as usize];
+                (0..4).fold([0.0; 3], |sum, k| {
+                    add_scaled(sum, weights[k], deformed[corners[k] as usize])
+                })
+            })
+            .collect()
+    }
+
+    /// Unit normals at the points, transformed by the inverse transpose of the Jacobian of their elements.
+    pub fn normals(
+        &self,
+        embedding: &Embedding,
+        deformed: &[[f64; 3]],
+        normals: &[[f64; 3]],
+    ) -> Vec<[f64; 3]> {
+        let transformed = |(&tet, n): (&u32, &[f64; 3])| {
+            let [x, y, z] = self.jacobian(tet, deformed);
+            // The cofactor matrix: the inverse transpose times the determinant, which is positive.
+            unit(combination([cross(y, z), cross(z, x), cross(x, y)], *n))
+        };
+        embedding
+            .tets
+            .iter()
+            .zip(normals)
+            .map(transformed)
+            .collect()
+    }
+
+    /// Unit tangents at the points, transformed by the Jacobian of their elements. Handedness does not change.
+    pub fn tangents(
+        &self,
+        embedding: &Embedding,
+        deformed: &[[f64; 3]],
+        tangents: &[[f64; 3]],
+    ) -> Vec<[f64; 3]> {
+        let transformed =
+            |(&tet, t): (&u32, &[f64; 3])| unit(combination(self.jacobian(tet, deformed), *t));
+        embedding
+            .tets
+            .iter()
+            .zip(tangents)
+            .map(transformed)
+            .collect()
+    }
+
+    /// The columns of an element's Jacobian: its path runs along one axis after the other.
+    fn jacobian(&self, tet: u32, deformed: &[[f64; 3]]) -> [[f64; 3]; 3] {
+        let order = tet as usize % 6;
+        let corners = self.mesh.tets()[tet as usize];
+        let path = path_slots(order).map(|slot| deformed[corners[slot] as usize]);
+        let mut columns = [[0.0; 3]; 3];
+        for (step, &axis) in ORDERS[order].iter().enumerate() {
+            columns[axis] = sub(path[step + 1], path[step]).map(|x| x / self.grid.side);
+        }
+        columns
+    }
+}
+
+fn combination(columns: [[f64; 3]; 3], factors: [f64; 3]) -> [f64; 3] {
+    (0..3).fold([0.0; 3], |sum, k| add_scaled(sum, factors[k], columns[k]))
+}

@@ -1,0 +1,297 @@
+//! Handles as a user names them.
+
+use std::collections::HashMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::aims::Aim;
+use super::body::{Body, BodyElements};
+use super::bound::{Turned, Way, stations};
+use super::locate::{locate, sole_vertex};
+use super::numbers;
+use super::paired::{handles as paired, with_points};
+use super::problem_error::ProblemError;
+use unwrapd_method::energy::Row;
+use unwrapd_method::numerics::rotation::Rotation;
+use unwrapd_method::numerics::square::{Matrix, Square};
+use unwrapd_method::numerics::vec3;
+use unwrapd_method::solver::Handles;
+
+/// What rounding leaves of the distance between equal coordinates, as a share of them.
+const ROUNDING: f64 = 1e-12;
+
+/// Degrees that a disc may turn at most: a hundred turns, in 2400 stations.
+const MOST_DEGREES: f64 = 36_000.0;
+
+/// One handle; positions have as many coordinates as the body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Handle {
+    /// A vertex.
+    Vertex {
+        /// Its index, from 0.
+        vertex: u32,
+        /// Where it goes.
+        #[serde(deserialize_with = "numbers::position")]
+        to: Vec<f64>,
+    },
+    /// Every vertex in a ball around a point, moved as a rigid body.
+    Disc {
+        /// The center at rest.
+        #[serde(deserialize_with = "numbers::position")]
+        center: Vec<f64>,
+        /// The radius.
+        radius: f64,
+        /// Where the center goes.
+        #[serde(deserialize_with = "numbers::position")]
+        to: Vec<f64>,
+        /// A turn about the center in degrees, counter-clockwise, of a hundred turns (36000) at
+        /// most. Half a turn and more is made in steps of 15 degrees.
+        #[serde(default)]
+        turn: f64,
+        /// In space: the direction to turn about, as seen by whom it points at.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axis: Option<[f64; 3]>,
+    },
+    /// A point of an element at rest, a vertex if it is one.
+    Point {
+        /// The point.
+        #[serde(deserialize_with = "numbers::position")]
+        at: Vec<f64>,
+        /// Where it goes.
+        #[serde(deserialize_with = "numbers::position")]
+        to: Vec<f64>,
+    },
+}
+
+/// Reads `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d, "axis": […]},
+/// …]}`.
+pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        handles: Vec<Handle>,
+    }
+    let file: File = numbers::from_json(json)
+        .map_err(|error| ProblemError::MalformedHandles(error.to_string()))?;
+    Ok(file.handles)
+}
+
+/// Handles that have found what they pull.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// Their stations, the last of them their targets.
+    pub stations: Vec<Handles>,
+    /// What each takes hold of.
+    pub aims: Vec<Aim>,
+    /// What turns.
+    pub turns: Vec<Turned>,
+}
+
+/// Finds the vertices and elements of a body that handles name, and the stations on their ways: several where a disc makes half
+/// a turn or more, which the nearest way to the target would not.
+///
+/// A vertex may be named twice if both say the same. Errors name the handle by its place in the list, from 0.
+pub fn bind(body: &Body, handles: &[Handle]) -> Result<Bound, ProblemError> {
+    match body.elements {
+        BodyElements::Triangles { .. } => Binder::<2>::new(body).bind(handles),
+        BodyElements::Tetrahedra { .. } => Binder::<3>::new(body).bind(handles),
+    }
+}
+
+struct Binder<'a, const D: usize> {
+    body: &'a Body,
+    vertices: Vec<u32>,
+    ways: Vec<Way<D>>,
+    points: Vec<Row>,
+    point_ways: Vec<Way<D>>,
+    turns: Vec<Turned>,
+    aims: Vec<Aim>,
+}
+
+impl<'a, const D: usize> Binder<'a, D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    fn new(body: &'a Body) -> Self {
+        Self {
+            body,
+            vertices: Vec::new(),
+            ways: Vec::new(),
+            points: Vec::new(),
+            point_ways: Vec::new(),
+            turns: Vec::new(),
+            aims: Vec::new(),
+        }
+    }
+
+    fn bind(mut self, handles: &[Handle]) -> Result<Bound, ProblemError> {
+        for (index, handle) in handles.iter().enumerate() {
+            let (vertices, points) = (self.vertices.len(), self.points.len());
+            self.add(index, handle)?;
+            self.aims.push(Aim {
+                vertices: self.vertices[vertices..].to_vec(),
+                points: (points..self.points.len()).collect(),
+            });
+        }
+        if self.vertices.is_empty() && self.points.is_empty() {
+            return Err(ProblemError::NoHandle);
+        }
+        let groups = self.groups();
+        let targets: Vec<Vec<f64>> = self.ways.iter().map(|way| way.at(1.0).to_vec()).collect();
+        let bound = paired(D, &self.vertices, &targets, &groups)?;
+        let point_targets = self.point_ways.iter().flat_map(|way| way.at(1.0));
+        let last = with_points(bound, self.points, point_targets.collect())?;
+        let way_of: HashMap<u32, usize> = self.vertices.iter().copied().zip(0..).collect();
+        let ways = (&*self.ways, &*self.point_ways);
+        Ok(Bound {
+            stations: stations(last, &|vertex| way_of[&vertex], ways, &self.turns),
+            turns: self.turns,
+            aims: self.aims,
+        })
+    }
+
+    /// Vertices that are connected travel together, but for handles that stay: they are a group of their own, so that no
+    /// neighbor's travel moves them on the way.
+    fn groups(&self) -> Vec<u32> {
+        let mut is_moving = vec![false; self.vertices.len()];
+        let mut first = 0;
+        for aim in &self.aims {
+            let of_aim = first..first + aim.vertices.len();
+            first = of_aim.end;
+            let moves = of_aim.clone().any(|i| self.moves(i));
+            is_moving[of_aim].fill(moves);
+        }
+        let chosen = self.vertices.iter().zip(&is_moving);
+        let moving: Vec<u32> = chosen
+            .filter(|(_, moves)| **moves)
+            .map(|(v, _)| *v)
+            .collect();
+        let staying = moving.len() as u32;
+        let mut groups = self.body.groups(&moving).into_iter();
+        let group = |moves: bool| if moves { groups.next() } else { None };
+        let groups = is_moving.into_iter().map(group);
+        groups.map(|group| group.unwrap_or(staying)).collect()
+    }
+
+    /// Does a vertex turn, or go elsewhere but for rounding?
+    fn moves(&self, i: usize) -> bool {
+        let rest = &self.body.rest[D * self.vertices[i] as usize..];
+        let differ = |(x, to): (&f64, f64)| (x - to).abs() > ROUNDING * x.abs().max(to.abs());
+        let way = &self.ways[i];
+        way.spin != [[0.0; D]; D] || rest.iter().zip(way.at(1.0)).any(differ)
+    }
+
+    fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {
+        match handle {
+            Handle::Vertex { vertex, to } => {
+                if *vertex as usize >= self.body.n_vertices() {
+                    return Err(ProblemError::UnknownHandle {
+                        handle: index,
+                        vertex: *vertex,
+                        n_vertices: self.body.n_vertices(),
+                    });
+                }
+                self.add_vertex(*vertex, position(index, to)?);
+            }
+            Handle::Disc {
+                center,
+                radius,
+                to,
+                turn,
+                axis,
+            } => {
+                let center = (position(index, center)?, position(index, to)?);
+                self.add_disc(index, center, *radius, (*turn, *axis))?;
+            }
+            Handle::Point { at, to } => {
+                let (at, to) = (position(index, at)?, position::<D>(index, to)?);
+                let outside = ProblemError::HandleOutside { handle: index };
+                let row = locate(self.body, at).ok_or(outside)?;
+                if let Some(vertex) = sole_vertex(&row) {
+                    self.add_vertex(vertex, to);
+                } else {
+                    self.points.push(row);
+                    self.point_ways.push(Way::straight(at, to));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn place(&self, vertex: u32) -> [f64; D] {
+        std::array::from_fn(|k| self.body.rest[D * vertex as usize + k])
+    }
+
+    fn add_vertex(&mut self, vertex: u32, to: [f64; D]) {
+        self.vertices.push(vertex);
+        self.ways.push(Way::straight(self.place(vertex), to));
+    }
+
+    fn add_disc(
+        &mut self,
+        index: usize,
+        (center, to): ([f64; D], [f64; D]),
+        radius: f64,
+        (turn, axis): (f64, Option<[f64; 3]>),
+    ) -> Result<(), ProblemError> {
+        if !(radius >= 0.0 && radius.is_finite()) {
+            let (name, range) = ("radius", "finite and not negative");
+            return Err(ProblemError::BadParameter { name, range });
+        }
+        let axis = turning_axis::<D>(turn, axis)?;
+        let before = self.vertices.len();
+        for v in 0..self.body.n_vertices() as u32 {
+            let place = self.place(v);
+            let arm: [f64; D] = std::array::from_fn(|k| place[k] - center[k]);
+            if arm.iter().map(|x| x * x).sum::<f64>() <= radius * radius {
+                self.vertices.push(v);
+                self.ways.push(Way {
+                    from: center,
+                    to,
+                    arm,
+                    spin: Matrix::<D>::about(axis, turn.to_radians()),
+                });
+            }
+        }
+        if self.vertices.len() == before {
+            return Err(ProblemError::HandleOutside { handle: index });
+        }
+        if turn != 0.0 {
+            self.turns.push(Turned {
+                handle: index,
+                vertices: self.vertices[before..].to_vec(),
+                axis,
+                degrees: turn,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// The unit vector to turn about; in the plane there is none to give.
+fn turning_axis<const D: usize>(
+    turn: f64,
+    axis: Option<[f64; 3]>,
+) -> Result<[f64; 3], ProblemError> {
+    let unit = axis.map_or([0.0; 3], vec3::unit);
+    let has_axis = unit.iter().all(|x| x.is_finite()) && unit != [0.0; 3];
+    let is_turn = turn.abs() <= MOST_DEGREES;
+    match (D, axis.is_some()) {
+        (2, false) if is_turn => Ok(unit),
+        (3, true) if is_turn && has_axis => Ok(unit),
+        (3, false) if turn == 0.0 => Ok(unit),
+        _ => Err(ProblemError::BadParameter {
+            name: "turn and axis",
+            range: "at most 36000 degrees, and in space, but not in the plane, the axis a direction",
+        }),
+    }
+}
+
+fn position<const D: usize>(handle: usize, numbers: &[f64]) -> Result<[f64; D], ProblemError> {
+    let position: Option<[f64; D]> = numbers.try_into().ok();
+    position
+        .filter(|p| p.iter().all(|x| x.is_finite()))
+        .ok_or(ProblemError::BadTarget { handle, dim: D })
+}

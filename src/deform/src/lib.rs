@@ -1,0 +1,75 @@
+//! Bodies pulled by handles, no element inverted, and what lies in them carried along.
+//!
+//! A [`Body`] is a planar or tetrahedral mesh with rest shapes, a [`Problem`] a body with handles, their targets, a
+//! [`DeformationEnergy`] and a barrier; [`Problem::solve`] moves the handles to their targets over maps that are all valid;
+//! a [`Session`] does so an iteration at a time while handles are added, moved and removed. What is minimized is at hand as a
+//! function of positions, with gradient and Hessian ([`Problem::potential`]).
+//! Bodies come from mesh files, from pictures and drawings (`outline`) and from surfaces put into a [`cage`], which carries
+//! them along. Maps of the plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
+#![doc = include_str!("guide.md")]
+
+mod aims;
+mod apart;
+mod attempt;
+mod axes;
+mod bends;
+mod body;
+mod bound;
+mod boundary;
+pub mod boundary_barrier;
+pub mod cage;
+mod cells;
+mod continuation;
+mod deformation_energy;
+mod flowed;
+mod handles;
+mod history;
+mod idle;
+mod live;
+mod locate;
+mod missing;
+mod model;
+mod normalized;
+mod numbers;
+pub mod outline;
+mod paired;
+mod potential;
+mod problem;
+mod problem_error;
+mod problem_file;
+mod problem_handles;
+mod pull;
+mod session;
+mod shake;
+mod slices;
+mod solve;
+mod turns_left;
+mod units;
+mod unreached;
+mod untangle;
+pub mod uv;
+pub mod warp;
+mod way;
+mod ways;
+mod worth;
+
+pub use aims::Aim;
+pub use body::{Body, BodyElements};
+pub use bound::Turned;
+pub use boundary::Boundary;
+pub use deformation_energy::DeformationEnergy;
+pub use handles::parse_body_handles;
+pub use handles::{Bound, Handle, bind};
+pub use numbers::from_json;
+pub use potential::Potential;
+pub use problem::{Model, Problem};
+pub use problem_error::ProblemError;
+pub use problem_file::{ProblemFile, Rest};
+pub use problem_handles::ProblemHandles;
+pub use pull::PullSummary;
+pub use session::{HandleId, Session};
+pub use solve::{Method, Solution};
+pub use turns_left::Turns;
+pub use units::Units;
+pub use unreached::Unreached;
+pub use worth::Worth;

@@ -1,0 +1,117 @@
+//! A problem that is solved while its handles change.
+
+use super::body::BodyElements;
+use super::problem::Problem;
+use super::problem_error::ProblemError;
+use unwrapd_maps::plane::are_disjoint;
+use unwrapd_method::solver::{Drag, Handles, Objective, Stage, Summary};
+
+/// Handles that are nearer to their targets than this, the mean element having size 1, are there: a body at rest stays so.
+const NEAR: f64 = 1e-9;
+
+/// A problem in the units in which its numbers are meant, with its energy, its map and the drag of its handles.
+pub(super) struct Live {
+    /// Its only station are the present handles.
+    problem: Problem,
+    objective: Objective,
+    x: Vec<f64>,
+    drag: Drags,
+}
+
+/// In the plane, or in space.
+enum Drags {
+    Planar(Drag<2>),
+    Spatial(Drag<3>),
+}
+
+impl Live {
+    pub fn new(problem: Problem) -> Result<Self, ProblemError> {
+        let handles = problem.stations.last().cloned().unwrap_or_default();
+        handles.check(problem.body.dim(), problem.start.len())?;
+        let mut objective = problem.objective()?;
+        let x = problem.start.clone();
+        let drag = match problem.body.dim() {
+            2 => Drags::Planar(Drag::new(&mut objective, &x)?),
+            _ => Drags::Spatial(Drag::new(&mut objective, &x)?),
+        };
+        let mut live = Self {
+            problem,
+            objective,
+            x,
+            drag,
+        };
+        live.aim(handles)?;
+        Ok(live)
+    }
+
+    /// Takes these handles in place of those before.
+    pub fn aim(&mut self, handles: Handles) -> Result<(), ProblemError> {
+        let (objective, x) = (&mut self.objective, &mut self.x);
+        handles.check(objective.dim(), x.len())?;
+        self.problem.stations = vec![handles];
+        let handles = &self.problem.stations[0];
+        if *x == self.problem.body.rest && self.problem.worth_as_given(x).residual > NEAR * NEAR {
+            self.problem.shake(objective, x);
+        }
+        match &mut self.drag {
+            Drags::Planar(drag) => drag.aim(objective, x, handles)?,
+            Drags::Spatial(drag) => drag.aim(objective, x, handles)?,
+        }
+        Ok(())
+    }
+
+    /// One iteration, unless there is nothing left to do.
+    pub fn step(&mut self) -> Stage {
+        let (objective, x) = (&mut self.objective, &mut self.x);
+        match &mut self.drag {
+            Drags::Planar(drag) => drag.step(objective, x),
+            Drags::Spatial(drag) => drag.step(objective, x),
+        }
+    }
+
+    pub fn stage(&self) -> Stage {
+        match &self.drag {
+            Drags::Planar(drag) => drag.stage(),
+            Drags::Spatial(drag) => drag.stage(),
+        }
+    }
+
+    pub fn summary(&self) -> &Summary {
+        match &self.drag {
+            Drags::Planar(drag) => drag.summary(),
+            Drags::Spatial(drag) => drag.summary(),
+        }
+    }
+
+    pub fn x(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// Puts the map back to where it was, with the handles that there are.
+    pub fn put(&mut self, x: Vec<f64>) -> Result<(), ProblemError> {
+        self.x = x;
+        self.aim(self.problem.stations[0].clone())
+    }
+
+    /// Refuses a map that is outside the domain of the energy.
+    pub fn check_domain(&self) -> Result<(), ProblemError> {
+        let is_apart = match (&self.problem.boundary_barrier, &self.problem.body.elements) {
+            (Some(_), BodyElements::Triangles { corners, .. }) => {
+                are_disjoint(self.x.as_chunks().0, corners)
+            }
+            _ => true,
+        };
+        if is_apart && self.objective.value(&self.x).is_finite() {
+            return Ok(());
+        }
+        Err(ProblemError::OutsideDomain)
+    }
+
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    pub fn analyses(&self) -> usize {
+        self.objective.analyses()
+    }
+}

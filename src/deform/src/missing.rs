@@ -1,0 +1,224 @@
+//! Handles that can be reached, beside those that cannot.
+
+use super::aims::Aim;
+use super::attempt::{Attempt, Trial};
+use super::axes::axes;
+use super::normalized::Frame;
+use super::problem::Problem;
+use super::problem_error::ProblemError;
+use super::solve::Solution;
+use super::unreached::Gaps;
+use super::way::{BEND, Way, ways};
+use unwrapd_method::numerics::rotation::Rotation;
+use unwrapd_method::numerics::square::{Matrix, Square};
+use unwrapd_method::solver::{Handles, Pace, Status};
+
+/// Iterations at most, of all attempts and of each.
+const MOST: usize = 1000;
+const MOST_EACH: usize = 300;
+
+/// Handles within so many edges of a mean element of their targets go there together.
+const NEAR: f64 = 2.0;
+
+/// A handle that is tried alone goes straight, or else to the left or to the right.
+const SIDES: [f64; 3] = [0.0, BEND, -BEND];
+
+/// A map whose handles did not all arrive: each that can be reached is, while the others are held where they are. The rest stay as
+/// near as they came.
+///
+/// Of a set that does not arrive together each half is tried, so that few of many cost few attempts.
+pub(super) struct Missing<'a, const D: usize> {
+    problem: &'a Problem,
+    parts: Vec<Aim>,
+    /// The parts that have a way to go at the start.
+    n_moving: usize,
+    /// Those that have not arrived.
+    away: Vec<usize>,
+    x: Vec<f64>,
+    energy: f64,
+    is_stopped: bool,
+}
+
+impl<'a, const D: usize> Missing<'a, D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    /// In the map `x` of this energy that began at `start`.
+    pub fn new(problem: &'a Problem, start: &[f64], (x, energy): (Vec<f64>, f64)) -> Self {
+        let parts = problem.parts();
+        let away = |x: &[f64]| away(problem, &parts, x, problem.least_gap(), f64::INFINITY);
+        Self {
+            n_moving: away(start).len(),
+            away: away(&x),
+            energy,
+            is_stopped: false,
+            problem,
+            parts,
+            x,
+        }
+    }
+
+    /// The share of the handles that are missing.
+    pub fn share(&self) -> f64 {
+        self.away.len() as f64 / self.n_moving.max(1) as f64
+    }
+
+    pub fn is_none(&self) -> bool {
+        self.away.is_empty()
+    }
+
+    pub fn is_stopped(&self) -> bool {
+        self.is_stopped
+    }
+
+    /// The energy of the map.
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
+    /// Brings all of them to their targets or, if they do not arrive together, those that are near.
+    pub fn together(&mut self, trial: &mut Trial) -> Result<(), ProblemError> {
+        if self.away.len() > 1 {
+            self.try_set(trial, &self.away.clone(), MOST_EACH)?;
+        }
+        let near = NEAR * Frame::of(&self.problem.body).squared(1.0).sqrt();
+        let least = self.problem.least_gap();
+        let mut set = away(self.problem, &self.parts, &self.x, least, near);
+        set.retain(|part| self.away.contains(part));
+        if set.len() > 1 {
+            self.try_set(trial, &set, MOST_EACH)?;
+        }
+        Ok(())
+    }
+
+    /// Brings those to their targets that get there together, or by halves, or alone.
+    pub fn alone(&mut self, trial: &mut Trial) -> Result<(), ProblemError> {
+        self.reach(trial, vec![self.away.clone()])
+    }
+
+    /// The map as a solution.
+    pub fn into_solution(self, trial: &Trial) -> Solution {
+        let status = if self.is_stopped {
+            Status::Stopped
+        } else if self.away.is_empty() {
+            Status::Converged
+        } else {
+            Status::TargetsUnreachable
+        };
+        trial.solution(self.x, status, self.energy)
+    }
+
+    /// Tries these sets, the last one first, and the halves of those that do not arrive.
+    fn reach(&mut self, trial: &mut Trial, mut sets: Vec<Vec<usize>>) -> Result<(), ProblemError> {
+        let end = trial.total.iterations + MOST;
+        while let Some(set) = sets.pop() {
+            let left = end.saturating_sub(trial.total.iterations);
+            if left == 0 {
+                break;
+            }
+            let has_arrived = self.try_set(trial, &set, left.min(MOST_EACH))?;
+            if !has_arrived && set.len() > 1 {
+                sets.extend(halves(&set));
+            }
+        }
+        Ok(())
+    }
+
+    /// Do these arrive, within so many iterations a way?
+    fn try_set(
+        &mut self,
+        trial: &mut Trial,
+        set: &[usize],
+        most: usize,
+    ) -> Result<bool, ProblemError> {
+        let sides = match set.len() {
+            0 => &[],
+            1 => &SIDES[..],
+            _ => &SIDES[..1],
+        };
+        for &side in sides {
+            if self.is_stopped {
+                break;
+            }
+            let station = self.only(set, side);
+            let x = std::mem::take(&mut self.x);
+            let mut attempt = Attempt::<D>::new(trial, x, (vec![station], most))?;
+            attempt.go_on(trial, Pace::BRISK)?;
+            let has_arrived = attempt.has_arrived();
+            self.is_stopped = attempt.is_stopped();
+            self.energy = attempt.energy();
+            self.x = attempt.into_map();
+            if has_arrived {
+                self.away.retain(|part| !set.contains(part));
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The handles of these parts pulled to their targets, on ways bent so far to the left, and all others held where they are.
+    fn only(&self, set: &[usize], side: f64) -> Handles {
+        let targets = &self.problem.stations[0];
+        let is_pulled = |v: u32| {
+            set.iter()
+                .any(|&part| self.parts[part].vertices.contains(&v))
+        };
+        let mut station = targets.clone();
+        station.groups = targets.groups().to_vec();
+        // A group of their own, so that no neighbor's travel moves them.
+        let held = targets.n_groups() as u32;
+        for (i, &v) in targets.vertices.iter().enumerate() {
+            if !is_pulled(v) {
+                let place = &self.x[D * v as usize..D * (v as usize + 1)];
+                station.targets[D * i..D * (i + 1)].copy_from_slice(place);
+                station.groups[i] = held;
+            }
+        }
+        let gaps = Gaps::new(D, targets, &self.x);
+        for i in 0..targets.points.len() {
+            if !set.iter().any(|&part| self.parts[part].points.contains(&i)) {
+                station.point_targets[D * i..D * (i + 1)].copy_from_slice(&gaps.point(i));
+            }
+        }
+        if side != 0.0 {
+            let axis = axes(&self.problem.body)[0];
+            let ways = ways(D, &station, &self.x);
+            let bent = |way: &Way| way.left(axis).map(|x| side * x);
+            station.bends = ways.iter().map(bent).collect();
+        }
+        station
+    }
+}
+
+impl Problem {
+    /// What is pulled together: what one handle of the user's list holds, or else a group or a point.
+    fn parts(&self) -> Vec<Aim> {
+        if !self.aims.is_empty() {
+            return self.aims.clone();
+        }
+        let targets = &self.stations[0];
+        let mut parts = vec![Aim::default(); targets.n_groups()];
+        for (&vertex, &group) in targets.vertices.iter().zip(&*targets.groups()) {
+            parts[group as usize].vertices.push(vertex);
+        }
+        parts.extend((0..targets.points.len()).map(Aim::at_point));
+        parts
+    }
+}
+
+/// The parts that are farther than `least` from their targets, but not as far as `most`.
+fn away(problem: &Problem, parts: &[Aim], x: &[f64], least: f64, most: f64) -> Vec<usize> {
+    let gaps = Gaps::new(problem.body.dim(), &problem.stations[0], x);
+    let is_away = |part: &usize| {
+        let gap = gaps.of(&parts[*part]);
+        gap > least && gap < most
+    };
+    (0..parts.len()).filter(is_away).collect()
+}
+
+/// A set in two parts, the last of them first; one alone as it is.
+fn halves<T: Copy>(set: &[T]) -> Vec<Vec<T>> {
+    let (first, second) = set.split_at(set.len() / 2);
+    let parts = [second, first].into_iter().filter(|part| !part.is_empty());
+    parts.map(<[T]>::to_vec).collect()
+}

@@ -1,0 +1,169 @@
+//! Problems taken to the unit in which their numbers are meant.
+//!
+//! β, ε, tolerances and energies have the same meaning for a ring and a city where the mean element
+//! has size 1 and the body lies around the origin. A problem is taken there, solved, and brought
+//! back; whoever poses it and sees its solution does not notice.
+
+use std::cell::RefCell;
+
+use super::body::{Body, BodyElements};
+use super::boundary_barrier::BoundaryBarrier;
+use super::problem::Problem;
+use super::units::Units;
+use unwrapd_method::energy::RestShape;
+use unwrapd_method::solver::{Control, Handles, Iterate, Watch};
+
+/// Where normalized positions lie in those that were given.
+pub(super) struct Frame {
+    origin: Vec<f64>,
+    unit: f64,
+}
+
+impl Frame {
+    /// The center of a body's box, and the unit in which its mean element has size 1.
+    pub fn of(body: &Body) -> Self {
+        let dim = body.dim();
+        let mean = match &body.elements {
+            BodyElements::Triangles { rest, .. } => mean_size(rest),
+            BodyElements::Tetrahedra { rest, .. } => mean_size(rest),
+        };
+        let middle = |k: usize| {
+            let places = body.rest.iter().skip(k).step_by(dim);
+            let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| {
+                (low.min(x), high.max(x))
+            });
+            0.5 * (low + high)
+        };
+        Self {
+            origin: (0..dim).map(middle).collect(),
+            unit: mean.powf(1.0 / dim as f64),
+        }
+    }
+
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    pub fn inward(&self, x: &[f64]) -> Vec<f64> {
+        let origin = self.origin.iter().cycle();
+        x.iter()
+            .zip(origin)
+            .map(|(x, o)| (x - o) / self.unit)
+            .collect()
+    }
+
+    pub fn outward(&self, x: &[f64]) -> Vec<f64> {
+        self.places(x).collect()
+    }
+
+    fn places<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let origin = self.origin.iter().cycle();
+        x.iter().zip(origin).map(|(x, o)| o + x * self.unit)
+    }
+
+    /// Handles with their targets in the unit of normalized positions.
+    pub fn handles(&self, handles: &Handles) -> Handles {
+        Handles {
+            targets: self.inward(&handles.targets),
+            point_targets: self.inward(&handles.point_targets),
+            ..handles.clone()
+        }
+    }
+
+    /// A squared distance as one of those that were given.
+    pub fn squared(&self, distance: f64) -> f64 {
+        distance * self.unit * self.unit
+    }
+
+    fn body(&self, body: &Body) -> Body {
+        let elements = match &body.elements {
+            BodyElements::Triangles { corners, rest } => BodyElements::Triangles {
+                corners: corners.clone(),
+                rest: rest.iter().map(|shape| shape.in_unit(self.unit)).collect(),
+            },
+            BodyElements::Tetrahedra { corners, rest } => BodyElements::Tetrahedra {
+                corners: corners.clone(),
+                rest: rest.iter().map(|shape| shape.in_unit(self.unit)).collect(),
+            },
+        };
+        Body {
+            rest: self.inward(&body.rest),
+            elements,
+        }
+    }
+}
+
+/// Bodies without elements have the unit of their positions.
+fn mean_size<const D: usize>(rest: &[RestShape<D>]) -> f64 {
+    match rest.len() {
+        0 => 1.0,
+        n => rest.iter().map(|shape| shape.size).sum::<f64>() / n as f64,
+    }
+}
+
+impl Problem {
+    /// The same problem in the unit in which its numbers are meant, and where that lies.
+    pub(super) fn normalized(&self) -> (Self, Frame) {
+        let frame = Frame::of(&self.body);
+        let (body, start) = (frame.body(&self.body), frame.inward(&self.start));
+        let boundary_barrier = match (&self.boundary_barrier, &body.elements) {
+            (Some(_), BodyElements::Triangles { corners, .. }) => {
+                Some(BoundaryBarrier::new(corners, &start))
+            }
+            _ => None,
+        };
+        let mut barrier = self.barrier;
+        barrier.epsilon /= frame.unit.powi(body.dim() as i32);
+        let stations = self.stations.iter().map(|handles| frame.handles(handles));
+        let problem = Self {
+            start,
+            barrier,
+            boundary_barrier,
+            stations: stations.collect(),
+            units: Units::Given,
+            body,
+            ..self.clone()
+        };
+        (problem, frame)
+    }
+}
+
+/// Shows the iterates of a normalized problem to who posed it.
+pub(super) struct Restored<'a> {
+    watch: &'a dyn Watch,
+    frame: &'a Frame,
+    /// Room for positions, so that iterations allocate nothing.
+    x: RefCell<Vec<f64>>,
+}
+
+impl<'a> Restored<'a> {
+    pub fn to(watch: &'a dyn Watch, frame: &'a Frame) -> Self {
+        Self {
+            watch,
+            frame,
+            x: RefCell::default(),
+        }
+    }
+}
+
+impl Restored<'_> {
+    fn restored(&self, iterate: &Iterate) -> Iterate {
+        Iterate {
+            residual: self.frame.squared(iterate.residual),
+            ..*iterate
+        }
+    }
+}
+
+impl Watch for Restored<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        self.watch.iterate(&self.restored(iterate))
+    }
+
+    fn positions(&self, iterate: &Iterate, x: &[f64]) {
+        let mut restored = self.x.borrow_mut();
+        restored.clear();
+        restored.extend(self.frame.places(x));
+        self.watch.positions(&self.restored(iterate), &restored);
+    }
+}

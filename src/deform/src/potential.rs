@@ -1,0 +1,100 @@
+//! A problem's energy as a function of positions.
+
+use super::normalized::Frame;
+use super::problem::Problem;
+use super::problem_error::ProblemError;
+use super::units::Units;
+use unwrapd_method::numerics::csr::Csr;
+use unwrapd_method::solver::Objective;
+
+/// The sum of energy, barriers and bound of a [`Problem`] at any positions, for those who look at it or minimize it themselves.
+/// Handles have no share in it.
+///
+/// Positions are those of the problem, and derivatives are derivatives in them. The value has the unit in which the problem's
+/// numbers are meant ([`Units`]).
+pub struct Potential {
+    objective: Objective,
+    /// Where the problem's numbers are meant, if that is not where positions are.
+    frame: Option<Frame>,
+}
+
+impl Problem {
+    /// Its energy as a function of positions.
+    ///
+    /// # Errors
+    /// If the body does not have such an energy.
+    pub fn potential(&self) -> Result<Potential, ProblemError> {
+        let of = |problem: &Self| {
+            let terms = problem.terms(problem.barrier)?;
+            let n_vertices = problem.body.n_vertices();
+            Ok::<_, ProblemError>(Objective::of_terms(n_vertices, terms))
+        };
+        let (objective, frame) = match self.units {
+            Units::Given => (of(self)?, None),
+            Units::Normalized => {
+                let (inner, frame) = self.normalized();
+                (of(&inner)?, Some(frame))
+            }
+        };
+        Ok(Potential { objective, frame })
+    }
+}
+
+impl Potential {
+    /// E(x), +∞ outside the domain.
+    ///
+    /// # Errors
+    /// If there are not as many coordinates as the problem has.
+    pub fn value(&self, x: &[f64]) -> Result<f64, ProblemError> {
+        Ok(self.objective.value(&self.inward(x)?))
+    }
+
+    /// ∂E/∂x.
+    ///
+    /// # Errors
+    /// As [`value`](Self::value), or if that is infinite.
+    pub fn gradient(&mut self, x: &[f64]) -> Result<Vec<f64>, ProblemError> {
+        self.linearize(x)?;
+        let gradient = self.objective.gradient().iter();
+        Ok(gradient.map(|slope| slope / self.unit()).collect())
+    }
+
+    /// ∂²E/∂x², as it is: nothing is projected.
+    ///
+    /// # Errors
+    /// As [`gradient`](Self::gradient).
+    pub fn hessian(&mut self, x: &[f64]) -> Result<Csr, ProblemError> {
+        self.linearize(x)?;
+        // What was added to make it regular is not a part of it.
+        self.objective.shift_diagonal(-self.objective.shift());
+        let (pattern, values) = self.objective.hessian();
+        let mut hessian = Csr::of_lower(pattern.scalar(), values);
+        let square = self.unit() * self.unit();
+        hessian.data.iter_mut().for_each(|entry| *entry /= square);
+        Ok(hessian)
+    }
+
+    fn linearize(&mut self, x: &[f64]) -> Result<(), ProblemError> {
+        let x = self.inward(x)?;
+        if !self.objective.value(&x).is_finite() {
+            return Err(ProblemError::OutsideDomain);
+        }
+        self.objective.linearize(&x, 1.0);
+        Ok(())
+    }
+
+    fn inward(&self, x: &[f64]) -> Result<Vec<f64>, ProblemError> {
+        let (found, expected) = (x.len(), self.objective.n());
+        if found != expected {
+            return Err(ProblemError::WrongStart { found, expected });
+        }
+        Ok(self
+            .frame
+            .as_ref()
+            .map_or_else(|| x.to_vec(), |frame| frame.inward(x)))
+    }
+
+    fn unit(&self) -> f64 {
+        self.frame.as_ref().map_or(1.0, Frame::unit)
+    }
+}

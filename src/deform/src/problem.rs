@@ -1,0 +1,218 @@
+//! A body, handles and their targets, an energy and a barrier.
+
+use super::aims::Aim;
+use super::body::{Body, BodyElements};
+use super::bound::Turned;
+use super::boundary_barrier::BoundaryBarrier;
+use super::deformation_energy::DeformationEnergy;
+use super::handles::{Bound, Handle, bind};
+use super::problem_error::ProblemError;
+use super::units::Units;
+use super::untangle::{bad_elements, untangled};
+use unwrapd_api::options::options;
+use unwrapd_maps::plane::are_disjoint;
+use unwrapd_method::barrier::{Barrier, BarrierKind};
+use unwrapd_method::energy::Term;
+use unwrapd_method::solver::{Handles, LevenbergSettings};
+
+/// A problem with its mesh, checked.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// What is deformed.
+    pub body: Body,
+    /// Start positions, coordinates one after another.
+    pub start: Vec<f64>,
+    /// How many elements of the start were inverted and had to be untangled.
+    pub untangled: usize,
+    /// The energy.
+    pub energy: DeformationEnergy,
+    /// The barrier.
+    pub barrier: Barrier,
+    /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything.
+    pub bound: Option<f64>,
+    /// What keeps the boundary from crossing itself, if anything does.
+    pub boundary_barrier: Option<BoundaryBarrier>,
+    /// The stations of the handles, the last of them their targets.
+    pub stations: Vec<Handles>,
+    /// What turns on the way, for those who ask which [turns](Self::turns) a map holds.
+    pub turned: Vec<Turned>,
+    /// What each handle of a user's list takes hold of; none where nobody asks which of them are
+    /// [unreached](Self::unreached).
+    pub aims: Vec<Aim>,
+    /// Are all bent ways tried, for the map with the lowest energy, even where straight ones lead to the targets?
+    pub search: bool,
+    /// What `levenberg` is told.
+    pub levenberg: LevenbergSettings,
+    /// What β, ε, tolerances and energies are measured in.
+    pub units: Units,
+}
+
+options! {
+    /// Energy and barrier of a deformation, as users specify them.
+    pub struct Model under "Energy and barrier" {
+        /// Deformation energy: a name, or a formula of the signed singular values of an element, s1 and
+        /// s2, in space s3, as `(s1 - 1)^2 + (s2 - 1)^2`. A formula must be symmetric, and smooth and
+        /// minimal at 1.
+        pub energy: DeformationEnergy = DeformationEnergy::Arap, arg(value_parser = unwrapd_api::options::WordOrText::<DeformationEnergy>::new());
+        /// Barrier that keeps elements from inverting; none is for comparison.
+        pub barrier: BarrierKind = BarrierKind::InverseSpline;
+        /// Barrier strength β. The default is the value of the paper: 100 for green, 0.01 for the
+        /// other energies.
+        pub barrier_strength: Option<f64>, value "BETA", also "beta";
+        /// Support s of the inverse-spline barrier: the share of its rest size below which an
+        /// element feels the barrier.
+        pub barrier_support: f64 = 1.0, value "S", also "s";
+        /// Upper bound on the conformal distortion σ₁/σ₂ of every triangle, greater than 1. Only in
+        /// the plane.
+        pub max_conformal: Option<f64>, value "K";
+        /// Also keep the boundary from crossing itself, so that the map stays bijective. Only in
+        /// the plane.
+        pub bijective: bool;
+    }
+}
+
+impl Model {
+    /// Checks every number against its range, and a formula for being an energy.
+    pub fn check(&self) -> Result<(), ProblemError> {
+        self.energy.check()?;
+        let is_positive = |x: f64| x > 0.0 && x.is_finite();
+        for (name, value) in [
+            ("barrier_strength", self.barrier_strength),
+            ("barrier_support", Some(self.barrier_support)),
+        ] {
+            if !value.is_none_or(is_positive) {
+                let range = "a positive number";
+                return Err(ProblemError::BadParameter { name, range });
+            }
+        }
+        if !self
+            .max_conformal
+            .is_none_or(|bound| is_positive(bound - 1.0))
+        {
+            let (name, range) = ("max_conformal", "a number greater than 1");
+            return Err(ProblemError::BadParameter { name, range });
+        }
+        Ok(())
+    }
+
+    /// The barrier with its numbers; ε is the paper's share, 1e-4 as its authors have it, of the smallest element unless
+    /// given.
+    pub(super) fn barrier(
+        &self,
+        body: &Body,
+        epsilon: Option<f64>,
+    ) -> Result<Barrier, ProblemError> {
+        self.check()?;
+        let smallest = body
+            .determinants()
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let barrier = Barrier {
+            kind: self.barrier,
+            beta: (self.barrier_strength).unwrap_or(self.energy.default_beta()),
+            s: self.barrier_support,
+            epsilon: epsilon.unwrap_or(1e-4 * smallest),
+        };
+        if !(barrier.epsilon >= 0.0 && barrier.epsilon < smallest) {
+            return Err(ProblemError::BadParameter {
+                name: "epsilon",
+                range: "at least 0 and below the smallest rest determinant",
+            });
+        }
+        Ok(barrier)
+    }
+}
+
+impl Problem {
+    /// A body at rest and handles to pull it by.
+    pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
+        let Bound {
+            stations,
+            aims,
+            turns,
+        } = bind(&body, handles)?;
+        Ok(Self {
+            stations,
+            aims,
+            turned: turns,
+            ..Self::at_rest(body, model)?
+        })
+    }
+
+    /// A body at rest, and nothing to pull it by yet.
+    pub fn at_rest(body: Body, model: &Model) -> Result<Self, ProblemError> {
+        let problem = Self {
+            start: body.rest.clone(),
+            untangled: 0,
+            energy: model.energy.clone(),
+            barrier: model.barrier(&body, None)?,
+            bound: model.max_conformal,
+            boundary_barrier: None,
+            stations: Vec::new(),
+            aims: Vec::new(),
+            turned: Vec::new(),
+            search: false,
+            levenberg: LevenbergSettings::default(),
+            units: Units::Normalized,
+            body,
+        };
+        problem.guarded(model)
+    }
+
+    /// The same with a barrier between the parts of its boundary, if the model wants it. The start must not overlap itself, and
+    /// something must keep elements from inverting: a boundary alone does not make a map bijective.
+    pub(super) fn guarded(mut self, model: &Model) -> Result<Self, ProblemError> {
+        if !model.bijective {
+            return Ok(self);
+        }
+        let BodyElements::Triangles { corners, .. } = &self.body.elements else {
+            return Err(ProblemError::PlanarBijectivity);
+        };
+        if !self.forbids_inversion() {
+            let (name, range) = (
+                "bijective",
+                "off where nothing keeps elements from inverting",
+            );
+            return Err(ProblemError::BadParameter { name, range });
+        }
+        let barrier = BoundaryBarrier::new(corners, &self.start);
+        let is_apart = barrier.value(&self.start).is_finite();
+        if !(is_apart && are_disjoint(self.start.as_chunks().0, corners)) {
+            return Err(ProblemError::OverlappingStart);
+        }
+        self.boundary_barrier = Some(barrier);
+        Ok(self)
+    }
+
+    /// With a barrier no element of the start may be at ε or below: those that are are untangled, as little as possible moved.
+    /// Handles move too; they travel from where they are then.
+    pub fn untangle_start(&mut self) -> Result<(), ProblemError> {
+        if self.barrier.kind == BarrierKind::None {
+            return Ok(());
+        }
+        let epsilon = self.barrier.epsilon;
+        let bad = bad_elements(&self.body, &self.start, epsilon);
+        let Some(&element) = bad.first() else {
+            return Ok(());
+        };
+        let Some(start) = untangled(&self.body, &self.start, &[], epsilon) else {
+            return Err(ProblemError::InfeasibleStart {
+                element,
+                determinant: self.body.determinants_at(&self.start)[element],
+                epsilon,
+            });
+        };
+        self.start = start;
+        self.untangled = bad.len();
+        Ok(())
+    }
+
+    /// Does the energy or the barrier keep every element from inverting?
+    pub fn forbids_inversion(&self) -> bool {
+        let terms = self
+            .energy
+            .terms(&self.body, self.barrier, self.bound)
+            .unwrap_or_default();
+        terms.iter().any(|term| term.forbids_flips())
+    }
+}

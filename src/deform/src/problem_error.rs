@@ -1,0 +1,163 @@
+//! Why a problem cannot be solved.
+
+use unwrapd_files::io::ReadError;
+use unwrapd_maps::mesh::ElementError;
+use unwrapd_method::energy::FormulaError;
+use unwrapd_method::solver::HandlesError;
+
+/// Why a problem cannot be solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ProblemError {
+    /// The file is not a problem.
+    #[error("the problem file cannot be parsed: {0}")]
+    Malformed(String),
+    /// The file is not a list of handles.
+    #[error("the handles cannot be parsed: {0}")]
+    MalformedHandles(String),
+    /// The mesh cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The mesh cannot be deformed.
+    #[error(transparent)]
+    Element(#[from] ElementError),
+    /// A handle names a vertex that there is not.
+    #[error("handle {handle} names vertex {vertex}, but there are only {n_vertices} vertices")]
+    UnknownHandle {
+        /// Index of the handle.
+        handle: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// How many there are.
+        n_vertices: usize,
+    },
+    /// A session has no such handle any more.
+    #[error("handle {handle} was removed, or never added")]
+    RemovedHandle {
+        /// Its number, from 0 in the order of adding.
+        handle: u32,
+    },
+    /// The handles of a problem do not fit each other or the body.
+    #[error(transparent)]
+    Handles(#[from] HandlesError),
+    /// There is nothing to pull at.
+    #[error("there is no handle")]
+    NoHandle,
+    /// A handle names no place of the body.
+    #[error("handle {handle} lies outside the mesh")]
+    HandleOutside {
+        /// Index of the handle.
+        handle: usize,
+    },
+    /// A handle names a vertex, but users do not know the vertices of a cage.
+    #[error("handle {handle} names a vertex; in a cage, handles must be places: `at` or `center`")]
+    VertexOfCage {
+        /// Index of the handle.
+        handle: usize,
+    },
+    /// A target is not a position.
+    #[error("the target of handle {handle} must be {dim} finite numbers")]
+    BadTarget {
+        /// Index of the handle.
+        handle: usize,
+        /// Coordinates of a position.
+        dim: usize,
+    },
+    /// Handles and targets do not pair up.
+    #[error("there are {handles} handles but {targets} targets")]
+    Unpaired {
+        /// How many handles.
+        handles: usize,
+        /// How many targets.
+        targets: usize,
+    },
+    /// One vertex is to be at two places.
+    #[error("vertex {vertex} has two handles with different targets")]
+    ContradictoryHandles {
+        /// The vertex.
+        vertex: u32,
+    },
+    /// One point of an element is to be at two places.
+    #[error("a point has two handles with different targets")]
+    ContradictoryPoints,
+    /// The start has an element at or below ε and cannot be untangled.
+    #[error(
+        "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}, and untangling failed"
+    )]
+    InfeasibleStart {
+        /// The element.
+        element: usize,
+        /// Twice its area or six times its volume.
+        determinant: f64,
+        /// ε.
+        epsilon: f64,
+    },
+    /// A number is not in its range.
+    #[error("`{name}` must be {range}")]
+    BadParameter {
+        /// Which.
+        name: &'static str,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// The energy is neither one that has a name nor one by a formula that the body's dimension has.
+    #[error("`energy` is neither the name of an energy nor the formula of one: {0}")]
+    Formula(#[from] FormulaError),
+    /// The energy is not defined for the body.
+    #[error("this energy exists only in the plane")]
+    PlanarEnergy,
+    /// Only a map of the plane can be kept bijective.
+    #[error("`bijective` applies only to maps of the plane")]
+    PlanarBijectivity,
+    /// The map should be kept bijective, which it is not at the start.
+    #[error("the start overlaps or touches itself, so no map from it can stay bijective")]
+    OverlappingStart,
+    /// The present map has no finite energy under another model.
+    #[error("the present map is outside the domain of this energy, barrier or bound")]
+    OutsideDomain,
+    /// The start does not belong to the mesh.
+    #[error("the start has {found} coordinates, but the mesh has {expected}")]
+    WrongStart {
+        /// Numbers found.
+        found: usize,
+        /// Numbers needed.
+        expected: usize,
+    },
+}
+
+impl ProblemError {
+    /// The column of a formula that is wrong, from 1.
+    pub fn column(&self) -> Option<usize> {
+        match self {
+            Self::Formula(error) => error.column(),
+            _ => None,
+        }
+    }
+
+    /// A word for programs; it does not change.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed(_) => "malformed_problem",
+            Self::MalformedHandles(_) => "malformed_handles",
+            Self::Read(error) => error.code(),
+            Self::Element(error) => error.code(),
+            Self::UnknownHandle { .. } | Self::RemovedHandle { .. } => "unknown_handle",
+            Self::Handles(error) => error.code(),
+            Self::NoHandle => "no_handle",
+            Self::HandleOutside { .. } => "handle_outside",
+            Self::VertexOfCage { .. } => "vertex_of_cage",
+            Self::BadTarget { .. } => "bad_target",
+            Self::Unpaired { .. } => "unpaired_handles",
+            Self::ContradictoryHandles { .. } | Self::ContradictoryPoints => {
+                "contradictory_handles"
+            }
+            Self::InfeasibleStart { .. } => "infeasible_start",
+            Self::BadParameter { .. } => "bad_parameter",
+            Self::Formula(_) => "invalid_formula",
+            Self::PlanarEnergy => "planar_energy",
+            Self::PlanarBijectivity => "planar_bijectivity",
+            Self::OverlappingStart => "overlapping_start",
+            Self::OutsideDomain => "outside_domain",
+            Self::WrongStart { .. } => "wrong_start",
+        }
+    }
+}

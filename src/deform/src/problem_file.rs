@@ -1,0 +1,155 @@
+//! Problem files: a mesh, handles and their targets, an energy and a barrier.
+
+use serde::Deserialize;
+
+use super::body::Body;
+use super::deformation_energy::DeformationEnergy;
+use super::numbers;
+use super::problem::{Model, Problem};
+use super::problem_error::ProblemError;
+use super::problem_handles::ProblemHandles;
+use super::units::Units;
+use unwrapd_files::io::Elements;
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::solver::LevenbergSettings;
+
+/// A problem as its file says it; every path is relative to the file.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ProblemFile {
+    /// The mesh.
+    pub mesh: String,
+    /// Start positions, one vertex per line; the rest positions if absent.
+    pub initial: Option<String>,
+    /// Where rest shapes come from.
+    #[serde(default)]
+    pub rest: Rest,
+    /// What pulls: vertex ids, or handles in the form of all other kinds of jobs.
+    pub handles: ProblemHandles,
+    /// Where vertices should come, one position each.
+    #[serde(default, deserialize_with = "numbers::positions")]
+    pub targets: Vec<Vec<f64>>,
+    /// Target sets to go through one after another, the last of them [`targets`](Self::targets).
+    #[serde(default)]
+    pub sequence: Vec<Vec<Vec<f64>>>,
+    /// The energy: a name, or a formula of the signed singular values s1 and s2, in space s3.
+    pub energy: DeformationEnergy,
+    /// The barrier.
+    pub barrier: BarrierKind,
+    /// β; the paper's for the energy if absent.
+    #[serde(alias = "beta")]
+    pub barrier_strength: Option<f64>,
+    /// s.
+    #[serde(default = "one", alias = "gamma")]
+    pub barrier_support: f64,
+    /// ε; 1e-4 of the smallest rest determinant if absent.
+    pub eps: Option<f64>,
+    /// Whether the boundary, too, is kept from crossing itself.
+    #[serde(default)]
+    pub bijective: bool,
+    /// What β, ε, tolerances and energies are measured in; the unit of the mesh if absent.
+    #[serde(default = "given")]
+    pub units: Units,
+    /// Of `levenberg` only: do the targets retreat while the shift is large?
+    pub substepping: Option<bool>,
+    /// Of `levenberg` only: does α grow?
+    pub alpha_update: Option<bool>,
+    /// Of `levenberg` only: α at the start.
+    pub alpha0: Option<f64>,
+    /// Of `levenberg` only: r.
+    pub alpha_ratio: Option<f64>,
+    /// Of `levenberg` only: steps at most.
+    pub max_iter: Option<usize>,
+    /// Of `levenberg` only: ends when a step is shorter.
+    pub min_step: Option<f64>,
+    /// Of `levenberg` only: the largest ‖Cx − d‖² that counts as met.
+    pub tol: Option<f64>,
+}
+
+fn given() -> Units {
+    Units::Given
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// What an element is without distortion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Rest {
+    /// Its x, y or x, y, z.
+    #[default]
+    Same,
+    /// A triangle of space, laid flat.
+    Corotated,
+}
+
+impl ProblemFile {
+    /// Parses JSON.
+    pub fn parse(json: &[u8]) -> Result<Self, ProblemError> {
+        let file: Result<Self, _> = numbers::from_json(json);
+        let file = file.map_err(|error| ProblemError::Malformed(error.to_string()))?;
+        file.handles.check(&file.targets, &file.sequence)?;
+        Ok(file)
+    }
+
+    /// The files that it names.
+    pub fn references(&self) -> impl Iterator<Item = String> {
+        std::iter::once(self.mesh.clone()).chain(self.initial.clone())
+    }
+
+    /// The problem on this mesh, starting from these positions or from rest.
+    pub fn with(self, mesh: Elements, start: Option<Vec<f64>>) -> Result<Problem, ProblemError> {
+        let body = if !mesh.tets.is_empty() {
+            Body::from(&mesh.into_tet_mesh()?)
+        } else if self.rest == Rest::Corotated {
+            Body::flattened(&mesh.vertices, &mesh.triangles)?
+        } else {
+            Body::from(&mesh.into_planar_mesh()?)
+        };
+        let start = start.unwrap_or_else(|| body.rest.clone());
+        body.check(&start)?;
+        let model = Model {
+            energy: self.energy.clone(),
+            barrier: self.barrier,
+            barrier_strength: self.barrier_strength,
+            barrier_support: self.barrier_support,
+            max_conformal: None,
+            bijective: self.bijective,
+        };
+        let barrier = model.barrier(&body, self.eps)?;
+        let bound = (self.handles).bound(&body, &self.targets, &self.sequence)?;
+        let mut problem = Problem {
+            stations: bound.stations,
+            turned: bound.turns,
+            aims: bound.aims,
+            search: false,
+            levenberg: self.levenberg(),
+            body,
+            start,
+            untangled: 0,
+            energy: self.energy,
+            barrier,
+            bound: None,
+            boundary_barrier: None,
+            units: self.units,
+        };
+        problem.untangle_start()?;
+        problem.guarded(&model)
+    }
+
+    fn levenberg(&self) -> LevenbergSettings {
+        let default = LevenbergSettings::default();
+        LevenbergSettings {
+            max_iterations: self.max_iter.unwrap_or(default.max_iterations),
+            min_step: self.min_step.unwrap_or(default.min_step),
+            tolerance: self.tol.unwrap_or(default.tolerance),
+            substepping: self.substepping.unwrap_or(default.substepping),
+            alpha_update: self.alpha_update.unwrap_or(default.alpha_update),
+            alpha: self.alpha0.unwrap_or(default.alpha),
+            alpha_ratio: self.alpha_ratio.unwrap_or(default.alpha_ratio),
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! Vertices of a map of the plane pulled to targets while others stay.
+
+use serde::Serialize;
+
+use super::aims::Aim;
+use super::body::Body;
+use super::locate::sole_vertex;
+use super::paired::{handles, with_points};
+use super::problem::{Model, Problem};
+use super::problem_error::ProblemError;
+use super::units::Units;
+use super::unreached::Unreached;
+use unwrapd_method::barrier::epsilon;
+use unwrapd_method::energy::Row;
+use unwrapd_method::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
+
+/// A vertex counts as arrived within this distance of its target, in units of the map, where a mean triangle has area 1; it
+/// is then put on the target exactly.
+const ARRIVED: f64 = 1e-9;
+
+/// How a map was pulled, and what that cost.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PullSummary {
+    /// How it ended.
+    pub status: Status,
+    /// Steps taken.
+    pub iterations: usize,
+    /// Matrices factored.
+    pub factorizations: usize,
+    /// The energy without the barrier, for a mean triangle of area 1.
+    pub energy: f64,
+    /// The sum of the squared distances of what is pulled from its targets, in the caller's unit.
+    pub residual: f64,
+    /// The smallest area of a triangle over its area at rest.
+    pub smallest: f64,
+    /// The handles that did not come to their targets, in the order of their list; distances in the caller's unit.
+    pub unreached: Vec<Unreached>,
+}
+
+/// The least weight of vertices that may move in a point that is pulled itself: with less, they would have to move more than
+/// twice as far as the point.
+const LEAST_FREE: f64 = 0.5;
+
+/// Vertices of a planar body that stay, and vertices and points that are pulled; targets in the unit of the body.
+pub(super) struct Holds {
+    /// Ascending.
+    pub fixed: Vec<u32>,
+    pub pulled: Vec<(u32, [f64; 2])>,
+    pub points: Vec<(Row, [f64; 2])>,
+    /// The places in the caller's list of the handles that pull these vertices, and of those that pull these points.
+    of_vertices: Vec<usize>,
+    of_points: Vec<usize>,
+}
+
+/// What a handle at a point takes hold of.
+pub(super) enum Grip {
+    /// The vertices around the point stay.
+    Fixed,
+    /// A vertex: that which the point is, or near to vertices that stay another of its triangle.
+    Vertex(u32),
+    /// The point itself.
+    Point(Row),
+}
+
+impl Holds {
+    /// These vertices stay; nothing is pulled yet.
+    pub fn new(fixed: Vec<u32>) -> Self {
+        Self {
+            fixed,
+            pulled: Vec::new(),
+            points: Vec::new(),
+            of_vertices: Vec::new(),
+            of_points: Vec::new(),
+        }
+    }
+
+    /// A handle pulls a vertex.
+    pub fn pull_vertex(&mut self, handle: usize, vertex: u32, to: [f64; 2]) {
+        self.pulled.push((vertex, to));
+        self.of_vertices.push(handle);
+    }
+
+    /// A handle pulls a point.
+    pub fn pull_point(&mut self, handle: usize, row: Row, to: [f64; 2]) {
+        self.points.push((row, to));
+        self.of_points.push(handle);
+    }
+
+    pub fn is_fixed(&self, vertex: u32) -> bool {
+        self.fixed.binary_search(&vertex).is_ok()
+    }
+
+    /// What a handle at a point of an element takes hold of.
+    pub fn grip(&self, row: Row) -> Grip {
+        if let Some(vertex) = sole_vertex(&row) {
+            return if self.is_fixed(vertex) {
+                Grip::Fixed
+            } else {
+                Grip::Vertex(vertex)
+            };
+        }
+        let free = || row.iter().filter(|(vertex, _)| !self.is_fixed(*vertex));
+        if free().map(|(_, weight)| weight).sum::<f64>() >= LEAST_FREE {
+            return Grip::Point(row);
+        }
+        let heaviest = free().max_by(|a, b| a.1.total_cmp(&b.1));
+        heaviest.map_or(Grip::Fixed, |&(vertex, _)| Grip::Vertex(vertex))
+    }
+
+    /// What is pulled, one after the other: the vertices and then the points.
+    fn aims(&self) -> Vec<Aim> {
+        let vertices = self.pulled.iter().map(|hold| Aim::at_vertex(hold.0));
+        let points = (0..self.points.len()).map(Aim::at_point);
+        vertices.chain(points).collect()
+    }
+
+    /// Unreached [aims](Self::aims) as the caller's handles, with distances in his unit.
+    fn named(&self, unreached: Vec<Unreached>, unit: f64) -> Vec<Unreached> {
+        let handles = [&self.of_vertices[..], &self.of_points].concat();
+        let named = unreached.into_iter().map(|aim| Unreached {
+            handle: handles[aim.handle],
+            distance: aim.distance * unit,
+        });
+        let mut named: Vec<Unreached> = named.collect();
+        named.sort_by_key(|unreached| unreached.handle);
+        named
+    }
+
+    /// All of them. Those that stay are a group of their own, so that no neighbor's travel moves them on the way.
+    pub fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
+        let pulled: Vec<u32> = self.pulled.iter().map(|hold| hold.0).collect();
+        let mut groups = vec![0; self.fixed.len()];
+        groups.extend(body.groups(&pulled).into_iter().map(|group| group + 1));
+        let stay = self.fixed.iter().map(|&v| start[v as usize]);
+        let targets = stay.chain(self.pulled.iter().map(|hold| hold.1));
+        let targets: Vec<Vec<f64>> = targets.map(Vec::from).collect();
+        let bound = handles(2, &[&self.fixed[..], &pulled].concat(), &targets, &groups)?;
+        let (points, point_targets): (Vec<Row>, Vec<[f64; 2]>) =
+            self.points.iter().cloned().unzip();
+        with_points(bound, points, point_targets.into_flattened())
+    }
+}
+
+/// A map of the plane after it was pulled.
+pub(super) struct Pulled {
+    /// Positions in the unit of the body.
+    pub vertices: Vec<[f64; 2]>,
+    pub summary: PullSummary,
+}
+
+/// How a map is pulled.
+pub(super) struct How<'a> {
+    pub model: &'a Model,
+    /// See [`Problem::search`].
+    pub search: bool,
+    /// The body's unit of length in the caller's.
+    pub unit: f64,
+}
+
+/// Pulls vertices of a planar body whose mean triangle has area 1 or so.
+pub(super) fn pull(
+    body: Body,
+    start: &[[f64; 2]],
+    holds: &Holds,
+    how: &How,
+    watch: &dyn Watch,
+) -> Result<Pulled, ProblemError> {
+    let (handles, unit) = (holds.handles(&body, start)?, how.unit);
+    let problem = Problem {
+        aims: holds.aims(),
+        search: how.search,
+        ..pulled(body, start, handles, how.model)?
+    };
+    let solution = problem.solve(&Settings::follow(), watch)?;
+    let unreached = holds.named(problem.unreached(&solution), unit);
+    let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
+    arrive(&mut vertices, &problem.stations[0]);
+    let normalized = Problem {
+        units: Units::Normalized,
+        ..problem
+    };
+    let worth = normalized.worth(vertices.as_flattened());
+    Ok(Pulled {
+        summary: PullSummary {
+            status: solution.summary.status,
+            iterations: solution.summary.iterations,
+            factorizations: solution.summary.factorizations,
+            energy: worth.energy,
+            residual: worth.residual * unit * unit,
+            smallest: worth.smallest,
+            unreached,
+        },
+        vertices,
+    })
+}
+
+/// The problem of a planar body whose mean triangle has area 1 or so.
+pub(super) fn pulled(
+    body: Body,
+    start: &[[f64; 2]],
+    handles: Handles,
+    model: &Model,
+) -> Result<Problem, ProblemError> {
+    let smallest = |sizes: Vec<f64>| sizes.into_iter().fold(f64::INFINITY, f64::min);
+    let epsilon = epsilon(
+        smallest(body.determinants()),
+        smallest(body.determinants_at(start.as_flattened())),
+    );
+    let problem = Problem {
+        start: start.as_flattened().to_vec(),
+        untangled: 0,
+        energy: model.energy.clone(),
+        bound: model.max_conformal,
+        boundary_barrier: None,
+        barrier: model.barrier(&body, Some(epsilon))?,
+        stations: vec![handles],
+        turned: Vec::new(),
+        aims: Vec::new(),
+        search: false,
+        levenberg: LevenbergSettings::default(),
+        units: Units::Given,
+        body,
+    };
+    problem.guarded(model)
+}
+
+/// Puts vertices that are at their targets but for rounding on them.
+pub(super) fn arrive(vertices: &mut [[f64; 2]], handles: &Handles) {
+    let targets = handles.targets.as_chunks::<2>().0;
+    for (&v, target) in handles.vertices.iter().zip(targets) {
+        let place = &mut vertices[v as usize];
+        if is_arrived(place, target) {
+            *place = *target;
+        }
+    }
+}
+
+/// Is a place the target but for rounding?
+pub(super) fn is_arrived(place: &[f64], target: &[f64]) -> bool {
+    let is_near = |(x, t): (&f64, &f64)| (x - t).abs() <= ARRIVED * t.abs().max(1.0);
+    place.iter().zip(target).all(is_near)
+}

@@ -1,0 +1,195 @@
+//! From a problem to a map.
+
+use serde::{Deserialize, Serialize};
+
+use super::boundary_barrier::BoundaryBarrier;
+use super::normalized::{Frame, Restored};
+use super::problem::Problem;
+use super::problem_error::ProblemError;
+use super::units::Units;
+use super::worth::Worth;
+use unwrapd_method::barrier::Barrier;
+use unwrapd_method::energy::{Positional, Term};
+use unwrapd_method::solver::{
+    Continued, LevenbergSettings, Objective, Settings, Status, Summary, Watch, levenberg,
+};
+
+/// How a problem is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Projected Newton; targets advance as far as the map stays valid.
+    #[default]
+    Projected,
+    /// The paper's iteration with soft constraints, for comparison.
+    Levenberg,
+}
+
+/// A map and what it is worth.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Positions, coordinates one after another.
+    pub x: Vec<f64>,
+    /// What the solver did.
+    pub summary: Summary,
+    /// What the map is worth.
+    pub worth: Worth,
+}
+
+impl Solution {
+    /// Whether the handles came to their targets, as far as the status tells.
+    pub(super) fn has_arrived(&self) -> bool {
+        !matches!(
+            self.summary.status,
+            Status::TargetsUnreachable | Status::Stopped
+        )
+    }
+}
+
+impl Problem {
+    /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`](unwrapd_method::solver::follow)). With a barrier
+    /// every iterate is without inversion.
+    ///
+    /// Handles that change places stand in each other's way. Where they do not arrive straight they try bent ways from the start, at
+    /// most eight, and [flow](unwrapd_method::solver::flow()); where none leads to all targets each handle that is reached alone is,
+    /// and [`unreached`](Self::unreached) names the rest. With [`search`](Self::search) all bent ways are tried, and the map with
+    /// the lowest energy is the solution. Iterations and factorizations are those of all attempts.
+    pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
+        let solution =
+            self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))?;
+        let exact = self.rounding();
+        Ok(self.checked(solution, exact))
+    }
+
+    /// The same by the paper's iteration.
+    pub fn solve_by_levenberg(
+        &self,
+        settings: &LevenbergSettings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
+        let solution = self.solve_in_units(watch, &|problem, watch| {
+            problem.iterate_softly(settings, watch)
+        })?;
+        let near = self.least_gap();
+        Ok(self.checked(solution, near))
+    }
+
+    /// Solves the problem in the units in which its numbers are meant.
+    fn solve_in_units(
+        &self,
+        watch: &dyn Watch,
+        solve: &dyn Fn(&Self, &dyn Watch) -> Result<Solution, ProblemError>,
+    ) -> Result<Solution, ProblemError> {
+        for handles in &self.stations {
+            handles.check(self.body.dim(), self.start.len())?;
+        }
+        let solution = match self.units {
+            Units::Given => solve(self, watch)?,
+            Units::Normalized => {
+                let (inner, frame) = self.normalized();
+                let shown = Restored::to(watch, &frame);
+                let solution = solve(&inner, &shown)?;
+                self.restored(&frame, &inner, &solution)
+            }
+        };
+        Ok(solution)
+    }
+
+    /// The solution, whose status says that it has arrived only if every held vertex is within a distance of its target.
+    fn checked(&self, mut solution: Solution, most: f64) -> Solution {
+        if matches!(solution.summary.status, Status::Converged | Status::Stalled)
+            && !self.is_at_targets(&solution.x, most)
+        {
+            solution.summary.status = Status::TargetsUnreachable;
+        }
+        solution
+    }
+
+    /// A solution of the normalized problem as one of this. What stands at its target there does so here
+    /// to the bit.
+    fn restored(&self, frame: &Frame, inner: &Self, solution: &Solution) -> Solution {
+        let mut x = frame.outward(&solution.x);
+        let dim = self.body.dim();
+        if let (Some(given), Some(normalized)) = (self.stations.last(), inner.stations.last()) {
+            for (i, &v) in given.vertices.iter().enumerate() {
+                let (place, target) = (dim * v as usize, dim * i);
+                if solution.x[place..place + dim] == normalized.targets[target..target + dim] {
+                    x[place..place + dim].copy_from_slice(&given.targets[target..target + dim]);
+                }
+            }
+        }
+        Solution {
+            x,
+            worth: solution.worth.restored(frame),
+            summary: solution.summary,
+        }
+    }
+
+    fn iterate_softly(
+        &self,
+        settings: &LevenbergSettings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
+        let terms = self.terms(self.barrier)?;
+        let first = self.stations.first().cloned().unwrap_or_default();
+        let constraints = Positional {
+            dim: self.body.dim(),
+            rows: first.vertices.iter().map(|&v| vec![(v, 1.0)]).collect(),
+            targets: first.targets,
+            alpha: settings.alpha,
+        };
+        let mut objective = Objective::constrained(self.body.n_vertices(), terms, constraints);
+        let mut x = self.start.clone();
+        let mut total = Summary::at_start(objective.energy(&x));
+        for handles in &self.stations {
+            objective.set_constraints(settings.alpha, &handles.targets);
+            let watch = Continued {
+                watch,
+                before: total.iterations,
+            };
+            let summary = levenberg(&mut objective, &mut x, settings, &watch);
+            total = total.followed_by(&summary);
+            if summary.status == Status::Stopped {
+                break;
+            }
+        }
+        Ok(self.solution(x, total))
+    }
+
+    /// The energy with the barrier, and the points that handles pull at.
+    pub(super) fn objective(&self) -> Result<Objective, ProblemError> {
+        let terms = self.terms(self.barrier)?;
+        let n_vertices = self.body.n_vertices();
+        let Some(handles) = self.stations.first().filter(|h| !h.points.is_empty()) else {
+            return Ok(Objective::of_terms(n_vertices, terms));
+        };
+        let points = Positional {
+            dim: self.body.dim(),
+            rows: handles.points.clone(),
+            targets: handles.point_targets.clone(),
+            alpha: 0.0,
+        };
+        Ok(Objective::constrained(n_vertices, terms, points))
+    }
+
+    pub(super) fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
+        let mut terms = self.energy.terms(&self.body, barrier, self.bound)?;
+        terms.extend(self.boundary_term().map(|term| Box::new(term) as _));
+        Ok(terms)
+    }
+
+    /// The barrier of the boundary, as strong as that of an ordinary element.
+    pub(super) fn boundary_term(&self) -> Option<BoundaryBarrier> {
+        let beta = self.barrier.beta * self.energy.mean_weight(&self.body);
+        Some(self.boundary_barrier.as_ref()?.with_beta(beta))
+    }
+
+    pub(super) fn solution(&self, x: Vec<f64>, summary: Summary) -> Solution {
+        Solution {
+            worth: self.worth(&x),
+            summary,
+            x,
+        }
+    }
+}

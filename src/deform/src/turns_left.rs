@@ -1,0 +1,181 @@
+//! How many of the turns that handles make a map holds.
+//!
+//! Where a body is turned at one end and held at another, its elements share the turns. Those that they cannot hold go into a
+//! coil, or are lost where the body passes through itself: its elements stay valid, and the ends do not show it. So turns are
+//! counted on the way from one end to the other: the body is cut into thin slices, of each the rotation is taken that best fits
+//! its vertices, and what its neighbor is turned by beside it, at most half a turn, is added up about the axis. Slices, not
+//! elements, because those away from the axis are sheared and so turned aside.
+//!
+//! In the plane the count is exact. From one edge of a triangle to the next the map turns by the difference of two angles
+//! between 0 and half a turn, as long as the triangle is not inverted, so the turns along any path of triangles add up without
+//! doubt, however much they are sheared. A path across slices would lose half turns there.
+
+use serde::{Deserialize, Serialize};
+
+use std::collections::{HashMap, HashSet, VecDeque};
+
+use super::body::BodyElements;
+use super::bound::Turned;
+use super::problem::Problem;
+use super::slices::Slices;
+use unwrapd_method::numerics::rotation::{Rotation, best_rotation};
+use unwrapd_method::numerics::square::{Matrix, times, transposed};
+
+/// Turns that a handle asks for, and those that the map holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Turns {
+    /// The handle's place in the list.
+    pub handle: usize,
+    /// By how many turns its disc is turned beside the nearest other handle.
+    pub asked: f64,
+    /// How many of them the body between the two holds, as its twist. What is missing is in a coil, or lost.
+    pub left: f64,
+}
+
+/// Less than half a turn the ends show themselves, and a bar that bends a little lacks it in its twist.
+const HALF: f64 = 0.5;
+
+impl Turns {
+    /// Is half a turn or more missing?
+    pub fn are_lost(&self) -> bool {
+        (self.asked - self.left).abs() >= HALF
+    }
+}
+
+impl Problem {
+    /// The turns that a map holds, for each disc that makes half a turn or more beside the nearest other handle, on the way
+    /// between them; costs some sweeps over the elements. Nothing is said of discs of too few vertices to have a direction, and
+    /// where no other handle holds vertices.
+    pub fn turns(&self, x: &[f64]) -> Vec<Turns> {
+        let turns = self.turned.iter().filter_map(|turned| {
+            let (left, end) = match &self.body.elements {
+                BodyElements::Triangles { corners, .. } => self.planar_turns(turned, corners, x)?,
+                BodyElements::Tetrahedra { .. } => self.turns_across_slices(turned, x)?,
+            };
+            Some(Turns {
+                handle: turned.handle,
+                asked: (turned.degrees - self.degrees_of(end, turned)) / 360.0,
+                left,
+            })
+        });
+        turns.filter(|t| t.asked.abs() >= HALF).collect()
+    }
+
+    /// The turns of a disc beside the nearest other handle, along a path of triangles between edges that the two hold, and the
+    /// vertex of the other handle.
+    fn planar_turns(&self, turned: &Turned, corners: &[[u32; 3]], x: &[f64]) -> Option<(f64, u32)> {
+        let Slices { slices, end } = self.slices(&turned.vertices, 4)?;
+        let [first, last] = [slices.first()?, slices.last()?].map(|held| {
+            let held: HashSet<u32> = held.iter().copied().collect();
+            held
+        });
+        let path = path_of_edges(corners, &first, &last)?;
+        let at = |x: &[f64], v: u32| [x[2 * v as usize], x[2 * v as usize + 1]];
+        let direction = |x: &[f64], [a, b]: [u32; 2]| {
+            let ([ax, ay], [bx, by]) = (at(x, a), at(x, b));
+            [bx - ax, by - ay]
+        };
+        // What the second edge is turned by beside the first, at most half a turn.
+        let between = |x: &[f64], edges: &[[u32; 2]]| {
+            let [[a, b], [c, d]] = [edges[0], edges[1]].map(|edge| direction(x, edge));
+            (a * d - b * c).atan2(a * c + b * d)
+        };
+        let turn = |edges: &[[u32; 2]]| between(x, edges) - between(&self.body.rest, edges);
+        let angle: f64 = path.windows(2).map(turn).sum();
+        Some((-angle / std::f64::consts::TAU, end))
+    }
+
+    /// The turns of a disc beside the nearest other handle, added up from slice to slice, and a vertex of the other handle.
+    fn turns_across_slices(&self, turned: &Turned, x: &[f64]) -> Option<(f64, u32)> {
+        const D: usize = 3;
+        let Slices { slices, end } = self.slices(&turned.vertices, 2 * D)?;
+        let place = |x: &[f64], v: u32| std::array::from_fn(|k| x[D * v as usize + k]);
+        let rotation = |slice: &Vec<u32>| {
+            let pairs = slice
+                .iter()
+                .map(|&v| (place(&self.body.rest, v), place(x, v)));
+            best_rotation::<D>(&pairs.collect::<Vec<_>>())
+        };
+        let mut last = rotation(slices.first()?)?;
+        let mut angle = 0.0;
+        // Slices that have no direction are passed over.
+        for next in slices[1..].iter().filter_map(rotation) {
+            let between = times(&transposed(&next), &last).log();
+            angle += Matrix::<D>::angle(&between, turned.axis);
+            last = next;
+        }
+        Some((angle / std::f64::consts::TAU, end))
+    }
+
+    /// By how much a vertex that another disc holds is turned about the axis of `turned`.
+    fn degrees_of(&self, vertex: u32, turned: &Turned) -> f64 {
+        let other = self
+            .turned
+            .iter()
+            .find(|other| other.vertices.contains(&vertex));
+        other.map_or(0.0, |other| {
+            let cosine: f64 = (other.axis.iter().zip(turned.axis))
+                .map(|(a, b)| a * b)
+                .sum();
+            other.degrees * if self.body.dim() == 2 { 1.0 } else { cosine }
+        })
+    }
+}
+
+/// Edges from one between `first` vertices to one between `last` vertices, or with one of them where they have none. Each is in one
+/// triangle with the one before.
+fn path_of_edges(
+    corners: &[[u32; 3]],
+    first: &HashSet<u32>,
+    last: &HashSet<u32>,
+) -> Option<Vec<[u32; 2]>> {
+    let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+    let mut triangles_of: HashMap<[u32; 2], Vec<[u32; 3]>> = HashMap::new();
+    for &triangle in corners {
+        for [a, b] in sides(triangle) {
+            let edge = [a.min(b), a.max(b)];
+            triangles_of.entry(edge).or_default().push(triangle);
+        }
+    }
+    let is_held = |[a, b]: [u32; 2], held: &HashSet<u32>| held.contains(&a) && held.contains(&b);
+    let mut edges: Vec<[u32; 2]> = triangles_of.keys().copied().collect();
+    edges.sort_unstable();
+    let begin = *edges.iter().find(|&&edge| is_held(edge, first))?;
+    let goal: HashSet<[u32; 2]> = {
+        let between = edges.iter().filter(|&&edge| is_held(edge, last));
+        let between: HashSet<_> = between.copied().collect();
+        if between.is_empty() {
+            let with_one = edges
+                .iter()
+                .filter(|edge| edge.iter().any(|v| last.contains(v)));
+            with_one.copied().collect()
+        } else {
+            between
+        }
+    };
+    let mut before: HashMap<[u32; 2], [u32; 2]> = HashMap::from([(begin, begin)]);
+    let mut queue = VecDeque::from([begin]);
+    let end = loop {
+        let edge = queue.pop_front()?;
+        if goal.contains(&edge) {
+            break edge;
+        }
+        for [a, b] in triangles_of[&edge].iter().flat_map(|&t| sides(t)) {
+            let next = [a.min(b), a.max(b)];
+            before.entry(next).or_insert_with(|| {
+                queue.push_back(next);
+                edge
+            });
+        }
+    };
+    let mut path = vec![end];
+    while let Some(&edge) = before
+        .get(&path[path.len() - 1])
+        .filter(|&&edge| edge != path[path.len() - 1])
+    {
+        path.push(edge);
+    }
+    path.reverse();
+    Some(path)
+}

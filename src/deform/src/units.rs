@@ -1,0 +1,27 @@
+//! The units in which a problem is meant.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// What the numbers of a problem are measured in: β, ε, tolerances and energies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Units {
+    /// The length in which the mean element has area or volume 1.
+    #[default]
+    Normalized,
+    /// The unit of the body's positions.
+    Given,
+}
+
+impl fmt::Display for Units {
+    /// What stands behind an energy.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Normalized => "for a mean element of size 1",
+            Self::Given => "in the unit of the mesh",
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! Handles that did not come to their targets.
+
+use std::collections::HashMap;
+
+use serde::Serialize;
+
+use super::aims::Aim;
+use super::normalized::Frame;
+use super::problem::Problem;
+use super::solve::Solution;
+use unwrapd_method::solver::{Handles, Status};
+
+/// What a held vertex may be off its target, as a share of the longest side of the body and the targets.
+const EXACT: f64 = 1e-12;
+/// What counts as arrived where soft constraints hold: a distance of this share of a mean element's edge.
+const ARRIVED: f64 = 1e-6;
+
+/// A handle that did not come to its target.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Unreached {
+    /// Its place in the list of handles, from 0.
+    pub handle: usize,
+    /// How far it is from its target, in the unit of the mesh: of what it holds, what is farthest.
+    pub distance: f64,
+}
+
+impl Problem {
+    /// The handles that did not come to their targets, in the order of their list.
+    pub fn unreached(&self, solution: &Solution) -> Vec<Unreached> {
+        let Some(targets) = self.stations.last() else {
+            return Vec::new();
+        };
+        if matches!(solution.summary.status, Status::Converged | Status::Stalled) {
+            return Vec::new();
+        }
+        let gaps = Gaps::new(self.body.dim(), targets, &solution.x);
+        let least = self.least_gap();
+        let of_handle = |(handle, aim)| Unreached {
+            handle,
+            distance: gaps.of(aim),
+        };
+        let all: Vec<Unreached> = self.aims.iter().enumerate().map(of_handle).collect();
+        let beyond = |least: f64| {
+            // Also where the distance is no number.
+            let is_off = |handle: &&Unreached| !matches!(handle.distance, d if d <= least);
+            all.iter().filter(is_off).copied().collect::<Vec<_>>()
+        };
+        let missed = beyond(least);
+        if missed.is_empty() && solution.summary.status == Status::TargetsUnreachable {
+            return beyond(self.rounding());
+        }
+        missed
+    }
+
+    /// Whether every held vertex is within a distance of its target, and every held point as near as soft constraints bring it.
+    pub(super) fn is_at_targets(&self, x: &[f64], most: f64) -> bool {
+        let Some(targets) = self.stations.last() else {
+            return true;
+        };
+        let gaps = Gaps::new(self.body.dim(), targets, x);
+        let near = self.least_gap();
+        (0..targets.vertices.len()).all(|i| gaps.of_vertex(i) <= most)
+            && (0..targets.points.len()).all(|i| gaps.of_point(i) <= near)
+    }
+
+    /// What rounding may leave of the distance of a held vertex from its target.
+    pub(super) fn rounding(&self) -> f64 {
+        EXACT * self.size()
+    }
+
+    /// The longest side of the box around the body and the targets.
+    fn size(&self) -> f64 {
+        let dim = self.body.dim();
+        let targets = self.stations.last().map_or(&[][..], |last| &last.targets);
+        let side = |k: usize| {
+            let of = |all: &'_ [f64]| {
+                let along = all.iter().skip(k).step_by(dim);
+                along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| {
+                    [low.min(x), high.max(x)]
+                })
+            };
+            let [[a, b], [c, d]] = [of(&self.body.rest), of(targets)];
+            b.max(d) - a.min(c)
+        };
+        (0..dim).map(side).fold(0.0, f64::max)
+    }
+
+    /// A distance that counts as none.
+    pub(super) fn least_gap(&self) -> f64 {
+        ARRIVED * Frame::of(&self.body).squared(1.0).sqrt()
+    }
+}
+
+/// How far handles are from their targets.
+pub(super) struct Gaps<'a> {
+    dim: usize,
+    targets: &'a Handles,
+    x: &'a [f64],
+    /// The place of each held vertex among the handles.
+    places: HashMap<u32, usize>,
+}
+
+impl<'a> Gaps<'a> {
+    /// In the map `x` of so many coordinates to a vertex.
+    pub fn new(dim: usize, targets: &'a Handles, x: &'a [f64]) -> Self {
+        Self {
+            dim,
+            targets,
+            x,
+            places: targets.vertices.iter().copied().zip(0..).collect(),
+        }
+    }
+
+    /// Of all that a handle holds, the largest.
+    pub fn of(&self, aim: &Aim) -> f64 {
+        let held = aim.vertices.iter().filter_map(|v| self.places.get(v));
+        let distances = held.map(|&i| self.of_vertex(i));
+        let distances = distances.chain(aim.points.iter().map(|&i| self.of_point(i)));
+        distances.fold(0.0, f64::max)
+    }
+
+    /// Of the handle at a vertex, by its place among them.
+    fn of_vertex(&self, i: usize) -> f64 {
+        let first = self.dim * self.targets.vertices[i] as usize;
+        let at = |k: usize| self.x[first + k] - self.targets.targets[self.dim * i + k];
+        (0..self.dim).map(|k| at(k) * at(k)).sum::<f64>().sqrt()
+    }
+
+    /// Of a point.
+    fn of_point(&self, i: usize) -> f64 {
+        let place = self.point(i);
+        let targets = self.targets.point_targets[self.dim * i..].iter();
+        let squares = place.iter().zip(targets).map(|(x, t)| (x - t) * (x - t));
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// Where a point is.
+    pub fn point(&self, i: usize) -> Vec<f64> {
+        let mut place = vec![0.0; self.dim];
+        for &(v, weight) in &self.targets.points[i] {
+            let corner = &self.x[self.dim * v as usize..];
+            for (sum, x) in place.iter_mut().zip(corner) {
+                *sum += weight * x;
+            }
+        }
+        place
+    }
+}

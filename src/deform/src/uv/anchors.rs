@@ -1,0 +1,180 @@
+//! Vertices of UV maps and where they go.
+
+use serde::{Deserialize, Serialize};
+
+use super::chart::UvVertices;
+use super::error::MOST_ANCHORS;
+use super::map::UvMap;
+use super::{EditError, UvMesh};
+use crate::numbers;
+use unwrapd_maps::plane::segment_distance;
+use unwrapd_method::numerics::predicates::orient2d_sign;
+
+/// UVs at most; no texture repeats that often.
+const FARTHEST: f64 = 1e6;
+
+/// How far outside a chart an anchor may lie: a texel of a texture of 1024, the accuracy of a pointer.
+const OUTSIDE: f64 = 1e-3;
+
+/// A vertex of a UV map and where it goes, in the numbers of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Anchor {
+    /// A vertex of the mesh, which must have one UV.
+    Vertex {
+        /// Its index, from 0.
+        vertex: u32,
+        /// Its new UV.
+        #[serde(deserialize_with = "numbers::planar")]
+        to: [f64; 2],
+    },
+    /// The point of the surface that has a UV, a vertex if it is one. Next to a boundary that stays, and at most a texel of a
+    /// texture of 1024 outside a chart, it is the nearest vertex, whose target is shifted by the same offset.
+    Place {
+        /// A UV.
+        #[serde(deserialize_with = "numbers::planar")]
+        at: [f64; 2],
+        /// Where it goes.
+        #[serde(deserialize_with = "numbers::planar")]
+        to: [f64; 2],
+    },
+}
+
+/// Reads `{"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": [u, v]}, …]}`; `points` is another name of `anchors`.
+pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        #[serde(alias = "points")]
+        anchors: Vec<Anchor>,
+    }
+    let file: File =
+        numbers::from_json(json).map_err(|error| EditError::Malformed(error.to_string()))?;
+    Ok(file.anchors)
+}
+
+/// An anchor with what it holds of the UV map.
+pub(super) struct Held {
+    /// Which anchor.
+    pub anchor: usize,
+    pub spot: Spot,
+    pub to: [f64; 2],
+}
+
+/// What an anchor holds.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Spot {
+    /// A vertex of the UV map.
+    Vertex(u32),
+    /// A UV in a chart.
+    Place { chart: u32, at: [f64; 2] },
+}
+
+/// What anchors hold, each spot once.
+pub(super) fn hold(
+    mesh: &UvMesh,
+    map: &UvMap,
+    vertices: &UvVertices,
+    anchors: &[Anchor],
+) -> Result<Vec<Held>, EditError> {
+    if !(1..=MOST_ANCHORS).contains(&anchors.len()) {
+        return Err(EditError::HandleCount(anchors.len()));
+    }
+    let mut held: Vec<Held> = Vec::with_capacity(anchors.len());
+    for (anchor, which) in anchors.iter().enumerate() {
+        let (at, to) = match *which {
+            Anchor::Vertex { to, .. } => ([0.0; 2], to),
+            Anchor::Place { at, to } => (at, to),
+        };
+        if !at.iter().chain(&to).all(|x| x.abs() <= FARTHEST) {
+            return Err(EditError::BadTarget(anchor));
+        }
+        let (spot, to) = match *which {
+            Anchor::Vertex { vertex, to } => {
+                let vertex = only_vertex(mesh, map, vertices, (anchor, vertex))?;
+                (Spot::Vertex(vertex), to)
+            }
+            Anchor::Place { at, to } => {
+                place(map, vertices, at, to).ok_or(EditError::Outside(anchor))?
+            }
+        };
+        match held.iter().find(|other| other.spot == spot) {
+            None => held.push(Held { anchor, spot, to }),
+            Some(same) if same.to == to => {}
+            Some(other) => return Err(EditError::Contradictory(other.anchor, anchor)),
+        }
+    }
+    Ok(held)
+}
+
+/// The vertex of the UV map that a vertex of the mesh is.
+fn only_vertex(
+    mesh: &UvMesh,
+    map: &UvMap,
+    vertices: &UvVertices,
+    (anchor, vertex): (usize, u32),
+) -> Result<u32, EditError> {
+    let corners = mesh.triangles.as_flattened().iter().enumerate();
+    let mut found = corners
+        .filter(|&(corner, &v)| v == vertex && !map.unusable[corner / 3])
+        .map(|(corner, _)| vertices.of_corner[corner]);
+    let first = found.next().ok_or(EditError::UnknownHandle(anchor))?;
+    if found.any(|other| other != first) {
+        return Err(EditError::AmbiguousVertex(anchor));
+    }
+    Ok(first)
+}
+
+/// What is pulled at a UV, and where to: the point itself, or the nearest vertex where it lies hardly outside a chart; `None` far
+/// from all charts.
+fn place(
+    map: &UvMap,
+    vertices: &UvVertices,
+    at: [f64; 2],
+    to: [f64; 2],
+) -> Option<(Spot, [f64; 2])> {
+    if let Some(chart) = chart_at(map, at) {
+        return Some((Spot::Place { chart, at }, to));
+    }
+    if distance_from_faces(map, at) > OUTSIDE {
+        return None;
+    }
+    let (vertex, uv) = nearest_vertex(map, vertices, at)?;
+    let to = [0, 1].map(|k| to[k] + (uv[k] - at[k]));
+    Some((Spot::Vertex(vertex), to))
+}
+
+/// How far a UV is from the sides of the faces; infinite where there are none.
+fn distance_from_faces(map: &UvMap, at: [f64; 2]) -> f64 {
+    let faces = (0..map.faces.len()).filter(|&face| !map.unusable[face]);
+    let sides = faces.flat_map(|face| {
+        let [a, b, c] = map.uvs[face];
+        [[a, b], [b, c], [c, a]]
+    });
+    let distances = sides.map(|side| segment_distance(side, [at, at]));
+    distances.fold(f64::INFINITY, f64::min)
+}
+
+/// The vertex nearest to a UV and its own UV; the first of equally near ones.
+fn nearest_vertex(map: &UvMap, vertices: &UvVertices, at: [f64; 2]) -> Option<(u32, [f64; 2])> {
+    let usable = (0..vertices.first_corner.len() as u32)
+        .filter(|&v| !map.unusable[vertices.first_corner[v as usize] as usize / 3])
+        .map(|v| (v, vertices.uv(map, v)));
+    let distance = |uv: [f64; 2]| (uv[0] - at[0]).hypot(uv[1] - at[1]);
+    usable.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
+}
+
+/// The chart of the first face that has a UV.
+fn chart_at(map: &UvMap, at: [f64; 2]) -> Option<u32> {
+    let holds = |face: &usize| {
+        let [a, b, c] = map.uvs[*face];
+        let orientation = map.orientation[*face];
+        let is_on_side = |(p, q)| orient2d_sign(p, q, at) * orientation >= 0;
+        !map.unusable[*face]
+            && orientation != 0
+            && [(a, b), (b, c), (c, a)].into_iter().all(is_on_side)
+    };
+    let face = (0..map.faces.len()).find(holds)?;
+    Some(map.chart[face])
+}

@@ -1,0 +1,225 @@
+//! Charts of a UV map as maps of the plane.
+
+use std::collections::BTreeMap;
+
+use super::map::UvMap;
+use super::{EditError, UvRest, body};
+use crate::boundary::Boundary;
+use crate::untangle::untangled;
+use unwrapd_maps::mesh::{CornerUvs, UnionFind, UsedVertices, next, origin};
+use unwrapd_method::numerics::predicates::orient2d_sign;
+
+/// The vertices of a UV map: corners that lie on each other in space, in UV space and in their chart.
+pub(super) struct UvVertices {
+    /// The vertex of each corner, `3 * face + c`.
+    pub of_corner: Vec<u32>,
+    /// The first corner of each vertex.
+    pub first_corner: Vec<u32>,
+}
+
+impl UvVertices {
+    /// Corners whose UVs agree over an edge, within the tolerance of charts, are one vertex; so are those that agree exactly.
+    pub fn new(map: &UvMap) -> Self {
+        let mut sets = UnionFind::new(3 * map.faces.len());
+        for &[a, b] in &map.joints {
+            let (a, b) = (ends(map, a), ends(map, b));
+            sets.unite(a[0], b[0]);
+            sets.unite(a[1], b[1]);
+        }
+        let key = |&corner: &u32| {
+            let (face, c) = (corner as usize / 3, corner as usize % 3);
+            let uv = map.uvs[face][c].map(|x| (x + 0.0).to_bits());
+            (map.chart[face], map.faces[face][c], uv)
+        };
+        let mut corners: Vec<u32> = (0..3 * map.faces.len() as u32).collect();
+        corners.sort_by_cached_key(key);
+        for pair in corners.windows(2) {
+            if key(&pair[0]) == key(&pair[1]) {
+                sets.unite(pair[0], pair[1]);
+            }
+        }
+        let (of_corner, n_vertices) = sets.labels();
+        let mut first_corner = vec![0; n_vertices];
+        for (corner, &vertex) in of_corner.iter().enumerate().rev() {
+            first_corner[vertex as usize] = corner as u32;
+        }
+        Self {
+            of_corner,
+            first_corner,
+        }
+    }
+
+    /// Where a vertex is.
+    pub fn uv(&self, map: &UvMap, vertex: u32) -> [f64; 2] {
+        let corner = self.first_corner[vertex as usize] as usize;
+        map.uvs[corner / 3][corner % 3]
+    }
+
+    /// Where UVs of corners put these vertices.
+    pub fn places(&self, uvs: &[CornerUvs], vertices: &[u32]) -> Vec<[f64; 2]> {
+        let corner = |&v: &u32| self.first_corner[v as usize] as usize;
+        let corners = vertices.iter().map(corner);
+        corners.map(|c| uvs[c / 3][c % 3]).collect()
+    }
+
+    /// UVs of corners with some vertices elsewhere.
+    pub fn moved(&self, uvs: &[CornerUvs], to: &BTreeMap<u32, [f64; 2]>) -> Vec<CornerUvs> {
+        let mut uvs = uvs.to_vec();
+        let corners = uvs.as_flattened_mut().iter_mut();
+        for (corner, vertex) in corners.zip(&self.of_corner) {
+            if let Some(uv) = to.get(vertex) {
+                *corner = *uv;
+            }
+        }
+        uvs
+    }
+
+    /// The chart that a vertex belongs to.
+    pub fn chart(&self, map: &UvMap, vertex: u32) -> u32 {
+        map.chart[self.first_corner[vertex as usize] as usize / 3]
+    }
+}
+
+/// The corners of a halfedge, that at the smaller vertex first.
+fn ends(map: &UvMap, h: u32) -> [u32; 2] {
+    let mut ends = [h, next(h)];
+    ends.sort_by_key(|&corner| origin(&map.faces, corner));
+    ends
+}
+
+/// A chart, wound so that most of its area is counter-clockwise.
+pub(super) struct UvChart {
+    /// The faces of the mesh that the triangles are.
+    pub faces: ChartFaces,
+    /// The vertices of the UV map, ascending.
+    pub vertices: Vec<u32>,
+    /// Their UVs.
+    pub uvs: Vec<[f64; 2]>,
+    /// Their positions in space.
+    pub positions: Vec<[f64; 3]>,
+    /// Indices into `vertices`.
+    pub triangles: Vec<[u32; 3]>,
+    /// The triangles that are not counter-clockwise, as the file has them or with its vertices joined.
+    pub flipped: Vec<u32>,
+}
+
+impl UvChart {
+    /// The chart of this number, in which `positive` is the orientation of most of its area. Faces that name a position twice
+    /// and have no area in UV space are left out.
+    pub fn new(
+        map: &UvMap,
+        uv_vertices: &UvVertices,
+        chart: u32,
+        positive: i8,
+    ) -> Result<Self, EditError> {
+        let faces = (0..map.faces.len()).filter(|&f| {
+            let is_point = map.repeats_position(f) && map.orientation[f] == 0;
+            map.chart[f] == chart && !map.unusable[f] && !is_point
+        });
+        let faces = ChartFaces {
+            faces: faces
+                .map(|f| (f as u32, positive * map.winding[f] < 0))
+                .collect(),
+        };
+        if map.nonorientable[chart as usize] {
+            let face = faces.faces.first().map_or(0, |face| face.0 as usize);
+            return Err(EditError::Nonorientable { face });
+        }
+        let vertex = |corner: u32| uv_vertices.of_corner[corner as usize];
+        let mut triangles: Vec<[u32; 3]> = faces.corners().map(|c| c.map(vertex)).collect();
+        let vertices = UsedVertices::new(triangles.iter().flatten().copied());
+        vertices.renumber(triangles.as_flattened_mut());
+        let vertices = vertices.into_vec();
+        let space = |&v: &u32| {
+            let corner = uv_vertices.first_corner[v as usize] as usize;
+            map.points[map.faces[corner / 3][corner % 3] as usize]
+        };
+        let uv = |&v: &u32| uv_vertices.uv(map, v);
+        let mut chart = Self {
+            triangles,
+            uvs: vertices.iter().map(uv).collect(),
+            positions: vertices.iter().map(space).collect(),
+            vertices,
+            faces,
+            flipped: Vec::new(),
+        };
+        let is_flipped = |t: &u32| chart.is_flipped(*t as usize, map, positive);
+        chart.flipped = (0..chart.triangles.len() as u32)
+            .filter(is_flipped)
+            .collect();
+        Ok(chart)
+    }
+
+    /// The vertices of the UV map that are elsewhere if the chart's are at `uvs`: all of them where the chart had flips.
+    pub fn moved(
+        &self,
+        map: &UvMap,
+        vertices: &UvVertices,
+        uvs: &[[f64; 2]],
+    ) -> impl Iterator<Item = (u32, [f64; 2])> {
+        let is_elsewhere =
+            |&(&v, uv): &(&u32, &[f64; 2])| !self.flipped.is_empty() || *uv != vertices.uv(map, v);
+        let elsewhere = self.vertices.iter().zip(uvs).filter(is_elsewhere);
+        elsewhere.map(|(&v, &uv)| (v, uv))
+    }
+
+    fn is_flipped(&self, triangle: usize, map: &UvMap, positive: i8) -> bool {
+        let [a, b, c] = self.triangles[triangle].map(|v| self.uvs[v as usize]);
+        let face = self.faces.faces[triangle].0 as usize;
+        map.orientation_in_chart(face) != positive || orient2d_sign(a, b, c) <= 0
+    }
+
+    /// Moves vertices around flipped triangles, none of those that the boundary holds, until no triangle is flipped. Fails
+    /// if that is not found.
+    pub fn untangle(&mut self, boundary: Boundary) -> Result<(), EditError> {
+        let Some(&first) = self.flipped.first() else {
+            return Ok(());
+        };
+        let held = boundary.held(self.uvs.len(), &self.triangles);
+        let (body, start, unit) = body(self, UvRest::Surface);
+        let is_repeated = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+        let moved = (!self.triangles.iter().any(is_repeated))
+            .then(|| untangled(&body, start.as_flattened(), &held, 0.0));
+        let Some(moved) = moved.flatten() else {
+            let face = self.faces.faces[first as usize].0 as usize;
+            return Err(EditError::Flipped { face });
+        };
+        for ((uv, before), now) in self.uvs.iter_mut().zip(start).zip(moved.as_chunks().0) {
+            if before != *now {
+                *uv = now.map(|x| x * unit);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which faces of a mesh form a chart, and which of them have to be turned over to be counter-clockwise in UV space.
+#[derive(Clone, Debug, Default)]
+pub struct ChartFaces {
+    faces: Vec<(u32, bool)>,
+}
+
+impl ChartFaces {
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.faces.is_empty()
+    }
+
+    /// The first of them.
+    pub fn first(&self) -> Option<u32> {
+        self.faces.first().map(|(face, _)| *face)
+    }
+
+    /// The corners `3 * face + c` of each, counter-clockwise.
+    pub fn corners(&self) -> impl Iterator<Item = [u32; 3]> {
+        self.faces.iter().map(|&(face, is_turned)| {
+            let [a, b, c] = [0, 1, 2].map(|c| 3 * face + c);
+            if is_turned { [a, c, b] } else { [a, b, c] }
+        })
+    }
+}

@@ -1,0 +1,74 @@
+//! Why UVs cannot be edited.
+
+use crate::problem_error::ProblemError;
+use unwrapd_maps::mesh::ElementError;
+
+/// Anchors at most: each is compared with every face.
+pub(super) const MOST_ANCHORS: usize = 1000;
+
+/// Why UVs cannot be edited.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EditError {
+    /// The file is not a list of anchors.
+    #[error("the anchors cannot be parsed: {0}")]
+    Malformed(String),
+    /// There is nothing to pull, or more than is possible.
+    #[error("there are {0} anchors; 1 to {MOST_ANCHORS} are allowed")]
+    HandleCount(usize),
+    /// A number of an anchor is not finite or beyond 1e6.
+    #[error("anchor {0} has a coordinate that is not finite or exceeds 1e6")]
+    BadTarget(usize),
+    /// An anchor's vertex has no UV.
+    #[error("anchor {0} names a vertex without UVs")]
+    UnknownHandle(usize),
+    /// An anchor's UV lies outside every chart.
+    #[error("anchor {0} lies outside every chart")]
+    Outside(usize),
+    /// An anchor's vertex has several UVs.
+    #[error("anchor {0} names a vertex on a seam; name it by its UV")]
+    AmbiguousVertex(usize),
+    /// Two anchors pull one vertex or point to two places.
+    #[error("anchors {0} and {1} pull the same point to different targets")]
+    Contradictory(usize, usize),
+    /// An anchor pulls at a boundary that stays.
+    #[error("anchor {0} moves a vertex of a fixed boundary")]
+    OnBoundary(usize),
+    /// The present map has a flip where it should be pulled, and cannot be untangled.
+    #[error("face {face} is flipped or degenerate in its chart, and untangling failed")]
+    Flipped {
+        /// The face.
+        face: usize,
+    },
+    /// The winding of a chart contradicts itself, so no map of it is without flips.
+    #[error("the chart of face {face} is not orientable")]
+    Nonorientable {
+        /// A face of it.
+        face: usize,
+    },
+    /// A chart folds over an edge.
+    #[error(transparent)]
+    Element(#[from] ElementError),
+    /// A number is out of range.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+}
+
+impl EditError {
+    /// Stable name of the cause, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed(_) => "malformed_handles",
+            Self::HandleCount(_) => "handle_count",
+            Self::BadTarget(_) => "bad_target",
+            Self::UnknownHandle(_) => "unknown_handle",
+            Self::Outside(_) => "handle_outside",
+            Self::AmbiguousVertex(_) => "ambiguous_vertex",
+            Self::Contradictory(..) => "contradictory_handles",
+            Self::OnBoundary(_) => "anchor_on_boundary",
+            Self::Flipped { .. } => "flipped_uvs",
+            Self::Nonorientable { .. } => "nonorientable_chart",
+            Self::Element(error) => error.code(),
+            Self::Problem(error) => error.code(),
+        }
+    }
+}

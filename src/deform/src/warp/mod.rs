@@ -1,0 +1,13 @@
+//! Pictures pulled by handles.
+//!
+//! [`picture_grid`] makes the mesh on which a picture is deformed; what the picture looks like afterward is drawn by
+//! [`picture::warped`](unwrapd_files::picture::warped). [`warp_picture`] does both.
+
+mod grid;
+mod picture;
+
+pub use grid::{GridError, picture_grid};
+pub use picture::{
+    PictureHandle, PictureWarp, WarpError, WarpOptions, parse_handles, warp_picture,
+    warp_picture_from,
+};

@@ -1,0 +1,254 @@
+//! A picture pulled by handles.
+
+use serde::{Deserialize, Serialize};
+
+use super::{GridError, picture_grid};
+use crate::body::Body;
+use crate::boundary::Boundary;
+use crate::locate::locate;
+use crate::numbers;
+use crate::problem::Model;
+use crate::problem_error::ProblemError;
+use crate::pull::{Grip, Holds, How, PullSummary, pull};
+use unwrapd_files::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
+use unwrapd_maps::mesh::PlanarMesh;
+use unwrapd_method::solver::Watch;
+
+/// Handles at most: each is looked for in every triangle of the grid.
+const MOST_HANDLES: usize = 1000;
+/// Coordinates of targets at most, in pixels.
+const FARTHEST: f64 = 1e9;
+
+/// How a picture is warped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WarpOptions {
+    /// Cells along the longer side, 1 to 512.
+    pub grid: usize,
+    /// The border of the picture. Where it is free, the result shows all of the warped picture; where it stays, no two places
+    /// of the picture can come to lie on each other, and the result is as large as the picture.
+    pub boundary: Boundary,
+    /// What is minimized, for a mean triangle of an area from ½ to 2.
+    pub model: Model,
+    /// See [`Problem::search`](crate::Problem::search).
+    pub search: bool,
+}
+
+impl Default for WarpOptions {
+    fn default() -> Self {
+        Self {
+            grid: 40,
+            boundary: Boundary::Free,
+            model: Model::default(),
+            search: false,
+        }
+    }
+}
+
+/// A place of a picture and where it goes, in pixels, (0, 0) the upper left corner, y down.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PictureHandle {
+    /// A place in the picture.
+    #[serde(deserialize_with = "numbers::planar")]
+    pub at: [f64; 2],
+    /// Where it goes.
+    #[serde(deserialize_with = "numbers::planar")]
+    pub to: [f64; 2],
+}
+
+/// Reads `{"handles": [{"at": [x, y], "to": [x, y]}, …]}`.
+pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        handles: Vec<PictureHandle>,
+    }
+    let file: File =
+        numbers::from_json(json).map_err(|error| WarpError::Malformed(error.to_string()))?;
+    Ok(file.handles)
+}
+
+/// Why a picture cannot be warped.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum WarpError {
+    /// The file is not a list of handles.
+    #[error("the handles cannot be parsed: {0}")]
+    Malformed(String),
+    /// There is nothing to pull, or more than is possible.
+    #[error("there are {0} handles; 1 to {MOST_HANDLES} are allowed")]
+    HandleCount(usize),
+    /// A handle is not in the picture.
+    #[error("handle {0} lies outside the picture")]
+    HandleOutside(usize),
+    /// The target of a handle is not a position.
+    #[error("the target of handle {0} must be two finite numbers up to 1e9 pixels")]
+    BadTarget(usize),
+    /// All vertices of the grid are on its border, which is fixed.
+    #[error("the grid has no vertex inside its border")]
+    NothingInside,
+    /// There is no such grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The picture cannot be read or is too large afterward.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// The handles contradict each other, or a number is out of range.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+}
+
+impl WarpError {
+    /// Stable name of the cause, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed(_) => "malformed_handles",
+            Self::HandleCount(_) => "handle_count",
+            Self::HandleOutside(_) => "handle_outside",
+            Self::BadTarget(_) => "bad_target",
+            Self::NothingInside => "grid_too_coarse",
+            Self::Grid(error) => error.code(),
+            Self::Image(error) => error.code(),
+            Self::Problem(error) => error.code(),
+        }
+    }
+}
+
+/// A warped picture and the map that it was warped by.
+#[derive(Clone, Debug)]
+pub struct PictureWarp {
+    /// The picture.
+    pub picture: Warped,
+    /// The grid on the original, in pixels, y down.
+    pub grid: PlanarMesh,
+    /// Its vertices afterward.
+    pub deformed: Vec<[f64; 2]>,
+    /// How it was pulled.
+    pub summary: PullSummary,
+}
+
+/// Warps a picture: a grid over it is deformed without inverting a triangle, the handles going to their targets.
+///
+/// A handle takes hold of its own point. Only next to a fixed border, where most of a point's weight stays, it takes the nearest
+/// vertex that does not, whose target is the handle's shifted by the same offset. Handles at one place must agree. Targets that
+/// cannot be reached end in
+/// [`Status::TargetsUnreachable`](unwrapd_method::solver::Status::TargetsUnreachable) with a map that is valid all the same, and
+/// [`PullSummary::unreached`] names their handles.
+pub fn warp_picture(
+    image: &Image,
+    handles: &[PictureHandle],
+    options: &WarpOptions,
+    watch: &dyn Watch,
+) -> Result<PictureWarp, WarpError> {
+    warp_picture_from(image, None, handles, options, watch)
+}
+
+/// As [`warp_picture`], but the pull starts where a session left the vertices of the grid.
+pub fn warp_picture_from(
+    image: &Image,
+    start: Option<&[[f64; 2]]>,
+    handles: &[PictureHandle],
+    options: &WarpOptions,
+    watch: &dyn Watch,
+) -> Result<PictureWarp, WarpError> {
+    let grid = picture_grid(image.width, image.height, options.grid)?;
+    let start = start.unwrap_or(grid.vertices());
+    let (deformed, summary) = warp_grid(&grid, start, handles, options, watch)?;
+    let deformation = Deformation {
+        rest: grid.vertices(),
+        deformed: &deformed,
+        triangles: grid.triangles(),
+    };
+    let extent = match options.boundary {
+        Boundary::Free => Extent::Mesh,
+        Boundary::Fixed => Extent::Source,
+    };
+    Ok(PictureWarp {
+        picture: warped(image, &deformation, extent)?,
+        grid,
+        deformed,
+        summary,
+    })
+}
+
+/// Where the vertices of a picture's grid go.
+fn warp_grid(
+    grid: &PlanarMesh,
+    start: &[[f64; 2]],
+    handles: &[PictureHandle],
+    options: &WarpOptions,
+    watch: &dyn Watch,
+) -> Result<(Vec<[f64; 2]>, PullSummary), WarpError> {
+    if !(1..=MOST_HANDLES).contains(&handles.len()) {
+        return Err(WarpError::HandleCount(handles.len()));
+    }
+    let size = grid.vertices().last().copied().unwrap_or_default();
+    // A power of two, so that nothing is rounded on the way there and back.
+    let unit = mean_area(grid).sqrt().log2().round().exp2();
+    let to_unit = |p: [f64; 2]| p.map(|x| x / unit);
+    let scale =
+        |places: &[[f64; 2]]| -> Vec<[f64; 2]> { places.iter().map(|&p| to_unit(p)).collect() };
+    let body = Body::planar(&scale(grid.vertices()), grid.triangles());
+    let mut holds = Holds::new(
+        options
+            .boundary
+            .held(grid.vertices().len(), grid.triangles()),
+    );
+    for (index, handle) in handles.iter().enumerate() {
+        let is_inside = (0..2).all(|k| (0.0..=size[k]).contains(&handle.at[k]));
+        if !is_inside {
+            return Err(WarpError::HandleOutside(index));
+        }
+        if !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
+            return Err(WarpError::BadTarget(index));
+        }
+        let way = (to_unit(handle.at), to_unit(handle.to));
+        take_hold(&mut holds, &body, index, way)?;
+    }
+    let how = How {
+        model: &options.model,
+        search: options.search,
+        unit,
+    };
+    let pulled = pull(body, &scale(start), &holds, &how, watch)?;
+    let deformed = pulled.vertices.iter().map(|p| p.map(|x| x * unit));
+    Ok((deformed.collect(), pulled.summary))
+}
+
+fn mean_area(grid: &PlanarMesh) -> f64 {
+    let size = grid.vertices().last().map_or(1.0, |p| p[0] * p[1]);
+    size / grid.triangles().len() as f64
+}
+
+/// Adds a handle.
+fn take_hold(
+    holds: &mut Holds,
+    body: &Body,
+    handle: usize,
+    (at, to): ([f64; 2], [f64; 2]),
+) -> Result<(), WarpError> {
+    let vertices: &[[f64; 2]] = body.rest.as_chunks().0;
+    let nearest = || nearest(vertices, |v| !holds.is_fixed(v), at).ok_or(WarpError::NothingInside);
+    let vertex = match locate(body, at).map_or(Grip::Fixed, |row| holds.grip(row)) {
+        Grip::Point(row) => {
+            holds.pull_point(handle, row, to);
+            return Ok(());
+        }
+        Grip::Vertex(vertex) => vertex,
+        Grip::Fixed => nearest()?,
+    };
+    let place = vertices[vertex as usize];
+    let target = [0, 1].map(|k| to[k] + (place[k] - at[k]));
+    holds.pull_vertex(handle, vertex, target);
+    Ok(())
+}
+
+/// The vertex nearest to a point among those that are free; the first of equally near ones.
+fn nearest(vertices: &[[f64; 2]], is_free: impl Fn(u32) -> bool, point: [f64; 2]) -> Option<u32> {
+    let distance = |v: u32| {
+        let [dx, dy] = [0, 1].map(|k| vertices[v as usize][k] - point[k]);
+        dx * dx + dy * dy
+    };
+    let free = (0..vertices.len() as u32).filter(|&v| is_free(v));
+    free.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+}

@@ -1,0 +1,57 @@
+//! The way of a handle.
+
+use unwrapd_method::numerics::vec3;
+use unwrapd_method::solver::Handles;
+
+/// How far ways are bent, in halves of their length: two that change places then pass each other at half the distance that they
+/// had.
+pub(super) const BEND: f64 = 0.5;
+
+/// The way of a group's centroid or of a point; in the plane the third coordinates are 0.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Way {
+    pub from: [f64; 3],
+    pub to: [f64; 3],
+}
+
+impl Way {
+    pub fn length(&self) -> f64 {
+        vec3::distance(self.from, self.to)
+    }
+
+    /// The bend to the left for who looks along the way with `axis` upwards; none for ways along it.
+    pub fn left(&self, axis: [f64; 3]) -> [f64; 3] {
+        vec3::unit(vec3::cross(axis, vec3::sub(self.to, self.from)))
+    }
+}
+
+/// The ways of the groups and then of the points from where they are in `x`; a number without a group has a way of no length.
+pub(super) fn ways(dim: usize, handles: &Handles, x: &[f64]) -> Vec<Way> {
+    let place = |numbers: &[f64]| -> [f64; 3] {
+        std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))
+    };
+    let at = |v: u32| place(&x[dim * v as usize..dim * (v as usize + 1)]);
+    let mut ways = vec![Way::default(); handles.n_groups()];
+    let mut members = vec![0.0; ways.len()];
+    let targets = handles.targets.chunks_exact(dim.max(1));
+    for ((&v, &group), target) in (handles.vertices.iter().zip(&*handles.groups())).zip(targets) {
+        let way = &mut ways[group as usize];
+        way.from = vec3::add_scaled(way.from, 1.0, at(v));
+        way.to = vec3::add_scaled(way.to, 1.0, place(target));
+        members[group as usize] += 1.0;
+    }
+    for (way, members) in ways.iter_mut().zip(members) {
+        if members > 0.0 {
+            way.from = way.from.map(|x| x / members);
+            way.to = way.to.map(|x| x / members);
+        }
+    }
+    let targets = handles.point_targets.chunks_exact(dim.max(1));
+    ways.extend(handles.points.iter().zip(targets).map(|(row, target)| Way {
+        from: (row.iter()).fold([0.0; 3], |sum, &(v, weight)| {
+            vec3::add_scaled(sum, weight, at(v))
+        }),
+        to: place(target),
+    }));
+    ways
+}

@@ -1,0 +1,138 @@
+//! Ways to the targets: straight, or others where straight ones do not lead there.
+
+use super::attempt::{Attempt, Trial};
+use super::flowed::flow_to;
+use super::missing::Missing;
+use super::problem::Problem;
+use super::problem_error::ProblemError;
+use super::solve::Solution;
+use unwrapd_method::numerics::rotation::Rotation;
+use unwrapd_method::numerics::square::{Matrix, Square};
+use unwrapd_method::solver::{Pace, Settings, Summary, Watch};
+
+/// So many bends, all to one side each, bring handles that change places past each other, and are tried before handles flow.
+const FIRST: usize = 2;
+
+/// Where no more than this share of the handles is missing, those are blocked and the others are not: they get ways of their own, and
+/// no bent ways of all are tried.
+const FEW: f64 = 0.25;
+
+impl Problem {
+    /// The best map that a bounded effort finds. Straight ways come first, then ways bent to one side and the other, then the
+    /// handles flow, and then other bends are tried. The first that lead to all targets are taken; with
+    /// [`search`](Self::search) all bends are tried. A way on which handles creep is left, and only the one that led farthest is
+    /// gone on with. Last, those that are missing are tried alone.
+    pub(super) fn solve_ways(
+        &self,
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
+        let objective = self.objective()?;
+        let mut start = self.start.clone();
+        if start == self.body.rest && self.stations.len() == 1 {
+            self.shake(&objective, &mut start);
+        }
+        let trial = Trial {
+            total: Summary::at_start(objective.value(&start)),
+            problem: self,
+            objective,
+            settings: *settings,
+            watch,
+        };
+        if self.body.dim() == 2 {
+            tried::<2>(trial, &start)
+        } else {
+            tried::<3>(trial, &start)
+        }
+    }
+}
+
+/// What comes of all attempts.
+fn tried<const D: usize>(mut trial: Trial, start: &[f64]) -> Result<Solution, ProblemError>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    let search = trial.problem.search;
+    let mut best = Attempt::<D>::bent(&mut trial, start, &[])?;
+    best.go_on(&mut trial, Pace::BRISK)?;
+    if best.is_enough(search) {
+        return Ok(best.into_solution(&trial));
+    }
+    let bends = trial.problem.bends();
+    let (first, others) = bends.split_at(bends.len().min(FIRST));
+    best = bent(&mut trial, start, first, best)?;
+    if best.is_enough(search) {
+        return Ok(best.into_solution(&trial));
+    }
+    let mut flowed = None;
+    if !best.has_arrived() && trial.problem.stations.len() == 1 {
+        let missing = flowed_from::<D>(&mut trial, start)?;
+        if missing.is_stopped() || missing.share() <= FEW && !search {
+            return Ok(missing.into_solution(&trial));
+        }
+        flowed = Some(missing);
+    }
+    best = bent(&mut trial, start, others, best)?;
+    let has_flowed = flowed.as_ref().is_some_and(Missing::is_none);
+    if best.is_paused() && !has_flowed {
+        best.go_on(&mut trial, Pace::PATIENT)?;
+    }
+    match flowed {
+        Some(missing) if has_flowed && best.has_arrived() => {
+            Ok(if best.energy() < missing.energy() {
+                best.into_solution(&trial)
+            } else {
+                missing.into_solution(&trial)
+            })
+        }
+        Some(mut missing) if !best.has_arrived() && !best.is_stopped() => {
+            missing.alone(&mut trial)?;
+            Ok(missing.into_solution(&trial))
+        }
+        _ => Ok(best.into_solution(&trial)),
+    }
+}
+
+/// The better one of `best` and what these bends lead to, or the first that is enough.
+fn bent<const D: usize>(
+    trial: &mut Trial,
+    start: &[f64],
+    bends: &[Vec<[f64; 3]>],
+    mut best: Attempt<D>,
+) -> Result<Attempt<D>, ProblemError>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    for bends in bends {
+        if trial.is_spent() {
+            break;
+        }
+        let mut attempt = Attempt::bent(trial, start, bends)?;
+        attempt.go_on(trial, Pace::BRISK)?;
+        if attempt.is_enough(trial.problem.search) {
+            return Ok(attempt);
+        }
+        best = best.or(attempt);
+    }
+    Ok(best)
+}
+
+/// The handles flow from `start`, and go to their targets from where they came, all together or those that are near;
+/// few that are missing then go alone.
+fn flowed_from<'a, const D: usize>(
+    trial: &mut Trial<'a>,
+    start: &[f64],
+) -> Result<Missing<'a, D>, ProblemError>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    let mut x = start.to_vec();
+    flow_to(trial, &trial.problem.stations[0], &mut x);
+    let energy = trial.total.energy_last;
+    let mut missing = Missing::new(trial.problem, start, (x, energy));
+    missing.together(trial)?;
+    if missing.share() <= FEW {
+        missing.alone(trial)?;
+    }
+    Ok(missing)
+}

@@ -1,0 +1,87 @@
+use thiserror::Error;
+
+/// Why a file cannot be read or written.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum DocumentError {
+    /// The file is sound but has no triangle.
+    #[error("the file has no triangles")]
+    NoTriangles,
+    /// Neither the content nor the name tells a format that can be read.
+    #[error("not a glTF, OBJ, OFF, PLY or STL file")]
+    UnknownFormat,
+    /// The file is glTF but breaks its rules where that matters here.
+    #[error("invalid glTF: {0}")]
+    InvalidGltf(String),
+    /// The file is OBJ, OFF, PLY or STL but cannot be parsed.
+    #[error("invalid mesh file: {0}")]
+    InvalidMesh(String),
+    /// A glTF version other than 2.
+    #[error("glTF version {0} is not supported, only 2.x")]
+    UnsupportedVersion(String),
+    /// A required extension that is not known here.
+    #[error("the file requires the extension {0}, which is not supported")]
+    UnsupportedExtension(String),
+    /// A URI that is neither data nor a file of the upload.
+    #[error("the file references `{0}`, which was not supplied")]
+    MissingResource(String),
+    /// A face names a vertex that does not exist.
+    #[error("vertex index out of range: {0}")]
+    IndexOutOfRange(String),
+    /// A vertex position is infinite or not a number.
+    #[error("a vertex position is not finite: {0}")]
+    NonFinitePosition(String),
+    /// The file asks for more than is reasonable for its size.
+    #[error("limit exceeded: {0}")]
+    LimitExceeded(String),
+    /// The output format cannot hold this document.
+    #[error("cannot write {0}")]
+    UnsupportedOutput(String),
+    /// A node shows a mesh several times, and each is to have UVs of its own.
+    #[error(
+        "node {0} has instances (EXT_mesh_gpu_instancing), which cannot have UVs of their own; make them nodes"
+    )]
+    Instanced(usize),
+    /// Triangles are to be cut where something has no value between vertices.
+    #[error("triangles cannot be split: {0} cannot be interpolated")]
+    Indivisible(String),
+    /// A texture samples the set that was asked for.
+    #[error("textures sample UV set {0}; choose another, or overwrite it")]
+    TexcoordInUse(u32),
+    /// The UVs to write do not fit the document.
+    #[error("the UVs do not match the primitives of the document")]
+    InvalidUvs,
+}
+
+impl DocumentError {
+    /// A stable name for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoTriangles => "no_triangles",
+            Self::UnknownFormat => "unknown_format",
+            Self::InvalidGltf(_) => "invalid_gltf",
+            Self::InvalidMesh(_) => "invalid_mesh",
+            Self::UnsupportedVersion(_) => "unsupported_version",
+            Self::UnsupportedExtension(_) | Self::Instanced(_) => "unsupported_extension",
+            Self::MissingResource(_) => "missing_resource",
+            Self::IndexOutOfRange(_) => "index_out_of_range",
+            Self::NonFinitePosition(_) => "non_finite_position",
+            Self::LimitExceeded(_) => "limit_exceeded",
+            Self::UnsupportedOutput(_) => "unsupported_output",
+            Self::Indivisible(_) => "indivisible",
+            Self::TexcoordInUse(_) => "texcoord_in_use",
+            Self::InvalidUvs => "invalid_uvs",
+        }
+    }
+}
+
+impl From<crate::io::ReadError> for DocumentError {
+    fn from(error: crate::io::ReadError) -> Self {
+        use crate::io::ReadError;
+        let text = error.to_string();
+        match error {
+            ReadError::Malformed { .. } => Self::InvalidMesh(text),
+            ReadError::NonFinitePosition { .. } => Self::NonFinitePosition(text),
+            ReadError::IndexOutOfRange { .. } => Self::IndexOutOfRange(text),
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Images that lie beside the document.
+use super::body::{Body, Target};
+use super::json::{item, item_mut, items, remove, required};
+use super::uri;
+use crate::document::DocumentError;
+use crate::io::{Content, Format};
+use serde_json::{Value, json};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// For each image the first one with the same bytes; itself if it cannot be read.
+pub(super) fn first_of_equals(
+    body: &Body,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<Vec<usize>, DocumentError> {
+    let mut known: HashMap<Cow<[u8]>, usize> = HashMap::new();
+    let first = |index| match bytes(body, index, resources) {
+        Ok(bytes) => *known.entry(bytes).or_insert(index),
+        Err(_) => index,
+    };
+    let n_images = items(&body.json, "images")?.len();
+    Ok((0..n_images).map(first).collect())
+}
+
+/// The resources that images refer to.
+pub(super) fn supplied(
+    json: &Value,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<BTreeMap<String, Vec<u8>>, DocumentError> {
+    let uris = items(json, "images")?.iter().filter_map(external_uri);
+    let named = uris.filter_map(|uri| uri::member(&uri, resources));
+    Ok(named
+        .map(|(name, bytes)| (name.to_owned(), bytes.to_vec()))
+        .collect())
+}
+
+/// Takes every image that was supplied into the binary buffer, so that one file holds all. Returns the URIs of those
+/// that stay outside.
+pub(super) fn embed(
+    body: &mut Body,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<Vec<String>, DocumentError> {
+    let mut outside = Vec::new();
+    let mut views: BTreeMap<&str, usize> = BTreeMap::new();
+    for index in 0..items(&body.json, "images")?.len() {
+        let Some(uri) = external_uri(&items(&body.json, "images")?[index]) else {
+            continue;
+        };
+        let found = uri::member(&uri, resources)
+            .and_then(|(name, bytes)| Some((name, bytes, mime_type(name, bytes)?)));
+        let Some((name, bytes, mime_type)) = found else {
+            outside.push(uri);
+            continue;
+        };
+        let view = match views.get(name) {
+            Some(view) => *view,
+            None => body.push_view(bytes, None, Target::Other)?,
+        };
+        views.insert(name, view);
+        let image = item_mut(&mut body.json, "images", index)?;
+        remove(image, "uri");
+        image["bufferView"] = json!(view);
+        image["mimeType"] = json!(mime_type);
+    }
+    Ok(outside)
+}
+
+/// Files by their names, and URIs of those that were not supplied.
+pub(super) type Beside = (Vec<(String, Vec<u8>)>, Vec<String>);
+
+/// The bytes of an image's file, wherever it lies.
+pub(super) fn bytes<'a>(
+    body: &'a Body,
+    index: usize,
+    resources: &'a BTreeMap<String, Vec<u8>>,
+) -> Result<Cow<'a, [u8]>, DocumentError> {
+    let image = item(&body.json, "images", index)?;
+    match image.get("uri").and_then(Value::as_str) {
+        Some(uri) => uri::resolve(uri, resources),
+        None => Ok(Cow::Borrowed(body.view(required(image, "bufferView")?)?.0)),
+    }
+}
+
+/// The supplied images, to be written beside the document.
+pub(super) fn beside(
+    json: &Value,
+    resources: &BTreeMap<String, Vec<u8>>,
+) -> Result<Beside, DocumentError> {
+    let (mut files, mut outside) = (Vec::new(), Vec::new());
+    let mut names = BTreeSet::new();
+    for uri in items(json, "images")?.iter().filter_map(external_uri) {
+        match uri::member(&uri, resources) {
+            Some((name, bytes)) if names.insert(name) => {
+                files.push((name.to_owned(), bytes.to_vec()));
+            }
+            Some(_) => {}
+            None => outside.push(uri),
+        }
+    }
+    Ok((files, outside))
+}
+
+fn external_uri(image: &Value) -> Option<String> {
+    let uri = image.get("uri")?.as_str()?;
+    (!uri::is_data(uri)).then(|| uri.to_owned())
+}
+
+/// The extension of a file with this content.
+pub(super) fn file_extension(bytes: &[u8]) -> &'static str {
+    let format = Format::of_content(bytes, bytes.len() as u64, Content::Texture);
+    format.map_or("bin", Format::extension)
+}
+
+/// The media type by content, else by name; `None` where it is not known, and an embedded image must have one.
+fn mime_type(name: &str, bytes: &[u8]) -> Option<&'static str> {
+    let format = Format::detect(name, bytes, Content::Texture)?;
+    format.media_types().first().copied()
+}

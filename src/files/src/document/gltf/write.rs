@@ -1,0 +1,235 @@
+//! The document with a new UV set, as files.
+use super::body::Body;
+use super::json::{item_mut, remove_extension};
+use super::links::Collection;
+use super::origin::Places;
+use super::rewrite::rewrite;
+use super::set_warnings::set_warnings;
+use super::texcoord_set::{self, Choice, Textures};
+use super::texture_warnings::texture_warnings;
+use super::textures::{affected, remove_transform};
+use super::{GltfDocument, extensions, glb, images, marking, primitives, uri};
+use super::{as_obj, baked};
+use crate::document::{
+    BakedTextures, DocumentError, Layout, Mark, NewUvs, OutputFormat, Warning, WriteNotes,
+    WriteOptions, Written,
+};
+use serde_json::{Value, json};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use unwrapd_maps::mesh::VAxis;
+
+/// An extension of meshes that names the indices of the primitives, which a split makes wrong.
+const MANIFOLD: &str = "EXT_mesh_manifold";
+
+/// Writes `document` with `uvs`, and with the textures made for them.
+pub(super) fn write(
+    document: &GltfDocument,
+    (uvs, present): (&NewUvs, Option<&Mark>),
+    options: &WriteOptions,
+    baked: Option<&BakedTextures>,
+) -> Result<Written, DocumentError> {
+    if options.format == OutputFormat::Obj {
+        return as_obj::write(document, uvs, options, baked);
+    }
+    let plan = baked.map(|baked| &baked.plan);
+    let (choices, textures) = texcoord_set::choose(document, (uvs, present), options, plan)?;
+    let mut body = document.body.clone();
+    let mut notes = WriteNotes {
+        extensions_dropped: document.decompressed.clone(),
+        ..WriteNotes::default()
+    };
+    for (index, choice) in choices.iter().enumerate() {
+        let (Some(choice), Some(corners)) = (choice, uvs.toward(index, VAxis::Down)) else {
+            continue;
+        };
+        let primitive = &document.primitives[index];
+        let note = rewrite(document, &mut body, index, &corners, (choice, baked))
+            .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
+        notes.primitives.push(note);
+    }
+    let chosen = (choices.as_slice(), &textures);
+    let warnings = set_warnings(document, chosen, options, baked.is_some());
+    notes.warnings.extend(warnings);
+    if uvs.layout == Layout::New {
+        release_textures(&mut body.json, &choices, &textures, &mut notes);
+    }
+    let resources = match baked {
+        Some(baked) => {
+            let set = choices.iter().flatten().map(|choice| choice.set).next();
+            let at = (set.unwrap_or(0), options.stem.as_str());
+            Cow::Owned(baked::insert(document, &mut body, baked, at, &mut notes)?)
+        }
+        None => Cow::Borrowed(&document.resources),
+    };
+    drop_manifold(&mut body.json, &mut notes)?;
+    let gone = ["KHR_texture_transform", MANIFOLD];
+    let gone: Vec<&str> = gone
+        .into_iter()
+        .filter(|name| is_dropped(name, &notes))
+        .collect();
+    notes
+        .extensions_dropped
+        .extend(extensions::prune(&mut body.json, &gone)?);
+    if !notes.primitives.is_empty() {
+        let warning = mark(&mut body.json, uvs, &choices, options)?;
+        notes.warnings.extend(warning);
+    }
+    let warnings = texture_warnings(document, &notes);
+    notes.warnings.extend(warnings);
+    let places = document.origin.clean(&mut body)?;
+    renumber(&mut notes, &places);
+    let files = files((body, &document.chunks), &resources, options, &mut notes)?;
+    Ok(Written { files, notes })
+}
+
+/// Lets the document say which UVs were written, where it is known what they were made for.
+fn mark(
+    json: &mut Value,
+    uvs: &NewUvs,
+    choices: &[Option<Choice>],
+    options: &WriteOptions,
+) -> Result<Option<Warning>, DocumentError> {
+    let Some(terms) = &options.terms else {
+        marking::clear(json);
+        return Ok(None);
+    };
+    let written = choices.iter().enumerate().map(|(index, choice)| {
+        let corners = uvs.toward(index, VAxis::Down)?;
+        let corners = corners.iter().map(|face| face.map(|uv| uv.map(f64::from)));
+        Some((choice.as_ref()?.set, corners.collect()))
+    });
+    marking::set(json, &Mark::new(terms, written))
+}
+
+/// Lets notes name textures and images as the written file numbers them.
+fn renumber(notes: &mut WriteNotes, places: &Places) {
+    for baked in &mut notes.textures_baked {
+        baked.texture = places.of((Collection::Textures, baked.texture));
+    }
+    for affected in &mut notes.textures_affected {
+        affected.texture = places.of((Collection::Textures, affected.texture));
+        affected.image = affected
+            .image
+            .map(|image| places.of((Collection::Images, image)));
+    }
+}
+
+fn is_dropped(name: &str, notes: &WriteNotes) -> bool {
+    match name {
+        MANIFOLD => notes
+            .primitives
+            .iter()
+            .any(|note| note.vertices_after > note.vertices_before),
+        _ => !notes.transforms_removed.is_empty(),
+    }
+}
+
+/// Lists the textures that sampled a replaced set and takes off the transforms that were made for it.
+fn release_textures(
+    json: &mut Value,
+    choices: &[Option<Choice>],
+    textures: &Textures,
+    notes: &mut WriteNotes,
+) {
+    let replaced = choices.iter().flatten().filter(|choice| choice.had_set);
+    let mut released = Vec::new();
+    let mut sets = BTreeSet::new();
+    for choice in replaced {
+        released.extend(
+            choice
+                .own
+                .uses
+                .iter()
+                .filter(|texture| texture.set == choice.set),
+        );
+        sets.extend(
+            choice
+                .materials
+                .iter()
+                .map(|material| (*material, choice.set)),
+        );
+    }
+    for (material, set) in sets {
+        let uses = textures
+            .get(&material)
+            .map_or(&[][..], |textures| &textures.uses);
+        released.extend(uses.iter().filter(|texture| texture.set == set));
+    }
+    for texture in released {
+        notes.textures_affected.push(affected(json, texture));
+        if remove_transform(json, texture) {
+            notes.transforms_removed.push(texture.pointer.clone());
+        }
+    }
+    notes.textures_affected.sort();
+}
+
+/// Takes the manifold indices off meshes whose vertices were split.
+fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), DocumentError> {
+    let split = notes
+        .primitives
+        .iter()
+        .filter(|note| note.vertices_after > note.vertices_before);
+    let meshes: BTreeSet<usize> = split.map(|note| note.mesh).collect();
+    for mesh in meshes {
+        if remove_extension(item_mut(json, "meshes", mesh)?, MANIFOLD).is_some() {
+            notes.warnings.push(Warning::new(
+                "manifold_dropped",
+                format!("mesh {mesh}: {MANIFOLD} is dropped because vertices were split"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn files(
+    (mut body, chunks): (Body, &[(u32, Vec<u8>)]),
+    resources: &BTreeMap<String, Vec<u8>>,
+    options: &WriteOptions,
+    notes: &mut WriteNotes,
+) -> Result<Vec<(String, Vec<u8>)>, DocumentError> {
+    let stem = &options.stem;
+    let (files, outside) = match options.format {
+        OutputFormat::Glb => {
+            let outside = images::embed(&mut body, resources)?;
+            body.seal()?;
+            let glb = glb::join(&to_json(&body.json, false), &body.bin, chunks)?;
+            (vec![(format!("{stem}.glb"), glb)], outside)
+        }
+        OutputFormat::Gltf => {
+            body.seal()?;
+            let name = format!("{stem}.bin");
+            if !body.bin.is_empty() {
+                item_mut(&mut body.json, "buffers", 0)?["uri"] = json!(uri::encoded(&name));
+            }
+            let (images, outside) = images::beside(&body.json, resources)?;
+            let mut files = vec![(format!("{stem}.gltf"), to_json(&body.json, true))];
+            if !body.bin.is_empty() {
+                files.push((name, body.bin));
+            }
+            files.extend(images);
+            (files, outside)
+        }
+        OutputFormat::Obj => {
+            return Err(DocumentError::UnsupportedOutput("glTF as OBJ".to_owned()));
+        }
+    };
+    for uri in outside {
+        let uri: String = uri.chars().filter(|c| !c.is_control()).take(120).collect();
+        notes.warnings.push(Warning::new(
+            "image_missing",
+            format!("the image `{uri}` was not supplied and remains a reference"),
+        ));
+    }
+    Ok(files)
+}
+
+fn to_json(json: &Value, pretty: bool) -> Vec<u8> {
+    let text = if pretty {
+        format!("{json:#}\n")
+    } else {
+        json.to_string()
+    };
+    text.into_bytes()
+}

@@ -1,0 +1,164 @@
+use super::DocumentError;
+use crate::io::IndexedTriangles;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The triangles of one primitive, as the file has them.
+///
+/// Strips and fans are expanded; faces that name a vertex twice are kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Primitive {
+    /// Index of the mesh in the file.
+    pub mesh: usize,
+    /// Index of the primitive in its mesh; points and lines count too.
+    pub primitive: usize,
+    /// Index of the material.
+    pub material: Option<usize>,
+    /// Positions of all vertices, used or not, in the units of the mesh (no node transform).
+    pub positions: Vec<[f32; 3]>,
+    /// Vertex indices of the faces.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Primitive {
+    /// Puts vertices that no triangle uses, and whose coordinates are not finite, at the origin, and tells how many there were.
+    pub(super) fn place_unused(&mut self) -> usize {
+        let mut n_placed = 0;
+        for position in &mut self.positions {
+            if !position.iter().all(|x| x.is_finite()) {
+                *position = [0.0; 3];
+                n_placed += 1;
+            }
+        }
+        n_placed
+    }
+
+    /// All triangles of a file whose format knows no meshes.
+    pub(super) fn of_file(mesh: IndexedTriangles) -> Result<Self, DocumentError> {
+        if mesh.triangles.is_empty() {
+            return Err(DocumentError::NoTriangles);
+        }
+        Ok(Self {
+            mesh: 0,
+            primitive: 0,
+            material: None,
+            positions: mesh.positions,
+            triangles: mesh.triangles,
+        })
+    }
+}
+
+/// Which primitives share one atlas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum GroupBy {
+    /// One atlas per mesh.
+    #[default]
+    Mesh,
+    /// One atlas for the whole file.
+    Scene,
+    /// One atlas per material; a mesh without a material has its own.
+    Material,
+    /// One atlas per primitive.
+    Primitive,
+}
+
+/// As the command line names it.
+impl fmt::Display for GroupBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mesh => "mesh",
+            Self::Scene => "scene",
+            Self::Material => "material",
+            Self::Primitive => "primitive",
+        })
+    }
+}
+
+/// The label of an atlas for all, here as in the page.
+const WHOLE_SCENE: &str = "Whole scene";
+
+/// Primitives that share one UV space.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    /// `scene`, `mesh0`, `mesh0/prim0` or `material0`.
+    pub name: String,
+    /// Label for people: the name of the mesh or the material, else `mesh 0`, `material 0` or `Whole scene`.
+    pub label: String,
+    /// Indices into the document's primitives, ascending.
+    pub primitives: Vec<usize>,
+}
+
+/// What a file calls its meshes and materials.
+pub(super) trait Names {
+    /// The name of a mesh, if it has one.
+    fn mesh(&self, index: usize) -> Option<String>;
+    /// The name of a material, if it has one.
+    fn material(&self, index: usize) -> Option<String>;
+}
+
+/// Of a file that names nothing.
+pub(super) struct Nameless;
+
+impl Names for Nameless {
+    fn mesh(&self, _: usize) -> Option<String> {
+        None
+    }
+    fn material(&self, _: usize) -> Option<String> {
+        None
+    }
+}
+
+/// Groups in the order of their first primitives.
+pub(super) fn groups(primitives: &[Primitive], by: GroupBy, names: &impl Names) -> Vec<Group> {
+    let mut places = std::collections::HashMap::new();
+    let mut groups: Vec<Group> = Vec::new();
+    for (index, primitive) in primitives.iter().enumerate() {
+        let name = group_name(primitive, by);
+        let place = *places.entry(name.clone()).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Group {
+                name,
+                label: group_label(primitive, by, names),
+                primitives: Vec::new(),
+            });
+        }
+        groups[place].primitives.push(index);
+    }
+    groups
+}
+
+impl GroupBy {
+    /// How a primitive is grouped: one without a material shares nothing with other meshes.
+    fn of(self, primitive: &Primitive) -> Self {
+        match self {
+            Self::Material if primitive.material.is_none() => Self::Mesh,
+            by => by,
+        }
+    }
+}
+
+fn group_name(primitive: &Primitive, by: GroupBy) -> String {
+    match (by.of(primitive), primitive.material) {
+        (GroupBy::Scene, _) => "scene".to_owned(),
+        (GroupBy::Material, Some(material)) => format!("material{material}"),
+        (GroupBy::Primitive, _) => format!("mesh{}/prim{}", primitive.mesh, primitive.primitive),
+        (GroupBy::Mesh | GroupBy::Material, _) => format!("mesh{}", primitive.mesh),
+    }
+}
+
+fn group_label(primitive: &Primitive, by: GroupBy, names: &impl Names) -> String {
+    let mesh = || {
+        let name = names.mesh(primitive.mesh);
+        name.unwrap_or_else(|| format!("mesh {}", primitive.mesh))
+    };
+    match (by.of(primitive), primitive.material) {
+        (GroupBy::Scene, _) => WHOLE_SCENE.to_owned(),
+        (GroupBy::Material, Some(material)) => {
+            (names.material(material)).unwrap_or_else(|| format!("material {material}"))
+        }
+        (GroupBy::Primitive, _) => format!("{}, primitive {}", mesh(), primitive.primitive),
+        (GroupBy::Mesh | GroupBy::Material, _) => mesh(),
+    }
+}

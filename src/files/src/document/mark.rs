@@ -1,0 +1,266 @@
+//! The record that a file keeps of the UVs written to it: which set, and what was promised of it.
+//!
+//! Anybody can write such a record, so it may only add to what is judged. Nothing here takes a face, a pair of faces or a
+//! group out of a judgment.
+use super::{Document, DocumentError, GroupBy};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use sha2::{Digest as _, Sha256};
+use std::fmt;
+use unwrapd_maps::mesh::{CornerUvs, Resolution};
+
+/// The version that is written and read.
+const VERSION: u32 = 1;
+
+/// What UVs were made for: what shared a UV space, and what was promised of its charts.
+///
+/// Records of version 0.1.0 may have a member `charts`, which is not read: it named the only charts to be judged.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Terms {
+    /// What shared one UV space. Told to readers; a judgment groups by the file or by its caller.
+    pub group_by: GroupBy,
+    /// Whether each node got a part of its own, in proportion to what it shows in the scene.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub separate_nodes: bool,
+    /// Least distance of two charts, in texels of the coarsest of the mip levels that count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub padding: Option<u32>,
+    /// The texture that `padding` is counted in.
+    pub resolution: Resolution,
+    /// Pages that charts lie on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pages: Option<u32>,
+    /// Mip levels beyond the first in which charts keep the padding.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub mips: u32,
+    /// Whether charts end where texels end.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub aligned: bool,
+    /// Bits at which the map stays bijective.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bits: Option<u32>,
+    /// Whether faces may overlap: without it, overlaps are tested even if the caller does not ask for that.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub overlaps: bool,
+}
+
+/// Which UV set of each primitive is meant.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Sets {
+    /// The same of all.
+    One(u32),
+    /// One of each triangle primitive in file order; none of those that take no part.
+    Each(Vec<Option<u32>>),
+}
+
+impl Sets {
+    /// The set of a primitive.
+    pub fn of(&self, primitive: usize) -> Option<u32> {
+        match self {
+            Self::One(set) => Some(*set),
+            Self::Each(sets) => sets.get(primitive).copied().flatten(),
+        }
+    }
+
+    /// The lowest set that is named.
+    pub fn lowest(&self) -> Option<u32> {
+        match self {
+            Self::One(set) => Some(*set),
+            Self::Each(sets) => sets.iter().copied().flatten().min(),
+        }
+    }
+
+    /// One number where it is the same of all.
+    fn new(sets: Vec<Option<u32>>) -> Self {
+        match sets.first() {
+            Some(Some(first)) if sets.iter().all(|set| *set == Some(*first)) => Self::One(*first),
+            _ => Self::Each(sets),
+        }
+    }
+}
+
+/// In words: `UV set 0` or `UV sets 0 and 1`.
+impl fmt::Display for Sets {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::One(set) => write!(f, "UV set {set}"),
+            Self::Each(sets) => {
+                let mut named: Vec<u32> = sets.iter().copied().flatten().collect();
+                named.sort_unstable();
+                named.dedup();
+                let numbers: Vec<String> = named.iter().map(u32::to_string).collect();
+                match numbers.as_slice() {
+                    [] => write!(f, "no UV set"),
+                    [one] => write!(f, "UV set {one}"),
+                    [first @ .., last] => write!(f, "UV sets {} and {last}", first.join(", ")),
+                }
+            }
+        }
+    }
+}
+
+/// A mark: UV sets, their terms, and a digest of the UVs by which a file that was changed is recognized.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mark {
+    version: u32,
+    /// The UV sets that were written.
+    #[serde(rename = "texcoord")]
+    pub sets: Sets,
+    /// What they were made for.
+    #[serde(flatten)]
+    pub terms: Terms,
+    digest: String,
+}
+
+/// What the record requires, in words; empty if it requires nothing.
+impl fmt::Display for Terms {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut required = Vec::new();
+        if !self.overlaps {
+            required.push("no overlaps".to_owned());
+        }
+        if let Some(padding) = self.padding {
+            let mips = match self.mips {
+                0 => String::new(),
+                mips => format!(" down to mip level {mips}"),
+            };
+            required.push(format!(
+                "padding of {padding} texels at {}{mips}",
+                self.resolution
+            ));
+        }
+        if self.aligned {
+            required.push("charts aligned to texels".to_owned());
+        }
+        if let Some(pages) = self.pages.filter(|pages| *pages > 1) {
+            required.push(format!("{pages} pages"));
+        }
+        if let Some(bits) = self.bits {
+            required.push(format!("safe at {bits} bits"));
+        }
+        write!(f, "{}", required.join(", "))
+    }
+}
+
+/// Whether a file has a mark that can be believed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Marked {
+    /// It has none.
+    Not,
+    /// It has one that does not fit its UVs: they were changed since.
+    Stale,
+    /// It has one that fits.
+    Fits(Box<Mark>),
+}
+
+impl Mark {
+    /// The mark of UVs as a file will have them: of each primitive the set and the UVs, in the numbers of the file.
+    pub(super) fn new(
+        terms: &Terms,
+        written: impl Iterator<Item = Option<(u32, Vec<CornerUvs>)>>,
+    ) -> Self {
+        let mut digest = UvDigest::default();
+        let sets = written.map(|primitive| {
+            let (set, uvs) = primitive?;
+            digest.add(set, &uvs);
+            Some(set)
+        });
+        Self {
+            version: VERSION,
+            sets: Sets::new(sets.collect()),
+            terms: terms.clone(),
+            digest: digest.text(),
+        }
+    }
+
+    /// The mark as the file has it.
+    pub(super) fn value(&self) -> Value {
+        serde_json::to_value(self).unwrap_or_default()
+    }
+
+    /// The mark that a file has, if it is of a version that is known.
+    pub(super) fn parse(value: &Value) -> Option<Self> {
+        let mark = Self::deserialize(value).ok()?;
+        (mark.version == VERSION).then_some(mark)
+    }
+
+    /// Whether the UVs of the document are those that were marked.
+    fn fits(&self, document: &Document) -> Result<bool, DocumentError> {
+        let n_primitives = document.primitives().len();
+        if matches!(&self.sets, Sets::Each(sets) if sets.len() != n_primitives) {
+            return Ok(false);
+        }
+        let mut digest = UvDigest::default();
+        for primitive in 0..n_primitives {
+            let Some(set) = self.sets.of(primitive) else {
+                continue;
+            };
+            match document.corner_uvs(primitive, set)? {
+                Some(uvs) => digest.add(set, &uvs),
+                None => return Ok(false),
+            }
+        }
+        Ok(digest.text() == self.digest)
+    }
+}
+
+impl Document {
+    /// Whether the document says of its UVs what they were made for.
+    pub fn marked(&self) -> Result<Marked, DocumentError> {
+        Ok(match self.mark().as_ref().map(Mark::parse) {
+            None => Marked::Not,
+            Some(Some(mark)) if mark.fits(self)? => Marked::Fits(Box::new(mark)),
+            Some(_) => Marked::Stale,
+        })
+    }
+
+    /// The texture that a UV set was made for, as the document says. The UVs may have been changed since: that does not change
+    /// the shape of the texture.
+    pub fn texture_of(&self, set: u32) -> Option<Resolution> {
+        let mark = Mark::parse(&self.mark()?)?;
+        let is_marked = |primitive: usize| mark.sets.of(primitive) == Some(set);
+        let is_known = (0..self.primitives().len()).any(is_marked);
+        (is_known && mark.terms.resolution.is_regular()).then_some(mark.terms.resolution)
+    }
+
+    /// What the document has in the place of a mark.
+    fn mark(&self) -> Option<Value> {
+        match self {
+            Self::Gltf(document) => document.mark(),
+            Self::Obj(document) => document.mark(),
+            Self::Soup(_) => None,
+        }
+    }
+}
+
+/// A digest of the UVs of every face corner in file order, whatever the numbers of the vertices.
+#[derive(Default)]
+struct UvDigest(Sha256);
+
+impl UvDigest {
+    fn add(&mut self, set: u32, uvs: &[CornerUvs]) {
+        self.0.update(set.to_le_bytes());
+        self.0.update((uvs.len() as u64).to_le_bytes());
+        for number in uvs.as_flattened().as_flattened() {
+            self.0.update(number.to_le_bytes());
+        }
+    }
+
+    /// The first 16 bytes in hexadecimal: changes by accident are to be recognized, not forgeries.
+    fn text(self) -> String {
+        let digest = self.0.finalize();
+        let bytes = std::array::from_fn(|k| digest[k]);
+        format!("{:032x}", u128::from_be_bytes(bytes))
+    }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(value: &u32) -> bool {
+    *value == 0
+}

@@ -1,0 +1,156 @@
+//! A new OBJ file for triangles that came from another format.
+use super::colors::{Color, to_srgb};
+use super::obj_text::push_face;
+use super::texcoord_lines::{TexcoordLines, decimal};
+use super::{
+    Corners, DocumentError, NewUvs, Primitive, PrimitiveNote, TangentsNote, WriteNotes,
+    WriteOptions, Written,
+};
+use crate::io::obj::Corner;
+use std::collections::HashMap;
+use std::io::Write as _;
+use unwrapd_maps::mesh::VAxis;
+
+/// A primitive with all that an OBJ file says of it.
+pub(super) struct ObjPart<'a> {
+    pub primitive: &'a Primitive,
+    /// The name of its object.
+    pub object: &'a str,
+    pub material: Option<&'a str>,
+    /// UVs per face, v up.
+    pub uvs: Option<Vec<Corners>>,
+    /// Normals per face.
+    pub normals: Option<Vec<[[f32; 3]; 3]>>,
+    /// Colors per vertex.
+    pub colors: Option<Vec<Color>>,
+}
+
+/// Writes triangles without a document around them as one object.
+pub(super) fn write(
+    primitive: &Primitive,
+    colors: Option<&[Color]>,
+    uvs: &NewUvs,
+    options: &WriteOptions,
+) -> Result<Written, DocumentError> {
+    only_set(options)?;
+    let part = ObjPart {
+        primitive,
+        object: "mesh0",
+        material: None,
+        uvs: uvs.toward(0, VAxis::Up),
+        normals: None,
+        colors: colors.map(<[Color]>::to_vec),
+    };
+    let notes = part.uvs.iter().map(|_| note(primitive, false));
+    Ok(Written {
+        notes: WriteNotes {
+            primitives: notes.collect(),
+            ..WriteNotes::default()
+        },
+        files: vec![(format!("{}.obj", options.stem), text(&[part], None))],
+    })
+}
+
+/// The text of an OBJ file: each primitive with vertices of its own, those of one object after the other.
+pub(super) fn text(parts: &[ObjPart], material_file: Option<&str>) -> Vec<u8> {
+    let mut vertices = Vec::new();
+    if let Some(name) = material_file {
+        let _ = writeln!(vertices, "mtllib {name}");
+    }
+    let mut lines = Lines::default();
+    let mut faces = Vec::new();
+    let mut first_vertex = 0;
+    let mut object = None;
+    for part in parts {
+        push_vertices(&mut vertices, part);
+        // Writing to memory does not fail.
+        if object != Some(part.object) {
+            object = Some(part.object);
+            let _ = writeln!(faces, "o {}", part.object);
+        }
+        if let Some(material) = part.material {
+            let _ = writeln!(faces, "usemtl {material}");
+        }
+        push_faces(&mut faces, part, first_vertex, &mut lines);
+        first_vertex += part.primitive.positions.len() as u32;
+    }
+    [vertices, lines.texcoords.text, lines.normals, faces].concat()
+}
+
+fn push_vertices(text: &mut Vec<u8>, part: &ObjPart) {
+    for (vertex, position) in part.primitive.positions.iter().enumerate() {
+        let [x, y, z] = position.map(decimal);
+        let _ = write!(text, "v {x} {y} {z}");
+        if let Some(colors) = &part.colors {
+            let [r, g, b] = to_srgb(colors[vertex]).map(|x| (x * 1e5).round() / 1e5);
+            let _ = write!(text, " {r} {g} {b}");
+        }
+        text.push(b'\n');
+    }
+}
+
+/// Lines that corners name by their numbers.
+#[derive(Default)]
+struct Lines {
+    texcoords: TexcoordLines,
+    normals: Vec<u8>,
+    numbers_of_normals: HashMap<[u32; 3], u32>,
+}
+
+impl Lines {
+    /// The number, from 0, of the line for a normal.
+    fn normal(&mut self, normal: [f32; 3]) -> u32 {
+        let next = self.numbers_of_normals.len() as u32;
+        let key = normal.map(f32::to_bits);
+        let number = *self.numbers_of_normals.entry(key).or_insert(next);
+        if number == next {
+            let [x, y, z] = normal.map(decimal);
+            let _ = writeln!(self.normals, "vn {x} {y} {z}");
+        }
+        number
+    }
+}
+
+fn push_faces(text: &mut Vec<u8>, part: &ObjPart, first_vertex: u32, lines: &mut Lines) {
+    for (f, face) in part.primitive.triangles.iter().enumerate() {
+        let corners = [0, 1, 2].map(|k| {
+            let vertex = face[k] + first_vertex;
+            let uv = part.uvs.as_ref().map(|uvs| uvs[f][k]);
+            let texcoord = uv.map(|uv| lines.texcoords.number(vertex, uv, "\n"));
+            let normal = part.normals.as_ref().map(|normals| normals[f][k]);
+            let corner = Corner {
+                vertex,
+                texcoord: None,
+                normal: normal.map(|normal| lines.normal(normal)),
+            };
+            (corner, texcoord)
+        });
+        push_face(text, corners.iter().map(|(c, t)| (c, *t)), "\n");
+    }
+}
+
+/// OBJ has one UV set.
+pub(super) fn only_set(options: &WriteOptions) -> Result<(), DocumentError> {
+    match options.texcoord {
+        None | Some(0) => Ok(()),
+        Some(n) => Err(DocumentError::UnsupportedOutput(format!(
+            "UV set {n} to OBJ, which has set 0 only"
+        ))),
+    }
+}
+
+/// What happens to a primitive in an OBJ file: corners have UVs of their own, so no vertex is split.
+pub(super) fn note(primitive: &Primitive, replaced: bool) -> PrimitiveNote {
+    PrimitiveNote {
+        mesh: primitive.mesh,
+        primitive: primitive.primitive,
+        texcoord: 0,
+        replaced,
+        vertices_before: primitive.positions.len(),
+        vertices_after: primitive.positions.len(),
+        indices_widened: false,
+        converted_to_triangles: false,
+        tangents: TangentsNote::Untouched,
+        sources: None,
+    }
+}

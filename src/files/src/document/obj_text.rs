@@ -1,0 +1,226 @@
+//! An OBJ text with new texture coordinates.
+use super::obj_pieces::NumberedPolygon;
+use super::texcoord_lines::{TexcoordLines, decimal};
+use super::uvs::Corners;
+use crate::io::obj::{Corner, Obj, Statement, statements};
+use std::io::Write as _;
+
+/// The text, and how many polygons had to be split.
+pub(super) struct Rewritten {
+    pub text: Vec<u8>,
+    pub split_polygons: usize,
+}
+
+/// Goes through the statements of `bytes`, which `obj` and `positions` were read from.
+///
+/// The new `vt` lines stand before the first face. Positions keep their text where it says what was read, f32 by f32;
+/// otherwise ([`decimal`]) the text is that of the f32, so that vertices that are one here are one for every reader.
+pub(super) fn rewrite(
+    bytes: &[u8],
+    obj: &Obj,
+    positions: &[[f32; 3]],
+    uvs: &[Corners],
+) -> Rewritten {
+    let line_end = line_end(bytes);
+    let mut lines = TexcoordLines::default();
+    let mut faces = Faces::new(obj, positions, uvs, &mut lines, line_end);
+    let mut texcoords = std::mem::take(&mut lines.text);
+    let mut text = Vec::with_capacity(bytes.len() + texcoords.len());
+    for statement in statements(bytes) {
+        match statement.keyword {
+            b"v" => push_vertex(&mut text, &statement, line_end),
+            b"vt" => push_comment(&mut text, &statement, line_end),
+            b"f" | b"fo" => {
+                text.append(&mut texcoords);
+                push_comment(&mut text, &statement, line_end);
+                faces.push_next(&mut text);
+            }
+            b"l" | b"surf" => push_without_texcoords(&mut text, &statement, line_end),
+            _ => text.extend_from_slice(statement.raw),
+        }
+    }
+    Rewritten {
+        text,
+        split_polygons: faces.split_polygons,
+    }
+}
+
+/// How the lines of a text end.
+pub(super) fn line_end(bytes: &[u8]) -> &'static str {
+    let end = bytes.iter().position(|&b| b == b'\n' || b == b'\r');
+    match end.map(|e| &bytes[e..]) {
+        Some(rest) if rest.starts_with(b"\r\n") => "\r\n",
+        _ => "\n",
+    }
+}
+
+/// The comment of a statement that is written anew.
+fn comment<'a>(statement: &Statement<'a>) -> Option<&'a [u8]> {
+    let start = statement.raw.iter().position(|&b| b == b'#')?;
+    Some(statement.raw[start..].trim_ascii_end())
+}
+
+/// Puts the comment on a line of its own, as not every reader takes one after the corners of a face.
+pub(super) fn push_comment(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
+    if let Some(comment) = comment(statement) {
+        text.extend_from_slice(comment);
+        text.extend_from_slice(line_end.as_bytes());
+    }
+}
+
+/// Writes a statement with other words, its comment behind them.
+pub(super) fn push_statement(
+    text: &mut Vec<u8>,
+    statement: &Statement,
+    words: &[Vec<u8>],
+    line_end: &str,
+) {
+    text.extend_from_slice(statement.keyword);
+    for word in words {
+        text.push(b' ');
+        text.extend_from_slice(word);
+    }
+    if let Some(comment) = comment(statement) {
+        text.push(b' ');
+        text.extend_from_slice(comment);
+    }
+    text.extend_from_slice(line_end.as_bytes());
+}
+
+fn push_vertex(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
+    let mut words: Vec<Vec<u8>> = statement.words.iter().map(|w| w.to_vec()).collect();
+    let one_line = !statement.raw.trim_ascii_end().contains(&b'\n');
+    let mut changed = !(one_line && statement.raw.starts_with(b"v "));
+    for word in words.iter_mut().take(3) {
+        if let Some(decimal) = corrected(word) {
+            *word = decimal.into_bytes();
+            changed = true;
+        }
+    }
+    if changed {
+        push_statement(text, statement, &words, line_end);
+    } else {
+        text.extend_from_slice(statement.raw);
+    }
+}
+
+/// The text of the f32 nearest to a number, where the number is another.
+fn corrected(word: &[u8]) -> Option<String> {
+    let number: f64 = std::str::from_utf8(word).ok()?.parse().ok()?;
+    let decimal = decimal(number as f32 + 0.0);
+    let written: f64 = decimal.parse().ok()?;
+    (written.to_bits() != number.to_bits()).then_some(decimal)
+}
+
+/// Lines and surfaces may name texture coordinates too, and these are gone.
+fn push_without_texcoords(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
+    if !statement.words.iter().any(|word| word.contains(&b'/')) {
+        text.extend_from_slice(statement.raw);
+        return;
+    }
+    let without = |word: &&[u8]| {
+        let parts: Vec<&[u8]> = word.split(|&b| b == b'/').collect();
+        match parts.as_slice() {
+            [vertex, _, normal] if !normal.is_empty() => [vertex, &b"//"[..], normal].concat(),
+            [vertex, ..] => vertex.to_vec(),
+            [] => Vec::new(),
+        }
+    };
+    let words: Vec<Vec<u8>> = statement.words.iter().map(without).collect();
+    push_statement(text, statement, &words, line_end);
+}
+
+/// The polygons with the numbers of their new texture coordinates.
+struct Faces<'a> {
+    obj: &'a Obj,
+    positions: &'a [[f32; 3]],
+    /// Per triangle.
+    numbers: Vec<[u32; 3]>,
+    line_end: &'static str,
+    n_polygons: usize,
+    n_corners: usize,
+    n_triangles: usize,
+    split_polygons: usize,
+}
+
+impl<'a> Faces<'a> {
+    fn new(
+        obj: &'a Obj,
+        positions: &'a [[f32; 3]],
+        uvs: &[Corners],
+        lines: &mut TexcoordLines,
+        line_end: &'static str,
+    ) -> Self {
+        let numbers = obj.corner_triangles.iter().zip(uvs).map(|(corners, uvs)| {
+            let vertices = corners.map(|corner| obj.corners[corner as usize].vertex);
+            [0, 1, 2].map(|c| lines.number(vertices[c], uvs[c], line_end))
+        });
+        Self {
+            obj,
+            positions,
+            numbers: numbers.collect(),
+            line_end,
+            n_polygons: 0,
+            n_corners: 0,
+            n_triangles: 0,
+            split_polygons: 0,
+        }
+    }
+
+    /// Writes the next polygon: whole where the UVs of its triangles agree, else in pieces.
+    fn push_next(&mut self, text: &mut Vec<u8>) {
+        let Some(&end) = self.obj.polygon_ends.get(self.n_polygons) else {
+            return;
+        };
+        let start = std::mem::replace(&mut self.n_corners, end);
+        let polygon = &self.obj.corners[start..end];
+        self.n_polygons += 1;
+        if polygon.len() < 3 {
+            let corners = polygon.iter().map(|corner| (corner, None));
+            push_face(text, corners, self.line_end);
+            return;
+        }
+        let triangles = self.n_triangles..self.n_triangles + polygon.len() - 2;
+        self.n_triangles = triangles.end;
+        let local = |triangle: &[u32; 3]| triangle.map(|corner| corner - start as u32);
+        let numbered = NumberedPolygon {
+            n_corners: polygon.len(),
+            triangles: self.obj.corner_triangles[triangles.clone()]
+                .iter()
+                .map(local)
+                .collect(),
+            numbers: &self.numbers[triangles],
+        };
+        let position = |corner: u32| {
+            let vertex = polygon[corner as usize].vertex;
+            self.positions[vertex as usize].map(f64::from)
+        };
+        let pieces = numbered.pieces(position);
+        self.split_polygons += usize::from(pieces.len() > 1);
+        for piece in pieces {
+            let corners = piece.into_iter();
+            let corners = corners.map(|(corner, number)| (&polygon[corner as usize], Some(number)));
+            push_face(text, corners, self.line_end);
+        }
+    }
+}
+
+/// Writes a face: each corner with the number of its texture coordinate.
+pub(super) fn push_face<'a>(
+    text: &mut Vec<u8>,
+    corners: impl Iterator<Item = (&'a Corner, Option<u32>)>,
+    line_end: &str,
+) {
+    text.push(b'f');
+    for (corner, texcoord) in corners {
+        let vertex = corner.vertex + 1;
+        // Writing to memory does not fail.
+        let _ = match (texcoord, corner.normal.map(|normal| normal + 1)) {
+            (Some(texcoord), Some(normal)) => write!(text, " {vertex}/{texcoord}/{normal}"),
+            (Some(texcoord), None) => write!(text, " {vertex}/{texcoord}"),
+            (None, Some(normal)) => write!(text, " {vertex}//{normal}"),
+            (None, None) => write!(text, " {vertex}"),
+        };
+    }
+    text.extend_from_slice(line_end.as_bytes());
+}

@@ -1,0 +1,105 @@
+//! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
+use super::colors::{Color, from_srgb};
+use super::conversion::{Conversion, of_triangles};
+use super::warning::{listed, unused_not_finite};
+use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fanned};
+use crate::io::{self, Format};
+use unwrapd_maps::mesh::CornerUvs;
+
+/// A file as it was read.
+#[derive(Clone)]
+pub struct SoupDocument {
+    primitives: Vec<Primitive>,
+    /// For each vertex, where the file has any.
+    colors: Option<Vec<Color>>,
+    warnings: Vec<Warning>,
+}
+
+impl SoupDocument {
+    /// Reads the main file.
+    pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
+        let format = upload.format();
+        let (mesh, place) = match format {
+            Some(Format::Off) => (io::off::read(&upload.bytes)?, "line"),
+            Some(Format::Ply) => (io::ply::read(&upload.bytes)?, "face"),
+            Some(Format::Stl) => (io::stl::read(&upload.bytes)?, "line"),
+            _ => return Err(DocumentError::UnknownFormat),
+        };
+        let fanned = fanned::warning(&mesh.fanned, place);
+        let mut primitive = Primitive::of_file(mesh)?;
+        let unused = unused_not_finite(primitive.place_unused());
+        let mut document = Self {
+            warnings: fanned.into_iter().chain(unused).collect(),
+            primitives: vec![primitive],
+            colors: None,
+        };
+        if format == Some(Format::Ply) {
+            document.add(io::ply::extras(&upload.bytes)?);
+        }
+        Ok(document)
+    }
+
+    /// What reading noticed.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// The triangles and colors as glTF.
+    pub(super) fn to_gltf(&self) -> Result<Conversion, DocumentError> {
+        of_triangles(&self.primitives[0], self.colors.as_deref(), &self.warnings)
+    }
+
+    /// The colors of the vertices.
+    pub(super) fn colors(&self) -> Option<&[Color]> {
+        self.colors.as_deref()
+    }
+
+    fn add(&mut self, extras: io::ply::Extras) {
+        if !extras.left_out.is_empty() {
+            let names = listed(extras.left_out.iter().map(String::as_str));
+            let message = format!("unsupported PLY properties are left out: {names}");
+            self.warnings
+                .push(Warning::new("properties_dropped", message));
+        }
+        let colors = extras.colors.into_iter().flatten().map(from_srgb);
+        let colors: Vec<Color> = colors.collect();
+        self.colors = (colors.len() == self.primitives[0].positions.len()).then_some(colors);
+    }
+
+    /// The triangles: all polygons of the file as one primitive.
+    pub fn primitives(&self) -> &[Primitive] {
+        &self.primitives
+    }
+
+    /// The triangles cut into pieces.
+    #[must_use]
+    pub fn subdivided(mut self, cuts: &[Subdivision]) -> Self {
+        for (primitive, cut) in self.primitives.iter_mut().zip(cuts) {
+            if let Some(colors) = &mut self.colors {
+                cut.interpolate(colors);
+            }
+            cut.apply(primitive);
+        }
+        self
+    }
+
+    /// The triangles where a map carries them.
+    pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
+        let positions = &mut self.primitives[0].positions;
+        *positions = map.positions(positions);
+        let is_lost = |p: &[f32; 3]| !p.iter().all(|x| x.is_finite());
+        match positions.iter().position(is_lost) {
+            Some(vertex) => Err(DocumentError::NonFinitePosition(format!("vertex {vertex}"))),
+            None => Ok(self),
+        }
+    }
+
+    /// These formats have no UVs that are read here.
+    pub fn corner_uvs(
+        &self,
+        _primitive: usize,
+        _set: u32,
+    ) -> Result<Option<Vec<CornerUvs>>, DocumentError> {
+        Ok(None)
+    }
+}

@@ -1,0 +1,197 @@
+//! Pictures deformed with a mesh.
+//!
+//! Each deformed triangle is filled with what its rest shape covers: the center of every pixel in it is mapped back by the
+//! triangle's affine map, and the picture sampled there. Where the picture shrinks, a coarser copy of it is taken by the smaller
+//! of the two scales, and several samples along the direction of the greater one, as graphics hardware does. Colors are mixed as
+//! they are stored (sRGB), premultiplied by alpha, so that transparent pixels lend no color.
+
+use super::mipmaps::{Mipmaps, Premultiplied, mix};
+use super::raster::{spans, steps};
+use super::{Image, ImageError};
+use unwrapd_method::numerics::vec2::{cross, sub};
+
+/// Samples of a pixel at most; a shrinking by more in one direction only is undersampled.
+const MOST_SAMPLES: f64 = 16.0;
+/// Longest side of a warped picture, and the most pixels in it.
+const LONGEST: f64 = 65_536.0;
+const MOST_PIXELS: f64 = 1e8;
+
+/// Triangles over a picture in pixels, (0, 0) its upper left corner, and where they go.
+#[derive(Clone, Copy, Debug)]
+pub struct Deformation<'a> {
+    /// Vertices on the picture.
+    pub rest: &'a [[f64; 2]],
+    /// The same vertices afterward; finite.
+    pub deformed: &'a [[f64; 2]],
+    /// Three vertices each.
+    pub triangles: &'a [[u32; 3]],
+}
+
+/// What part of the plane a warped picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// What the picture showed.
+    Source,
+    /// The whole deformed mesh.
+    Mesh,
+}
+
+/// A warped picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warped {
+    /// Its pixels; transparent where no triangle is.
+    pub image: Image,
+    /// Where its upper left corner lies, in pixels of the original.
+    pub origin: [i64; 2],
+}
+
+/// The picture under a deformation. A triangle covers the pixels whose centers it has; later ones lie over earlier ones.
+pub fn warped(
+    image: &Image,
+    deformation: &Deformation,
+    extent: Extent,
+) -> Result<Warped, ImageError> {
+    let (origin, mut result) = frame(image, deformation.deformed, extent)?;
+    if image.pixels.is_empty() {
+        return Ok(Warped {
+            image: result,
+            origin,
+        });
+    }
+    let mut mipmaps = Mipmaps::new(image);
+    let shift = origin.map(|x| x as f64);
+    for triangle in deformation.triangles {
+        let from = triangle.map(|v| deformation.rest[v as usize]);
+        let to = triangle.map(|v| sub(deformation.deformed[v as usize], shift));
+        let Some(inverse) = Inverse::new(from, to) else {
+            continue;
+        };
+        let footprint = Footprint::of(&inverse, &mut mipmaps);
+        for (row, columns) in spans(steps(to), [result.width, result.height]) {
+            for column in columns {
+                let center = inverse.at([column as f64 + 0.5, row as f64 + 0.5]);
+                let color = footprint.sample(&mipmaps, center);
+                result.pixels[row * result.width + column] = stored(color);
+            }
+        }
+    }
+    Ok(Warped {
+        image: result,
+        origin,
+    })
+}
+
+/// The upper left corner and the empty picture.
+fn frame(
+    image: &Image,
+    deformed: &[[f64; 2]],
+    extent: Extent,
+) -> Result<([i64; 2], Image), ImageError> {
+    if extent == Extent::Source || deformed.is_empty() {
+        return Ok(([0; 2], Image::transparent(image.width, image.height)));
+    }
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for p in deformed {
+        for k in 0..2 {
+            low[k] = low[k].min(p[k].floor());
+            high[k] = high[k].max(p[k].ceil());
+        }
+    }
+    let size = sub(high, low);
+    let fits = low.iter().all(|x| x.abs() < 1e9)
+        && size.iter().all(|&s| s <= LONGEST)
+        && size[0] * size[1] <= MOST_PIXELS;
+    if !fits {
+        let [width, height] = size.map(|s| s as u32);
+        return Err(ImageError::TooLarge { width, height });
+    }
+    let [width, height] = size.map(|s| s as usize);
+    Ok((low.map(|x| x as i64), Image::transparent(width, height)))
+}
+
+/// The affine map from a deformed triangle back to its rest shape.
+struct Inverse {
+    rest: [f64; 2],
+    deformed: [f64; 2],
+    /// Where a step to the right and a step down go.
+    columns: [[f64; 2]; 2],
+}
+
+impl Inverse {
+    /// `None` where the deformed triangle has no area.
+    fn new(rest: [[f64; 2]; 3], deformed: [[f64; 2]; 3]) -> Option<Self> {
+        let [u, v] = [1, 2].map(|k| sub(deformed[k], deformed[0]));
+        let [p, q] = [1, 2].map(|k| sub(rest[k], rest[0]));
+        let area = cross(u, v);
+        // x = (x × v / area) u + (u × x / area) v.
+        let image = |x: [f64; 2]| {
+            let (s, t) = (cross(x, v) / area, cross(u, x) / area);
+            [s * p[0] + t * q[0], s * p[1] + t * q[1]]
+        };
+        let columns = [image([1.0, 0.0]), image([0.0, 1.0])];
+        let is_finite = columns.as_flattened().iter().all(|x| x.is_finite());
+        (area != 0.0 && is_finite).then_some(Self {
+            rest: rest[0],
+            deformed: deformed[0],
+            columns,
+        })
+    }
+
+    fn at(&self, point: [f64; 2]) -> [f64; 2] {
+        let d = sub(point, self.deformed);
+        [0, 1].map(|k| self.rest[k] + d[0] * self.columns[0][k] + d[1] * self.columns[1][k])
+    }
+}
+
+/// What of the picture one pixel shows.
+struct Footprint {
+    level: usize,
+    n_samples: usize,
+    /// From the first sample to the end of the last one's share.
+    along: [f64; 2],
+}
+
+impl Footprint {
+    fn of(inverse: &Inverse, mipmaps: &mut Mipmaps) -> Self {
+        // The ellipse that a pixel's circle goes to: axes of M Mᵀ = [a b; b c].
+        let [x, y] = inverse.columns;
+        let (a, b, c) = (
+            x[0] * x[0] + y[0] * y[0],
+            x[0] * x[1] + y[0] * y[1],
+            x[1] * x[1] + y[1] * y[1],
+        );
+        let (mean, radius) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
+        let greater = (mean + radius).sqrt();
+        let smaller = (mean - radius).max(0.0).sqrt();
+        let angle = 0.5 * (2.0 * b).atan2(a - c);
+        // As fine as the smaller axis allows, coarser only if the greater one would need too many samples.
+        let scale = smaller.max(greater / MOST_SAMPLES).max(1.0);
+        let level = mipmaps.up_to(scale.log2().floor() as usize);
+        let samples = (greater * 0.5_f64.powi(level as i32)).ceil();
+        Self {
+            level,
+            n_samples: samples.clamp(1.0, 2.0 * MOST_SAMPLES) as usize,
+            along: [greater * angle.cos(), greater * angle.sin()],
+        }
+    }
+
+    fn sample(&self, mipmaps: &Mipmaps, center: [f64; 2]) -> Premultiplied {
+        let n = self.n_samples as f64;
+        let mut sum = [0.0; 4];
+        for k in 0..self.n_samples {
+            let t = (k as f64 + 0.5) / n - 0.5;
+            let at = [0, 1].map(|axis| center[axis] + t * self.along[axis]);
+            sum = mix(sum, mipmaps.sample(self.level, at), 1.0 / n as f32);
+        }
+        sum
+    }
+}
+
+/// The pixel as a picture holds it.
+fn stored([r, g, b, a]: Premultiplied) -> [u8; 4] {
+    let byte = |x: f32| (x * 255.0).round() as u8;
+    if a <= 0.0 {
+        return [0; 4];
+    }
+    [byte(r / a), byte(g / a), byte(b / a), byte(a)]
+}

@@ -1,0 +1,94 @@
+//! What would do where charts do not fit at the scale that is asked for.
+
+use std::fmt;
+
+use super::attempt::SLACK;
+use super::draft::Draft;
+use super::layout::layout;
+use super::outline::outlines;
+use super::pack::{best, searched};
+use super::plan::Plan;
+use super::texture::Texture;
+use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale, UNHEARD};
+use unwrapd_maps::mesh::Resolution;
+
+/// By how much a larger texture exceeds what the best layout needs: searches in two textures differ.
+const MARGIN: f64 = 1.03;
+/// The shorter side of a texture is a multiple of so many texels.
+const WHOLE: u32 = 16;
+/// The longest side of a texture.
+const LONGEST: u32 = 65_536;
+
+/// A texture that would do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Enough {
+    /// A resolution with as many pages.
+    pub resolution: Option<Resolution>,
+    /// So many pages of the same resolution.
+    pub pages: Option<u32>,
+}
+
+/// After what is too small.
+impl fmt::Display for Enough {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.resolution, self.pages) {
+            (Some(resolution), Some(pages)) => {
+                write!(f, ": use resolution {resolution} or {pages} pages")
+            }
+            (Some(resolution), None) => write!(f, ": use resolution {resolution}"),
+            (None, Some(pages)) => write!(f, ": use {pages} pages"),
+            (None, None) => write!(f, ", and so is the largest texture"),
+        }
+    }
+}
+
+/// What would do for charts at the scale that is given, as far as one layout of each kind tells.
+pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, AtlasError> {
+    let Scale::TexelsPerUnit(texels) = options.scale else {
+        return Ok(Enough::default());
+    };
+    let largest = AtlasOptions {
+        scale: Scale::Largest,
+        ..options.clone()
+    };
+    let slack = vec![SLACK; charts.len()];
+    let first = Plan::largest_first(&outlines(charts)?, options);
+    let draft = Draft::new(charts, &largest)?;
+    let draft = searched(draft.as_ref(), &largest, UNHEARD);
+    let fullest = best(&first, draft.as_ref(), &slack, &largest, UNHEARD);
+    let longer = f64::from(options.texture.resolution.longer());
+    let reached = |scale: f64| scale / options.texture.grid_side() * longer;
+    Ok(Enough {
+        resolution: fullest
+            .and_then(|(_, layout)| resolution(MARGIN * texels / reached(layout.scale), options)),
+        pages: pages(&first, &slack, options),
+    })
+}
+
+/// A resolution so many times as large.
+fn resolution(times: f64, options: &AtlasOptions) -> Option<Resolution> {
+    let Resolution { width, height } = options.texture.resolution;
+    let shorter = times * f64::from(width.min(height));
+    let mut shorter = (shorter.min(f64::from(LONGEST)).ceil() as u32).next_multiple_of(WHOLE);
+    if options.borders == Borders::OnTexels {
+        shorter = shorter.next_power_of_two();
+    }
+    let [u, v] = options.texture.resolution.halvings();
+    let longer = shorter << u.max(v);
+    let [width, height] = [longer >> u, longer >> v];
+    (longer <= LONGEST).then_some(Resolution { width, height })
+}
+
+/// As many as a layout uses that may use all there can be.
+fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
+    let many = AtlasOptions {
+        texture: Texture {
+            pages: Texture::MOST_PAGES,
+            ..options.texture
+        },
+        ..options.clone()
+    };
+    let layout = layout(first, slack, &many, UNHEARD)?;
+    let pages = layout.charts.iter().map(|(spot, _)| spot.corner.page + 1);
+    pages.max()
+}

@@ -1,0 +1,232 @@
+//! A chart as the packer sees it.
+use rayon::prelude::*;
+use std::sync::Arc;
+
+use super::{AtlasError, ChartMap};
+use unwrapd_maps::plane::Straightness;
+
+/// A chart's outline, turned to the angle at which it is packed.
+#[derive(Clone, Debug)]
+pub(super) struct Outline {
+    /// Directed edges around the area, which lies to their left, in the plane of the map.
+    boundary: Arc<[[[f64; 2]; 2]]>,
+    pub n_triangles: usize,
+    /// Square root of the area; 0 for a chart without area, as authored UVs have.
+    pub size: f64,
+    /// Sides of the bounding rectangle once turned, in mesh units.
+    pub extent: [f64; 2],
+    /// The axes of the outline in the plane of the map.
+    pub straightness: Straightness,
+    /// The horizontal axis in the plane of the map, and what is subtracted after turning to it.
+    axis: [f64; 2],
+    low: [f64; 2],
+}
+
+impl Outline {
+    /// The outline of a map of this area, not turned yet.
+    pub(super) fn new(map: &ChartMap, area: f64) -> Self {
+        let at = |v: u32| map.uv[v as usize];
+        let boundary: Arc<[_]> = boundary(map).into_iter().map(|e| e.map(at)).collect();
+        let outline = Self {
+            straightness: Straightness::of(&boundary),
+            boundary,
+            n_triangles: map.triangles.len(),
+            size: area.max(0.0).sqrt(),
+            extent: [0.0; 2],
+            axis: [1.0, 0.0],
+            low: [0.0; 2],
+        };
+        outline.turned([1.0, 0.0])
+    }
+
+    /// With another unit vector of the map's plane as horizontal axis.
+    pub(super) fn turned(&self, axis: [f64; 2]) -> Self {
+        let mut turned = Self {
+            axis,
+            low: [0.0; 2],
+            extent: [0.0; 2],
+            ..self.clone()
+        };
+        let mut high = [f64::NEG_INFINITY; 2];
+        let mut low = [f64::INFINITY; 2];
+        for p in self.corners().map(|p| turned.place(p)) {
+            for k in 0..2 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        if low[0] <= high[0] {
+            turned.low = low;
+            turned.extent = [high[0] - low[0], high[1] - low[1]];
+        }
+        turned
+    }
+
+    /// With another origin than the lower left corner of the bounding rectangle: a point to the left of it and below.
+    pub(super) fn with_corner(&self, corner: [f64; 2]) -> Self {
+        let extent = |k: usize| self.low[k] + self.extent[k] - corner[k];
+        Self {
+            extent: [0, 1].map(extent),
+            low: corner,
+            ..self.clone()
+        }
+    }
+
+    /// Turned upright, if it leans; none of another.
+    pub(super) fn straightened(&self) -> Option<Self> {
+        match self.straightness {
+            Straightness::Leaning(axis) => {
+                Some(self.turned(axis).with(Straightness::Upright(axis)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Turned upright, if it has an upright position in which it is no longer than this. Otherwise
+    /// it has none from now on.
+    pub(super) fn upright_within(&self, side: f64) -> Self {
+        let turned = match self.straightness {
+            Straightness::Upright(axis) => self.turned(axis),
+            Straightness::Leaning(_) | Straightness::Round => return self.clone(),
+        };
+        if turned.extent[0].max(turned.extent[1]) <= side {
+            turned
+        } else {
+            self.with(Straightness::Round)
+        }
+    }
+
+    /// Whether it is turned by quarters only.
+    pub(super) fn is_upright(&self) -> bool {
+        matches!(self.straightness, Straightness::Upright(_))
+    }
+
+    /// Taken for one with other axes.
+    pub(super) fn with(&self, straightness: Straightness) -> Self {
+        Self {
+            straightness,
+            ..self.clone()
+        }
+    }
+
+    /// Turned counter-clockwise by an angle.
+    pub(super) fn rotated(&self, angle: f64) -> Self {
+        let ([c, s], (sin, cos)) = (self.axis, angle.sin_cos());
+        self.turned([c * cos + s * sin, s * cos - c * sin])
+    }
+
+    /// A point of the map, turned and shifted: the lower left corner of the bounding rectangle is the origin.
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [c, s] = self.axis;
+        [c * x + s * y - self.low[0], c * y - s * x - self.low[1]]
+    }
+
+    /// The point of the map that is the middle of the bounding rectangle.
+    pub(super) fn middle(&self) -> [f64; 2] {
+        let [c, s] = self.axis;
+        let [x, y] = [0, 1].map(|k| self.low[k] + self.extent[k] / 2.0);
+        [c * x - s * y, s * x + c * y]
+    }
+
+    /// The corners of the outline in the plane of the map.
+    pub(super) fn corners(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.boundary.iter().map(|edge| edge[0])
+    }
+
+    /// The directed edges, turned and shifted.
+    pub(super) fn edges(&self) -> impl ExactSizeIterator<Item = [[f64; 2]; 2]> {
+        self.boundary.iter().map(|edge| edge.map(|p| self.place(p)))
+    }
+
+    /// Length of the boundary.
+    pub(super) fn perimeter(&self) -> f64 {
+        let length = |[p, q]: &[[f64; 2]; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+        self.boundary.iter().map(length).sum()
+    }
+}
+
+/// Checks the charts and finds their outlines.
+pub(super) fn outlines(charts: &[ChartMap]) -> Result<Vec<Outline>, AtlasError> {
+    let areas: Vec<f64> = charts
+        .par_iter()
+        .map(check)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .enumerate()
+        .map(|(chart, checked)| checked.map_err(|fault| fault(chart)))
+        .collect::<Result<_, _>>()?;
+    let outlined = charts.par_iter().zip(&areas);
+    Ok(outlined
+        .map(|(map, &area)| Outline::new(map, area))
+        .collect())
+}
+
+/// The area of a chart, or what is wrong with it.
+fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
+    if map.uv.iter().flatten().any(|x| !x.is_finite()) {
+        return Err(|chart| AtlasError::NonFinite { chart });
+    }
+    if map
+        .triangles
+        .iter()
+        .flatten()
+        .any(|&v| v as usize >= map.uv.len())
+    {
+        return Err(|chart| AtlasError::IndexOutOfRange { chart });
+    }
+    let area = area(map);
+    if !area.is_finite() {
+        return Err(|chart| AtlasError::NonFinite { chart });
+    }
+    Ok(area)
+}
+
+/// Sum of the signed areas.
+fn area(map: &ChartMap) -> f64 {
+    map.triangles
+        .iter()
+        .map(|t| doubled_area(map, t))
+        .sum::<f64>()
+        / 2.0
+}
+
+fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|v| map.uv[v as usize]);
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Returns the edges of all triangles but those that cancel, since they run in opposite directions. Their order follows from the
+/// triangles only.
+///
+/// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area too: their
+/// edges then run as those of their neighbors do, and stay, twice. Edges of triangles without area stay, too: they enclose nothing,
+/// but the chart reaches as far. Those of a closed surface whose UVs are a line would all cancel otherwise.
+pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
+    let edges_of = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+    let mut boundary = Vec::new();
+    // Edges by their ends, and whether they run from the smaller one to the larger.
+    let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * map.triangles.len());
+    for &triangle @ [a, b, c] in map.triangles {
+        let doubled_area = doubled_area(map, &triangle);
+        if doubled_area == 0.0 {
+            boundary.extend(edges_of(triangle));
+            continue;
+        }
+        let counter_clockwise = if doubled_area < 0.0 {
+            [a, c, b]
+        } else {
+            triangle
+        };
+        let of_triangle = edges_of(counter_clockwise);
+        edges.extend(of_triangle.map(|[p, q]| (p.min(q), p.max(q), p < q)));
+    }
+    edges.sort_unstable();
+    for same in edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
+        let (low, high, _) = same[0];
+        let forward = same.iter().filter(|edge| edge.2).count();
+        let back = same.len() - forward;
+        boundary.extend((back..forward).map(|_| [low, high]));
+        boundary.extend((forward..back).map(|_| [high, low]));
+    }
+    boundary
+}

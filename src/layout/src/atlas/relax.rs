@@ -1,0 +1,149 @@
+//! Opens triangles that are too narrow for the grid.
+//!
+//! Every triangle of a patch gets a rest shape: its own, or, where its smallest height is below a few
+//! grid cells, one opened to that height. The symmetric Dirichlet energy of the maps from rest to
+//! plane, each triangle with the same weight however small, then pushes small triangles open and
+//! holds the others; it is minimized by the solver of the library, whose iterates are all strictly
+//! positive and whose energy falls. Vertices whose ring leaves the patch stay where they are.
+use std::collections::HashSet;
+
+use unwrapd_maps::mesh::{UsedVertices, VertexFaces};
+use unwrapd_method::barrier::NoBarrier;
+use unwrapd_method::energy::{RestShape, SymmetricDirichlet, Triangles};
+use unwrapd_method::solver::{Control, Iterate, Objective, Settings, minimize};
+
+/// Smallest height of a rest shape, in grid cells. A triangle whose heights are √2 stays positive when
+/// its corners are rounded (each moves by √½ at most); the rest is for the neighbors' resistance.
+const REST_HEIGHT: f64 = 4.0;
+/// Good enough when each triangle has this share of its rest area: heights of 2.4 cells.
+const ENOUGH: f64 = 0.6;
+/// Those heights.
+pub(super) const ENOUGH_CELLS: f64 = ENOUGH * REST_HEIGHT;
+/// Steps; opening a triangle costs one for each factor of about 1.4 in its area.
+const MAX_ITERATIONS: usize = 400;
+/// Triangles times steps, for large patches.
+const WORK: usize = 4_000_000;
+
+/// Moves vertices of the patch so that no height in it, and none of the gaps, is too small for a grid of the given cell, and
+/// returns the vertices it moved. Gaps are triangles that a chart leaves free between its edges and vertices. `plane` must be
+/// strictly positive on both.
+pub(super) fn relax(
+    triangles: &[[u32; 3]],
+    rings: &VertexFaces,
+    patch: &[u32],
+    gaps: &[[u32; 3]],
+    cell: f64,
+    plane: &mut [[f64; 2]],
+) -> Vec<u32> {
+    let of_patch = patch.iter().map(|&t| triangles[t as usize]);
+    let held: Vec<[u32; 3]> = of_patch.chain(gaps.iter().copied()).collect();
+    let vertices = UsedVertices::new(held.iter().flatten().copied());
+    let inside = |&t: &u32| patch.binary_search(&t).is_ok();
+    let all = vertices.as_slice();
+    let is_free = |&v: &u32| rings.of(v).iter().all(inside);
+    let (free, fixed): (Vec<u32>, Vec<u32>) = all.iter().partition(|v| is_free(v));
+    // Differences of neighbors stay exact if the origin is where the triangles are smallest.
+    let corners = |t: &[u32; 3]| t.map(|v| plane[v as usize]);
+    let smallest = held
+        .iter()
+        .min_by(|s, t| height(corners(s)).total_cmp(&height(corners(t))));
+    let Some(origin) = smallest.map(|t| corners(t)[0]) else {
+        return free;
+    };
+    let local = |p: [f64; 2]| [0, 1].map(|k| (p[k] - origin[k]) / cell);
+    let x = all.iter().flat_map(|&v| local(plane[v as usize]));
+    let mut x: Vec<f64> = x.collect();
+    let rest: Vec<RestShape> = held.iter().map(|t| rest(corners(t).map(local))).collect();
+    let mut stencils = held.clone();
+    vertices.renumber(stencils.as_flattened_mut());
+    let term = Triangles::new(&stencils, &rest, SymmetricDirichlet, NoBarrier);
+    let mut objective = Objective::new(vertices.count(), Box::new(term));
+    let number = |&v: &u32| vertices.number(v);
+    objective.fix(&fixed.iter().filter_map(number).collect::<Vec<_>>());
+    let max_iterations = (WORK / held.len()).clamp(8, MAX_ITERATIONS);
+    let settings = Settings {
+        max_iterations,
+        ..Settings::draft()
+    };
+    let enough = |iterate: &Iterate| {
+        if iterate.smallest < ENOUGH {
+            Control::Continue
+        } else {
+            Control::Finish
+        }
+    };
+    minimize(&mut objective, &mut x, &settings, &enough);
+    for (&v, x) in all.iter().zip(x.as_chunks::<2>().0) {
+        if is_free(&v) {
+            plane[v as usize] = [0, 1].map(|k| origin[k] + x[k] * cell);
+        }
+    }
+    free
+}
+
+/// The triangle itself, or opened until its smallest height is enough; weight 1.
+fn rest(triangle: [[f64; 2]; 3]) -> RestShape {
+    let edge = |i: usize| {
+        let (p, q) = (triangle[i], triangle[(i + 1) % 3]);
+        [q[0] - p[0], q[1] - p[1]]
+    };
+    let length = |i: usize| edge(i)[0].hypot(edge(i)[1]);
+    let longest = (0..3)
+        .max_by(|&i, &j| length(i).total_cmp(&length(j)))
+        .unwrap_or(0);
+    let (base, last) = (edge(longest), edge((longest + 2) % 3));
+    // The equilateral triangle of that height has sides 2/√3 times as long.
+    let side = length(longest).max(REST_HEIGHT * 2.0 / 3.0_f64.sqrt());
+    let foot = -(last[0] * base[0] + last[1] * base[1]) / length(longest).powi(2);
+    let foot = if foot.is_finite() {
+        foot.clamp(0.0, 1.0)
+    } else {
+        0.5
+    };
+    let mut shape = [[0.0; 2]; 3];
+    shape[(longest + 1) % 3] = [side, 0.0];
+    shape[(longest + 2) % 3] = [foot * side, height(triangle).max(REST_HEIGHT)];
+    let [a, b, c] = shape;
+    let shape = RestShape::from_edges([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+    RestShape {
+        weight: 1.0,
+        ..shape
+    }
+}
+
+/// The triangles within so many rings of some triangles, sorted.
+pub(super) fn neighborhood(
+    triangles: &[[u32; 3]],
+    rings: &VertexFaces,
+    of: &[u32],
+    n_rings: u32,
+) -> Vec<u32> {
+    let mut inside: HashSet<u32> = of.iter().copied().collect();
+    let mut seen = HashSet::new();
+    let mut front: Vec<u32> = inside.iter().copied().collect();
+    for _ in 0..n_rings {
+        let mut next = Vec::new();
+        for v in front.iter().flat_map(|&t| triangles[t as usize]) {
+            if seen.insert(v) {
+                let ring = rings.of(v).iter().copied();
+                next.extend(ring.filter(|&t| inside.insert(t)));
+            }
+        }
+        front = next;
+    }
+    let mut patch: Vec<u32> = inside.into_iter().collect();
+    patch.sort_unstable();
+    patch
+}
+
+/// Smallest height.
+pub(super) fn height([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let length = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+    let longest = length(a, b).max(length(b, c)).max(length(c, a));
+    let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    if longest > 0.0 {
+        doubled / longest
+    } else {
+        0.0
+    }
+}

@@ -1,0 +1,243 @@
+//! How far points are from where a chart keeps others away.
+use unwrapd_method::numerics::vec2::{dot, squared_distance};
+
+/// Cells around the region.
+const MARGIN: f64 = 6.0;
+/// Distances up to which edges are looked at, beyond the distance kept.
+const BAND: f64 = 2.5;
+/// What the nearest node may say more than the point, plus the error of distances beyond the band.
+const BLUR: f64 = 1.25;
+/// A node that is this much deeper than its distance says lies in a slit, which is too narrow for anything.
+const NARROW: f64 = 1.5;
+
+/// Column and row of a node.
+type Node = [u32; 2];
+
+/// Signed distance to the border of the region nearer to a chart than a distance to be kept: positive outside.
+///
+/// Values at the nodes of a raster with cells of side 1, bilinear between them. Gaps of the chart that are narrower than twice the
+/// distance belong to the region as if they were filled.
+pub(super) struct Field {
+    size: [usize; 2],
+    /// The first node.
+    low: [f64; 2],
+    values: Vec<f32>,
+}
+
+impl Field {
+    /// Of the chart to the left of directed edges.
+    pub(super) fn new(edges: &[[[f64; 2]; 2]], kept: f64) -> Self {
+        let mut raster = Raster::around(edges, kept + MARGIN);
+        raster.measure(edges, kept + BAND);
+        raster.wind(edges);
+        Self {
+            values: raster.signed(kept),
+            size: raster.size,
+            low: raster.low,
+        }
+    }
+
+    /// The signed distance of a point, and its gradient; beyond the raster some distance that is positive.
+    pub(super) fn at(&self, p: [f64; 2]) -> (f64, [f64; 2]) {
+        let [x, y] = [p[0] - self.low[0], p[1] - self.low[1]];
+        let [width, height] = self.size;
+        if x < 0.0 || y < 0.0 || x >= (width - 1) as f64 || y >= (height - 1) as f64 {
+            return (MARGIN - 1.0, [0.0; 2]);
+        }
+        let (i, j) = (x as usize, y as usize);
+        let (x, y) = (x - i as f64, y - j as f64);
+        let corner = |k: usize| f64::from(self.values[j * width + i + k]);
+        let [a, b, c, d] = [0, 1, width, width + 1].map(corner);
+        let (below, above) = (a + x * (b - a), c + x * (d - c));
+        let gradient = [(b - a) * (1.0 - y) + (d - c) * y, above - below];
+        (below + y * (above - below), gradient)
+    }
+
+    /// No more than the distance of a point; cheaper.
+    pub(super) fn at_least(&self, p: [f64; 2]) -> f64 {
+        let [x, y] = [p[0] - self.low[0], p[1] - self.low[1]];
+        let last = self.size.map(|n| (n - 1) as f64);
+        let beyond = [
+            (-x).max(x - last[0]).max(0.0),
+            (-y).max(y - last[1]).max(0.0),
+        ];
+        if beyond != [0.0; 2] {
+            return dot(beyond, beyond).sqrt() + MARGIN - BLUR;
+        }
+        let node = (y + 0.5) as usize * self.size[0] + (x + 0.5) as usize;
+        f64::from(self.values[node]) - BLUR
+    }
+}
+
+/// What is known of the nodes.
+struct Raster {
+    size: [usize; 2],
+    low: [f64; 2],
+    /// Distance to the nearest edge, infinite beyond the band.
+    distance: Vec<f64>,
+    is_inside: Vec<bool>,
+}
+
+impl Raster {
+    fn around(edges: &[[[f64; 2]; 2]], margin: f64) -> Self {
+        let corners = || edges.iter().map(|edge| edge[0]);
+        let low = [0, 1].map(|k| corners().map(|p| p[k]).fold(0.0, f64::min) - margin);
+        let size = [0, 1].map(|k| {
+            let high = corners().map(|p| p[k]).fold(0.0, f64::max) + margin;
+            (high - low[k]).ceil() as usize + 2
+        });
+        let n = size[0] * size[1];
+        Self {
+            size,
+            low,
+            distance: vec![f64::INFINITY; n],
+            is_inside: vec![false; n],
+        }
+    }
+
+    /// Distances up to `band`.
+    fn measure(&mut self, edges: &[[[f64; 2]; 2]], band: f64) {
+        for edge in edges {
+            let [first, last] = [0, 1].map(|end| {
+                [0, 1].map(|k| {
+                    let (p, q) = (edge[0][k] - self.low[k], edge[1][k] - self.low[k]);
+                    let reach = if end == 0 {
+                        p.min(q) - band
+                    } else {
+                        p.max(q) + band
+                    };
+                    (reach.max(0.0) as usize).min(self.size[k] - 1)
+                })
+            });
+            for j in first[1]..=last[1] {
+                for i in first[0]..=last[0] {
+                    let node = [self.low[0] + i as f64, self.low[1] + j as f64];
+                    let distance = &mut self.distance[j * self.size[0] + i];
+                    *distance = distance.min(squared_distance(node, *edge));
+                }
+            }
+        }
+        for distance in &mut self.distance {
+            *distance = distance.sqrt();
+        }
+    }
+
+    /// The nodes around which the edges wind.
+    fn wind(&mut self, edges: &[[[f64; 2]; 2]]) {
+        // Row, where it is crossed, and how the winding changes there.
+        let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
+        for &[p, q] in edges {
+            let (from, to, sign) = if p[1] <= q[1] { (p, q, 1) } else { (q, p, -1) };
+            let first = (from[1] - self.low[1]).ceil() as usize;
+            let end = (to[1] - self.low[1]).ceil() as usize;
+            crossings.extend((first..end).map(|row| {
+                let share = (self.low[1] + row as f64 - from[1]) / (to[1] - from[1]);
+                (row, from[0] + share * (to[0] - from[0]) - self.low[0], sign)
+            }));
+        }
+        crossings.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let mut winding = 0;
+        for pair in crossings.windows(2) {
+            let [(row, start, sign), (_, end, _)] = [pair[0], pair[1]];
+            winding += sign;
+            // Closed lines leave no winding at the end of a row.
+            if winding != 0 && start < end {
+                let row = row * self.size[0];
+                self.is_inside[row + start.ceil() as usize..row + end.ceil() as usize].fill(true);
+            }
+        }
+    }
+
+    /// The distances beyond that to be kept, negative where it is not kept.
+    fn signed(&self, kept: f64) -> Vec<f32> {
+        let nodes = self.nodes();
+        let is_known =
+            |&node: &Node| self.is_free(node, kept) && self.distance[self.index(node)].is_finite();
+        let mut from: Vec<Option<Node>> = nodes
+            .clone()
+            .map(|node| Some(node).filter(is_known))
+            .collect();
+        self.spread(&mut from, kept);
+        let both = nodes.zip(from);
+        both.map(|(node, from)| self.value(node, from, kept).clamp(-1e6, 1e6) as f32)
+            .collect()
+    }
+
+    fn value(&self, node: Node, from: Option<Node>, kept: f64) -> f64 {
+        let index = self.index(node);
+        let distance = self.distance[index];
+        let signed = if self.is_inside[index] {
+            -distance
+        } else {
+            distance
+        } - kept;
+        let Some(known) = from else {
+            return signed;
+        };
+        let by = self.by(node, known, kept);
+        if self.is_free(node, kept) {
+            by
+        } else if by > NARROW - signed || signed.is_infinite() {
+            -by
+        } else {
+            signed
+        }
+    }
+
+    fn is_free(&self, node: Node, kept: f64) -> bool {
+        let index = self.index(node);
+        !self.is_inside[index] && self.distance[index] >= kept
+    }
+
+    /// Of the way from a known free node: the distance there and on, or from there back to the region's border.
+    fn by(&self, node: Node, known: Node, kept: f64) -> f64 {
+        let way = [0, 1].map(|k| f64::from(node[k]) - f64::from(known[k]));
+        let rest = self.distance[self.index(known)] - kept;
+        let is_free = self.is_free(node, kept);
+        dot(way, way).sqrt() + if is_free { rest } else { -rest }
+    }
+
+    /// All nodes, row by row.
+    fn nodes(&self) -> impl DoubleEndedIterator<Item = Node> + Clone + use<> {
+        let [width, height] = self.size.map(|n| n as u32);
+        (0..height).flat_map(move |j| (0..width).map(move |i| [i, j]))
+    }
+
+    fn index(&self, [i, j]: Node) -> usize {
+        j as usize * self.size[0] + i as usize
+    }
+
+    /// For each node that is not known the known one from which it is nearest, by way of its neighbors.
+    ///
+    /// From: Danielsson 1980, Euclidean Distance Mapping.
+    fn spread(&self, from: &mut [Option<Node>], kept: f64) {
+        let mut nearer = |node: Node, before: [[i32; 2]; 4]| {
+            let index = self.index(node);
+            if from[index] == Some(node) {
+                return;
+            }
+            let by = |known: Node| self.by(node, known, kept);
+            let mut least = from[index].map_or(f64::INFINITY, by);
+            for way in before {
+                let [i, j] = [0, 1].map(|k| node[k].wrapping_add_signed(way[k]));
+                let is_node = (i as usize) < self.size[0] && (j as usize) < self.size[1];
+                let known = if is_node {
+                    from[self.index([i, j])]
+                } else {
+                    None
+                };
+                if let Some(known) = known
+                    && let by = by(known)
+                    && by < least
+                {
+                    least = by;
+                    from[index] = Some(known);
+                }
+            }
+        };
+        self.nodes()
+            .for_each(|node| nearer(node, [[-1, 0], [-1, -1], [0, -1], [1, -1]]));
+        let back = self.nodes().rev();
+        back.for_each(|node| nearer(node, [[1, 0], [1, 1], [0, 1], [-1, 1]]));
+    }
+}

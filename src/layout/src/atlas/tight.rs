@@ -1,0 +1,233 @@
+//! Layouts in which charts lie exactly as near to each other as they may.
+//!
+//! A raster of cells keeps charts up to a cell farther apart than it has to, or not far enough. Here they are squeezed on a finer
+//! one, measured, and given as much more room as is still missing.
+use super::attempt::stretch;
+use super::layout::Layout;
+use super::outline::Outline;
+use super::spot::{Corner, Spot};
+use super::squeeze::{Body, Squeezed};
+use super::{AtlasOptions, OnRead, Scale};
+use rayon::prelude::*;
+use std::sync::Arc;
+use unwrapd_maps::plane::{BoxIndex, Visit, search_budget, segment_distance};
+use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
+
+/// Times that charts are given more room, or less.
+const ROUNDS: usize = 4;
+/// What they are given beyond what is missing, and how far vertices may be moved when they are rounded, in cells.
+const SPARE: f64 = 0.01;
+const ROUNDED: f64 = 0.002;
+/// The share of the words that may be read which each of those rounds reads at most.
+const SHARE: u64 = 16;
+/// How often the side of a page is corrected for the padding that follows from it.
+const SIDES: usize = 8;
+/// Places to a cell.
+const PLACES: f64 = 256.0;
+
+/// Charts of one page that were squeezed.
+#[derive(Clone)]
+pub(super) struct Page {
+    pub number: u32,
+    /// Which, in the order of the poses.
+    pub charts: Vec<usize>,
+    pub squeezed: Squeezed,
+}
+
+/// A layout near squeezed pages, in cells; none where charts could not be brought as far apart as they must be, where they do not
+/// fit at the scale that is given, or where one is so small that it has to be enlarged.
+///
+/// Outlines are turned as the squeezed poses say relative to `level`, of which one mesh unit is `scale` cells.
+pub(super) fn layout(
+    level: &[&Outline],
+    pages: &[Page],
+    scale: f64,
+    (options, on_read): (&AtlasOptions, &OnRead),
+) -> Option<(Vec<Outline>, Layout)> {
+    let tight = Tight {
+        level,
+        scale,
+        options,
+        on_read,
+    };
+    let placed = (0..pages.len()).map(|i| {
+        let others = pages.iter().enumerate().filter(|&(j, _)| j != i);
+        let least = others.map(|(_, page)| page.squeezed.side);
+        tight.places(&pages[i], least.fold(0.0, f64::max))
+    });
+    tight.layout(pages, placed.collect::<Option<_>>()?)
+}
+
+/// Charts to be placed, in cells.
+struct Tight<'a> {
+    level: &'a [&'a Outline],
+    /// Cells to the mesh unit.
+    scale: f64,
+    options: &'a AtlasOptions,
+    on_read: &'a OnRead<'a>,
+}
+
+impl Tight<'_> {
+    /// The charts of a page as near to each other as they may be where the largest page has at least the side `least`.
+    fn places(&self, page: &Page, least: f64) -> Option<Places> {
+        let mut squeezed = page.squeezed.clone();
+        let kept = self.padding(squeezed.side);
+        let level: Vec<&Outline> = page.charts.iter().map(|&chart| self.level[chart]).collect();
+        let bodies: Vec<Arc<Body>> = (level.par_iter())
+            .map(|outline| Arc::new(Body::new(outline, self.scale, kept)))
+            .collect();
+        let (mut room, mut best) = (0.0, None);
+        for _ in 0..ROUNDS {
+            let words = self.options.search_words / SHARE;
+            if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
+                break;
+            }
+            let mut places = Places::new(&level, &squeezed, self.scale);
+            places.side = self.side(places.reach);
+            let missing = self.padding(places.side.max(least)) + 2.0 * ROUNDED - places.gap;
+            if missing <= 0.0 && self.around(places.side) <= self.page(places.side) {
+                best = Some(places);
+            }
+            if (-2.0 * SPARE..=0.0).contains(&missing) {
+                break;
+            }
+            room += missing + SPARE;
+        }
+        best
+    }
+
+    /// The longer side, without its borders, of the least page on which charts may reach so far to the right and up.
+    fn side(&self, reach: [f64; 2]) -> f64 {
+        let shape = |side: f64| {
+            let padding = self.padding(side) + 2.0 * ROUNDED;
+            self.options.texture.shape(padding)
+        };
+        // The padding grows with the side, but much less.
+        let first = reach[0].max(reach[1]);
+        (0..SIDES).fold(first, |side, _| shape(side).side(reach))
+    }
+
+    /// Cells to a texel, where charts reach so far on the largest page.
+    fn texel(&self, side: f64) -> f64 {
+        let longer = f64::from(self.options.texture.resolution.longer());
+        match self.options.scale {
+            Scale::Largest => side / (longer - f64::from(self.options.packed_texels())),
+            Scale::TexelsPerUnit(texels) => self.scale / texels,
+        }
+    }
+
+    /// Cells between charts.
+    fn padding(&self, side: f64) -> f64 {
+        f64::from(self.options.packed_texels()) * self.texel(side)
+    }
+
+    /// Cells along the side of charts with their borders, and along the side of a page.
+    fn around(&self, side: f64) -> f64 {
+        side + self.padding(side) + 2.0 * ROUNDED
+    }
+
+    fn page(&self, side: f64) -> f64 {
+        match self.options.scale {
+            Scale::Largest => self.around(side),
+            Scale::TexelsPerUnit(_) => {
+                f64::from(self.options.texture.resolution.longer()) * self.texel(side)
+            }
+        }
+    }
+
+    fn layout(&self, pages: &[Page], placed: Vec<Places>) -> Option<(Vec<Outline>, Layout)> {
+        let sides = placed.iter().map(|places| places.side);
+        let side = sides.max_by(f64::total_cmp)?;
+        let padding = self.padding(side);
+        let cell = self.options.texture.grid_side() / (PLACES * self.page(side));
+        let scale = PLACES * self.scale * cell;
+        let mut outlines: Vec<Outline> = self.level.iter().copied().cloned().collect();
+        let mut charts = vec![(Spot::default(), 1.0); outlines.len()];
+        for (page, places) in pages.iter().zip(placed) {
+            let is_small = |outline: &Outline| stretch(outline, scale) > 1.0;
+            if places.gap < padding + 2.0 * ROUNDED || places.outlines.iter().any(is_small) {
+                return None;
+            }
+            let placed = places.outlines.into_iter().zip(places.corners);
+            for (&chart, (outline, [x, y])) in page.charts.iter().zip(placed) {
+                outlines[chart] = outline;
+                charts[chart].0.corner = Corner {
+                    page: page.number,
+                    x,
+                    y,
+                };
+            }
+        }
+        let layout = Layout {
+            scale,
+            cell,
+            border: PLACES * (padding / 2.0 + ROUNDED),
+            spare: PLACES * ROUNDED,
+            padding_texels: f64::from(self.options.padding_texels),
+            charts,
+        };
+        Some((outlines, layout))
+    }
+}
+
+/// Charts at rounded places.
+struct Places {
+    outlines: Vec<Outline>,
+    /// Lower left corners, in parts of a cell.
+    corners: Vec<[u32; 2]>,
+    /// How far they reach to the right and up, the longer side of the page that takes, and the smallest distance of two charts, in
+    /// cells.
+    reach: [f64; 2],
+    side: f64,
+    gap: f64,
+}
+
+impl Places {
+    fn new(level: &[&Outline], squeezed: &Squeezed, scale: f64) -> Self {
+        let posed = level.iter().zip(&squeezed.poses);
+        let (outlines, corners) = posed
+            .map(|(level, pose)| {
+                let outline = level.rotated(pose.angle);
+                let middle = outline.place(level.middle());
+                let corner = [0, 1].map(|k| pose.middle[k] - middle[k] * scale);
+                (
+                    outline,
+                    corner.map(|x| (x * PLACES).round().max(0.0) as u32),
+                )
+            })
+            .unzip();
+        let mut places = Self {
+            outlines,
+            corners,
+            reach: [0.0; 2],
+            side: 0.0,
+            gap: 0.0,
+        };
+        for (outline, corner) in places.outlines.iter().zip(&places.corners) {
+            for k in 0..2 {
+                let far = f64::from(corner[k]) / PLACES + outline.extent[k] * scale;
+                places.reach[k] = places.reach[k].max(far);
+            }
+        }
+        places.gap = places.smallest_gap(scale);
+        places
+    }
+
+    /// The smallest distance of two charts, in cells.
+    fn smallest_gap(&self, scale: f64) -> f64 {
+        let mut edges = Vec::new();
+        let mut charts = Vec::new();
+        for ((chart, outline), corner) in (0..).zip(&self.outlines).zip(&self.corners) {
+            let corner = corner.map(|x| f64::from(x) / PLACES);
+            let place = |p: [f64; 2]| [0, 1].map(|k| corner[k] + p[k] * scale);
+            edges.extend(outline.edges().map(|edge| edge.map(place)));
+            charts.resize(edges.len(), chart);
+        }
+        let boxes: Vec<Bounds> = edges.iter().map(|edge| bounds_of(edge)).collect();
+        let distance = |i: u32, j: u32| segment_distance(edges[i as usize], edges[j as usize]);
+        match BoxIndex::new(&boxes).closest(&charts, search_budget(edges.len()), distance) {
+            (gap, Visit::Complete) => gap,
+            (_, Visit::Truncated) => 0.0,
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! Charts with their maps.
+
+use super::observer::{Observer, Watching};
+use super::opened::connected_faces;
+use super::parts::{parted, parts};
+use super::symmetry::image::cut_alike;
+use super::unfold::overlaps::{lengths, one_side, overlaps};
+use super::unfold::push_apart::pushed_apart;
+use super::{Chart, halves};
+use unwrapd_maps::embed::{self, Embedding, RestShapes, rest_shapes};
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::numerics::vec2::doubled_area;
+use unwrapd_method::numerics::vec3::{area_vector, norm};
+use unwrapd_method::solver::{Control, Iterate, Summary};
+
+/// Triangles of a part of a chart from which on it stays as it lies: what little it gains from being minimized again takes seconds.
+const RELAXED: usize = 60_000;
+
+/// A chart, its map and how long the map took.
+#[derive(Clone, Debug)]
+pub struct MappedChart {
+    /// The chart.
+    pub chart: Chart,
+    /// Its map: without flips if the energy has a barrier, and with [`Folds::Cut`] without overlaps.
+    pub embedding: Embedding,
+    /// Seconds on the observer's clock for the map of the chart that this one was cut from, its
+    /// cutting included. Attempts that gave no valid map are not counted.
+    pub seconds: f64,
+}
+
+/// What becomes of a chart whose map overlaps itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Folds {
+    /// It is cut along the cheapest seams.
+    Cut,
+    /// It stays whole: the certificate counts what overlaps.
+    Keep,
+}
+
+/// A chart with its map, cut where it has to be: into halves while floating point finds no valid
+/// map, and with [`Folds::Cut`] where the map overlaps itself. Without a barrier a map may have flips.
+pub fn map_chart(
+    chart: Chart,
+    options: &embed::Options,
+    folds: Folds,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let is_promised = options.barrier != BarrierKind::None;
+    let mut mapped = Vec::new();
+    let mut pending = vec![chart];
+    while let Some(chart) = pending.pop() {
+        let begin = observer.elapsed();
+        let faces = chart.disk.triangles.len();
+        let watching = Watching {
+            chart: &chart,
+            observer,
+        };
+        let embedding = embed::parameterize(&chart.disk, &chart.positions, options, &watching);
+        let is_valid = embed::is_positive(&chart.disk.triangles, &embedding.uv);
+        if is_promised && !is_valid && faces > 1 {
+            pending.extend(halves(&chart));
+            continue;
+        }
+        let whole = MappedChart {
+            chart,
+            embedding,
+            seconds: 0.0,
+        };
+        let unfolded = match folds {
+            Folds::Cut => whole.free_of_overlaps(options, observer),
+            Folds::Keep => vec![whole],
+        };
+        let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
+        mapped.extend(unfolded.into_iter().map(|part| MappedChart {
+            seconds,
+            ..part.facing_front()
+        }));
+    }
+    mapped
+}
+
+/// A chart mapped from where it lies: `uv` may have any unit and be seen from behind. The chart is
+/// mapped anew if it has a flipped or degenerate face or overlaps itself there, or if the optimized
+/// map has such a face. It is cut where the map overlaps itself.
+pub fn map_chart_from(
+    chart: Chart,
+    mut uv: Vec<[f64; 2]>,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let begin = observer.elapsed();
+    if signed_area(&chart, &uv) < 0.0 {
+        for p in &mut uv {
+            p[0] = -p[0];
+        }
+    }
+    let watching = Watching {
+        chart: &chart,
+        observer,
+    };
+    let from = embed::optimize(&chart.disk, &chart.positions, &uv, options, &watching);
+    match from {
+        Ok(embedding)
+            if overlaps(&chart.disk, &uv).is_empty()
+                && embed::is_positive(&chart.disk.triangles, &embedding.uv) =>
+        {
+            let whole = MappedChart {
+                chart,
+                embedding,
+                seconds: 0.0,
+            };
+            let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
+            (whole.free_of_overlaps(options, observer).into_iter())
+                .map(|part| MappedChart {
+                    seconds,
+                    ..part.facing_front()
+                })
+                .collect()
+        }
+        _ => map_chart(chart, options, Folds::Cut, observer),
+    }
+}
+
+/// Whether to go on with the seams of a chart of so many faces. Between two such questions about as
+/// much is done as in an iteration.
+fn asked(observer: &dyn Observer, faces: usize) -> Control {
+    observer.worked(faces);
+    observer.control()
+}
+
+impl MappedChart {
+    /// A chart whose map stays as it is. Most of its area becomes positive: one that is seen from behind is wound the other way.
+    pub fn given(mut chart: Chart, uv: Vec<[f64; 2]>) -> Self {
+        if signed_area(&chart, &uv) < 0.0 {
+            chart.turn_over();
+        }
+        let summary = Summary::at_start(0.0);
+        Self {
+            chart,
+            embedding: Embedding { uv, summary },
+            seconds: 0.0,
+        }
+    }
+
+    /// The chart pushed apart where it overlaps itself, or else the parts into which the cheapest seams divide it, each optimized
+    /// again from where it lies, which counts if it does not fold over itself anew.
+    fn free_of_overlaps(mut self, options: &embed::Options, observer: &dyn Observer) -> Vec<Self> {
+        let pairs = overlaps(&self.chart.disk, &self.embedding.uv);
+        if pairs.is_empty() {
+            return vec![self];
+        }
+        let faces = self.chart.disk.triangles.len();
+        // What is pushed is a part of the chart: it is counted, but it is no map of it.
+        let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
+        let (uv, pairs) = pushed_apart(&self.chart, &self.embedding.uv, pairs, options, &watch);
+        self.embedding.uv = uv;
+        if pairs.is_empty() {
+            return vec![self];
+        }
+        (self.parted_until_free(pairs, &|| asked(observer, faces)))
+            .into_iter()
+            .map(|part| {
+                if part.chart.disk.triangles.len() < RELAXED {
+                    part.relaxed(options, observer)
+                } else {
+                    part
+                }
+            })
+            .collect()
+    }
+
+    /// The parts into which the cheapest seams divide the chart so that none overlaps itself in `image`, a map without flips like
+    /// the chart's own; the parts are mapped as the whole is.
+    ///
+    /// Each seam takes overlaps away and adds none, so there are at most as many as overlapping pairs. Once `control`
+    /// says so, any seam will do.
+    pub fn unfolded(self, image: &[[f64; 2]], control: &dyn Fn() -> Control) -> Vec<Self> {
+        let pairs = overlaps(&self.chart.disk, image);
+        if pairs.is_empty() {
+            return vec![self];
+        }
+        (self.parted_until_free(pairs, control).into_iter())
+            .map(Self::facing_front)
+            .collect()
+    }
+
+    fn parted_until_free(self, pairs: Vec<[u32; 2]>, control: &dyn Fn() -> Control) -> Vec<Self> {
+        let mut unfolded = Vec::new();
+        let mut folded = vec![(self, pairs)];
+        while let Some((whole, pairs)) = folded.pop() {
+            for (part, faces) in whole.parted_at(&pairs, control) {
+                let pairs = within(&faces, whole.chart.disk.triangles.len(), &pairs);
+                if pairs.is_empty() {
+                    unfolded.push(part);
+                } else {
+                    folded.push((part, pairs));
+                }
+            }
+        }
+        unfolded
+    }
+
+    /// Cut once where these pairs of its triangles overlap; with each part the triangles it is made of.
+    fn parted_at(
+        &self,
+        pairs: &[[u32; 2]],
+        control: &dyn Fn() -> Control,
+    ) -> Vec<(Self, Vec<u32>)> {
+        let twin = self.chart.disk.twins();
+        let length = lengths(&self.chart.disk, &self.chart.positions);
+        let side = one_side(&twin, &length, pairs, control);
+        let is_apart = |twin: &Vec<u32>| {
+            let (part, _) = connected_faces(twin);
+            (pairs.iter()).any(|pair| part[pair[0] as usize] != part[pair[1] as usize])
+        };
+        let twin = (cut_alike(&self.chart, &side).filter(is_apart))
+            .unwrap_or_else(|| parted(&twin, &side));
+        parts(&self.chart, &twin)
+            .into_iter()
+            .map(|(chart, faces)| (self.restricted(chart, &faces), faces))
+            .collect()
+    }
+
+    /// Makes the chart and its map so many times as large.
+    pub fn scale(&mut self, size: f64) {
+        for p in &mut self.embedding.uv {
+            *p = p.map(|x| size * x);
+        }
+        for p in &mut self.chart.positions {
+            *p = p.map(|x| size * x);
+        }
+        if let Some(plane) = &mut self.chart.mirror {
+            plane.offset *= size;
+        }
+    }
+
+    /// What the faces are like on the surface.
+    pub(super) fn rest_shapes(&self) -> RestShapes {
+        rest_shapes(&self.chart.positions, &self.chart.disk.triangles)
+    }
+
+    /// The area of the map.
+    pub fn area(&self) -> f64 {
+        let corners = |t: &[u32; 3]| t.map(|v| self.embedding.uv[v as usize]);
+        let doubled = |[a, b, c]: [[f64; 2]; 3]| doubled_area(a, b, c);
+        let triangles = self.chart.disk.triangles.iter();
+        triangles.map(corners).map(doubled).sum::<f64>() / 2.0
+    }
+
+    /// The area of the surface that is mapped.
+    pub fn surface_area(&self) -> f64 {
+        let corners = |t: &[u32; 3]| t.map(|v| self.chart.positions[v as usize]);
+        let doubled = |[a, b, c]: [[f64; 3]; 3]| norm(area_vector(a, b, c));
+        let triangles = self.chart.disk.triangles.iter();
+        triangles.map(corners).map(doubled).sum::<f64>() / 2.0
+    }
+
+    /// The same map of a part.
+    pub(super) fn restricted(&self, chart: Chart, faces: &[u32]) -> Self {
+        let mut uv = vec![[0.0; 2]; chart.disk.n_vertices];
+        for (triangle, &face) in chart.disk.triangles.iter().zip(faces) {
+            let of_whole = self.chart.disk.triangles[face as usize];
+            for (&v, w) in triangle.iter().zip(of_whole) {
+                uv[v as usize] = self.embedding.uv[w as usize];
+            }
+        }
+        Self {
+            embedding: Embedding {
+                uv,
+                summary: self.embedding.summary,
+            },
+            chart,
+            seconds: self.seconds,
+        }
+    }
+
+    /// Optimized from its present map, if the result does not overlap itself or can be pushed apart.
+    pub(super) fn relaxed(mut self, options: &embed::Options, observer: &dyn Observer) -> Self {
+        let chart = &self.chart;
+        let Chart {
+            disk, positions, ..
+        } = chart;
+        let faces = disk.triangles.len();
+        let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
+        let watching = Watching { chart, observer };
+        let from = &self.embedding.uv;
+        if let Ok(embedding) = embed::optimize(disk, positions, from, options, &watching)
+            && embed::is_positive(&disk.triangles, &embedding.uv)
+            && let pairs = overlaps(disk, &embedding.uv)
+            && let (uv, left) = pushed_apart(chart, &embedding.uv, pairs, options, &watch)
+            && left.is_empty()
+        {
+            self.embedding = Embedding {
+                uv,
+                summary: self.embedding.summary.followed_by(&embedding.summary),
+            };
+        }
+        self
+    }
+
+    /// Turned over if more of its area in the plane belongs to triangles that the surface winds the other way.
+    ///
+    /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modeled from both sides, the
+    /// map decides.
+    pub(super) fn facing_front(mut self) -> Self {
+        let area = |(t, triangle): (usize, &[u32; 3])| {
+            let [a, b, c] = triangle.map(|v| self.embedding.uv[v as usize]);
+            let doubled = doubled_area(a, b, c);
+            if self.chart.is_wound_as_surface(t) {
+                doubled
+            } else {
+                -doubled
+            }
+        };
+        let facing: f64 = self.chart.disk.triangles.iter().enumerate().map(area).sum();
+        if facing < 0.0 {
+            self.chart.turn_over();
+            for p in &mut self.embedding.uv {
+                p[0] = -p[0];
+            }
+        }
+        self
+    }
+}
+
+/// Sum of the areas of a chart's triangles in a map, as the chart winds them.
+fn signed_area(chart: &Chart, uv: &[[f64; 2]]) -> f64 {
+    let doubled = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| uv[v as usize]);
+        doubled_area(a, b, c)
+    };
+    chart.disk.triangles.iter().map(doubled).sum::<f64>() / 2.0
+}
+
+/// The pairs of triangles that are both among these, in their numbering.
+fn within(faces: &[u32], n_faces: usize, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
+    let mut local = vec![None; n_faces];
+    for (i, &face) in (0..).zip(faces) {
+        local[face as usize] = Some(i);
+    }
+    pairs
+        .iter()
+        .filter_map(|&[a, b]| Some([local[a as usize]?, local[b as usize]?]))
+        .collect()
+}

@@ -1,0 +1,71 @@
+//! Where to cut.
+//!
+//! [`charts`] divides a surface into charts, each a proven [`Disk`]. Every triangle is in exactly one of them, whatever is
+//! wrong with the surface.
+//!
+//! [`Cut::Disk`] makes one chart of every component: each manifold piece is opened to a disk, and the pieces that
+//! non-manifold edges part are joined again at single edges. [`Cut::Fast`] divides the surface into regions whose normals lie
+//! within a cone, so that each chart is nearly flat and hardly ever overlaps itself. [`Cut::Auto`] opens every piece to a disk
+//! and goes on from there ([`charts_under_bound`]): one sparse solve predicts where a disk would be distorted most, a slit is
+//! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
+//! A closed piece is tried so with openings between several pairs of vertices far apart, and gets the one whose seams promise to be
+//! shortest: where it is opened follows from its shape and, but for ties, not from the order of its vertices.
+//! With a large disk a chart of fewer faces goes that way first, and the disk is parted as that is.
+//!
+//! Before that [`Cut::Auto`] looks for components that consist mostly of planes, such as machine parts and sheet metal (`facets`):
+//! each plane is laid into the page as it is, and they are joined where a seam would cost most (`creases`).
+//!
+//! Rough surfaces, such as noisy scans, are cut as what they are samples of (`rough`): smoothed; then the true surface is mapped.
+//!
+//! With [`Symmetry::Auto`] it looks for the plane in which a surface is its own mirror image, exactly or nearly, and cuts both
+//! sides alike (`symmetry`): openings run in the plane, slits come in pairs, and what is parted or given back on one side is on
+//! the other.
+//!
+//! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
+//!
+//! Few charts are spiky, and spiky charts leave much of a square empty. [`MappedChart::best_split`] says where to cut one so that
+//! its parts fill their convex hulls; whether that pays the atlas has to tell.
+//!
+//! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, slight folds are pushed apart; for the others the
+//! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes. Where
+//! floating point finds no valid map, a chart is cut into [`halves()`].
+//!
+//! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
+//! their neighbors wherever they find room along a common border ([`given_back()`]).
+
+mod bound;
+mod chart;
+mod compact;
+mod crease;
+mod creases;
+mod facets;
+mod give_back;
+mod halves;
+mod mapped;
+mod min_cut;
+mod motion;
+mod observer;
+mod opened;
+mod parts;
+mod regions;
+mod rough;
+mod symmetry;
+mod unfold;
+mod up;
+
+pub use bound::few_charts::{Symmetry, charts_under_bound};
+pub use bound::quality::{Bound, Bounded, Quality};
+pub use bound::redrawn::parted_along;
+pub use chart::{Chart, Cut};
+pub use compact::split::{Split, parted_alike, seam_length};
+pub use give_back::given_back::given_back;
+pub use halves::halves;
+pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
+pub use min_cut::min_cut;
+pub use observer::{MapUnderway, Observer, Unobserved};
+pub use opened::charts;
+pub use rough::smoothed_where_rough;
+pub use symmetry::plane::MirrorPlane;
+
+#[cfg(doc)]
+use unwrapd_maps::mesh::Disk;

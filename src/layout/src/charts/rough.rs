@@ -1,0 +1,115 @@
+//! Rough surfaces, as depth sensors and generators make them, and what they are samples of.
+//!
+//! No map with few seams keeps the distances on a surface of noise: every vertex is a small cone. What it is a sample of
+//! unfolds well. So charts are cut on the smoothed surface, whose distortion is bounded, and the true one is mapped.
+
+use std::f64::consts::TAU;
+
+use super::creases::hard_components::Divided;
+use super::mapped::MappedChart;
+use super::observer::Observer;
+use unwrapd_maps::embed;
+use unwrapd_maps::mesh::Surface;
+use unwrapd_method::numerics::vec3::{cross, dot, norm, sub};
+
+/// The mean angle defect, in radians, from which on the vertices of a component may be noise.
+const ROUGH: f64 = 0.2;
+/// The share of its total curvature that smoothing leaves to noise at most; of a shape it leaves a third and more.
+const LEFT: f64 = 1.0 / 6.0;
+
+/// The surface with its rough components smoothed; none if it has no rough one.
+///
+/// A component is rough if its total curvature, Σ|2π − Σ angles| over inner vertices, is large and vanishes when it is
+/// [smoothed](Surface::smoothed). Those that consist of planes are not, however many corners they have. O(n log n).
+pub fn smoothed_where_rough(surface: &Surface) -> Option<Surface> {
+    let is_on_border = surface.is_on_border();
+    let before = total_curvatures(surface, &is_on_border);
+    if !before.iter().any(Curvature::is_large) {
+        return None;
+    }
+    let mut smooth = surface.clone();
+    smooth.positions = surface.smoothed(&is_on_border);
+    let after = total_curvatures(&smooth, &is_on_border);
+    let mut is_rough: Vec<bool> = (before.iter().zip(&after))
+        .map(|(before, after)| before.is_large() && after.total < LEFT * before.total)
+        .collect();
+    let component = &surface.adjacency().component;
+    if is_rough.contains(&true) {
+        let is_hard = Divided::new(surface).is_hard;
+        for (&c, is_hard) in component.iter().zip(is_hard) {
+            is_rough[c as usize] &= !is_hard;
+        }
+    }
+    let mut is_kept = vec![true; surface.positions.len()];
+    for (triangle, &c) in surface.triangles.iter().zip(component) {
+        for v in triangle {
+            is_kept[*v as usize] &= !is_rough[c as usize];
+        }
+    }
+    for (v, _) in is_kept.iter().enumerate().filter(|(_, kept)| **kept) {
+        smooth.positions[v] = surface.positions[v];
+    }
+    is_rough.contains(&true).then_some(smooth)
+}
+
+/// The total curvature of a component.
+#[derive(Clone, Copy, Default)]
+struct Curvature {
+    total: f64,
+    n_vertices: usize,
+}
+
+impl Curvature {
+    fn is_large(&self) -> bool {
+        self.total > ROUGH * self.n_vertices as f64
+    }
+}
+
+/// Of each component. A vertex that two share counts in one of them.
+fn total_curvatures(surface: &Surface, is_on_border: &[bool]) -> Vec<Curvature> {
+    let component = &surface.adjacency().component;
+    let mut angles = vec![0.0; surface.positions.len()];
+    let mut component_of = vec![None; surface.positions.len()];
+    for (t, triangle) in surface.triangles.iter().enumerate() {
+        let corners = surface.corners(t);
+        for (k, &v) in triangle.iter().enumerate() {
+            let [a, b] = [1, 2].map(|j| sub(corners[(k + j) % 3], corners[k]));
+            angles[v as usize] += norm(cross(a, b)).atan2(dot(a, b));
+            component_of[v as usize] = Some(component[t]);
+        }
+    }
+    let n_components = component.iter().max().map_or(0, |&c| c as usize + 1);
+    let mut curvatures = vec![Curvature::default(); n_components];
+    for ((angle, of), is_on_border) in angles.iter().zip(component_of).zip(is_on_border) {
+        if let (Some(of), false) = (of, is_on_border) {
+            let curvature: &mut Curvature = &mut curvatures[of as usize];
+            curvature.total += (TAU - angle).abs();
+            curvature.n_vertices += 1;
+        }
+    }
+    curvatures
+}
+
+impl MappedChart {
+    /// A chart of the smoothed surface as one of the surface itself, mapped from where it lies.
+    pub(super) fn on(
+        mut self,
+        surface: &Surface,
+        options: &embed::Options,
+        observer: &dyn Observer,
+    ) -> Self {
+        let chart = &mut self.chart;
+        let mut is_moved = false;
+        for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
+            for (&v, &corner) in triangle.iter().zip(corners) {
+                let own = surface.corners(corner as usize / 3)[corner as usize % 3];
+                is_moved |= chart.positions[v as usize] != own;
+                chart.positions[v as usize] = own;
+            }
+        }
+        if !is_moved {
+            return self;
+        }
+        self.relaxed(options, observer)
+    }
+}

@@ -1,0 +1,237 @@
+//! The mirror plane of a surface.
+
+use super::cloud::points_over;
+use super::plane::MirrorPlane;
+use unwrapd_maps::mesh::{Surface, UsedVertices};
+use unwrapd_method::numerics::bounds::bounds_of;
+use unwrapd_method::numerics::point_tree::PointTree;
+use unwrapd_method::numerics::symmetric::eigen;
+use unwrapd_method::numerics::vec3::{cross, distance, dot, norm, sub};
+
+/// Points of the cloud, and those of them that are mirrored to judge a candidate, to fit it and to accept it.
+const CLOUD: usize = 20_000;
+const JUDGING: usize = 150;
+pub(super) const FITTING: usize = 400;
+const ACCEPTING: usize = 1_000;
+
+/// Times that a plane is fitted to new pairs at most.
+pub(super) const ROUNDS: usize = 10;
+
+/// Vertices that are mirrored to fit a plane to the vertices.
+const VERTICES: usize = 1_000;
+
+/// Directions that are tried around an axis about which the surface has equal moments.
+const AROUND: usize = 12;
+
+/// Moments are equal if they differ by less than this share.
+const EQUAL_MOMENTS: f64 = 0.1;
+
+/// A candidate is followed up if this share of its points comes to lie within that part of the diagonal of the surface
+/// on the average.
+const SHARE_JUDGED: f64 = 0.8;
+const PROMISING: f64 = 0.04;
+
+/// Candidates that are followed up at most.
+const FOLLOWED: usize = 3;
+
+/// A surface is symmetric if this share of its area is mirrored to within that part of the diagonal of itself.
+const ACCEPTED: f64 = 0.95;
+const NEAR: f64 = 0.01;
+
+/// A vertex has a mirror image if there is a vertex within this part of the diagonal.
+pub(super) const EXACT: f64 = 1e-4;
+
+/// A plane in which half of the surface lies mirrors nothing.
+pub(super) const IN_PLANE: f64 = 0.0025;
+
+/// The plane in which a surface is its own mirror image, exactly or nearly; the best if there are several.
+///
+/// The normal of such a plane is a principal axis of the area. Those axes, the coordinate axes and, where two moments are
+/// equal, directions around the third are candidates; each is fitted to nearest pairs of points and mirror images again and again,
+/// at last to pairs of vertices. O(n log n).
+///
+/// From: Zabrodsky, Peleg, Avnir 1995, Symmetry as a Continuous Feature; the fit is that of Besl and McKay 1992 for a reflection.
+pub fn mirror_plane(surface: &Surface) -> Option<MirrorPlane> {
+    let cloud = points_over(surface, CLOUD);
+    let [low, high] = corners_of(&cloud)?;
+    let diagonal = distance(low, high);
+    let cloud = PointTree::new(cloud);
+    let candidates = promising(&cloud, diagonal);
+    let fitted = candidates.into_iter().take(FOLLOWED).map(|plane| {
+        let plane = fitted(plane, &every(cloud.points(), FITTING), &cloud, ROUNDS);
+        (mismatch(&plane, &cloud, ACCEPTING), plane)
+    });
+    let mut fitted: Vec<(f64, MirrorPlane)> = fitted
+        .filter(|(_, plane)| is_accepted(plane, &cloud, diagonal))
+        .collect();
+    fitted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (_, plane) = fitted.first()?;
+    Some(sharpened(*plane, surface, diagonal))
+}
+
+/// The plane fitted to the vertices if more of them have a mirror image then.
+fn sharpened(plane: MirrorPlane, surface: &Surface, diagonal: f64) -> MirrorPlane {
+    let vertices = vertices(surface);
+    let sample = every(vertices.points(), VERTICES);
+    let n_mirrored = |plane: &MirrorPlane| {
+        let is_mirrored = |p: &&[f64; 3]| {
+            let image = plane.mirrored(**p);
+            vertices
+                .nearest(image, EXACT * diagonal, |_| true)
+                .is_some()
+        };
+        sample.iter().filter(is_mirrored).count()
+    };
+    let sharper = fitted(plane, &sample, &vertices, ROUNDS);
+    if n_mirrored(&sharper) > n_mirrored(&plane) {
+        sharper
+    } else {
+        plane
+    }
+}
+
+/// The vertices of faces.
+pub(super) fn vertices(surface: &Surface) -> PointTree {
+    let corners = surface.triangles.as_flattened().iter().copied();
+    let used = UsedVertices::new(corners).into_vec().into_iter();
+    PointTree::new(used.map(|v| surface.positions[v as usize]).collect())
+}
+
+/// Planes through the center of the points in which the cloud may be its own mirror image, the likeliest first.
+pub(super) fn promising(cloud: &PointTree, diagonal: f64) -> Vec<MirrorPlane> {
+    let candidates = candidates(cloud.points()).into_iter();
+    let judged = candidates.map(|plane| (mismatch(&plane, cloud, JUDGING), plane));
+    let mut judged: Vec<(f64, MirrorPlane)> = judged
+        .filter(|(mismatch, _)| *mismatch < PROMISING * diagonal)
+        .collect();
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    judged.into_iter().map(|(_, plane)| plane).collect()
+}
+
+/// Planes through the center of the points.
+fn candidates(points: &[[f64; 3]]) -> Vec<MirrorPlane> {
+    let n = points.len() as f64;
+    let mut center = [0.0; 3];
+    for p in points {
+        center = [0, 1, 2].map(|k| center[k] + p[k] / n);
+    }
+    let mut moments = [[0.0; 3]; 3];
+    for p in points {
+        let d = sub(*p, center);
+        for (row, x) in moments.iter_mut().zip(d) {
+            *row = [0, 1, 2].map(|k| row[k] + x * d[k]);
+        }
+    }
+    let (of_axis, axes) = eigen(&moments);
+    let mut normals = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    normals.extend(axes);
+    for k in 0..3 {
+        let (a, b) = (of_axis[(k + 1) % 3], of_axis[(k + 2) % 3]);
+        if (a - b).abs() < EQUAL_MOMENTS * a.max(b) {
+            let first = axes[(k + 1) % 3];
+            let second = cross(axes[k], first);
+            normals.extend((0..AROUND).map(|i| {
+                let (sin, cos) = (std::f64::consts::PI * i as f64 / AROUND as f64).sin_cos();
+                [0, 1, 2].map(|k| cos * first[k] + sin * second[k])
+            }));
+        }
+    }
+    normals
+        .into_iter()
+        .map(|normal| MirrorPlane::through(center, normal))
+        .collect()
+}
+
+/// The mean distance of mirror images from the cloud, without the farthest.
+fn mismatch(plane: &MirrorPlane, cloud: &PointTree, n_points: usize) -> f64 {
+    let mut distances: Vec<f64> = every(cloud.points(), n_points)
+        .into_iter()
+        .map(|p| image_in(plane, p, cloud).1)
+        .collect();
+    distances.sort_by(f64::total_cmp);
+    distances.truncate(((SHARE_JUDGED * distances.len() as f64) as usize).max(1));
+    distances.iter().sum::<f64>() / distances.len() as f64
+}
+
+/// The point of a cloud nearest to the mirror image of a point, and how far they are apart.
+fn image_in(plane: &MirrorPlane, p: [f64; 3], cloud: &PointTree) -> ([f64; 3], f64) {
+    let nearest = cloud.nearest(plane.mirrored(p), f64::INFINITY, |_| true);
+    let (v, distance) = nearest.unwrap_or((0, f64::INFINITY));
+    (cloud.points()[v as usize], distance)
+}
+
+fn is_accepted(plane: &MirrorPlane, cloud: &PointTree, diagonal: f64) -> bool {
+    let sample = every(cloud.points(), ACCEPTING);
+    let least = ACCEPTED * sample.len() as f64;
+    let is_near = |p: &&[f64; 3]| image_in(plane, **p, cloud).1 < NEAR * diagonal;
+    let is_off = |p: &&[f64; 3]| plane.height(**p).abs() > IN_PLANE * diagonal;
+    sample.iter().filter(is_near).count() as f64 >= least
+        && 2 * sample.iter().filter(is_off).count() > sample.len()
+}
+
+/// The plane that fits the pairs of points and nearest mirror images best, found again and again.
+///
+/// ```text
+/// Σ |y − mirrored(x)|² is least for the plane through c = mean (x + y) / 2
+/// whose normal is the eigenvector of Σ (x − c)(y − c)ᵀ + (y − c)(x − c)ᵀ for the least eigenvalue
+/// ```
+pub(super) fn fitted(
+    mut plane: MirrorPlane,
+    points: &[[f64; 3]],
+    cloud: &PointTree,
+    rounds: usize,
+) -> MirrorPlane {
+    for _ in 0..rounds {
+        let mut pairs: Vec<([f64; 3], [f64; 3], f64)> = (points.iter())
+            .map(|&p| {
+                let (image, distance) = image_in(&plane, p, cloud);
+                (p, image, distance)
+            })
+            .collect();
+        // Of what has no mirror image the worst tenth is left out.
+        pairs.sort_by(|a, b| a.2.total_cmp(&b.2));
+        pairs.truncate((pairs.len() * 9).div_ceil(10));
+        let Some(next) = best_plane(&pairs, plane.normal) else {
+            break;
+        };
+        let is_same = norm(sub(next.normal, plane.normal)) < 1e-9;
+        plane = next;
+        if is_same {
+            break;
+        }
+    }
+    plane
+}
+
+fn best_plane(pairs: &[([f64; 3], [f64; 3], f64)], normal: [f64; 3]) -> Option<MirrorPlane> {
+    let n = pairs.len() as f64;
+    let mut center = [0.0; 3];
+    for (x, y, _) in pairs {
+        center = [0, 1, 2].map(|k| center[k] + (x[k] + y[k]) / (2.0 * n));
+    }
+    let mut moments = [[0.0; 3]; 3];
+    for (x, y, _) in pairs {
+        let (x, y) = (sub(*x, center), sub(*y, center));
+        for (k, row) in moments.iter_mut().enumerate() {
+            *row = [0, 1, 2].map(|l| row[l] + x[k] * y[l] + y[k] * x[l]);
+        }
+    }
+    let (values, vectors) = eigen(&moments);
+    let least = (0..3).min_by(|&a, &b| values[a].total_cmp(&values[b]))?;
+    let sign = dot(vectors[least], normal).signum();
+    let best = MirrorPlane::through(center, vectors[least].map(|x| sign * x));
+    best.offset.is_finite().then_some(best)
+}
+
+/// About so many of the points, evenly.
+pub(super) fn every(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
+    points
+        .iter()
+        .copied()
+        .step_by(points.len().div_ceil(n).max(1))
+        .collect()
+}
+
+pub(super) fn corners_of(points: &[[f64; 3]]) -> Option<[[f64; 3]; 2]> {
+    (!points.is_empty()).then(|| bounds_of(points))
+}

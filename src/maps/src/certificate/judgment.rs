@@ -1,0 +1,184 @@
+//! The certificate and the rules by which it is given.
+
+use super::NAMED;
+use super::alignment::unaligned_charts;
+use super::bits::{BitsVerdict, coarsest_safe_bits, judge_bits};
+use super::boundary::ChartBoundary;
+use super::box_tree::Visit;
+use super::claims::{Claims, Overlap};
+use super::overlap::OrientedFaces;
+use super::padding::{PaddingVerdict, judge_padding};
+use super::pages::{PagesVerdict, judge_pages};
+use super::rounding::coarsest_bits;
+use super::topology::UvTopology;
+use crate::mesh::CornerUvs;
+use serde::Serialize;
+
+/// What is proven about the UVs of a mesh, by exact predicates on the numbers of the file.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Certificate {
+    /// Number of faces judged, including all those below.
+    pub faces: usize,
+    /// Faces that name a position twice. They need no UV area, but must not be flipped.
+    pub exempt_faces: usize,
+    /// Faces that cannot be judged: a UV or a position is not finite or missing.
+    pub nonfinite_faces: usize,
+    /// Charts found from the UVs, except those of exempt faces only.
+    pub charts: usize,
+    /// Charts that are not orientable, such as an uncut Möbius strip; no map of them is injective.
+    pub nonorientable_charts: usize,
+    /// Mirrored charts: most of their UV area is clockwise with v up, as the file winds it. They may be valid.
+    pub mirrored_charts: usize,
+    /// Faces oriented against the rest of their chart.
+    pub flipped: usize,
+    /// Faces of exactly zero UV area, except exempt ones.
+    pub degenerate: usize,
+    /// Pairs of faces whose interiors intersect; null when not tested.
+    pub overlapping_pairs: Option<u64>,
+    /// Those of them that lie in one chart.
+    pub overlapping_pairs_same_chart: Option<u64>,
+    /// Those of them that lie in two charts.
+    pub overlapping_pairs_between_charts: Option<u64>,
+    /// Whether the search for pairs stopped at its limit, so that there may be more.
+    pub overlap_truncated: bool,
+    /// The coarsest of 23, 16, 14 and 12 bits at which every orientation is kept; null when the map is not locally injective, or
+    /// only its full precision is. 23: UVs rounded to multiples of 2⁻²³ (the grid written here) keep it. 16, 14, 12: it
+    /// survives any move of each coordinate by 1/(2(2ᵇ−1)) + 2⁻¹⁶. Overlaps after rounding are not included.
+    pub grid_bits: Option<u32>,
+    /// The coarsest of 16, 14 and 12 bits b at which the map provably stays bijective: each coordinate may
+    /// move by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. Null if there is none, or overlaps were not tested.
+    pub safe_bits: Option<u32>,
+    /// Whether charts keep the requested distance; null if not requested or overlaps were not tested.
+    pub padding: Option<PaddingVerdict>,
+    /// Charts whose bounding rectangle does not end on texel borders; null if not requested.
+    pub unaligned_charts: Option<usize>,
+    /// Whether every chart lies on one of the requested pages; null if not requested.
+    pub pages: Option<PagesVerdict>,
+    /// Whether the map holds at the requested bits; null if not requested or overlaps were not tested.
+    pub bits: Option<BitsVerdict>,
+    /// The first few mirrored charts; charts are numbered in the order of their first faces.
+    pub mirrored: Vec<u32>,
+    /// The first few faces that are flipped, degenerate or cannot be judged.
+    pub offending_faces: Vec<u32>,
+    /// The first few pairs found to overlap.
+    pub offending_pairs: Vec<[u32; 2]>,
+}
+
+impl Certificate {
+    /// Whether the map is proven locally injective: every face not exempt has positive area relative to its chart.
+    pub fn is_valid(&self) -> bool {
+        self.flipped == 0
+            && self.degenerate == 0
+            && self.nonfinite_faces == 0
+            && self.nonorientable_charts == 0
+    }
+
+    /// Whether, beyond that, no two faces are proven to overlap: the map is bijective.
+    pub fn is_bijective(&self) -> bool {
+        self.is_valid() && self.overlapping_pairs == Some(0) && !self.overlap_truncated
+    }
+}
+
+/// Judges the UVs of every face's corners.
+///
+/// `uvs[f][c]` belongs to `positions[triangles[f][c]]` and is what the file says, converted to f64 without rounding (f32 or
+/// normalized integers). Faces are judged relative to their chart (see the [module](super)), so it does not matter for their
+/// orientation whether v points up or down. Costs a sort of the vertices and, with [`Overlap::Test`], searches over trees of boxes.
+pub fn certify(
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    uvs: &[CornerUvs],
+    claims: &Claims,
+) -> Certificate {
+    let topology = UvTopology::new(positions, triangles, uvs);
+    let mut certificate = judge_faces(&topology);
+    let mirrored = topology.mirrored_charts(claims.v_axis);
+    certificate.mirrored_charts = mirrored.len();
+    certificate.mirrored = mirrored.into_iter().take(NAMED).collect();
+    certificate.unaligned_charts =
+        (claims.aligned).map(|texels| unaligned_charts(&topology, texels));
+    certificate.pages = claims.pages.map(|pages| judge_pages(&topology, pages));
+    if claims.overlap == Overlap::Test {
+        judge_pairs(&topology, &mut certificate);
+        judge_distances(&topology, claims, &mut certificate);
+    }
+    certificate
+}
+
+fn judge_faces(topology: &UvTopology) -> Certificate {
+    let n_faces = topology.faces.len();
+    let n_charts = topology.charts.nonorientable.len();
+    let is_exempt = |f: usize| topology.repeats_position(f);
+    let is_judged = |f: usize| topology.is_judged(f);
+    let positive = topology.chart_orientations(is_judged);
+    let mut has_judged = vec![false; n_charts];
+    for face in (0..n_faces).filter(|&f| is_judged(f)) {
+        has_judged[topology.charts.of_face[face] as usize] = true;
+    }
+    let mut certificate = Certificate {
+        faces: n_faces,
+        exempt_faces: (0..n_faces).filter(|&f| is_exempt(f)).count(),
+        ..Certificate::default()
+    };
+    for face in 0..n_faces {
+        let chart = topology.charts.of_face[face] as usize;
+        let sign = topology.orientation_in_chart(face);
+        let offence = if topology.unusable[face] {
+            &mut certificate.nonfinite_faces
+        } else if sign == 0 && !is_exempt(face) {
+            &mut certificate.degenerate
+        } else if sign != 0 && sign != positive[chart] && has_judged[chart] {
+            &mut certificate.flipped
+        } else {
+            continue;
+        };
+        *offence += 1;
+        if certificate.offending_faces.len() < NAMED {
+            certificate.offending_faces.push(face as u32);
+        }
+    }
+    let charts = || (0..n_charts).filter(|&chart| has_judged[chart]);
+    certificate.charts = charts().count();
+    certificate.nonorientable_charts = charts()
+        .filter(|&chart| topology.charts.nonorientable[chart])
+        .count();
+    if certificate.is_valid() {
+        certificate.grid_bits = coarsest_bits(topology);
+    }
+    certificate
+}
+
+fn judge_pairs(topology: &UvTopology, certificate: &mut Certificate) {
+    let (mut same, mut between) = (0, 0);
+    let visit = OrientedFaces::new(topology).overlaps(|pair| {
+        let [a, b] = pair.faces.map(|f| topology.charts.of_face[f as usize]);
+        *if a == b { &mut same } else { &mut between } += 1;
+        if certificate.offending_pairs.len() < NAMED {
+            certificate.offending_pairs.push(pair.faces);
+        }
+    });
+    certificate.overlapping_pairs = Some(same + between);
+    certificate.overlapping_pairs_same_chart = Some(same);
+    certificate.overlapping_pairs_between_charts = Some(between);
+    certificate.overlap_truncated = visit == Visit::Truncated;
+}
+
+/// Judges edges of charts against each other.
+fn judge_distances(topology: &UvTopology, claims: &Claims, certificate: &mut Certificate) {
+    let boundary = ChartBoundary::new(topology, |face| topology.is_judged(face as usize));
+    if certificate.is_bijective()
+        && let Some(grid_bits) = certificate.grid_bits
+    {
+        certificate.safe_bits = coarsest_safe_bits(&boundary, grid_bits);
+    }
+    let are_disjoint = certificate.overlapping_pairs_between_charts == Some(0);
+    certificate.padding = claims.padding.map(|padding| {
+        let mut verdict = judge_padding(&boundary, padding);
+        verdict.kept &= are_disjoint && !certificate.overlap_truncated;
+        verdict
+    });
+    let is_bijective = certificate.is_bijective();
+    certificate.bits =
+        (claims.bits).map(|bits| judge_bits(topology, &boundary, bits, is_bijective));
+}

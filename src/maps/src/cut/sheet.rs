@@ -1,0 +1,167 @@
+//! A part of a surface and how its faces are glued.
+
+use crate::mesh::{CUT, Disk, Surface, UnionFind, next, origin};
+use std::array::from_fn;
+use unwrapd_method::numerics::vec3::distance;
+
+/// Distances that differ by a smaller share are the same but for rounding.
+const SAME: f64 = 1.0 - 1e-6;
+
+/// Some faces of a surface, numbered locally, with the glued edges among them.
+///
+/// Around a vertex the glued faces form one fan by construction, so a bow-tie vertex of the surface is several vertices here.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// For each face of the sheet its triangle in the surface.
+    pub triangles: Vec<u32>,
+    /// For each halfedge `3 f + c` the one glued to it, or [`CUT`].
+    pub twin: Vec<u32>,
+    /// For each corner `3 f + c` its vertex.
+    pub vertex: Vec<u32>,
+    /// For each vertex its position.
+    pub positions: Vec<[f64; 3]>,
+}
+
+impl Sheet {
+    /// All of a disk with vertices at some positions. Vertices are numbered in the order of the triangles' corners. O(n log n).
+    pub fn of_disk(disk: &Disk, positions: &[[f64; 3]]) -> Self {
+        let mut number = vec![CUT; disk.n_vertices];
+        let mut sheet = Self {
+            triangles: (0..disk.triangles.len() as u32).collect(),
+            twin: disk.twins(),
+            vertex: Vec::with_capacity(3 * disk.triangles.len()),
+            positions: Vec::with_capacity(disk.n_vertices),
+        };
+        for &v in disk.triangles.as_flattened() {
+            if number[v as usize] == CUT {
+                number[v as usize] = sheet.positions.len() as u32;
+                sheet.positions.push(positions[v as usize]);
+            }
+            sheet.vertex.push(number[v as usize]);
+        }
+        sheet
+    }
+
+    /// The sheets into which labels divide triangles over some positions, glued by `twin`; label `i` makes sheet `i`.
+    pub fn divide(
+        (surface, positions): (&[[u32; 3]], &[[f64; 3]]),
+        twin: &[u32],
+        labels: &[u32],
+        n_labels: usize,
+    ) -> Vec<Self> {
+        let mut triangles = vec![Vec::new(); n_labels];
+        let mut local = Vec::with_capacity(labels.len());
+        for (t, &label) in labels.iter().enumerate() {
+            local.push(triangles[label as usize].len() as u32);
+            triangles[label as usize].push(t as u32);
+        }
+        triangles
+            .into_iter()
+            .map(|triangles| {
+                let twin = triangles
+                    .iter()
+                    .flat_map(|&t| 3 * t..3 * t + 3)
+                    .map(|h| match twin[h as usize] {
+                        CUT => CUT,
+                        t if labels[t as usize / 3] != labels[h as usize / 3] => CUT,
+                        t => 3 * local[t as usize / 3] + t % 3,
+                    })
+                    .collect();
+                Self::new((surface, positions), triangles, twin)
+            })
+            .collect()
+    }
+
+    fn new(
+        (surface, all): (&[[u32; 3]], &[[f64; 3]]),
+        triangles: Vec<u32>,
+        twin: Vec<u32>,
+    ) -> Self {
+        let welded = |corner: u32| {
+            let triangle = triangles[corner as usize / 3] as usize;
+            surface[triangle][corner as usize % 3]
+        };
+        let (vertex, n_vertices) = fans(&twin, welded);
+        let mut positions = vec![[0.0; 3]; n_vertices];
+        for corner in 0..twin.len() as u32 {
+            positions[vertex[corner as usize] as usize] = all[welded(corner) as usize];
+        }
+        Self {
+            triangles,
+            twin,
+            vertex,
+            positions,
+        }
+    }
+
+    /// The two vertices of a halfedge.
+    pub fn ends(&self, h: u32) -> [u32; 2] {
+        [self.vertex[h as usize], self.vertex[next(h) as usize]]
+    }
+
+    /// The length of a halfedge.
+    pub fn length(&self, h: u32) -> f64 {
+        let [a, b] = self.ends(h).map(|v| self.positions[v as usize]);
+        distance(a, b)
+    }
+
+    /// The middle of a halfedge.
+    pub fn middle(&self, h: u32) -> [f64; 3] {
+        let [a, b] = self.ends(h).map(|v| self.positions[v as usize]);
+        [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]))
+    }
+
+    /// One halfedge of each edge.
+    pub fn edges(&self) -> impl Iterator<Item = u32> {
+        (0u32..)
+            .zip(&self.twin)
+            .filter(|&(h, &t)| t == CUT || h < t)
+            .map(|(h, _)| h)
+    }
+
+    /// Of some vertices the one farthest from the mean of all: where to begin, whatever their numbers, the scale and the
+    /// rotation. The first of those that are as far, as on a sphere.
+    pub fn outermost(&self, is_one: impl Fn(u32) -> bool) -> Option<u32> {
+        let mut sum = [0.0; 3];
+        for p in &self.positions {
+            sum = from_fn(|k| sum[k] + p[k]);
+        }
+        let mean = sum.map(|x| x / self.positions.len().max(1) as f64);
+        let reach = |v: u32| distance(self.positions[v as usize], mean);
+        let all = || (0..self.positions.len() as u32).filter(|&v| is_one(v));
+        let farthest = all().map(reach).fold(0.0, f64::max);
+        all().find(|&v| reach(v) >= SAME * farthest)
+    }
+
+    /// For each vertex whether it lies on the boundary.
+    pub fn on_boundary(&self) -> Vec<bool> {
+        let mut on_boundary = vec![false; self.positions.len()];
+        for h in (0..self.twin.len() as u32).filter(|&h| self.twin[h as usize] == CUT) {
+            for v in self.ends(h) {
+                on_boundary[v as usize] = true;
+            }
+        }
+        on_boundary
+    }
+}
+
+/// Numbers the vertices of glued faces: corners are one vertex when glued edges connect them around it. `welded` names the
+/// position of a corner, by which the ends of two glued halfedges are told apart.
+pub fn fans(twin: &[u32], welded: impl Fn(u32) -> u32) -> (Vec<u32>, usize) {
+    let mut corners = UnionFind::new(twin.len());
+    for (h, &t) in (0u32..).zip(twin).filter(|&(h, &t)| t != CUT && h < t) {
+        let (near, far) = if welded(h) == welded(t) {
+            (t, next(t))
+        } else {
+            (next(t), t)
+        };
+        corners.unite(h, near);
+        corners.unite(next(h), far);
+    }
+    corners.labels()
+}
+
+/// Numbers the vertices of a whole surface glued by `twin`: corners are one vertex when glued edges connect them around it.
+pub fn surface_fans(surface: &Surface, twin: &[u32]) -> (Vec<u32>, usize) {
+    fans(twin, |corner| origin(&surface.triangles, corner))
+}

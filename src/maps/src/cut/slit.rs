@@ -1,0 +1,94 @@
+//! Slits in closed sheets of genus 0.
+
+use super::Sheet;
+use super::distances::{Neighbors, distances, opposite_end};
+use super::far_pairs::far_pairs;
+use unwrapd_method::numerics::vec3::{area_vector, norm};
+
+/// A vertex farther from the slit than this share of √area gets a branch. On a round sphere the slit from pole to pole
+/// leaves 0.44 √area; beyond about that, a limb would have to be squeezed through its own root.
+const FAR: f64 = 0.5;
+
+/// At most this many branches: each costs one pass over the sheet.
+const MOST_BRANCHES: usize = 12;
+
+/// Whether a slit gets branches to vertices far from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Branches {
+    /// None: whoever slits further decides.
+    None,
+    /// So many that no limb has to be squeezed through its root.
+    ToLimbs,
+}
+
+/// At most so many slits that each open a closed sheet of genus 0 to a disk; the edges of each.
+///
+/// A slit is a shortest path between two vertices far apart, with shortest branches, if asked for, to whatever
+/// remains far from it. It is a tree of at least two edges.
+pub fn slits(
+    sheet: &Sheet,
+    neighbors: &Neighbors,
+    branches: Branches,
+    most: usize,
+) -> Vec<Vec<u32>> {
+    let ends = far_pairs(sheet, neighbors, &|h| sheet.length(h), &|_| true, most).into_iter();
+    ends.map(|ends| slit(sheet, neighbors, branches, ends))
+        .collect()
+}
+
+fn slit(sheet: &Sheet, neighbors: &Neighbors, branches: Branches, [a, b]: [u32; 2]) -> Vec<u32> {
+    let from_a = distances(sheet, neighbors, [a], |h| sheet.length(h));
+    let mut edges: Vec<u32> = from_a.path(sheet, b).collect();
+    let mut on_slit = vec![false; sheet.positions.len()];
+    on_slit[a as usize] = true;
+    mark_ends(sheet, &edges, &mut on_slit);
+    if edges.len() < 2 {
+        edges.extend(continuation(sheet, neighbors, b, &on_slit));
+        mark_ends(sheet, &edges, &mut on_slit);
+    }
+    let reach = FAR * area(sheet).sqrt();
+    let most = match branches {
+        Branches::ToLimbs => MOST_BRANCHES,
+        Branches::None => 0,
+    };
+    for _ in 0..most {
+        let sources = (0u32..).zip(&on_slit).filter(|(_, on)| **on);
+        let from_slit = distances(sheet, neighbors, sources.map(|(v, _)| v), |h| {
+            sheet.length(h)
+        });
+        let (tip, far) = from_slit.farthest();
+        if far <= reach {
+            break;
+        }
+        edges.extend(from_slit.path(sheet, tip));
+        mark_ends(sheet, &edges, &mut on_slit);
+    }
+    edges
+}
+
+fn mark_ends(sheet: &Sheet, edges: &[u32], on_slit: &mut [bool]) {
+    for &h in edges {
+        for v in sheet.ends(h) {
+            on_slit[v as usize] = true;
+        }
+    }
+}
+
+/// An edge by which a slit of one edge goes on from its end: every closed sheet has a third vertex next to it.
+fn continuation(sheet: &Sheet, neighbors: &Neighbors, end: u32, on_slit: &[bool]) -> Option<u32> {
+    let leaves = |h: &&u32| !on_slit[opposite_end(sheet, **h, end) as usize];
+    neighbors.of(end).iter().find(leaves).copied()
+}
+
+fn area(sheet: &Sheet) -> f64 {
+    let position = |corner: u32| sheet.positions[sheet.vertex[corner as usize] as usize];
+    (0..sheet.triangles.len() as u32)
+        .map(|f| {
+            norm(area_vector(
+                position(3 * f),
+                position(3 * f + 1),
+                position(3 * f + 2),
+            )) / 2.0
+        })
+        .sum()
+}

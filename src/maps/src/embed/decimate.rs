@@ -1,0 +1,214 @@
+//! Which vertices to collapse, and onto which neighbor.
+
+use super::triangulation::{Ring, Triangulation};
+use unwrapd_method::numerics::vec3::{add_scaled, area_vector, dot, norm, sub};
+
+/// A vertex that was moved onto a neighbor: what it takes to undo that.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Collapse {
+    pub vertex: u32,
+    /// Its ring at that time, a range of [`Collapses::rings`].
+    start: u32,
+    end: u32,
+    pub closed: bool,
+    /// Where in the ring the neighbor stands.
+    pub at: u32,
+}
+
+/// Collapses in the order they were made.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Collapses {
+    pub list: Vec<Collapse>,
+    rings: Vec<u32>,
+}
+
+/// How careful a decimation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Care {
+    /// Triangles stay of good shape, holes stay: the coarse mesh is a fair picture of the fine one.
+    Shape,
+    /// Only the topology counts: any disk gets down to a few triangles.
+    Topology,
+}
+
+/// The least quality of a new triangle, unless there was a worse one; 1 is equilateral.
+const LEAST_QUALITY: f64 = 0.08;
+
+/// Neighbors that two vertices together may have before one is collapsed onto the other, which will then have four
+/// fewer: rings stay cheap and their kernels wide.
+const MOST_NEIGHBORS: usize = 20;
+
+impl Collapses {
+    /// The neighbors of a collapsed vertex, counter-clockwise.
+    pub fn ring(&self, collapse: &Collapse) -> &[u32] {
+        &self.rings[collapse.start as usize..collapse.end as usize]
+    }
+
+    fn push(&mut self, vertex: u32, ring: &Ring, at: usize) {
+        let start = self.rings.len() as u32;
+        self.rings.extend_from_slice(&ring.vertices);
+        self.list.push(Collapse {
+            vertex,
+            start,
+            end: self.rings.len() as u32,
+            closed: ring.closed,
+            at: at as u32,
+        });
+    }
+}
+
+/// Coarsens a triangulation pass by pass.
+pub(super) struct Decimation<'a> {
+    pub triangulation: Triangulation,
+    positions: &'a [[f64; 3]],
+    /// Triangles of the original list from here on fill holes.
+    n_real: usize,
+    locked: Vec<bool>,
+}
+
+impl<'a> Decimation<'a> {
+    pub fn new(positions: &'a [[f64; 3]], triangles: &[[u32; 3]], n_real: usize) -> Self {
+        Self {
+            triangulation: Triangulation::new(positions.len(), triangles),
+            positions,
+            n_real,
+            locked: vec![false; positions.len()],
+        }
+    }
+
+    /// Collapses vertices until `goal` are left or none can go, flattest and smallest surroundings first.
+    ///
+    /// In each pass no two collapses touch, so that what is removed is spread evenly.
+    pub fn coarsen(&mut self, goal: usize, care: Care) -> Collapses {
+        let mut collapses = Collapses::default();
+        let mut left = self.triangulation.vertices();
+        while left.len() > goal {
+            let n_before = collapses.list.len();
+            self.pass(&left, left.len() - goal, care, &mut collapses);
+            let n_collapsed = collapses.list.len() - n_before;
+            // A pass that gains a hundredth is not worth its time, unless the last few must go.
+            if n_collapsed * 100 < left.len() && (care == Care::Shape || n_collapsed == 0) {
+                break;
+            }
+            left = self.triangulation.vertices();
+        }
+        collapses
+    }
+
+    fn pass(&mut self, left: &[u32], surplus: usize, care: Care, collapses: &mut Collapses) {
+        let mut ring = Ring::default();
+        let mut order: Vec<(f64, u32)> = Vec::with_capacity(left.len());
+        for &v in left {
+            self.locked[v as usize] = false;
+            self.triangulation.ring(v, &mut ring);
+            order.push((self.cost(v, &ring), v));
+        }
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut surplus = surplus;
+        for (_, v) in order {
+            if surplus == 0 {
+                return;
+            }
+            if self.locked[v as usize] {
+                continue;
+            }
+            self.triangulation.ring(v, &mut ring);
+            let Some(at) = self.target(v, &ring, care) else {
+                continue;
+            };
+            self.triangulation.collapse(v, &ring, at);
+            collapses.push(v, &ring, at);
+            for &neighbor in &ring.vertices {
+                self.locked[neighbor as usize] = true;
+            }
+            surplus -= 1;
+        }
+    }
+
+    fn at(&self, v: u32) -> [f64; 3] {
+        self.positions[v as usize]
+    }
+
+    /// How much shape is lost with `v`: area times non-flatness (1 − |Σ N|/Σ|N|), and what a bent boundary cuts off.
+    /// A hundredth of the area itself decides among flat ones.
+    fn cost(&self, v: u32, ring: &Ring) -> f64 {
+        let center = self.at(v);
+        let (mut sum, mut area) = ([0.0; 3], 0.0);
+        for [a, b] in ring.pairs() {
+            let normal = area_vector(center, self.at(a), self.at(b));
+            sum = add_scaled(sum, 1.0, normal);
+            area += norm(normal);
+        }
+        let bend = match (ring.vertices.first(), ring.vertices.last()) {
+            (Some(&a), Some(&b)) if !ring.closed => {
+                norm(area_vector(center, self.at(a), self.at(b)))
+            }
+            _ => 0.0,
+        };
+        area - norm(sum) + bend + 0.01 * area
+    }
+
+    /// The neighbor that leaves the best worst triangle, among those that may be collapsed onto.
+    fn target(&mut self, v: u32, ring: &Ring, care: Care) -> Option<usize> {
+        let present = (ring.pairs())
+            .map(|[a, b]| self.quality(v, a, b))
+            .fold(1.0, f64::min);
+        let least = match care {
+            Care::Shape => LEAST_QUALITY.min(present),
+            Care::Topology => 0.0,
+        };
+        let most = MOST_NEIGHBORS.saturating_sub(ring.halfedges.len());
+        if care == Care::Shape && most == 0 {
+            return None;
+        }
+        let mut candidates: Vec<(f64, usize)> = (0..ring.vertices.len())
+            .filter(|&at| care == Care::Topology || self.keeps_holes(ring, at))
+            .map(|at| (self.quality_after(ring, at), at))
+            .filter(|&(quality, _)| quality >= least)
+            .collect();
+        candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        (candidates.into_iter().map(|(_, at)| at)).find(|&at| {
+            let target = ring.vertices[at];
+            let is_crowded =
+                care == Care::Shape && self.triangulation.has_more_triangles(target, most);
+            !is_crowded && self.triangulation.can_collapse(ring, at)
+        })
+    }
+
+    /// A hole's apex stays, and the vertices of its loop move along the loop only.
+    fn keeps_holes(&self, ring: &Ring, at: usize) -> bool {
+        let is_virtual = |h: &u32| *h as usize / 3 >= self.n_real;
+        let n_virtual = ring.halfedges.iter().filter(|h| is_virtual(h)).count();
+        if n_virtual == 0 || n_virtual == ring.halfedges.len() {
+            return n_virtual == 0;
+        }
+        let n = ring.halfedges.len();
+        let before = if ring.closed {
+            Some((at + n - 1) % n)
+        } else {
+            at.checked_sub(1)
+        };
+        let side = |i: Option<usize>| i.and_then(|i| ring.halfedges.get(i)).map(is_virtual);
+        side(before) != side(Some(at))
+    }
+
+    /// The worst triangle when the middle of the ring has moved onto neighbor number `at`.
+    fn quality_after(&self, ring: &Ring, at: usize) -> f64 {
+        let target = ring.vertices[at];
+        (ring.pairs())
+            .filter(|pair| !pair.contains(&target))
+            .map(|[a, b]| self.quality(target, a, b))
+            .fold(1.0, f64::min)
+    }
+
+    /// 1 for an equilateral triangle, 0 for one without area: 4√3 · area / Σ edge².
+    fn quality(&self, a: u32, b: u32, c: u32) -> f64 {
+        let [a, b, c] = [a, b, c].map(|v| self.at(v));
+        let squares: f64 = [(a, b), (b, c), (c, a)]
+            .map(|(p, q)| dot(sub(p, q), sub(p, q)))
+            .iter()
+            .sum();
+        let doubled_area = norm(area_vector(a, b, c));
+        2.0 * 3_f64.sqrt() * doubled_area / squares.max(f64::MIN_POSITIVE)
+    }
+}

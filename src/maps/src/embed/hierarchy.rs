@@ -1,0 +1,227 @@
+//! Coarse to fine: a map that cannot fail, and for large disks most of the way to the optimum.
+//!
+//! Vertices are collapsed level by level until Tutte's map of what is left is safe, then put back in reverse order. Each
+//! goes into the kernel of its ring, which is never empty: the neighbor it had been collapsed onto sees the whole ring.
+//! What could still fail is floating point, when rings degenerate; so every level is optimized before the next finer one
+//! is filled in, which keeps rings wide, and is cheap because levels shrink geometrically. The finest level has then
+//! little left to do.
+//!
+//! From: the hierarchy of progressive embeddings (Shen, Jiang, Zorin, Panozzo 2019) turned around: all vertices, not
+//! only those in bad triangles, and collapses in space rather than in the plane.
+
+use super::closed::ClosedDisk;
+use super::decimate::{Care, Collapses, Decimation};
+use super::positive::first_bad_triangle;
+use super::reinsert::{Shape, reinsert};
+use super::rest::{Least, rest_shape};
+use super::star::Corners;
+use super::sweep::sweep;
+use super::tutte::tutte;
+use crate::mesh::{Disk, UsedVertices};
+use unwrapd_method::barrier::{Barrier, MapEnergy, map_energy};
+use unwrapd_method::energy::{EnergyKind, RestShape, Term};
+use unwrapd_method::solver::{
+    Control, Iterate, Objective, Projection, Settings, best_scale, minimize,
+};
+
+/// Symmetric Dirichlet alone: it knows no flipped triangle, and it drives every ring back into shape, so that rings stay
+/// wide enough for floating point.
+const ROUNDING: MapEnergy = MapEnergy {
+    energy: EnergyKind::SymmetricDirichlet,
+    barrier: Barrier::NONE,
+};
+
+/// Vertices of the coarsest level, if shape allows: so few that Tutte's map of them is not far from the optimum even
+/// for a surface with long arms.
+const COARSEST: usize = 60;
+
+/// Vertices of the coarsest level when only topology counts: Tutte's map of a handful of vertices is exact enough.
+const FEWEST: usize = 8;
+
+/// A level keeps this share of its vertices.
+const SHARE: f64 = 0.3;
+
+/// Weight of the triangles that fill holes, as share of what their area would weigh: they keep holes open, no more.
+const VIRTUAL_WEIGHT: f64 = 1e-3;
+
+/// Sweeps after the vertices of a level are back. Four halve the factorizations on the finest level against one or two.
+const SWEEPS: usize = 4;
+
+/// Newton steps times vertices on a level, at most, but never fewer than [`LEAST_STEPS`] steps: small levels have all
+/// the steps they want, large ones the few they need when the coarser ones are good.
+const STEP_BUDGET: usize = 200_000;
+
+/// See [`STEP_BUDGET`].
+const LEAST_STEPS: usize = 5;
+
+/// A level is left when a Newton step promises less than this share of the energy. With 1e-3 levels in which a few
+/// stretched triangles make up the whole energy were left a millionfold above their optimum.
+const STEP_GAIN: f64 = 1e-4;
+
+/// Energy per weight of an optimized coarsest level from which there is no way back: what Tutte squeezed to nothing, as at
+/// the end of a tube behind a boundary of three vertices, Newton's method does not widen again in floating point. Good
+/// ones have 2 to 30; the one known bad one has 1e13.
+const FAR: f64 = 1e3;
+
+/// A mesh before some of its vertices were collapsed.
+struct Level {
+    triangles: Vec<(usize, [u32; 3])>,
+    collapses: Collapses,
+}
+
+/// A map of the closed disk, positive in every triangle, exactly, and near an optimum of the symmetric Dirichlet energy.
+///
+/// `positions` in the unit of the rest shapes. `None` if floating point failed even so; no mesh is known that does it.
+pub(super) fn coarse_to_fine(
+    closed: &ClosedDisk,
+    positions: &[[f64; 3]],
+    least: Least,
+) -> Option<Vec<[f64; 2]>> {
+    let shape = Shape { positions, least };
+    let mut decimation = Decimation::new(positions, &closed.triangles, closed.n_real);
+    let mut levels = Vec::new();
+    coarsen(&mut decimation, COARSEST, Care::Shape, &mut levels);
+    let mut coarsest = coarsest_map(closed, &decimation, &shape);
+    if coarsest.as_ref().is_none_or(|map| map.mean_energy >= FAR) {
+        coarsen(&mut decimation, FEWEST, Care::Topology, &mut levels);
+        coarsest = coarsest_map(closed, &decimation, &shape);
+    }
+    let mut uv = coarsest?.uv;
+    while let Some(level) = levels.pop() {
+        reinsert(&level.collapses, &shape, &mut uv).ok()?;
+        let system = System::new(&level.triangles, closed.n_real, &shape);
+        system.sweep(&mut uv);
+        if !levels.is_empty() {
+            system.minimize(&mut uv);
+        }
+    }
+    Some(uv)
+}
+
+/// Adds levels until `goal` vertices are left or no more can go.
+fn coarsen(decimation: &mut Decimation, goal: usize, care: Care, levels: &mut Vec<Level>) {
+    loop {
+        let n = decimation.triangulation.vertices().len();
+        let next = ((SHARE * n as f64) as usize).max(goal);
+        if next >= n {
+            return;
+        }
+        let triangles = decimation.triangulation.triangles().collect();
+        let collapses = decimation.coarsen(next, care);
+        if collapses.list.is_empty() {
+            return;
+        }
+        levels.push(Level {
+            triangles,
+            collapses,
+        });
+    }
+}
+
+/// A map of the vertices that are left; positions of collapsed ones mean nothing yet.
+struct CoarsestMap {
+    uv: Vec<[f64; 2]>,
+    mean_energy: f64,
+}
+
+/// Tutte's map of what is left, optimized.
+fn coarsest_map(
+    closed: &ClosedDisk,
+    decimation: &Decimation,
+    shape: &Shape,
+) -> Option<CoarsestMap> {
+    let triangles: Vec<_> = decimation.triangulation.triangles().collect();
+    let system = System::new(&triangles, closed.n_real, shape);
+    let disk = Disk::new(system.vertices.len(), system.triangles.clone()).ok()?;
+    let positions: Vec<_> = (system.vertices.iter())
+        .map(|&v| shape.positions[v as usize])
+        .collect();
+    let mut coarse = tutte(&ClosedDisk::new(&disk, &positions))?;
+    let scale = best_scale(&|x| system.term.value(x), coarse.as_flattened());
+    for p in &mut coarse {
+        *p = p.map(|x| x * scale);
+    }
+    let mut uv = vec![[0.0; 2]; shape.positions.len()];
+    keep(
+        &system.vertices,
+        &system.triangles,
+        coarse.as_flattened(),
+        &mut uv,
+    );
+    let mean_energy = system.minimize(&mut uv);
+    Some(CoarsestMap { uv, mean_energy })
+}
+
+/// The energy of one level, its vertices numbered without gaps.
+struct System {
+    vertices: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    term: Box<dyn Term>,
+    corners: Vec<Corners>,
+}
+
+impl System {
+    fn new(level: &[(usize, [u32; 3])], n_real: usize, shape: &Shape) -> Self {
+        let mut triangles: Vec<[u32; 3]> = level.iter().map(|(_, t)| *t).collect();
+        let vertices = UsedVertices::new(triangles.iter().flatten().copied());
+        vertices.renumber(triangles.as_flattened_mut());
+        let rest: Vec<RestShape> = (level.iter())
+            .map(|&(original, t)| {
+                let rest = rest_shape(t.map(|v| shape.positions[v as usize]), shape.least);
+                let factor = if original < n_real {
+                    1.0
+                } else {
+                    VIRTUAL_WEIGHT
+                };
+                RestShape {
+                    weight: factor * rest.weight,
+                    ..rest
+                }
+            })
+            .collect();
+        Self {
+            term: map_energy(&triangles, &rest, &ROUNDING),
+            corners: rest.iter().map(Corners::new).collect(),
+            vertices: vertices.into_vec(),
+            triangles,
+        }
+    }
+
+    fn gather(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        self.vertices.iter().map(|&v| uv[v as usize]).collect()
+    }
+
+    /// What the exact check does not confirm is not taken, here as in [`minimize`](Self::minimize).
+    fn sweep(&self, uv: &mut [[f64; 2]]) {
+        let mut x = self.gather(uv);
+        sweep(&self.triangles, &self.corners, SWEEPS, &mut x);
+        keep(&self.vertices, &self.triangles, x.as_flattened(), uv);
+    }
+
+    /// Returns the energy per weight that it reached.
+    fn minimize(self, uv: &mut [[f64; 2]]) -> f64 {
+        let mut x = self.gather(uv).into_flattened();
+        let weight = self.term.scale();
+        let settings = Settings {
+            max_iterations: (STEP_BUDGET / self.vertices.len()).max(LEAST_STEPS),
+            tolerance: STEP_GAIN,
+            projection: Projection::PositiveSemidefinite,
+        };
+        let mut objective = Objective::new(self.vertices.len(), self.term);
+        let summary = minimize(&mut objective, &mut x, &settings, &|_: &Iterate| {
+            Control::Continue
+        });
+        keep(&self.vertices, &self.triangles, &x, uv);
+        summary.energy_last / weight
+    }
+}
+
+/// Takes over positions if they are exactly positive.
+fn keep(vertices: &[u32], triangles: &[[u32; 3]], x: &[f64], uv: &mut [[f64; 2]]) {
+    let points: &[[f64; 2]] = x.as_chunks().0;
+    if first_bad_triangle(triangles, points).is_none() {
+        for (&v, &point) in vertices.iter().zip(points) {
+            uv[v as usize] = point;
+        }
+    }
+}

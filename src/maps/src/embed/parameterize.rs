@@ -1,0 +1,167 @@
+//! From a disk in space to its optimized map.
+
+use super::closed::outer_loop;
+use super::flat::flat_map;
+use super::options::{Embedding, Options};
+use super::pins::{Pins, distance, far_pair};
+use super::positive::first_bad_triangle;
+use super::problem::Problem;
+use super::rest::rest_shapes;
+use super::start::{hierarchical_start_at, start};
+use super::unfolded::unfolded_map;
+use crate::mesh::Disk;
+use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::solver::{Iterate, Objective, Status, Watch};
+
+/// From this many triangles on the start is found coarse to fine, which costs less than the Newton steps it saves.
+const LARGE: usize = 1_000;
+
+/// Energy per triangle of a Tutte map that is too far from any optimum. Ordinary disks start at 1 to 40, those with long
+/// arms at 1e4 to 1e10: from there Newton's method takes hundreds of steps, or ends a millionfold above the optimum.
+const FAR: f64 = 100.0;
+
+/// A triangle of the start is flipped or empty, so there is no way from it that never flips.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InvalidStart {
+    /// The number of positions is not the number of vertices.
+    #[error("there are {0} positions for {1} vertices")]
+    Length(usize, usize),
+    /// This triangle is not positive.
+    #[error("triangle {0} of the start is flipped or degenerate")]
+    NotPositive(usize),
+}
+
+/// Maps a disk into the plane: a valid start, then the minimum of the energy that Newton's method finds from it.
+///
+/// `positions` holds one finite position per vertex of the disk.
+pub fn parameterize(
+    disk: &Disk,
+    positions: &[[f64; 3]],
+    options: &Options,
+    watch: &dyn Watch,
+) -> Embedding {
+    let problem = Problem {
+        disk,
+        rest: rest_shapes(positions, &disk.triangles),
+        options,
+    };
+    match options.pins {
+        Pins::None => {
+            let (start, objective) = first_map_and_objective(&problem, positions);
+            problem.minimized(objective, start, &[], watch)
+        }
+        Pins::Two => {
+            let (start, pinned) = pinned_map(&problem, positions, watch);
+            problem.minimized(problem.objective(&start), start, &pinned, watch)
+        }
+    }
+}
+
+/// The first map, and what is minimized from it.
+fn first_map_and_objective(
+    problem: &Problem,
+    positions: &[[f64; 3]],
+) -> (Vec<[f64; 2]>, Objective) {
+    if problem.disk.triangles.len() >= LARGE && rayon::current_num_threads() > 1 {
+        return problem.objective_beside(|| first_map(problem, positions));
+    }
+    let start = first_map(problem, positions);
+    let objective = problem.objective(&start);
+    (start, objective)
+}
+
+/// The disk as it lies where it is flat, or unrolled where it can be; else, at its best size, Tutte's map where that is near enough, or the one found coarse to
+/// fine.
+fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
+    let isometric =
+        flat_map(problem.disk, positions).or_else(|| unfolded_map(problem.disk, positions));
+    if let Some(uv) = isometric {
+        let uv = problem.scaled(&uv, 1.0 / problem.rest.scale);
+        if problem.mean_energy(&uv) <= FAR {
+            return uv;
+        }
+    }
+    let coarse_to_fine = || {
+        hierarchical_start_at(problem.disk, positions, &problem.rest)
+            .map(|uv| problem.at_best_size(&uv))
+    };
+    if problem.disk.triangles.len() >= LARGE
+        && let Some(uv) = coarse_to_fine()
+    {
+        return uv;
+    }
+    let uv = problem.at_best_size(&start(problem.disk, positions));
+    let energy = problem.mean_energy(&uv);
+    if energy <= FAR {
+        return uv;
+    }
+    coarse_to_fine()
+        .filter(|other| problem.mean_energy(other) < energy)
+        .unwrap_or(uv)
+}
+
+/// Tutte's map and its two pins, at the size at which they are as far apart as in a nearly isometric map; that map itself where
+/// Tutte's is too far from any optimum, or the watcher wants to end.
+fn pinned_map(
+    problem: &Problem,
+    positions: &[[f64; 3]],
+    watch: &dyn Watch,
+) -> (Vec<[f64; 2]>, [u32; 2]) {
+    let boundary = &problem.disk.loops[outer_loop(problem.disk, positions)];
+    let tutte = problem.at_rest_size(&start(problem.disk, positions));
+    let Some((near, is_hurried)) = nearly_isometric(problem, positions, watch) else {
+        let pins = far_pair(boundary, &tutte);
+        return (tutte, pins);
+    };
+    let pins = far_pair(boundary, &near);
+    let uv = problem.scaled(&tutte, distance(&near, pins) / distance(&tutte, pins));
+    let energy = problem.mean_energy(&uv);
+    if !is_hurried && (energy <= FAR || problem.mean_energy(&near) >= energy) {
+        (uv, pins)
+    } else {
+        (near, pins)
+    }
+}
+
+/// The optimum without pins of an energy that knows sizes, so that pins taken from it cost nothing; for one that does not, the map
+/// found coarse to fine. And whether the watcher wants to end.
+fn nearly_isometric(
+    problem: &Problem,
+    positions: &[[f64; 3]],
+    watch: &dyn Watch,
+) -> Option<(Vec<[f64; 2]>, bool)> {
+    if problem.options.energy == EnergyKind::Lscm {
+        return hierarchical_start_at(problem.disk, positions, &problem.rest)
+            .map(|near| (near, false));
+    }
+    let unshown = |iterate: &Iterate| watch.iterate(iterate);
+    let (start, objective) = first_map_and_objective(problem, positions);
+    let (near, summary) = problem.minimum(objective, start, &[], &unshown);
+    Some((near, summary.status == Status::Stopped))
+}
+
+/// Minimizes from a given map, in any unit: it is scaled to the best size first. [`Options::pins`] are left out of account.
+///
+/// # Errors
+/// If the start is not positive in every triangle; checked exactly.
+pub fn optimize(
+    disk: &Disk,
+    positions: &[[f64; 3]],
+    start: &[[f64; 2]],
+    options: &Options,
+    watch: &dyn Watch,
+) -> Result<Embedding, InvalidStart> {
+    if start.len() != disk.n_vertices {
+        return Err(InvalidStart::Length(start.len(), disk.n_vertices));
+    }
+    if let Some(triangle) = first_bad_triangle(&disk.triangles, start) {
+        return Err(InvalidStart::NotPositive(triangle));
+    }
+    let problem = Problem {
+        disk,
+        rest: rest_shapes(positions, &disk.triangles),
+        options,
+    };
+    let start = problem.at_best_size(start);
+    Ok(problem.minimized(problem.objective(&start), start, &[], watch))
+}

@@ -1,0 +1,156 @@
+//! What a UV map is worth: size, seams, validity, distortion, texel density, packing, overlap, gaps between charts.
+//!
+//! [`measure`] judges positions, triangles and corner UVs, wherever they come from; it is what the reports are made of. Keys and
+//! definitions are those of an independent script in NumPy (`uvmetrics`), so that the figures can be checked against it:
+//!
+//! - Positions are welded by equality; charts, seams and winding are those of [`certificate`](crate::certificate).
+//! - With a texture that is not square u is multiplied by its width over its height at first: lengths are those of texels.
+//! - UVs are scaled by s = √(A₃d / A_uv) before distortion is taken, so that total areas agree; σ₁ ≥ σ₂ are the singular values of
+//!   a face's scaled map from the surface to UV. Means are weighted by surface area, percentiles too.
+//! - Where faces have weights, the densities intended, the surface is so much larger for distortion and density; areas, means and
+//!   seams stay those of the surface.
+//! - A face is degenerate in 3D when its area is 0, below 10⁻⁹ of its longest edge squared, or below 10⁻¹⁴ of the bounding box
+//!   diagonal squared. Such faces and those of zero UV area take no part in distortion, but are counted beside it, so
+//!   that a collapse cannot hide.
+//! - Orientation and overlap are exact; everything else is a sum of f64. Figures that do not exist for a mesh are `None`.
+
+mod coverage;
+mod density;
+mod distortion;
+mod faces;
+mod gaps;
+mod overlaps;
+mod packing;
+mod pages;
+mod quantile;
+mod seams;
+mod size;
+mod validity;
+
+pub use density::Density;
+pub use distortion::{Distortion, FaceDistortion, face_distortion};
+pub use gaps::Gaps;
+pub use overlaps::Overlaps;
+pub use packing::Packing;
+pub use pages::Page;
+pub use seams::Seams;
+pub use size::Size;
+pub use validity::Validity;
+
+use crate::certificate::{Overlap, UvTopology};
+use crate::mesh::{CornerUvs, VAxis};
+use faces::FaceMeasures;
+use serde::Serialize;
+
+/// What to measure.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct MeasureOptions<'a> {
+    /// Side of the raster that packing and `overlap_frac` are counted on, in texels; at most [`MeasureOptions::MAX_RASTER`].
+    pub raster_texels: u32,
+    /// Whether overlapping pairs of faces are counted.
+    pub overlap: Overlap,
+    /// Width of the texture over its height: u is multiplied by it, so that all lengths are of its texels.
+    pub aspect: f64,
+    /// For each face the density intended: the surface is enlarged by it before it is compared with UVs. The same for all if absent.
+    pub weights: Option<&'a [f64]>,
+}
+
+impl MeasureOptions<'_> {
+    /// The greatest raster; beyond it a scan line's products would not fit an i64.
+    pub const MAX_RASTER: u32 = 1 << 14;
+}
+
+impl Default for MeasureOptions<'_> {
+    fn default() -> Self {
+        MeasureOptions {
+            raster_texels: 4096,
+            overlap: Overlap::Test,
+            aspect: 1.0,
+            weights: None,
+        }
+    }
+}
+
+/// All figures of one UV map; serialized as one flat object.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Measures {
+    /// Counts, areas and extents.
+    #[serde(flatten)]
+    pub size: Size,
+    /// Boundary, seams and charts.
+    #[serde(flatten)]
+    pub seams: Seams,
+    /// Flips, mirrored charts and faces without UV area.
+    #[serde(flatten)]
+    pub validity: Validity,
+    /// How far the map is from an isometry.
+    #[serde(flatten)]
+    pub distortion: Distortion,
+    /// Texels per length, chart against chart.
+    #[serde(flatten)]
+    pub density: Density,
+    /// Coverage of the texture.
+    #[serde(flatten)]
+    pub packing: Packing,
+    /// Overlapping faces.
+    #[serde(flatten)]
+    pub overlaps: Overlaps,
+    /// Distances between charts.
+    #[serde(flatten)]
+    pub gaps: Gaps,
+    /// The pages that hold charts: one where UVs lie in the unit square.
+    pub pages: Vec<Page>,
+    /// No face is flipped, degenerate, collapsed or without finite UVs.
+    pub locally_injective: bool,
+    /// Locally injective, and no faces overlap by more than rounding; null when overlaps were not searched.
+    pub bijective: Option<bool>,
+}
+
+/// Measures the UVs of a mesh: `uvs[f][c]` belongs to `positions[triangles[f][c]]`.
+///
+/// Never fails: faces with a number that is not finite, or an index out of range, are counted in `uv_nonfinite_faces` and measured as if
+/// their UVs were 0.
+pub fn measure(
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    uvs: &[CornerUvs],
+    v_axis: VAxis,
+    options: &MeasureOptions,
+) -> Measures {
+    let aspect = options.aspect;
+    let uvs: Vec<CornerUvs> = (uvs.iter())
+        .map(|face| face.map(|[u, v]| [u * aspect, v]))
+        .collect();
+    let topology = UvTopology::new(positions, triangles, &uvs);
+    let faces = FaceMeasures::new(&topology, options.weights);
+    let size = Size::new(triangles, &topology, &faces, aspect);
+    let validity = Validity::new(&topology, &faces, v_axis);
+    let overlaps = Overlaps::new(&topology, options.overlap);
+    let locally_injective = validity.flipped == 0
+        && validity.uv_degenerate == 0
+        && validity.uv_collapsed == 0
+        && size.uv_nonfinite_faces == 0;
+    Measures {
+        seams: Seams::new(&topology, &faces),
+        distortion: Distortion::new(&topology, &faces),
+        density: Density::new(&topology, &faces),
+        packing: Packing::new(
+            &topology,
+            options.raster_texels.clamp(1, MeasureOptions::MAX_RASTER),
+            aspect,
+        ),
+        gaps: Gaps::new(&topology, &faces, aspect),
+        pages: pages::pages(&topology, &faces, aspect, |v| match v_axis {
+            VAxis::Up => v,
+            VAxis::Down => 1.0 - v,
+        }),
+        bijective: overlaps
+            .overlap_pairs
+            .map(|pairs| locally_injective && pairs == 0),
+        locally_injective,
+        size,
+        validity,
+        overlaps,
+    }
+}

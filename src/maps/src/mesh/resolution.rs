@@ -1,0 +1,145 @@
+//! How many texels a texture has.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// Texels of a texture along u and along v.
+///
+/// Written as a number for a square, else as `2048x1024`. One side is the other times a power of two up to
+/// [`Resolution::MOST_ELONGATED`], so that distances on the grid of UVs are whole numbers in texels too.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(try_from = "Notation", into = "Notation")]
+pub struct Resolution {
+    /// Texels along u.
+    pub width: u32,
+    /// Texels along v.
+    pub height: u32,
+}
+
+impl Resolution {
+    /// The longer side over the shorter at most.
+    pub const MOST_ELONGATED: u32 = 16;
+
+    /// A square of so many texels along each side.
+    pub const fn square(side: u32) -> Self {
+        Self {
+            width: side,
+            height: side,
+        }
+    }
+
+    /// Whether one side is the other times a power of two that is not too large.
+    pub fn is_regular(self) -> bool {
+        let ratio = self.longer() / self.shorter().max(1);
+        ratio * self.shorter() == self.longer()
+            && ratio.is_power_of_two()
+            && ratio <= Self::MOST_ELONGATED
+    }
+
+    /// Texels along the longer side.
+    pub fn longer(self) -> u32 {
+        self.width.max(self.height)
+    }
+
+    /// Texels along the shorter side.
+    pub fn shorter(self) -> u32 {
+        self.width.min(self.height)
+    }
+
+    /// For u and v how often the longer side is halved to give the side along it; of a regular one.
+    pub fn halvings(self) -> [u32; 2] {
+        [self.width, self.height].map(|side| (self.longer() / side.max(1)).max(1).ilog2())
+    }
+
+    /// Both sides over the longer one; powers of two of a regular one.
+    pub fn sides(self) -> [f64; 2] {
+        [self.width, self.height].map(|side| f64::from(side) / f64::from(self.longer()))
+    }
+
+    /// Width over height.
+    pub fn aspect(self) -> f64 {
+        f64::from(self.width) / f64::from(self.height)
+    }
+}
+
+impl fmt::Display for Resolution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.width == self.height {
+            write!(f, "{}", self.width)
+        } else {
+            write!(f, "{}x{}", self.width, self.height)
+        }
+    }
+}
+
+/// The sides of a square, or both with an `x` between.
+impl FromStr for Resolution {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let side = |text: &str| {
+            let wrong = |_| format!("{text:?} is not a texture size such as 1024 or 2048x1024");
+            text.parse::<u32>().map_err(wrong)
+        };
+        match text.split_once('x') {
+            Some((width, height)) => Ok(Self {
+                width: side(width)?,
+                height: side(height)?,
+            }),
+            None => side(text).map(Self::square),
+        }
+    }
+}
+
+/// As it stands in JSON.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum Notation {
+    Side(u32),
+    Sides(String),
+}
+
+impl TryFrom<Notation> for Resolution {
+    type Error = String;
+
+    fn try_from(notation: Notation) -> Result<Self, String> {
+        match notation {
+            Notation::Side(side) => Ok(Self::square(side)),
+            Notation::Sides(text) => text.parse(),
+        }
+    }
+}
+
+impl From<Resolution> for Notation {
+    fn from(resolution: Resolution) -> Self {
+        if resolution.width == resolution.height {
+            Self::Side(resolution.width)
+        } else {
+            Self::Sides(resolution.to_string())
+        }
+    }
+}
+
+#[cfg(feature = "schema")]
+impl utoipa::PartialSchema for Resolution {
+    fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::Schema> {
+        use utoipa::openapi::schema::{ObjectBuilder, OneOfBuilder, Type};
+        let side = ObjectBuilder::new()
+            .schema_type(Type::Integer)
+            .minimum(Some(16))
+            .maximum(Some(65_536));
+        let sides = ObjectBuilder::new()
+            .schema_type(Type::String)
+            .pattern(Some("^[0-9]{2,5}x[0-9]{2,5}$"));
+        let doc = "Texels along the sides of a texture: of a square, or `2048x1024` along u and v. One side is the other times a \
+                   power of two up to 16.";
+        (OneOfBuilder::new().item(side).item(sides))
+            .description(Some(doc))
+            .into()
+    }
+}
+
+#[cfg(feature = "schema")]
+impl utoipa::ToSchema for Resolution {}

@@ -1,0 +1,52 @@
+//! Triangles that overlap.
+
+use super::box_index::{BoxIndex, Visit, search_budget};
+use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
+use unwrapd_method::numerics::predicates::orient2d_sign;
+
+type Triangle = [[f64; 2]; 3];
+
+/// Visits every pair of counter-clockwise triangles that is asked for and whose interiors have a
+/// common point, the smaller number first; where they lie in heaps, as many as [`search_budget`]
+/// allows.
+pub fn overlapping_pairs(
+    triangles: &[Triangle],
+    is_asked: impl Fn([u32; 2]) -> bool,
+    mut visit: impl FnMut([u32; 2]),
+) -> Visit {
+    let boxes: Vec<Bounds> = triangles.iter().map(|t| bounds_of(t)).collect();
+    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        let pair = [i.min(j), i.max(j)];
+        if is_asked(pair) && interiors_intersect(&triangles[i as usize], &triangles[j as usize]) {
+            visit(pair);
+        }
+    })
+}
+
+/// Whether all triangles are counter-clockwise and no two have an interior point in common,
+/// exactly; false also where they lie in such heaps that it is not found out.
+pub fn are_disjoint(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> bool {
+    let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
+    let triangles: Vec<Triangle> = triangles.iter().map(corners).collect();
+    let is_positive = |&[a, b, c]: &Triangle| orient2d_sign(a, b, c) > 0;
+    if !triangles.iter().all(is_positive) {
+        return false;
+    }
+    let mut is_any = false;
+    let visit = overlapping_pairs(&triangles, |_| true, |_| is_any = true);
+    !is_any && visit == Visit::Complete
+}
+
+/// Whether two counter-clockwise triangles have interior points in common, exactly: they have none
+/// if and only if the line of an edge of one has the other on its right or on itself.
+pub fn interiors_intersect(a: &Triangle, b: &Triangle) -> bool {
+    let is_beyond = |[p, q]: [[f64; 2]; 2], t: &Triangle| {
+        t.iter().all(|&corner| orient2d_sign(p, q, corner) <= 0)
+    };
+    let is_apart = |[a, b, c]: Triangle, t: &Triangle| {
+        [[a, b], [b, c], [c, a]]
+            .into_iter()
+            .any(|edge| is_beyond(edge, t))
+    };
+    !is_apart(*a, b) && !is_apart(*b, a)
+}

@@ -1,0 +1,168 @@
+//! Densities by formula.
+//!
+//! A researcher's own energy is typed as text, or is a closure on numbers that carry their derivatives ([`Jet`]). Both are
+//! a [`Density`], and all that follows from one is shared with the built-in energies: ψ, ∂ψ and ∂²ψ in σ are all that a
+//! formula adds. It is checked once, when it is made ([`FormulaError`]).
+
+mod error;
+mod expression;
+mod jet;
+mod own;
+mod parser;
+
+pub use error::FormulaError;
+pub use jet::Jet;
+pub use own::OwnEnergy;
+
+use std::sync::Arc;
+
+use super::Density;
+use crate::numerics::square::Matrix;
+
+/// How far from the identity a formula is asked whether it is less there.
+const NEAR: f64 = 1e-2;
+
+/// Singular values at which ψ must be symmetric and may be finite.
+const FAR: [f64; 3] = [1.7, 0.9, 0.6];
+
+type Function<const D: usize> = dyn Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync;
+
+/// A density of one's own.
+///
+/// ```
+/// use unwrapd_method::energy::{Density, Formula};
+///
+/// let arap = Formula::<2>::parse("((s1 - 1)^2 + (s2 - 1)^2)/2")?;
+/// let same = Formula::new(|&[a, b]| ((a - 1.0).powf(2.0) + (b - 1.0).powf(2.0)) * 0.5)?;
+/// assert_eq!(arap.value(&[2.0, 1.0]), 0.5);
+/// assert_eq!(same.gradient(&[2.0, 1.0]), [1.0, 0.0]);
+/// # Ok::<(), unwrapd_method::energy::FormulaError>(())
+/// ```
+/// ψ is what the formula says of σ₁, …, σ_D, the last of them signed. Minimum at the identity, in its neighborhood.
+/// Domain: where the formula is finite, +∞ outside, and only det J > 0 where it or a derivative is not finite at σ_D = 0 or
+/// below. Clones share the function, and only they are equal. Tests: `formula::*`.
+#[derive(Clone)]
+pub struct Formula<const D: usize> {
+    function: Arc<Function<D>>,
+    floor: f64,
+}
+
+impl<const D: usize> PartialEq for Formula<D> {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.function, &other.function)
+    }
+}
+
+impl<const D: usize> Formula<D> {
+    /// The energy that `text` says: numbers, `s1` to `sD`, `+ - * / ^ **`, brackets, `sqrt`, `exp`, `log` (natural) and
+    /// `cosh`.
+    pub fn parse(text: &str) -> Result<Self, FormulaError> {
+        let expression = parser::parsed::<D>(text)?;
+        Self::new(move |sigma| expression.at(sigma))
+    }
+
+    /// The energy that a closure says.
+    pub fn new(
+        function: impl Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync + 'static,
+    ) -> Result<Self, FormulaError> {
+        let mut formula = Self {
+            function: Arc::new(function),
+            floor: f64::NEG_INFINITY,
+        };
+        formula.check()?;
+        if !formula.is_finite_inverted() {
+            formula.floor = 0.0;
+        }
+        Ok(formula)
+    }
+
+    fn at(&self, sigma: &[f64; D]) -> Jet<D> {
+        (self.function)(&Jet::variables(sigma))
+    }
+
+    /// Is ψ an energy of deformation, as far as can be told from where it is asked?
+    fn check(&self) -> Result<(), FormulaError> {
+        let rest = self.at(&[1.0; D]);
+        if !rest.value.is_finite() {
+            return Err(FormulaError::NotFinite { value: rest.value });
+        }
+        if !rest.is_smooth() {
+            return Err(FormulaError::NotSmooth);
+        }
+        if !self.is_symmetric() {
+            return Err(FormulaError::NotSymmetric);
+        }
+        // A symmetric quadratic form has the eigenvectors (1, …, 1) and all that are normal to it: its sign is known from
+        // singular values that are all moved alike or one against the others.
+        let size = rest.value.abs() + 1.0;
+        for ways in 0..3_usize.pow(D as u32) {
+            let step = |i: usize| [0.0, NEAR, -NEAR][ways / 3_usize.pow(i as u32) % 3];
+            let sigma: [f64; D] = std::array::from_fn(|i| 1.0 + step(i));
+            let slope: f64 = (0..D).map(|i| rest.gradient[i] * step(i)).sum();
+            let tolerance = 1e-12 * size;
+            if self.value(&sigma) < rest.value - tolerance || slope < -tolerance {
+                let at = sigma.to_vec();
+                return Err(FormulaError::NotMinimal { at });
+            }
+        }
+        Ok(())
+    }
+
+    /// Is ψ the same for every order of unequal singular values? Two exchanges make every other.
+    fn is_symmetric(&self) -> bool {
+        let sigma: [f64; D] = std::array::from_fn(|i| FAR[i]);
+        let value = self.value(&sigma);
+        let exchanged = |mut sigma: [f64; D], i: usize| {
+            sigma.swap(0, i);
+            self.value(&sigma)
+        };
+        (1..D).all(|i| {
+            let other = exchanged(sigma, i);
+            other == value || (other - value).abs() <= 1e-12 * value.abs().max(1.0)
+        })
+    }
+
+    /// Are ψ and its derivatives finite where an element is flat and where it is inverted?
+    fn is_finite_inverted(&self) -> bool {
+        [0.0, -0.3, -0.6].iter().all(|&last| {
+            let mut sigma: [f64; D] = std::array::from_fn(|i| FAR[i]);
+            sigma[D - 1] = last;
+            self.at(&sigma).is_finite()
+        })
+    }
+}
+
+impl<const D: usize> Density<D> for Formula<D> {
+    fn floor(&self) -> f64 {
+        self.floor
+    }
+
+    fn value(&self, sigma: &[f64; D]) -> f64 {
+        if self.floor == 0.0 && sigma[D - 1] <= 0.0 {
+            return f64::INFINITY;
+        }
+        let value = self.at(sigma).value;
+        if value.is_nan() { f64::INFINITY } else { value }
+    }
+
+    fn gradient(&self, sigma: &[f64; D]) -> [f64; D] {
+        self.at(sigma).gradient
+    }
+
+    fn hessian(&self, sigma: &[f64; D]) -> Matrix<D> {
+        self.at(sigma).hessian
+    }
+
+    fn derivatives(&self, sigma: &[f64; D]) -> ([f64; D], Matrix<D>) {
+        let psi = self.at(sigma);
+        (psi.gradient, psi.hessian)
+    }
+}
+
+impl<const D: usize> std::fmt::Debug for Formula<D> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Formula")
+            .field("floor", &self.floor)
+            .finish_non_exhaustive()
+    }
+}

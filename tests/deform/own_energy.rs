@@ -1,0 +1,115 @@
+//! Formulas where the name of an energy is taken.
+
+use unwrapd_deform::{Body, DeformationEnergy, Model, Problem, ProblemError, Solution};
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::energy::{Formula, FormulaError, OwnEnergy};
+use unwrapd_method::solver::{Control, Iterate, Settings};
+
+use crate::pulled::{bent_strip, strip, twisted_bar};
+use crate::session::{session, settle, vertex};
+
+const ARAP: [&str; 2] = [
+    "((s1 - 1)^2 + (s2 - 1)^2)/2",
+    "((s1 - 1)^2 + (s2 - 1)^2 + (s3 - 1)^2)/2",
+];
+
+fn read(text: &str) -> DeformationEnergy {
+    text.parse().expect(text)
+}
+
+fn solved(problem: &Problem) -> Result<Solution, ProblemError> {
+    problem.solve(&Settings::default(), &|_: &Iterate| Control::Continue)
+}
+
+fn assert_same(a: &Problem, b: &Problem) {
+    let (a, b) = (solved(a).expect("a map"), solved(b).expect("a map"));
+    assert_eq!(a.summary.iterations, b.summary.iterations);
+    for (a, b) in a.x.iter().zip(&b.x) {
+        assert!((a - b).abs() <= 1e-10, "{a} {b}");
+    }
+    assert!((a.worth.energy - b.worth.energy).abs() <= 1e-10 * b.worth.energy);
+}
+
+#[test]
+fn a_formula_is_solved_as_the_energy_that_it_says() {
+    let bent = |energy| bent_strip(1.0, energy, BarrierKind::InverseSpline);
+    assert_same(&bent(read(ARAP[0])), &bent(DeformationEnergy::Arap));
+    let [by_text, by_name] = [read(ARAP[1]), DeformationEnergy::Arap].map(twisted_bar);
+    assert_same(&by_text, &by_name);
+}
+
+#[test]
+fn names_and_formulas_are_written_as_they_are_read() {
+    for text in ["arap", "st-venant-kirchhoff", ARAP[0], ARAP[1]] {
+        let json = serde_json::to_string(text).expect("JSON");
+        let energy: DeformationEnergy = serde_json::from_str(&json).expect(text);
+        assert_eq!(energy, read(text));
+        assert_eq!(serde_json::to_string(&energy).expect("JSON"), json);
+    }
+    assert_eq!(
+        read("symmetric_dirichlet"),
+        DeformationEnergy::SymmetricDirichlet
+    );
+    assert!(serde_json::from_str::<DeformationEnergy>("5").is_err());
+    assert_ne!(read(ARAP[0]), read(ARAP[1]));
+}
+
+#[test]
+fn errors_are_those_of_the_dimension_that_is_meant() {
+    let refused = |text: &str| text.parse::<DeformationEnergy>().expect_err(text);
+    assert_eq!(refused("s1 + s2 +").column(), Some(10));
+    assert_eq!(refused("s1 + s2 + s3 +").column(), Some(15));
+    assert!(matches!(refused("steam"), FormulaError::UnknownName { .. }));
+    assert!(matches!(
+        refused("-(s1*s2*s3 - 1)^2"),
+        FormulaError::NotMinimal { .. }
+    ));
+    let long = format!("{}+{}", ARAP[0], "0".repeat(OwnEnergy::LONGEST));
+    assert!(matches!(refused(&long), FormulaError::TooLong { .. }));
+
+    let of_plane = solved(&twisted_bar(read(ARAP[0])));
+    assert!(matches!(of_plane, Err(ProblemError::Formula(_))));
+    let of_space = solved(&bent_strip(1.0, read(ARAP[1]), BarrierKind::None));
+    assert!(matches!(of_space, Err(ProblemError::Formula(_))));
+}
+
+#[test]
+fn a_session_goes_on_with_a_closure() {
+    let body = Body::from(&strip(6, 1.0));
+    let handles = [vertex(0, &[0.0, 0.0]), vertex(19, &[7.0, 1.0])];
+    let hencky = Formula::<2>::new(|&[a, b]| a.ln() * a.ln() + b.ln() * b.ln()).expect("an energy");
+    let [by_closure, by_text] = [
+        DeformationEnergy::Formula(hencky.into()),
+        read("log(s1)^2 + log(s2)^2"),
+    ]
+    .map(|energy| {
+        let (mut session, _) = session(&body, &handles, &Model::default());
+        let model = Model {
+            energy,
+            ..Model::default()
+        };
+        session.remodel(&model).expect("a model");
+        settle(&mut session);
+        assert_eq!(model, model.clone());
+        session.positions()
+    });
+    for (a, b) in by_closure.iter().zip(&by_text) {
+        assert!((a - b).abs() <= 1e-9, "{a} {b}");
+    }
+}
+
+#[test]
+fn a_closure_cannot_be_written() {
+    let arap = Formula::<3>::new(|s| {
+        s.map(|s| (s - 1.0).powf(2.0))
+            .into_iter()
+            .fold(s[0] * 0.0, |a, b| a + b)
+    });
+    let energy = DeformationEnergy::Formula(arap.expect("an energy").into());
+    assert!(serde_json::to_string(&energy).is_err());
+    assert_eq!(energy.check(), Ok(()));
+    let problem = bent_strip(1.0, energy, BarrierKind::None);
+    let error = solved(&problem).expect_err("for space");
+    let expected = FormulaError::OtherDimension { dim: 2 };
+    assert_eq!(error, ProblemError::Formula(expected));
+}

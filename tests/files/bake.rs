@@ -1,0 +1,324 @@
+//! Textures resampled from one UV map to another.
+
+use unwrapd_files::bake::{
+    Corners, Coverage, Frames, Plane, Sampled, Texture, baked, baked_attribute, side_for,
+};
+use unwrapd_files::document::{Encoding, Wrap};
+use unwrapd_files::picture::Image;
+
+/// A rectangle as two triangles that share the edge between its first and third corner.
+fn rectangle([a, b, c, d]: [[f64; 2]; 4]) -> Vec<Corners> {
+    vec![[a, b, c], [a, c, d]]
+}
+
+/// Corners of a rectangle, the first one lowest in both directions.
+fn corners(low: [f64; 2], high: [f64; 2]) -> [[f64; 2]; 4] {
+    [low, [high[0], low[1]], high, [low[0], high[1]]]
+}
+
+fn unit_square() -> Vec<Corners> {
+    rectangle(corners([0.0; 2], [1.0; 2]))
+}
+
+fn texture(image: &Image, encoding: Encoding, wrap: Wrap) -> Texture<'_> {
+    Texture {
+        image,
+        encoding,
+        wrap: [wrap; 2],
+        is_nearest: false,
+    }
+}
+
+/// The texture for `to` of what `texture` shows on `from`.
+fn resampled(texture: Texture, from: &[Corners], to: &[Corners], side: usize) -> Image {
+    let plane = plane(texture, from);
+    baked(&plane, &Coverage::new(to, side))
+}
+
+fn plane<'a>(texture: Texture<'a>, from: &[Corners]) -> Plane<'a> {
+    let size = texture.size();
+    let sampled = |face: &Corners| {
+        Some(Sampled {
+            texture: 0,
+            corners: face.map(|[u, v]| [u * size[0], v * size[1]]),
+        })
+    };
+    Plane {
+        encoding: texture.encoding,
+        textures: vec![texture],
+        faces: from.iter().map(sampled).collect(),
+        frames: None,
+    }
+}
+
+/// A picture by its texels.
+fn image(width: usize, height: usize, texel: impl Fn(usize, usize) -> [u8; 4]) -> Image {
+    let mut image = Image::transparent(width, height);
+    for (k, pixel) in image.pixels.iter_mut().enumerate() {
+        *pixel = texel(k % width, k / width);
+    }
+    image
+}
+
+/// Each texel another color.
+fn colorful(side: usize) -> Image {
+    image(side, side, |x, y| {
+        [
+            (17 * x + 40 * y) as u8,
+            (91 * x) as u8,
+            (53 * y + x) as u8,
+            (3 * (x % 80)) as u8,
+        ]
+    })
+}
+
+#[test]
+fn the_same_map_and_size_give_the_same_texels() {
+    let source = colorful(32);
+    for encoding in [Encoding::Color, Encoding::Data] {
+        let texture = texture(&source, encoding, Wrap::Clamp);
+        let result = resampled(texture, &unit_square(), &unit_square(), 32);
+        assert_eq!(result, source);
+    }
+}
+
+#[test]
+fn a_quarter_turn_turns_the_texels() {
+    let source = colorful(16);
+    let [a, b, c, d] = corners([0.0; 2], [1.0; 2]);
+    let turned = rectangle([b, c, d, a]);
+    let texture = texture(&source, Encoding::Data, Wrap::Clamp);
+    let result = resampled(texture, &unit_square(), &turned, 16);
+    // What was at (x, y) is at (15 − y, x).
+    for y in 0..16 {
+        for x in 0..16 {
+            let at = x * 16 + (15 - y);
+            assert_eq!(result.pixels[at], source.pixels[y * 16 + x], "{x} {y}");
+        }
+    }
+}
+
+#[test]
+fn a_gradient_stays_itself_on_any_affine_map() {
+    let source = image(64, 64, |x, y| {
+        [(2 * x + 20) as u8, (3 * y + 10) as u8, (x + y) as u8, 255]
+    });
+    let from = [[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.8]];
+    let to = [[0.1, 0.3], [0.7, 0.1], [0.9, 0.6], [0.3, 0.8]];
+    let texture = texture(&source, Encoding::Data, Wrap::Clamp);
+    let result = resampled(texture, &rectangle(from), &rectangle(to), 100);
+    let mut n = 0;
+    for y in 0..100 {
+        for x in 0..100 {
+            // Weights of the two edges at the first corner, which span the parallelogram.
+            let (p, e, f) = (
+                [0, 1].map(|k| ([x, y][k] as f64 + 0.5) / 100.0 - to[0][k]),
+                [0.6, -0.2],
+                [0.2, 0.5],
+            );
+            let area = e[0] * f[1] - e[1] * f[0];
+            let (s, t) = (
+                (p[0] * f[1] - p[1] * f[0]) / area,
+                (e[0] * p[1] - e[1] * p[0]) / area,
+            );
+            if !(0.0..=1.0).contains(&s) || !(0.0..=1.0).contains(&t) {
+                continue;
+            }
+            let texel = [0.2 + 0.6 * s, 0.2 + 0.6 * t].map(|u| u * 64.0 - 0.5);
+            let wanted = [
+                2.0 * texel[0] + 20.0,
+                3.0 * texel[1] + 10.0,
+                texel[0] + texel[1],
+            ];
+            for (c, wanted) in wanted.into_iter().enumerate() {
+                let found = f64::from(result.pixels[y * 100 + x][c]);
+                assert!((found - wanted).abs() <= 0.51, "{x} {y}: {found} {wanted}");
+            }
+            n += 1;
+        }
+    }
+    assert!(n > 2500);
+}
+
+/// Black and white in equal parts are half of the light, 188 in sRGB; as data they are 128.
+#[test]
+fn what_gets_smaller_is_averaged_in_linear_light() {
+    let source = image(64, 64, |x, y| {
+        let value = 255 * ((x + y) % 2) as u8;
+        [value, value, value, 255]
+    });
+    for (encoding, wanted) in [(Encoding::Color, 188), (Encoding::Data, 128)] {
+        let texture = texture(&source, encoding, Wrap::Clamp);
+        let result = resampled(texture, &unit_square(), &unit_square(), 16);
+        for texel in &result.pixels {
+            assert!((i32::from(texel[0]) - wanted).abs() <= 1, "{texel:?}");
+        }
+    }
+}
+
+/// A gray of many repeats, each of which is smaller than a texel.
+#[test]
+fn what_repeats_often_is_averaged_too() {
+    let source = image(64, 64, |x, y| {
+        let value = 255 * u8::from(x / 4 % 2 == y / 4 % 2);
+        [value, value, value, 255]
+    });
+    let from = rectangle(corners([0.0; 2], [40.0; 2]));
+    let texture = texture(&source, Encoding::Color, Wrap::Repeat);
+    let result = resampled(texture, &from, &unit_square(), 16);
+    for texel in &result.pixels {
+        assert!((i32::from(texel[0]) - 188).abs() <= 2, "{texel:?}");
+    }
+}
+
+#[test]
+fn a_border_does_not_bleed_and_its_color_goes_on() {
+    // The left half of the source is red, the right half green; the chart has the red one and is shrunk eightfold.
+    let source = image(256, 256, |x, _| {
+        if x < 128 {
+            [255, 0, 0, 255]
+        } else {
+            [0, 255, 0, 255]
+        }
+    });
+    let from = rectangle(corners([0.0, 0.0], [0.498, 1.0]));
+    let to = rectangle(corners([0.3, 0.3], [0.5, 0.7]));
+    let texture = texture(&source, Encoding::Color, Wrap::Clamp);
+    let result = resampled(texture, &from, &to, 64);
+    assert!(result.pixels.iter().all(|texel| *texel == [255, 0, 0, 255]));
+}
+
+#[test]
+fn a_face_without_a_source_takes_the_colors_around() {
+    let source = image(8, 8, |_, _| [7, 8, 9, 255]);
+    let from = [unit_square(), unit_square()].concat();
+    let to = [
+        rectangle(corners([0.1, 0.1], [0.4, 0.9])),
+        rectangle(corners([0.6, 0.1], [0.9, 0.9])),
+    ]
+    .concat();
+    let mut plane = plane(texture(&source, Encoding::Data, Wrap::Clamp), &from);
+    plane.faces[2] = None;
+    plane.faces[3] = None;
+    let result = baked(&plane, &Coverage::new(&to, 32));
+    assert!(result.pixels.iter().all(|texel| *texel == [7, 8, 9, 255]));
+}
+
+#[test]
+fn what_lies_beyond_a_picture_is_what_its_sampler_says() {
+    let source = image(4, 4, |x, _| [60 * x as u8, 0, 0, 255]);
+    // Two and a half pictures beside each other.
+    let from = rectangle(corners([-0.5, 0.0], [2.0, 1.0]));
+    let row = |wrap: Wrap| -> Vec<u8> {
+        let mut texture = texture(&source, Encoding::Data, wrap);
+        texture.is_nearest = true;
+        let result = resampled(texture, &from, &unit_square(), 10);
+        result.pixels[..10].iter().map(|texel| texel[0]).collect()
+    };
+    assert_eq!(
+        row(Wrap::Repeat),
+        [120, 180, 0, 60, 120, 180, 0, 60, 120, 180]
+    );
+    assert_eq!(row(Wrap::Mirror), [60, 0, 0, 60, 120, 180, 180, 120, 60, 0]);
+    assert_eq!(
+        row(Wrap::Clamp),
+        [0, 0, 0, 60, 120, 180, 180, 180, 180, 180]
+    );
+}
+
+/// A bump along +u of the old map. On the new one, turned by a quarter, +u of the old one is where v falls on the picture, that is up.
+#[test]
+fn directions_turn_with_the_tangents() {
+    let slanted = |x: f64, y: f64| {
+        let z = (1.0 - x * x - y * y).sqrt();
+        let [r, g, b] = [x, y, z].map(|c| (127.5 * c + 127.5).round() as u8);
+        [r, g, b, 255]
+    };
+    let source = image(8, 8, |_, _| slanted(0.6, 0.0));
+    let mut plane = plane(
+        texture(&source, Encoding::Normal, Wrap::Clamp),
+        &unit_square(),
+    );
+    let same = |tangent: [f32; 4]| vec![[tangent; 3]; 2];
+    for (tangent, wanted) in [
+        ([0.0, -1.0, 0.0, 1.0], slanted(0.0, 0.6)),
+        ([-1.0, 0.0, 0.0, -1.0], slanted(-0.6, 0.0)),
+        ([1.0, 0.0, 0.0, 1.0], slanted(0.6, 0.0)),
+    ] {
+        plane.frames = Some(Frames {
+            normals: vec![[[0.0, 0.0, 2.0]; 3]; 2],
+            from: same([1.0, 0.0, 0.0, 1.0]),
+            to: same(tangent),
+        });
+        let result = baked(&plane, &Coverage::new(&unit_square(), 8));
+        for texel in &result.pixels {
+            let apart = (0..3).map(|c| texel[c].abs_diff(wanted[c])).max();
+            assert!(apart <= Some(1), "{tangent:?}: {texel:?} {wanted:?}");
+        }
+    }
+}
+
+/// In a quarter of the square a texture has to be twice as wide to show as much, and powers of two are wanted.
+#[test]
+fn a_texture_has_as_many_texels_as_before() {
+    let source = colorful(300);
+    let texture = texture(&source, Encoding::Color, Wrap::Clamp);
+    let plane = plane(texture, &unit_square());
+    assert_eq!(side_for(&plane, &unit_square()), 512);
+    let quarter = rectangle(corners([0.0, 0.0], [0.5, 0.5]));
+    assert_eq!(side_for(&plane, &quarter), 1024);
+    let tiny = rectangle(corners([0.0, 0.0], [0.001, 0.001]));
+    assert_eq!(side_for(&plane, &tiny), 4096);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_picture() {
+    let source = colorful(50);
+    let ring: Vec<Corners> = (0..200)
+        .map(|k| {
+            let at = |k: f64, radius: f64| {
+                let (sin, cos) = (k * std::f64::consts::TAU / 200.0).sin_cos();
+                [0.5 + radius * cos, 0.5 + radius * sin]
+            };
+            let k = f64::from(k);
+            [at(k, 0.2), at(k + 1.0, 0.45), at(k + 0.5, 0.3)]
+        })
+        .collect();
+    let from: Vec<Corners> = ring.iter().map(|[a, b, c]| [*b, *c, *a]).collect();
+    let in_pool = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("a pool").install(|| {
+            resampled(
+                texture(&source, Encoding::Color, Wrap::Mirror),
+                &from,
+                &ring,
+                150,
+            )
+        })
+    };
+    let one = in_pool(1);
+    assert!(one.pixels.iter().any(|texel| *texel != one.pixels[0]));
+    assert_eq!(one, in_pool(3));
+}
+
+/// What corners have is interpolated in faces, goes on beside them, and fills what is left.
+#[test]
+fn attributes_are_interpolated() {
+    let faces = rectangle(corners([0.25, 0.25], [0.75, 0.75]));
+    let coverage = Coverage::new(&faces, 16);
+    let linear = |[u, v]: [f64; 2]| (3.0 * u - 2.0 * v) as f32;
+    let values: Vec<[f32; 3]> = faces.iter().map(|face| face.map(linear)).collect();
+    let image = baked_attribute(&coverage, &values);
+    for (texel, &value) in image.iter().enumerate() {
+        let (x, y) = (texel % 16, texel / 16);
+        let at = [x, y].map(|c| (c as f64 + 0.5) / 16.0);
+        let is_inside = (4..12).contains(&x) && (4..12).contains(&y);
+        assert_eq!(coverage.is_inside(x, y), is_inside, "{x} {y}");
+        let nearest = at.map(|c| c.clamp(0.25, 0.75));
+        let is_beside = (3..13).contains(&x) && (3..13).contains(&y);
+        if is_beside {
+            assert!((value - linear(nearest)).abs() < 1e-6, "{x} {y}");
+        }
+        assert!((-0.75..=1.75).contains(&value), "{x} {y}: {value}");
+    }
+}

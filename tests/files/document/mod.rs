@@ -1,0 +1,7 @@
+//! glTF read and written.
+mod invalid;
+mod moved;
+mod roundtrip;
+mod survive;
+mod texcoord;
+mod validator;

@@ -1,0 +1,27 @@
+//! Tests of the layout.
+mod atlas;
+mod charts;
+mod creases;
+#[path = "../support/disks.rs"]
+#[allow(dead_code)]
+mod disks;
+#[path = "../support/few_vertices.rs"]
+mod few_vertices;
+mod given_back;
+#[path = "../support/layouts.rs"]
+#[allow(dead_code)]
+mod layouts;
+mod not_given_back;
+mod own_axes;
+mod pages;
+#[path = "../places.rs"]
+#[allow(dead_code)]
+mod places;
+mod redrawn;
+mod unfolding;
+#[path = "../support/uv_meshes.rs"]
+#[allow(dead_code)]
+mod uv_meshes;
+#[path = "../support/zoo.rs"]
+#[allow(dead_code)]
+mod zoo;

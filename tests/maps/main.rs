@@ -1,0 +1,33 @@
+//! Tests of the maps.
+mod box_tree;
+mod certificate;
+mod crossings;
+mod cut;
+mod disk;
+#[path = "../support/disks.rs"]
+#[allow(dead_code)]
+mod disks;
+mod embed;
+#[path = "../support/few_vertices.rs"]
+mod few_vertices;
+mod measure;
+mod mesh;
+mod once;
+#[path = "../places.rs"]
+#[allow(dead_code)]
+mod places;
+mod plane;
+#[path = "../support/random.rs"]
+#[allow(dead_code)]
+mod random;
+mod separation;
+mod simplification;
+#[path = "../support/taylor.rs"]
+#[allow(dead_code)]
+mod taylor;
+#[path = "../support/uv_meshes.rs"]
+#[allow(dead_code)]
+mod uv_meshes;
+#[path = "../support/zoo.rs"]
+#[allow(dead_code)]
+mod zoo;

@@ -1,0 +1,97 @@
+//! Exact orientation, convex hulls, random numbers.
+
+use unwrapd_method::numerics::hull::convex_hull;
+use unwrapd_method::numerics::predicates::orient2d_sign;
+use unwrapd_method::numerics::random::Random;
+use unwrapd_method::numerics::support::{Directions, Support};
+use unwrapd_method::numerics::vec2::doubled_area;
+
+#[test]
+fn orientation_is_exact_where_rounding_is_not() {
+    // Shewchuk's example: points within a few last places of the line y = x, where the rounded determinant errs.
+    let (b, c) = ([12.0, 12.0], [24.0, 24.0]);
+    let last_place = f64::EPSILON / 2.0;
+    let mut rounded_wrong = 0;
+    for i in 0..16_i32 {
+        for j in 0..16_i32 {
+            let a = [
+                0.5 + f64::from(i) * last_place,
+                0.5 + f64::from(j) * last_place,
+            ];
+            let expected = (j - i).signum();
+            assert_eq!(i32::from(orient2d_sign(b, c, a)), expected);
+            rounded_wrong += i32::from((doubled_area(a, b, c) > 0.0) != (expected > 0));
+        }
+    }
+    assert!(rounded_wrong > 0, "the example no longer shows rounding");
+    assert_eq!(orient2d_sign([f64::NAN, 0.0], b, [1.0, 2.0]), 0);
+}
+
+#[test]
+fn a_hull_has_the_outer_corners_only() {
+    let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+    let inner = [[2.0, 0.0], [1.0, 1.0], [4.0, 1.5], [0.0, 0.0]];
+    let hull = convex_hull(corners.into_iter().chain(inner));
+    assert_eq!(hull, corners);
+    assert_eq!(convex_hull([[1.0, 2.0], [1.0, 2.0]]).len(), 0);
+}
+
+#[test]
+fn supports_know_the_area_of_hulls() {
+    let directions = Directions::default();
+    let disk = |x: f64| {
+        let mut support = Support::EMPTY;
+        for k in 0..1000 {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 1000.0).sin_cos();
+            support.add([x + cos, sin], &directions);
+        }
+        support
+    };
+    let pi = std::f64::consts::PI;
+    let mut both = disk(0.0);
+    assert!((both.area() / pi - 1.0).abs() < 0.004);
+    both.unite(&disk(3.0));
+    assert!((both.area() / (pi + 6.0) - 1.0).abs() < 0.004);
+    assert_eq!(Support::EMPTY.area(), 0.0);
+}
+
+#[test]
+fn supports_know_the_smallest_square_around() {
+    let directions = Directions::default();
+    let rectangle = |[width, height]: [f64; 2], angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let mut support = Support::EMPTY;
+        for [x, y] in [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]] {
+            support.add([x * cos - y * sin, x * sin + y * cos], &directions);
+        }
+        support
+    };
+    for k in 0..20 {
+        let angle = 0.1 * f64::from(k);
+        // A needle lies along the diagonal, a square in itself. What is known of them is a little larger than they are.
+        let needle = rectangle([10.0, 0.0], angle).square() / 50.0;
+        assert!((1.0 - 1e-9..1.22).contains(&needle), "{angle}: {needle}");
+        let square = rectangle([3.0, 3.0], angle).square() / 9.0;
+        assert!((1.0 - 1e-9..1.22).contains(&square), "{angle}: {square}");
+    }
+    let bar = rectangle([4.0, 1.0], 0.3);
+    assert_eq!(bar.room(bar.square()), bar.area());
+    let excess = bar.room(10.0) - bar.area();
+    assert!(
+        (excess - 2.0 * (bar.square() - 10.0)).abs() < 1e-12,
+        "{excess}"
+    );
+    assert_eq!(Support::EMPTY.room(1.0), 0.0);
+}
+
+#[test]
+fn random_numbers_are_spread_evenly_and_repeat() {
+    let mut random = Random::new(7);
+    let mut counts = [0; 10];
+    for _ in 0..10_000 {
+        counts[random.below(10)] += 1;
+    }
+    assert!(counts.iter().all(|n| (900..1100).contains(n)), "{counts:?}");
+    let [mut a, mut b] = [3, 3].map(Random::new);
+    assert!((0..100).all(|_| a.bits() == b.bits()));
+}
