@@ -57,7 +57,7 @@
 //!
 //! | module | what lives there |
 //! |---|---|
-//! | [`options`] | what an option is, for code, JSON and the command line: written once |
+//! | [`mod@options`] | what an option is, for code, JSON and the command line: written once |
 //! | [`numerics`] | multifrontal sparse Cholesky (symbolic once, numeric each iteration), exact predicates, 2×2 and 3×3 matrices, boxes, convex hulls |
 //! | [`mesh`] | surfaces welded by position, their defects, adjacency, [`mesh::Disk`]: proven to be one disk, holes allowed; planar and tetrahedral meshes; triangles inside polygons; readers and writers, and the table of file formats; UVs as files have them |
 //! | [`plane`] | plane geometry of many pieces, for those who make maps: a spatial index, segments, polygons, triangles that overlap |

@@ -116,8 +116,9 @@ impl PipelineError {
             Self::Problem(error) => error.code(),
             Self::TextureTooSmall(_) => "texture_too_small",
             Self::Islands(error) => error.code(),
-            Self::Atlas(_) | Self::Inverted | Self::Crossed => "no_valid_result",
-            Self::NotValid(_) => "no_valid_result",
+            Self::Atlas(_) | Self::Inverted | Self::Crossed | Self::NotValid(_) => {
+                "no_valid_result"
+            }
             Self::Threads(_) => "internal_error",
         }
     }
@@ -144,10 +145,12 @@ impl PipelineError {
             | Self::Problem(_)
             | Self::Seams(_)
             | Self::UnknownMaterial(_)
-            | Self::NoUvs { .. } => 3,
-            Self::Document(_) | Self::Edit(_) | Self::Outline(_) | Self::Warp(_) => 3,
-            Self::Atlas(_) | Self::Inverted | Self::Crossed => 4,
-            Self::NotValid(_) => 4,
+            | Self::NoUvs { .. }
+            | Self::Document(_)
+            | Self::Edit(_)
+            | Self::Outline(_)
+            | Self::Warp(_) => 3,
+            Self::Atlas(_) | Self::Inverted | Self::Crossed | Self::NotValid(_) => 4,
             Self::Threads(_) => 1,
         }
     }

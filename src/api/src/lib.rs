@@ -2,6 +2,6 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`options`] | options declared once, for code, JSON, schemas and the command line |
+//! | [`mod@options`] | options declared once, for code, JSON, schemas and the command line |
 
 pub mod options;

@@ -1,6 +1,6 @@
 //! The options of the applications: shared groups, and the options of each.
 //!
-//! Every option is written [once](unwrapd_api::options). Arrays are unwrapped with
+//! Every option is written [once](mod@unwrapd_api::options). Arrays are unwrapped with
 //! [`Settings`](crate::pipeline::Settings), which consists of the groups that concern the geometry.
 
 mod cutting;
