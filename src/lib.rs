@@ -241,8 +241,8 @@ pub use unwrapd_files::{bake, document, io, picture, polygon};
 pub use unwrapd_layout::{atlas, charts};
 pub use unwrapd_maps::{certificate, cut, embed, measure, mesh, plane};
 pub use unwrapd_method::{barrier, energy, numerics, solver};
+pub use unwrapd_pipeline as pipeline;
 
-pub mod pipeline;
 
 #[cfg(feature = "service")]
 pub mod jobs;

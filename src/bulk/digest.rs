@@ -2,7 +2,7 @@
 
 use super::worker::Extra;
 use crate::jobs::Digest;
-use crate::pipeline::{Options, Workers};
+use unwrapd_pipeline::{Options, Workers};
 use unwrapd_files::document::Upload;
 
 /// What all assets of a run have in common.

@@ -7,7 +7,7 @@ use super::digest::Recipe;
 use super::place::Place;
 use super::scratch::Scratch;
 use super::worker::Extra;
-use crate::pipeline::Options;
+use unwrapd_pipeline::Options;
 
 /// What a run does.
 pub struct Order {

@@ -1,7 +1,7 @@
 //! What a result has to be for exit status 0.
 
 use crate::jobs::{Gate, Gates, Worth};
-use crate::pipeline::{Mirrored, Report};
+use unwrapd_pipeline::{Mirrored, Report};
 use unwrapd_maps::certificate::Overlap;
 
 use super::failure::Failure;

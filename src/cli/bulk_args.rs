@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::input::{folder, read_file};
 use crate::bulk::{self, Asset, Extra, ShardChoice, array_variable};
 use crate::jobs::Gates;
-use crate::pipeline::{CommandOptions, GivenSeams, NamedSeams, Options};
+use unwrapd_pipeline::{CommandOptions, GivenSeams, NamedSeams, Options};
 use unwrapd_api::options::help_of;
 use unwrapd_files::document::OutputFormat;
 

@@ -7,7 +7,7 @@ use super::format::body_format;
 use super::input::{read_file, read_upload};
 use super::output::caller;
 use super::records::Records;
-use crate::pipeline::{CommandOptions, DeformOptions, deform_file};
+use unwrapd_pipeline::{CommandOptions, DeformOptions, deform_file};
 use unwrapd_api::options::help_of;
 use unwrapd_deform::parse_body_handles;
 

@@ -9,7 +9,7 @@ use super::input::{Mapped, read_file, read_upload};
 use super::output::{Files, Outputs, Target, caller};
 use super::progress::Display;
 use super::warp::print_pull;
-use crate::pipeline::{CommandOptions, EditOptions, Editing, edit_document};
+use unwrapd_pipeline::{CommandOptions, EditOptions, Editing, edit_document};
 use unwrapd_api::options::help_of;
 use unwrapd_deform::uv::parse_anchors;
 use unwrapd_files::document::OutputFormat;

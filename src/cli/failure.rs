@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::escaping::escaped;
 use crate::bulk::{ListError, RemoteError};
-use crate::pipeline::{Completion, PipelineError};
+use unwrapd_pipeline::{Completion, PipelineError};
 use unwrapd_api::options::as_typed;
 use unwrapd_deform::ProblemError;
 use unwrapd_deform::uv::EditError;

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::output::is_stream;
-use crate::pipeline::BodyFormat;
+use unwrapd_pipeline::BodyFormat;
 use unwrapd_files::document::OutputFormat;
 use unwrapd_files::io::Format;
 

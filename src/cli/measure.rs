@@ -3,7 +3,7 @@
 use super::console::{print_json, warn};
 use super::failure::Failure;
 use super::input::{Mapped, read_upload};
-use crate::pipeline::{self, MeasureOptions};
+use unwrapd_pipeline::{self, MeasureOptions};
 use unwrapd_maps::certificate::Certificate;
 
 /// Measures the UVs of a file: distortion, seams, packing, overlaps.

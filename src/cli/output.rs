@@ -12,7 +12,7 @@ use super::console::{self, Lines};
 use super::failure::Failure;
 use super::input::{folder, is_standard};
 use crate::bulk::read_regular;
-use crate::pipeline::Caller;
+use unwrapd_pipeline::Caller;
 use unwrapd_files::document::Upload;
 
 /// Where a document is written.

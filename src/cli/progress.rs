@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::failure::Failure;
 use super::output::{Talk, write_whole};
-use crate::pipeline::{Observer, Progress, Stage};
+use unwrapd_pipeline::{Observer, Progress, Stage};
 use unwrapd_method::solver::Control;
 
 /// Steps of the bar.

@@ -6,7 +6,7 @@ use super::console::{json, print_json, say, warn};
 use super::failure::Failure;
 use super::output::{Files, Outputs, check_folder};
 use super::progress::Display;
-use crate::pipeline::{BodyFormat, Deformed};
+use unwrapd_pipeline::{BodyFormat, Deformed};
 
 /// Files beside the map.
 #[derive(clap::Args)]

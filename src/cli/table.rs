@@ -1,7 +1,7 @@
 //! Atlases in a table: at most ten lines and totals.
 
 use super::console::{one_line, say};
-use crate::pipeline::{GroupReport, stretch_percent};
+use unwrapd_pipeline::{GroupReport, stretch_percent};
 use unwrapd_maps::certificate::Certificate;
 use unwrapd_maps::measure::Page;
 

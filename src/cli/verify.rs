@@ -4,7 +4,7 @@ use super::console::{self, Lines, print_json, say, warn};
 use super::failure::Failure;
 use super::input::{Mapped, read_upload};
 use super::measure::certificate_text;
-use crate::pipeline::{VerifyOptions, verify_document};
+use unwrapd_pipeline::{VerifyOptions, verify_document};
 
 /// The arguments of `verify`.
 #[derive(clap::Args)]

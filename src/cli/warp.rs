@@ -8,7 +8,7 @@ use super::format::check_png;
 use super::input::{read_file, read_upload};
 use super::output::{OutputArgs, Outputs, caller};
 use super::progress::Display;
-use crate::pipeline::{CommandOptions, PullReport, WarpOptions, warp_file};
+use unwrapd_pipeline::{CommandOptions, PullReport, WarpOptions, warp_file};
 use unwrapd_api::options::help_of;
 use unwrapd_deform::Units;
 use unwrapd_deform::warp::parse_handles;

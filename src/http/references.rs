@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::problem::Problem;
 use crate::jobs::Kind;
-use crate::pipeline::START;
+use unwrapd_pipeline::START;
 use unwrapd_files::document::Upload;
 use unwrapd_files::io::{Content, Format};
 

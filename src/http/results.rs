@@ -45,7 +45,7 @@ pub(super) async fn get_result(
     get, path = "/v1/jobs/{id}/report", operation_id = "getReport", tag = "results",
     params(("id" = String, Path, format = "uuid", description = "The job")),
     responses(
-        (status = 200, description = "The report", body = crate::pipeline::Report),
+        (status = 200, description = "The report", body = unwrapd_pipeline::Report),
         FileAnswers,
     )
 )]

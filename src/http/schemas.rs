@@ -8,7 +8,7 @@ use utoipa::openapi::{RefOr, Schema};
 
 use super::session_input::JobFile;
 use crate::jobs::{Event, Kind, Order};
-use crate::pipeline::{
+use unwrapd_pipeline::{
     DeformOptions, DeformReport, EditOptions, EditReport, MeasureOptions, Options, RepackOptions,
     Report, SolveOptions, Verified, VerifyOptions, WarpOptions, WarpReport,
 };

@@ -54,7 +54,7 @@ pub(super) async fn unwrap(
     post, path = "/v1/measure", operation_id = "measure", tag = "synchronous",
     params(("filename" = Option<String>, Query, description = "File name of a raw body")),
     responses(
-        (status = 200, description = "The report", body = crate::pipeline::Report),
+        (status = 200, description = "The report", body = unwrapd_pipeline::Report),
         CallProblems,
     )
 )]

@@ -22,7 +22,7 @@ use super::supervision::{Watched, watch};
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::transition::Ending;
 use super::work::Work;
-use crate::pipeline::Limits;
+use unwrapd_pipeline::Limits;
 
 /// After which a job is tried again that could not be computed for want of space or of files.
 const PAUSE: Duration = Duration::from_secs(1);

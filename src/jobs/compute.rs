@@ -22,7 +22,7 @@ use super::reporter::Reporter;
 use super::store_error::StoreError;
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, TASK, Task};
 use super::work::Work;
-use crate::pipeline::PipelineError;
+use unwrapd_pipeline::PipelineError;
 
 /// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
 pub fn run(folder: &Path) -> u8 {

@@ -9,7 +9,7 @@ use super::deadline::{given_up_after, timed_out};
 use super::program::Program;
 use super::task::{self, ERROR, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task};
 use super::{Failure, Kind, OutputFile};
-use crate::pipeline::Limits;
+use unwrapd_pipeline::Limits;
 use unwrapd_files::document::Upload;
 
 /// What contains a computation: a process that ends with its own failure, and limits.

@@ -12,7 +12,7 @@ use super::job::Job;
 use super::kind::Kind;
 use super::state::State;
 use super::timestamp::Timestamp;
-use crate::pipeline::Stage;
+use unwrapd_pipeline::Stage;
 
 const ENQUEUED: &str = "unwrapd_jobs_enqueued_total";
 const FINISHED: &str = "unwrapd_jobs_finished_total";

@@ -30,7 +30,7 @@ use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
 use super::task::{self, input_file, output_file};
 use super::transition::Happening;
-use crate::pipeline::{self, AtlasPicture, PipelineError};
+use unwrapd_pipeline::{self, AtlasPicture, PipelineError};
 use unwrapd_files::document::Upload;
 use unwrapd_files::io::Format;
 use unwrapd_files::picture::thumbnail_png;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::state::State;
-use crate::pipeline::Stage;
+use unwrapd_pipeline::Stage;
 
 /// Progress within a job. Numbers that a stage does not have are left as they were.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]

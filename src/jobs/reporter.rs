@@ -12,7 +12,7 @@ use super::maps::Maps;
 use super::pace::Pace;
 use super::progress::Progress;
 use super::task::Message;
-use crate::pipeline::{self, Observer};
+use unwrapd_pipeline::{self, Observer};
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::Control;
 

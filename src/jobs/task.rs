@@ -14,7 +14,7 @@ use super::input_output::OutputFile;
 use super::job::Verdict;
 use super::kind::Kind;
 use super::progress::Progress;
-use crate::pipeline::Limits;
+use unwrapd_pipeline::Limits;
 use unwrapd_files::document::Upload;
 
 /// The file of a [`Task`].

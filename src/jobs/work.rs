@@ -8,7 +8,7 @@ use super::job::Verdict;
 use super::kind::Kind;
 use super::task::Pictures;
 use super::worth::Worth;
-use crate::pipeline::{
+use unwrapd_pipeline::{
     self, AtlasPicture, CommandOptions, DeformOptions, Deformed, EditOptions, Editing, Limits,
     MeasureOptions, Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions,
     WarpOptions,

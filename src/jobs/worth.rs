@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::pipeline::Report;
+use unwrapd_pipeline::Report;
 
 /// What a result is worth, as far as its kind says.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -6,7 +6,7 @@ use super::session::Session;
 use crate::jobs::{
     Digest, Failure, Handling, InputFile, JobId, Kind, Scratch, Submission, input_file, sha256,
 };
-use crate::pipeline::START;
+use unwrapd_pipeline::START;
 
 /// The job that a session has become, with the folder in which its files lie: it has to be kept until they are moved.
 pub struct Baked {

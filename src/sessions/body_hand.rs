@@ -7,7 +7,7 @@ use super::hand::{Hand, check_model, parsed};
 use super::message::Named;
 use super::names::Names;
 use crate::jobs::Failure;
-use crate::pipeline::HeldBody;
+use unwrapd_pipeline::HeldBody;
 use unwrapd_deform::warp::PictureHandle;
 use unwrapd_deform::{Handle, HandleId, Model, ProblemError};
 use unwrapd_method::solver::Stage;

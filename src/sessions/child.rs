@@ -13,7 +13,7 @@ use super::course::Course;
 use super::message::Message;
 use super::pipe::{self, BAKE, BAKED, FAILED, FRAME, MESH, REPLY};
 use crate::jobs::{self, Failure, TASK, Task};
-use crate::pipeline::{START, Workers, in_pool, start_file};
+use unwrapd_pipeline::{START, Workers, in_pool, start_file};
 
 /// Messages that wait. Behind them the pipe fills up, and the client waits.
 const MOST_WAITING: usize = 1024;

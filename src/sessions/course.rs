@@ -9,7 +9,7 @@ use super::hand::{Hand, check_model};
 use super::message::{Message, Reply, Wish};
 use super::uv_hand::UvHand;
 use crate::jobs::{Failure, Kind};
-use crate::pipeline::{
+use unwrapd_pipeline::{
     CommandOptions, DeformOptions, EditOptions, Editing, Limits, PipelineError, WarpOptions,
     hold_body, hold_picture, hold_uvs,
 };
@@ -164,7 +164,7 @@ impl Course {
         }
     }
 
-    /// The handles as the options of the job have them, and the coordinates of its [start](crate::pipeline::START).
+    /// The handles as the options of the job have them, and the coordinates of its [start](unwrapd_pipeline::START).
     pub fn baked(&self) -> (Vec<Value>, Vec<f64>) {
         let handles = self.hand.handles().into_iter().map(|named| named.handle);
         (handles.collect(), self.hand.start())

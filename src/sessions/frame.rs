@@ -16,7 +16,7 @@
 //!                                                      of the skin's vertices u32; their weights f32
 //! ```
 
-use crate::pipeline::Skin;
+use unwrapd_pipeline::Skin;
 use unwrapd_deform::{Body, BodyElements};
 use unwrapd_method::numerics::predicates::{orient2d_sign, orient3d_sign};
 use unwrapd_method::solver::Stage;

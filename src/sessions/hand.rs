@@ -44,7 +44,7 @@ pub(super) trait Hand: Send {
     fn elements(&self) -> Elements<'_>;
     /// What a client needs to know once.
     fn drawn(&self) -> Drawn<'_>;
-    /// The coordinates of a [start file](crate::pipeline::START).
+    /// The coordinates of a [start file](unwrapd_pipeline::START).
     fn start(&self) -> Vec<f64>;
 }
 

@@ -18,7 +18,7 @@ use crate::jobs::{
     self, Failure, InputFile, JobId, Kind, Pictures, Scratch, TASK, Task, input_file, read_stderr,
     write_json,
 };
-use crate::pipeline::Limits;
+use unwrapd_pipeline::Limits;
 
 /// For a child to read its input and be ready.
 const START_TIME: Duration = Duration::from_mins(2);

@@ -1,6 +1,6 @@
 //! Meshes given as arrays that share an atlas.
 
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Cutting, GivenSeams, Island, IslandError, MeasureOptions, MeshArrays, Options, PipelineError,
     RepackOptions, Unobserved, UnwrappedMeshes, VerifyOptions, WeldedUvs, measure_meshes,
     repack_meshes, unwrap, unwrap_meshes, verify_meshes,

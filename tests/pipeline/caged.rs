@@ -2,7 +2,7 @@
 
 use crate::zoo;
 use std::fmt::Write;
-use unwrapd::pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError, Surfaces};
+use unwrapd_pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError, Surfaces};
 use unwrapd_deform::cage::{Cage, CagedSurface};
 use unwrapd_deform::{DeformationEnergy, Handle, Model, Solution};
 use unwrapd_files::document::{Document, OutputFormat, Upload, Written};

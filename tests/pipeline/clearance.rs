@@ -1,6 +1,6 @@
 //! Charts opened by the packer until the judge finds them safe to be rounded.
 
-use unwrapd::pipeline::{Layout, Mapping, Settings, Unobserved, unwrap};
+use unwrapd_pipeline::{Layout, Mapping, Settings, Unobserved, unwrap};
 use unwrapd_layout::atlas::{ChartMap, cleared};
 use unwrapd_maps::certificate::{Certificate, Claims, certify};
 use unwrapd_maps::mesh::Resolution;

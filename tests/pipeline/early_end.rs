@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Budget, Cutting, Observer, Options, Progress, Settings, Stage, Unobserved, Workers, unwrap,
     unwrap_document,
 };

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Cutting, KeptMaps, Mapping, PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along,
 };
 use unwrapd_layout::charts::{Cut, Quality};

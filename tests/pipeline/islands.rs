@@ -1,6 +1,6 @@
 //! Islands that stay where they are put, and others packed around them.
 
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Island, IslandError, Layout, Options, Outcome, PipelineError, RepackOptions, Unobserved,
     repack_document, unwrap_document,
 };

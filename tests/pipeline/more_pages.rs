@@ -1,6 +1,6 @@
 //! More pages never give less density.
 
-use unwrapd::pipeline::{Layout, Settings, Unobserved, Workers, unwrap};
+use unwrapd_pipeline::{Layout, Settings, Unobserved, Workers, unwrap};
 
 use crate::zoo;
 

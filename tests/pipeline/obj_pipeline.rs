@@ -1,7 +1,7 @@
 //! OBJ files of several objects and materials through the applications.
 use std::fmt::Write as _;
 use std::time::Duration;
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Baking, Cutting, EditOptions, Editing, GivenSeams, Observer, Options, Progress, Stage,
     Unobserved, edit_document, unwrap_document,
 };

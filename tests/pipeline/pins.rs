@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use unwrapd::pipeline::{Cutting, Mapping, Settings, Unobserved, unwrap};
+use unwrapd_pipeline::{Cutting, Mapping, Settings, Unobserved, unwrap};
 use unwrapd_layout::charts::Cut;
 use unwrapd_maps::embed::{Embedding, Options, Pins, is_positive, parameterize};
 use unwrapd_maps::mesh::Disk;

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Cutting, Mapping, Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped,
     Workers, unwrap,
 };

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 use std::time::Duration;
 
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Cutting, Observer, Progress, Settings, Stage, Unobserved, Workers, unwrap,
 };
 use unwrapd_layout::charts::Cut;

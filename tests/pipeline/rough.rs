@@ -2,7 +2,7 @@
 
 use crate::zoo::{self, Mesh};
 use std::fmt::Write as _;
-use unwrapd::pipeline::{self, Options as DocumentOptions, Settings, unwrap, unwrap_document};
+use unwrapd_pipeline::{self, Options as DocumentOptions, Settings, unwrap, unwrap_document};
 use unwrapd_files::document::Upload;
 use unwrapd_layout::charts::{
     Bound, Bounded, Symmetry, Unobserved, charts_under_bound, smoothed_where_rough,

@@ -2,7 +2,7 @@
 
 use crate::zoo::{self, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
-use unwrapd::pipeline::{Cutting, Settings, Unobserved, Unwrapped, unwrap};
+use unwrapd_pipeline::{Cutting, Settings, Unobserved, Unwrapped, unwrap};
 use unwrapd_layout::charts::Symmetry;
 
 /// A body with four legs and a head. Its vertices are mirrored at y = 0; its edges are not.

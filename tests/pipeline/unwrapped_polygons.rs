@@ -2,7 +2,7 @@
 
 use crate::simple_polygons::{SimplePolygon, doubled_area, simple_polygon};
 use std::fmt::Write;
-use unwrapd::pipeline::{Cutting, Options, Outcome, Unobserved, unwrap_document};
+use unwrapd_pipeline::{Cutting, Options, Outcome, Unobserved, unwrap_document};
 use unwrapd_files::document::{Document, OutputFormat, Upload};
 use unwrapd_files::io::obj;
 use unwrapd_layout::charts::Cut;

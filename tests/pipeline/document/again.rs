@@ -2,7 +2,7 @@
 
 use crate::places;
 use serde_json::{Value, json};
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Baking, CommandOptions, ImageFormat, Options, Preset, Sets, Unobserved, unwrap_document,
 };
 use unwrapd_files::document::{Document, OutputFormat, Upload};

@@ -1,7 +1,7 @@
 //! What shares an atlas unless something else is asked for.
 
 use serde_json::{Value, json};
-use unwrapd::pipeline::{Options, Outcome, PipelineError, Unobserved, unwrap_document};
+use unwrapd_pipeline::{Options, Outcome, PipelineError, Unobserved, unwrap_document};
 use unwrapd_files::document::{Document, GroupBy, Upload};
 
 use crate::build::Builder;

@@ -1,7 +1,7 @@
 //! UVs for the light of a scene: a part of one atlas for whatever a node shows.
 
 use serde_json::json;
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     Cutting, Layout, MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified,
     VerifyOptions, unwrap_document, verify_document,
 };

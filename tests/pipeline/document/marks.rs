@@ -1,7 +1,7 @@
 //! What a file says of the UVs that were written to it, and how it is judged by that.
 
 use serde_json::{Value, json};
-use unwrapd::pipeline::{
+use unwrapd_pipeline::{
     EditOptions, EditedDocument, Editing, Layout, MeasureOptions, Options, Preset, Unobserved,
     Verified, VerifyOptions, edit_document, measure_document, unwrap_document, verify_document,
 };

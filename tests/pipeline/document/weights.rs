@@ -1,7 +1,7 @@
 //! Materials with more or fewer texels than others.
 
 use serde_json::json;
-use unwrapd::pipeline::{Layout, Options, Outcome, PipelineError, Unobserved, unwrap_document};
+use unwrapd_pipeline::{Layout, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 use unwrapd_files::document::{Document, GroupBy, Upload};
 
 use crate::build::Builder;

@@ -1,0 +1,86 @@
+//! The charts of one mesh in an atlas in which some stay where they are put.
+
+use super::chart_maps::chart_maps;
+use super::packing::atlas_options;
+use super::placed_faces::PlacedFaces;
+use super::placement::Placement;
+use super::plan::Plan;
+use super::settings::Settings;
+use super::soup::Soup;
+use crate::PipelineError;
+use crate::island_error::IslandError;
+use unwrapd_layout::atlas::{AroundError, Atlas, OnRead, Stay, pack_around};
+use unwrapd_layout::charts::MappedChart;
+use unwrapd_maps::mesh::{CornerUvs, Resolution};
+use unwrapd_method::numerics::bounds::bounds_of;
+
+/// The charts around those that `placed` says where to put: first those that are packed, then those that stay.
+pub fn arranged(
+    charts: Vec<MappedChart>,
+    mesh: &Soup,
+    placed: &PlacedFaces,
+    (settings, plan, n_atlases): (&Settings, &Plan, usize),
+    on_read: &OnRead,
+) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
+    let (placements, uvs) = (&mesh.seams.placed, mesh.seams.uvs.as_deref());
+    let mut islands: Vec<Vec<MappedChart>> = vec![Vec::new(); placements.len()];
+    let mut free = Vec::new();
+    for chart in charts {
+        let face = chart.chart.corners.first().map(|[corner, ..]| corner / 3);
+        match face.and_then(|face| placed.index_of(face)) {
+            Some(index) => islands[index].push(chart),
+            None => free.push(chart),
+        }
+    }
+    let mut charts = free;
+    let n_free = charts.len();
+    let mut owners = Vec::new();
+    for ((index, placement), mut island) in placements.iter().enumerate().zip(islands) {
+        if island.is_empty() {
+            return Err(IslandError::UnknownFace(placement.number).into());
+        }
+        let texture = settings.layout.resolution;
+        put(&mut island, placement, uvs.unwrap_or_default(), texture);
+        owners.resize(owners.len() + island.len(), index);
+        charts.extend(island);
+    }
+    let (free, staying) = charts.split_at(n_free);
+    let stays = chart_maps(staying).into_iter().zip(owners);
+    let stays: Vec<Stay> = (stays.map(|(map, island)| Stay { map, island })).collect();
+    let options = atlas_options((settings, plan), n_atlases, free);
+    let atlas = pack_around(&chart_maps(free), &stays, &options, on_read);
+    let number = |island: usize| placements[island].number;
+    let atlas = atlas.map_err(|error| match error {
+        AroundError::OffPage { island } => IslandError::OffPage(number(island)).into(),
+        AroundError::TooNear { islands, texels } => IslandError::TooNear {
+            islands: islands.map(number),
+            texels,
+            padding: options.padding_texels,
+        }
+        .into(),
+        AroundError::NoRoom => IslandError::NoRoom.into(),
+        AroundError::Atlas(error) => PipelineError::Atlas(error),
+    })?;
+    Ok((charts, atlas))
+}
+
+/// Puts the charts of an island where they shall lie, from where the file has them.
+fn put(island: &mut [MappedChart], placement: &Placement, uvs: &[CornerUvs], texture: Resolution) {
+    for chart in island.iter_mut() {
+        let of_chart = chart.chart.disk.triangles.iter().zip(&chart.chart.corners);
+        for (triangle, corners) in of_chart {
+            for (&vertex, &corner) in triangle.iter().zip(corners) {
+                let uv = uvs[corner as usize / 3][corner as usize % 3];
+                chart.embedding.uv[vertex as usize] = uv;
+            }
+        }
+    }
+    let points = island.iter().flat_map(|chart| &chart.embedding.uv);
+    let [low, high] = bounds_of(&points.copied().collect::<Vec<_>>());
+    let middle = [0, 1].map(|k| f64::midpoint(low[k], high[k]));
+    for chart in island {
+        for uv in &mut chart.embedding.uv {
+            *uv = placement.place(*uv, middle, texture);
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Meshes divided into pieces, of which each shape is mapped once.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::alike::{Alike, alike};
+use super::map::mapped_charts;
+use super::plan::Plan;
+use super::seams::Seams;
+use super::settings::Settings;
+use super::soup::{Piece, Soup};
+use crate::PipelineError;
+use crate::tracker::Tracker;
+use unwrapd_layout::charts::MappedChart;
+use unwrapd_maps::mesh::{Defects, Surface, canonical_order};
+
+/// How much a size may differ from 1 where a density is given.
+const SAME_SIZE: f64 = 1e-6;
+
+/// The pieces of several meshes.
+pub struct Divided<'a> {
+    pieces: Vec<Piece<'a>>,
+    surfaces: Vec<Surface>,
+    shapes: Vec<Alike>,
+    /// The pieces of each mesh.
+    of_mesh: Vec<Range<usize>>,
+}
+
+impl<'a> Divided<'a> {
+    pub fn new(meshes: &[Soup<'a>], plan: &Plan) -> Result<Self, PipelineError> {
+        // So many charts are allowed for an atlas, not for a piece.
+        let is_one = plan.most_charts.is_some();
+        let pieces: Vec<Vec<Piece>> = meshes
+            .par_iter()
+            .map(|mesh| {
+                if is_one {
+                    mesh.whole()
+                } else {
+                    mesh.pieces(plan)
+                }
+            })
+            .collect::<Result<_, _>>()?;
+        let mut next = 0;
+        let of_mesh = pieces.iter().map(|of_mesh| {
+            next += of_mesh.len();
+            next - of_mesh.len()..next
+        });
+        let of_mesh = of_mesh.collect();
+        let pieces: Vec<Piece> = pieces.into_iter().flatten().collect();
+        let surfaces: Vec<Surface> = pieces
+            .par_iter()
+            .map(|piece| piece.surface(plan))
+            .collect::<Result<_, _>>()?;
+        if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
+            return Err(match meshes.iter().map(|mesh| mesh.triangles.len()).sum() {
+                0 => PipelineError::NoTriangles,
+                triangles => PipelineError::NoArea { triangles },
+            });
+        }
+        let seams: Vec<&Seams> = pieces.iter().map(|piece| &*piece.seams).collect();
+        let shapes = alike(&surfaces.iter().collect::<Vec<_>>(), &seams);
+        Ok(Self {
+            pieces,
+            surfaces,
+            shapes,
+            of_mesh,
+        })
+    }
+
+    /// The charts of those meshes that are `wanted`, with corners `3 f + c` of their faces: of each shape the first piece is mapped.
+    pub fn charts(&self, wanted: &[bool], plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
+        let mut mapped = self.mapped(plan, tracker);
+        let meshes = || (0..wanted.len()).filter(|&mesh| wanted[mesh]);
+        let mut uses = vec![0; self.pieces.len()];
+        for piece in meshes().flat_map(|mesh| self.of_mesh[mesh].clone()) {
+            uses[self.shapes[piece].first] += 1;
+        }
+        let mut charts = vec![Vec::new(); wanted.len()];
+        for mesh in meshes() {
+            for piece in self.of_mesh[mesh].clone() {
+                let Alike { first, size } = self.shapes[piece];
+                uses[first] -= 1;
+                let own = if uses[first] == 0 {
+                    std::mem::take(&mut mapped[first])
+                } else {
+                    mapped[first].clone()
+                };
+                charts[mesh].extend(own.into_iter().map(|chart| self.placed(chart, piece, size)));
+            }
+        }
+        charts
+    }
+
+    /// A chart of the first of a shape as one of a piece.
+    fn placed(&self, mut chart: MappedChart, piece: usize, size: f64) -> MappedChart {
+        chart.scale(size);
+        for corner in chart.chart.corners.as_flattened_mut() {
+            *corner = 3 * self.face(piece, *corner / 3) + *corner % 3;
+        }
+        chart
+    }
+
+    /// The charts of the first piece of each shape, cut and mapped in canonical order; none of the others.
+    fn mapped(&self, plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
+        let is_first = |&piece: &usize| self.shapes[piece].first == piece;
+        let firsts: Vec<usize> = (0..self.pieces.len()).filter(is_first).collect();
+        let ordered = firsts.par_iter().map(|&piece| {
+            let surface = &self.surfaces[piece];
+            let order = canonical_order(surface);
+            (surface.reordered(&order), order)
+        });
+        let (surfaces, orders): (Vec<Surface>, Vec<Vec<u32>>) = ordered.unzip();
+        let seams: Vec<&Seams> = firsts
+            .iter()
+            .map(|&piece| &*self.pieces[piece].seams)
+            .collect();
+        let mut mapped = vec![Vec::new(); self.pieces.len()];
+        let charts = mapped_charts(&surfaces, &seams, plan, tracker);
+        for ((piece, order), mut charts) in firsts.into_iter().zip(orders).zip(charts) {
+            for corner in charts
+                .iter_mut()
+                .flat_map(|map| map.chart.corners.as_flattened_mut())
+            {
+                *corner = 3 * order[*corner as usize / 3] + *corner % 3;
+            }
+            mapped[piece] = charts;
+        }
+        mapped
+    }
+
+    /// The face of its mesh that a triangle of the surface of a piece is.
+    fn face(&self, piece: usize, triangle: u32) -> u32 {
+        self.pieces[piece].face(self.surfaces[piece].faces[triangle as usize])
+    }
+
+    /// Triangles of the pieces that are mapped.
+    pub fn n_mapped_faces(&self) -> usize {
+        let is_first = |&piece: &usize| self.shapes[piece].first == piece;
+        let firsts = (0..self.pieces.len()).filter(is_first);
+        firsts
+            .map(|piece| self.surfaces[piece].triangles.len())
+            .sum()
+    }
+
+    /// Triangles of a mesh that are in charts.
+    pub fn n_faces(&self, mesh: usize) -> usize {
+        let pieces = self.of_mesh[mesh].clone();
+        pieces
+            .map(|piece| self.surfaces[piece].triangles.len())
+            .sum()
+    }
+
+    /// The faces of a mesh that are in charts, ascending.
+    pub fn faces(&self, mesh: usize) -> Vec<u32> {
+        let of_piece = |piece: usize| {
+            let triangles = 0..self.surfaces[piece].triangles.len() as u32;
+            triangles.map(move |triangle| self.face(piece, triangle))
+        };
+        let mut faces: Vec<u32> = self.of_mesh[mesh].clone().flat_map(of_piece).collect();
+        faces.sort_unstable();
+        faces
+    }
+
+    /// An earlier mesh whose atlas is right for this one, and the size of this one over that one's.
+    pub fn same_mesh(&self, mesh: usize, settings: &Settings) -> Option<(usize, f64)> {
+        let whole = |mesh: usize| {
+            let piece = self.of_mesh[mesh].start;
+            self.pieces[piece].is_whole().then_some(piece)
+        };
+        let Alike { first, size } = self.shapes[whole(mesh)?];
+        let other = self.of_mesh.partition_point(|pieces| pieces.end <= first);
+        let is_sized = settings.layout.texels_per_unit.is_none() || (size - 1.0).abs() <= SAME_SIZE;
+        let is_same = other != mesh && whole(other).is_some() && is_sized;
+        is_same.then_some((other, size))
+    }
+
+    /// What is wrong with a mesh.
+    pub fn defects(&self, mesh: usize, soup: &Soup) -> Result<Defects, PipelineError> {
+        let first = self.of_mesh[mesh].start;
+        if self.pieces[first].is_whole() {
+            return Ok(self.surfaces[first].defects);
+        }
+        Ok(Surface::new(soup.positions, soup.triangles)?.defects)
+    }
+}

@@ -1,0 +1,164 @@
+//! All charts mapped, from one queue.
+
+use rayon::prelude::*;
+use std::cmp::Reverse;
+
+use super::plan::{Plan, Refinement, Start};
+use super::seams::Seams;
+use crate::portion::Portion;
+use crate::tracker::Tracker;
+use unwrapd_layout::charts::{
+    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
+    given_back, map_chart, map_chart_from,
+};
+use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
+
+/// What UVs were made for of which that is not known.
+const SQUARE: Resolution = Resolution::square(1);
+
+/// The charts of every surface with their maps.
+pub fn mapped_charts(
+    surfaces: &[Surface],
+    seams: &[&Seams],
+    plan: &Plan,
+    tracker: &Tracker,
+) -> Vec<Vec<MappedChart>> {
+    if plan.refinement == Refinement::UnderBound {
+        tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
+        let charts = (surfaces.par_iter().enumerate())
+            .map(|(index, surface)| {
+                let portion = Portion::of_surface(tracker, index, surface.triangles.len());
+                let charts = under_bound(surface, plan, &portion);
+                portion.all_mapped(charts.len());
+                charts
+            })
+            .collect();
+        return charts;
+    }
+    let charts: Vec<Vec<Chart>> = surfaces
+        .par_iter()
+        .map(|surface| charts(surface, plan.cut))
+        .collect();
+    let kept = |mesh: usize, chart: &Chart| {
+        let uvs = plan.reads_uvs().then_some(seams[mesh].uvs.as_ref());
+        let texture = seams[mesh].texture.unwrap_or(SQUARE);
+        Some(uvs_of(chart, &surfaces[mesh], (uvs.flatten()?, texture)))
+    };
+    let maps = map_charts(charts, kept, plan, tracker);
+    if plan.refinement != Refinement::GivenBack {
+        return maps;
+    }
+    (surfaces.par_iter().zip(maps).enumerate())
+        .map(|(index, (surface, maps))| {
+            let portion = Portion::of_chart(tracker, index, surface.triangles.len());
+            given_back(surface, maps, &plan.bound, &plan.embedding, &portion)
+        })
+        .collect()
+}
+
+/// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
+/// component, should that be fewer.
+///
+/// The bound on the stretch yields first, then the one on the mean: where the number of charts decides, a bound on the stretch
+/// gives the charts that there are without it.
+fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<MappedChart> {
+    let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);
+    let mut bound = plan.bound;
+    let options = &plan.embedding;
+    let seam_price = plan.compaction.unwrap_or(1.0);
+    let under = |bound: &Bound| {
+        charts_under_bound(surface, bound, seam_price, options, plan.symmetry, observer)
+    };
+    let mut fewest = under(&bound);
+    while fewest.len() > most {
+        let next = match bound.stretch {
+            Some(_) => Some(bound.mean),
+            None => Quality::looser_than(bound.mean),
+        };
+        let others = match next {
+            Some(mean) => {
+                bound = Bound {
+                    mean,
+                    stretch: None,
+                    ..bound
+                };
+                under(&bound)
+            }
+            None => charts(surface, Cut::Disk)
+                .into_iter()
+                .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
+                .collect(),
+        };
+        if others.len() < fewest.len() {
+            fewest = others;
+        }
+        if next.is_none() {
+            break;
+        }
+    }
+    fewest
+}
+
+/// The given UVs at the vertices of a chart, along both axes in longer sides of the texture. Corners whose UVs are not finite get
+/// those of another corner of their face: the face has no area then, and is counted.
+fn uvs_of(
+    chart: &Chart,
+    surface: &Surface,
+    (uvs, texture): (&[CornerUvs], Resolution),
+) -> Vec<[f64; 2]> {
+    let sides = texture.sides();
+    let mut of_vertex = vec![[0.0; 2]; chart.disk.n_vertices];
+    for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
+        for (&vertex, &corner) in triangle.iter().zip(corners) {
+            let face = surface.faces[corner as usize / 3] as usize;
+            let is_finite = |uv: &&[f64; 2]| uv.iter().all(|x| x.is_finite());
+            let own = Some(&uvs[face][corner as usize % 3]).filter(is_finite);
+            let another = || uvs[face].iter().find(is_finite);
+            let [u, v] = own.or_else(another).copied().unwrap_or_default();
+            of_vertex[vertex as usize] = [u * sides[0], v * sides[1]];
+        }
+    }
+    of_vertex
+}
+
+/// Maps every chart of every mesh, the largest first.
+fn map_charts(
+    charts: Vec<Vec<Chart>>,
+    kept: impl Fn(usize, &Chart) -> Option<Vec<[f64; 2]>> + Sync,
+    plan: &Plan,
+    tracker: &Tracker,
+) -> Vec<Vec<MappedChart>> {
+    let mut maps: Vec<Vec<MappedChart>> = charts
+        .iter()
+        .map(|of_mesh| Vec::with_capacity(of_mesh.len()))
+        .collect();
+    let mut queue: Vec<((usize, usize), Chart)> = (charts.into_iter().enumerate())
+        .flat_map(|(mesh, of_mesh)| (0..).zip(of_mesh).map(move |(c, chart)| ((mesh, c), chart)))
+        .collect();
+    let n_faces = |(_, chart): &(_, Chart)| chart.disk.triangles.len();
+    let faces: usize = queue.iter().map(n_faces).sum();
+    let passes = 1 + usize::from(plan.refinement == Refinement::GivenBack);
+    tracker.charts(queue.len(), passes * faces);
+    queue.sort_by_key(|entry| (Reverse(n_faces(entry)), entry.0));
+    let mut mapped: Vec<((usize, usize), Vec<MappedChart>)> = queue
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|(id, chart)| {
+            let portion = Portion::of_chart(tracker, id.0, chart.disk.triangles.len());
+            let parts = match kept(id.0, &chart) {
+                Some(uv) if plan.start == Start::Final => {
+                    vec![MappedChart::given(chart, uv)]
+                }
+                Some(uv) => map_chart_from(chart, uv, &plan.embedding, &portion),
+                None => map_chart(chart, &plan.embedding, plan.folds, &portion),
+            };
+            tracker.charts_done(1);
+            (id, parts)
+        })
+        .collect();
+    mapped.sort_by_key(|(id, _)| *id);
+    for ((mesh, _), parts) in mapped {
+        maps[mesh].extend(parts);
+    }
+    maps
+}

@@ -1,0 +1,206 @@
+//! The charts of one mesh in an atlas, cut and opened as it takes.
+
+use rayon::prelude::*;
+
+use super::chart_maps::chart_maps;
+use super::clearance::open_charts;
+use super::compact::{Before, Drafted, MOST_CHARTS, compacted};
+use super::plan::Plan;
+use crate::PipelineError;
+use unwrapd_layout::atlas::{
+    self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale, Turns,
+};
+use unwrapd_layout::charts::{Folds, MappedChart};
+use unwrapd_method::solver::Control;
+
+/// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
+/// another scale rounds it differently.
+const PACKINGS: usize = 8;
+
+/// Times that charts are opened for rounding at most: what is opened takes room, at a smaller scale more is too thin.
+const OPENINGS: usize = 4;
+
+/// Texels along the longer side of the largest texture.
+const LARGEST: u32 = 65_536;
+
+/// The share of pages that charts are hoped to fill at a scale that is given.
+const HOPE: f64 = 0.85;
+/// The search for a layout on more than one page may read such a part of what the one on a single page may: there is one for each
+/// number of pages.
+const PER_PAGE: u64 = 4;
+
+/// The charts of one mesh in an atlas, at a scale that is given on as few pages as were found to do.
+///
+/// Each number of pages is tried in turn, and begins with the charts that were cut for the one before. What is tried does not
+/// depend on how many there may be, so more pages never give less.
+pub fn packed(
+    mut charts: Vec<MappedChart>,
+    options: &AtlasOptions,
+    plan: &Plan,
+    on_read: &OnRead,
+) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
+    if options.turns == Turns::Any {
+        charts.par_iter_mut().for_each(MappedChart::turn_up);
+    }
+    match options.scale {
+        Scale::Largest => Ok(largest(charts, (options, plan), on_read)?),
+        Scale::TexelsPerUnit(texels) => fewest(charts, texels, (options, plan), on_read),
+    }
+}
+
+/// The largest layout on any number of pages.
+fn largest(
+    charts: Vec<MappedChart>,
+    (options, plan): (&AtlasOptions, &Plan),
+    on_read: &OnRead,
+) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
+    let most = options.texture.pages;
+    // Of a crowd the fill grows evenly with the pages.
+    let least = if charts.len() > MOST_CHARTS { most } else { 1 };
+    let on = |pages: u32, charts: (Vec<MappedChart>, Before)| {
+        let on = on_pages(pages, options);
+        let drafted = drafted(charts, &on, plan, on_read)?;
+        let settled = drafted.map(|drafted| settled(drafted, &on, plan, on_read));
+        settled.transpose()
+    };
+    let first = |pages: u32, charts: Vec<MappedChart>| {
+        let first = on(pages, (charts, Before::Nothing))?;
+        // There is one: any scale exceeds none.
+        first.ok_or(AtlasError::TextureTooSmall)
+    };
+    if least == most {
+        return first(most, charts);
+    }
+    let mut best = first(least, charts.clone());
+    for pages in least + 1..=most {
+        if on_read(0) == Control::Finish {
+            break;
+        }
+        best = match best {
+            Err(_) => first(pages, charts.clone()),
+            Ok(best) => match on(pages, (best.0.clone(), Before::FewerPages(best.1.scale))) {
+                Ok(Some(next)) if next.1.scale > best.1.scale => Ok(next),
+                _ => Ok(best),
+            },
+        };
+    }
+    best
+}
+
+/// A layout on the fewest pages on which one is found at a scale that is given.
+fn fewest(
+    charts: Vec<MappedChart>,
+    texels: f64,
+    (options, plan): (&AtlasOptions, &Plan),
+    on_read: &OnRead,
+) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
+    if atlas::fits(&chart_maps(&charts), options)? {
+        let whole = Drafted {
+            charts,
+            draft: None,
+        };
+        return Ok(settled(whole, options, plan, on_read)?);
+    }
+    let least = least_pages(&charts, texels, options);
+    let mut last = (charts, Before::Nothing);
+    for pages in least..=options.texture.pages {
+        let on = on_pages(pages, options);
+        let drafted = drafted(last, &on, plan, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
+        last = (drafted.charts.clone(), Before::FewerPages(0.0));
+        match settled(drafted, &on, plan, on_read) {
+            Err(AtlasError::TextureTooSmall) => {}
+            done => return Ok(done?),
+        }
+    }
+    let mut enough = atlas::enough(&chart_maps(&last.0), options)?;
+    // The estimate ends at the largest texture, which may be too small as well.
+    let largest = enough.resolution.filter(|it| it.longer() == LARGEST);
+    if let Some(largest) = largest {
+        let mut on = options.clone();
+        on.texture.resolution = largest;
+        let whole = Drafted {
+            charts: last.0,
+            draft: None,
+        };
+        match settled(whole, &on, plan, on_read) {
+            Err(AtlasError::TextureTooSmall) => enough.resolution = None,
+            tried => drop(tried?),
+        }
+    }
+    Err(PipelineError::TextureTooSmall(enough))
+}
+
+/// How to pack on so many pages.
+fn on_pages(pages: u32, options: &AtlasOptions) -> AtlasOptions {
+    let mut on = options.clone();
+    on.texture.pages = pages;
+    if pages > 1 {
+        on.search_words /= PER_PAGE;
+    }
+    on
+}
+
+/// The least number of pages that could do.
+fn least_pages(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> u32 {
+    let area: f64 = charts.iter().map(MappedChart::area).sum();
+    let resolution = options.texture.resolution;
+    let page = HOPE * f64::from(resolution.width) * f64::from(resolution.height);
+    let most = options.texture.pages;
+    ((texels * texels * area / page).min(f64::from(most)) as u32 + 1).min(most)
+}
+
+/// Cut where that makes the atlas fuller; none where no cut leads beyond the scale that was reached before.
+fn drafted(
+    charts: (Vec<MappedChart>, Before),
+    options: &AtlasOptions,
+    plan: &Plan,
+    on_read: &OnRead,
+) -> Result<Option<Drafted>, AtlasError> {
+    match plan.compaction {
+        Some(seam_price) => compacted(charts, options, (seam_price, plan.most_charts), on_read),
+        None => Drafted::new(charts.0, options).map(Some),
+    }
+}
+
+/// Where rounding to the grid made a chart overlap itself it is cut once more, where one is too thin for the bits it shall be safe at
+/// it is opened, and all are packed again.
+fn settled(
+    drafted: Drafted,
+    options: &AtlasOptions,
+    plan: &Plan,
+    on_read: &OnRead,
+) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
+    let Drafted {
+        mut charts,
+        mut draft,
+    } = drafted;
+    let (mut rounds, mut openings) = (0, 0);
+    loop {
+        let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options, on_read)?;
+        if openings < OPENINGS
+            && plan
+                .safe_bits
+                .is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))
+        {
+            openings += 1;
+            draft = Draft::new(&chart_maps(&charts), options)?;
+            continue;
+        }
+        rounds += 1;
+        if plan.folds == Folds::Keep || rounds == PACKINGS {
+            return Ok((charts, atlas));
+        }
+        let n_before = charts.len();
+        let unfolded = |(chart, placed): (MappedChart, &Placed)| {
+            let rounded: Vec<[f64; 2]> = placed.grid.iter().map(|p| p.map(f64::from)).collect();
+            chart.unfolded(&rounded, &|| on_read(0))
+        };
+        charts = (charts.into_par_iter().zip(&atlas.placed))
+            .flat_map_iter(unfolded)
+            .collect();
+        if charts.len() == n_before {
+            return Ok((charts, atlas));
+        }
+        draft = Draft::new(&chart_maps(&charts), options)?;
+    }
+}

@@ -1,0 +1,58 @@
+//! Which faces belong to islands that stay.
+
+use super::placement::Placement;
+use super::seams::Seams;
+use crate::island_error::IslandError;
+use unwrapd_maps::certificate::chart_ids;
+
+/// Which faces belong to islands that stay.
+pub struct PlacedFaces<'a> {
+    placed: &'a [Placement],
+    /// The island of each face.
+    island: Vec<u32>,
+    /// For each island the place of its placement in the list.
+    of_island: Vec<Option<usize>>,
+}
+
+impl<'a> PlacedFaces<'a> {
+    /// Finds the islands that are named; none where none is.
+    pub fn new(
+        positions: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        seams: &'a Seams,
+    ) -> Result<Option<Self>, IslandError> {
+        let placed = seams.placed.as_slice();
+        let Some(uvs) = seams.uvs.as_ref().filter(|_| !placed.is_empty()) else {
+            return Ok(None);
+        };
+        let island = chart_ids(positions, triangles, uvs);
+        let n_islands = island.iter().max().map_or(0, |last| last + 1);
+        let mut of_island: Vec<Option<usize>> = vec![None; n_islands as usize];
+        for (index, placement) in placed.iter().enumerate() {
+            let face = island.get(placement.face as usize);
+            let face = face.ok_or(IslandError::UnknownFace(placement.number))?;
+            if let Some(first) = of_island[*face as usize].replace(index) {
+                return Err(IslandError::Twice(placed[first].number, placement.number));
+            }
+        }
+        Ok(Some(Self {
+            placed,
+            island,
+            of_island,
+        }))
+    }
+
+    /// The place in the list of what is said of the island of a face.
+    pub fn index_of(&self, face: u32) -> Option<usize> {
+        self.of_island[self.island[face as usize] as usize]
+    }
+
+    /// The faces of islands that stay where they are, ascending.
+    pub fn still(&self) -> Vec<u32> {
+        let is_still = |face: &u32| {
+            let index = self.index_of(*face);
+            index.is_some_and(|index| self.placed[index].is_still())
+        };
+        (0..self.island.len() as u32).filter(is_still).collect()
+    }
+}

@@ -1,0 +1,143 @@
+//! The plan of a run: what is cut, mapped, given back, compacted and packed.
+
+use super::settings::Settings;
+use crate::options::{KeptMaps, Mapping};
+use unwrapd_layout::atlas::Turns;
+use unwrapd_layout::charts::{Bound, Cut, Folds, Symmetry};
+use unwrapd_maps::embed::{self, Pins};
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::solver;
+
+/// What happens to charts from the first cut to the layout. Computed once from the options; no
+/// later stage asks where to cut or whether there is a barrier.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// Where a surface is cut first.
+    pub cut: Cut,
+    /// What a chart's map begins with.
+    pub start: Start,
+    /// How charts are mapped.
+    pub embedding: embed::Options,
+    /// Whether the result must be valid.
+    pub is_promised: bool,
+    /// The distortion that charts may have.
+    pub bound: Bound,
+    /// The same, if the report says whether it is kept.
+    pub reported_bound: Option<Bound>,
+    /// Whether both sides of a mirror plane are cut alike.
+    pub symmetry: Symmetry,
+    /// What happens to charts beyond their first cut.
+    pub refinement: Refinement,
+    /// Charts of one atlas at most.
+    pub most_charts: Option<u32>,
+    /// What becomes of charts that overlap themselves.
+    pub folds: Folds,
+    /// Price of seams that only make the atlas fuller; `None` if no chart is cut for that.
+    pub compaction: Option<f64>,
+    /// How long layouts are searched for.
+    pub search: Search,
+    /// How charts may be turned.
+    pub turns: Turns,
+    /// Bits per coordinate at which the map must stay bijective.
+    pub safe_bits: Option<u32>,
+}
+
+/// What a chart's map begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// A map of its own.
+    New,
+    /// The present UVs, which are optimized.
+    Present,
+    /// The present UVs, which stay.
+    Final,
+}
+
+/// What happens to charts beyond their first cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refinement {
+    /// They are cut until they keep the bound, and small ones are given back to their neighbors.
+    UnderBound,
+    /// Small ones are given back once all are mapped.
+    GivenBack,
+    /// Nothing.
+    None,
+}
+
+/// How long layouts are searched for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// As long as pays.
+    Full,
+    /// Just long enough for one layout.
+    Brief,
+}
+
+impl Plan {
+    /// The plan that follows from the settings.
+    pub fn new(settings: &Settings) -> Self {
+        let Settings {
+            cutting, mapping, ..
+        } = settings;
+        let cut = cutting.cut;
+        let start = match (cut, cutting.kept_maps) {
+            (Cut::Keep, KeptMaps::AsGiven) => Start::Final,
+            (Cut::Keep, KeptMaps::Optimized) => Start::Present,
+            _ => Start::New,
+        };
+        let has_barrier = mapping.barrier != BarrierKind::None;
+        let is_promised = has_barrier && start != Start::Final;
+        // Whoever asks for one chart per component wants no other seams.
+        let may_cut_again = is_promised && cut != Cut::Disk;
+        let seam_price = cutting.seam_weight * cutting.quality.seam_price();
+        Self {
+            cut,
+            start,
+            embedding: embedding(mapping),
+            is_promised,
+            bound: cutting.bound(),
+            reported_bound: (cut == Cut::Auto).then(|| cutting.bound()),
+            symmetry: cutting.symmetry,
+            refinement: match cut {
+                Cut::Auto if has_barrier => Refinement::UnderBound,
+                Cut::Keep | Cut::Seams if may_cut_again => Refinement::GivenBack,
+                _ => Refinement::None,
+            },
+            most_charts: cutting.max_charts,
+            folds: if may_cut_again {
+                Folds::Cut
+            } else {
+                Folds::Keep
+            },
+            compaction: (may_cut_again && cut == Cut::Auto).then_some(seam_price),
+            search: match cut {
+                Cut::Fast => Search::Brief,
+                _ => Search::Full,
+            },
+            turns: match start {
+                Start::Final => Turns::Quarters,
+                Start::New | Start::Present => Turns::Any,
+            },
+            safe_bits: mapping.quantization_safe,
+        }
+    }
+
+    /// Whether the present UVs are read.
+    pub fn reads_uvs(&self) -> bool {
+        self.start != Start::New
+    }
+}
+
+fn embedding(mapping: &Mapping) -> embed::Options {
+    embed::Options {
+        energy: mapping.energy,
+        barrier: mapping.barrier,
+        beta: mapping.barrier_strength,
+        s: mapping.barrier_support,
+        pins: match mapping.pin {
+            0 => Pins::None,
+            _ => Pins::Two,
+        },
+        solver: solver::Settings::default(),
+    }
+}

@@ -1,0 +1,185 @@
+//! Meshes as arrays, and their division into pieces that are mapped by themselves.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::alike::alike;
+use super::plan::Plan;
+use super::position_key::{PositionKey, position_key};
+use super::seams::Seams;
+use crate::PipelineError;
+use unwrapd_layout::charts::Cut;
+use unwrapd_maps::mesh::Surface;
+
+/// A mesh as arrays.
+#[derive(Clone, Copy)]
+pub struct Soup<'a> {
+    pub positions: &'a [[f64; 3]],
+    pub triangles: &'a [[u32; 3]],
+    pub seams: &'a Seams,
+    /// The meshes of a document that it was put together from; none if that is not known.
+    pub parts: &'a [Part],
+}
+
+/// A mesh of a document in what several were put together to.
+#[derive(Clone, Debug)]
+pub struct Part {
+    pub vertices: Range<u32>,
+    pub faces: Range<u32>,
+}
+
+impl Part {
+    fn size(&self) -> (usize, usize) {
+        (self.vertices.len(), self.faces.len())
+    }
+}
+
+/// A part of a mesh that is cut and mapped by itself.
+pub struct Piece<'a> {
+    positions: Cow<'a, [[f64; 3]]>,
+    triangles: Cow<'a, [[u32; 3]]>,
+    pub seams: Cow<'a, Seams>,
+    /// For each triangle its face in the mesh; absent in a piece that is the whole of it.
+    faces: Option<Vec<u32>>,
+}
+
+impl Piece<'_> {
+    /// The surface, cut along its seams, and where its winding changes unless the present charts are kept.
+    pub fn surface(&self, plan: &Plan) -> Result<Surface, PipelineError> {
+        let mut surface = Surface::new(&self.positions, &self.triangles)?;
+        self.seams.cut(&mut surface, &self.positions);
+        if plan.cut != Cut::Keep {
+            surface.cut_where_winding_changes();
+        }
+        Ok(surface)
+    }
+
+    /// The face of the mesh that a triangle is.
+    pub fn face(&self, triangle: u32) -> u32 {
+        (self.faces.as_ref()).map_or(triangle, |faces| faces[triangle as usize])
+    }
+
+    /// Whether it is all of the mesh.
+    pub fn is_whole(&self) -> bool {
+        self.faces.is_none()
+    }
+}
+
+impl<'a> Soup<'a> {
+    /// All of it.
+    pub fn whole(&self) -> Result<Vec<Piece<'a>>, PipelineError> {
+        self.seams.check(self.positions, self.triangles)?;
+        Ok(vec![Piece {
+            positions: Cow::Borrowed(self.positions),
+            triangles: Cow::Borrowed(self.triangles),
+            seams: Cow::Borrowed(self.seams),
+            faces: None,
+        }])
+    }
+
+    /// Each part that occurs again, and all others as one piece.
+    ///
+    /// A part that touches another, but for exact copies in the same place, may belong together with it, and stays there.
+    pub fn pieces(&self, plan: &Plan) -> Result<Vec<Piece<'a>>, PipelineError> {
+        self.seams.check(self.positions, self.triangles)?;
+        let repeated: Vec<&Part> = self.repeated_parts(plan);
+        if repeated.is_empty() {
+            return self.whole();
+        }
+        let mut is_left = vec![true; self.triangles.len()];
+        for part in &repeated {
+            is_left[part.faces.start as usize..part.faces.end as usize].fill(false);
+        }
+        let left: Vec<u32> = (0..)
+            .zip(&is_left)
+            .filter(|(_, left)| **left)
+            .map(|(f, _)| f)
+            .collect();
+        let rest = (!left.is_empty()).then(|| Piece {
+            positions: Cow::Borrowed(self.positions),
+            triangles: left
+                .iter()
+                .map(|&face| self.triangles[face as usize])
+                .collect(),
+            seams: Cow::Owned(self.seams.restricted(&left, 0..self.positions.len() as u32)),
+            faces: Some(left),
+        });
+        let parts = repeated.into_iter().map(|part| self.piece(part));
+        Ok(rest.into_iter().chain(parts).collect())
+    }
+
+    fn piece(&self, part: &Part) -> Piece<'a> {
+        let Range { start, end } = part.vertices;
+        let faces: Vec<u32> = part.faces.clone().collect();
+        let triangles = &self.triangles[part.faces.start as usize..part.faces.end as usize];
+        Piece {
+            positions: Cow::Borrowed(&self.positions[start as usize..end as usize]),
+            triangles: triangles.iter().map(|t| t.map(|v| v - start)).collect(),
+            seams: Cow::Owned(self.seams.restricted(&faces, start..end)),
+            faces: Some(faces),
+        }
+    }
+
+    fn repeated_parts(&self, plan: &Plan) -> Vec<&'a Part> {
+        let mut of_size: HashMap<_, usize> = HashMap::new();
+        for part in self.parts {
+            *of_size.entry(part.size()).or_default() += 1;
+        }
+        let candidates: Vec<&Part> = (self.parts.iter())
+            .filter(|part| of_size[&part.size()] > 1)
+            .collect();
+        // What is no surface is reported where the whole mesh is made one.
+        let surfaces: Vec<(&Part, Piece, Surface)> = (candidates.into_par_iter())
+            .filter_map(|part| {
+                let piece = self.piece(part);
+                let surface = piece.surface(plan).ok()?;
+                Some((part, piece, surface))
+            })
+            .collect();
+        let meshes: Vec<&Surface> = surfaces.iter().map(|(_, _, surface)| surface).collect();
+        let seams: Vec<&Seams> = surfaces.iter().map(|(_, piece, _)| &*piece.seams).collect();
+        let shapes = alike(&meshes, &seams);
+        let mut times = vec![0; shapes.len()];
+        for shape in &shapes {
+            times[shape.first] += 1;
+        }
+        let found = shapes
+            .iter()
+            .zip(&surfaces)
+            .filter(|(shape, _)| times[shape.first] > 1);
+        let found: Vec<&Part> = found.map(|(_, (part, ..))| *part).collect();
+        self.standing_apart(found)
+    }
+
+    /// Those parts that share no position with another one that is not the same, number for number.
+    fn standing_apart(&self, parts: Vec<&'a Part>) -> Vec<&'a Part> {
+        if parts.is_empty() {
+            return parts;
+        }
+        let content = |part: &Part| {
+            let positions =
+                &self.positions[part.vertices.start as usize..part.vertices.end as usize];
+            positions
+                .iter()
+                .map(|&p| position_key(p))
+                .collect::<Vec<_>>()
+        };
+        let mut first_with: HashMap<Vec<PositionKey>, u32> = HashMap::new();
+        let same: Vec<u32> = (0..)
+            .zip(self.parts)
+            .map(|(index, part)| *first_with.entry(content(part)).or_insert(index))
+            .collect();
+        let mut owner: HashMap<PositionKey, Option<u32>> = HashMap::new();
+        for (part, &same) in self.parts.iter().zip(&same) {
+            for p in content(part) {
+                let owner = owner.entry(p).or_insert(Some(same));
+                *owner = owner.filter(|&owner| owner == same);
+            }
+        }
+        let stands_apart = |part: &&Part| content(part).iter().all(|p| owner[p].is_some());
+        parts.into_iter().filter(stands_apart).collect()
+    }
+}

@@ -1,0 +1,231 @@
+//! From plain arrays to an atlas: weld, cut, map, pack.
+
+use rayon::prelude::*;
+
+use super::arranged::arranged;
+use super::divided::Divided;
+use super::packed::packed;
+use super::packing::{atlas_options, expected_words, likely_words};
+use super::placed_faces::PlacedFaces;
+use super::plan::{Plan, Start};
+use super::repeated::{self, GridCorners};
+use super::seams::Seams;
+use super::settings::Settings;
+use super::soup::Soup;
+use crate::PipelineError;
+use crate::observer::{Observer, Stage};
+use crate::options::Workers;
+use crate::portion::Portion;
+use crate::tracker::Tracker;
+use unwrapd_layout::atlas::{self, Atlas};
+use unwrapd_layout::charts::MappedChart;
+use unwrapd_maps::mesh::Defects;
+use unwrapd_method::solver::Summary;
+
+/// An unwrapped mesh.
+#[derive(Clone, Debug)]
+pub struct Unwrapped {
+    /// For every face of the input its corners on the grid.
+    pub grid: Vec<GridCorners>,
+    /// What happened to each chart.
+    pub charts: Vec<ChartRecord>,
+    /// What was found to be wrong with the mesh.
+    pub defects: Defects,
+    /// UV length of one unit of length of the mesh, along the longer side of the texture.
+    pub scale: f64,
+    /// The mesh of which it is the atlas too, where several are unwrapped and that one has the same shape.
+    pub same_as: Option<usize>,
+    /// Faces of islands that stay where they are: their UVs are those that were given.
+    pub still: Vec<u32>,
+    /// Padding that was kept, in texels; less than asked for only where the charts alone would fill the square.
+    pub padding_texels: f64,
+}
+
+/// How a chart was mapped.
+#[derive(Clone, Debug)]
+pub struct ChartRecord {
+    /// Triangles of the chart.
+    pub faces: usize,
+    /// How the optimization went.
+    pub summary: Summary,
+    /// Seconds of the observer's clock from the chart's start to its end.
+    pub seconds: f64,
+}
+
+impl Unwrapped {
+    /// The UVs of every corner of every face, v up, exact in f32.
+    pub fn corner_uvs(&self) -> Vec<[[f64; 2]; 3]> {
+        let unit = 1.0 / f64::from(1_u32 << atlas::GRID_BITS);
+        let uv = |p: [i32; 2]| [f64::from(p[0]) * unit, f64::from(p[1]) * unit];
+        self.grid.iter().map(|face| face.map(uv)).collect()
+    }
+}
+
+/// Unwraps a mesh given as arrays into one atlas: every triangle with three distinct positions gets a positive area
+/// in the unit square, at one texel density. Coordinates are `f32` or `f64`.
+///
+/// Equal input and settings give equal output, for any number of threads.
+pub fn unwrap<T: Copy + Into<f64>>(
+    positions: &[[T; 3]],
+    triangles: &[[u32; 3]],
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> Result<Unwrapped, PipelineError> {
+    unwrap_along(positions, triangles, &Seams::default(), settings, observer)
+}
+
+/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](unwrapd_layout::charts::Cut::Seams) and
+/// [`Cut::Keep`](unwrapd_layout::charts::Cut::Keep) along no others than it takes to open what they enclose.
+pub fn unwrap_along<T: Copy + Into<f64>>(
+    positions: &[[T; 3]],
+    triangles: &[[u32; 3]],
+    seams: &Seams,
+    settings: &Settings,
+    observer: &dyn Observer,
+) -> Result<Unwrapped, PipelineError> {
+    settings.validate().map_err(PipelineError::InvalidOptions)?;
+    let tracker = Tracker::new(observer, settings.budget);
+    let positions: Vec<[f64; 3]> = positions.iter().map(|p| p.map(Into::into)).collect();
+    let mesh = Soup {
+        positions: &positions,
+        triangles,
+        seams,
+        parts: &[],
+    };
+    let mut atlases = in_pool(settings.workers, || unwrap_all(&[mesh], settings, &tracker))??;
+    atlases.pop().ok_or(PipelineError::NoTriangles)
+}
+
+/// Runs `work` with so many threads; nothing of it touches rayon's global pool.
+pub fn in_pool<T: Send>(
+    workers: Workers,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, PipelineError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(workers.threads.unwrap_or(0))
+        .build()
+        .map_err(|error| PipelineError::Threads(error.to_string()))?;
+    Ok(pool.install(work))
+}
+
+/// Unwraps every mesh into its own atlas; the charts of all of them are mapped from one queue. What has the same shape is mapped
+/// once, and packed once where it has an atlas to itself.
+pub fn unwrap_all(
+    meshes: &[Soup],
+    settings: &Settings,
+    tracker: &Tracker,
+) -> Result<Vec<Unwrapped>, PipelineError> {
+    tracker.stage(Stage::Cut);
+    let plan = Plan::new(settings);
+    let divided = Divided::new(meshes, &plan)?;
+    let same_as: Vec<Option<(usize, f64)>> = (0..meshes.len())
+        .map(|mesh| divided.same_mesh(mesh, settings))
+        .collect();
+    let is_own: Vec<bool> = same_as.iter().map(Option::is_none).collect();
+    let own = || (0..meshes.len()).filter(|&mesh| is_own[mesh]);
+    let n_atlases = own().count();
+    let words = |mesh| likely_words((settings, &plan), n_atlases, divided.n_faces(mesh));
+    let all_words = own().map(words).sum();
+    tracker.expect(divided.n_mapped_faces(), all_words);
+    let charts = divided.charts(&is_own, &plan, tracker);
+    tracker.begin(Stage::Pack, all_words as f64);
+    let atlases: Vec<Option<(Vec<MappedChart>, Atlas)>> = (charts.into_par_iter().enumerate())
+        .with_max_len(1)
+        .map(|(index, charts)| {
+            if !is_own[index] {
+                return Ok(None);
+            }
+            let options = atlas_options((settings, &plan), n_atlases, &charts);
+            let charts = weighted(charts, meshes[index].seams);
+            let expected = expected_words(&plan, &options, charts.len());
+            let portion = Portion::of_atlas(tracker, words(index), expected);
+            let on_read = |words| portion.read(words);
+            let how = (settings, &plan, n_atlases);
+            match placed_faces(&meshes[index], &plan)? {
+                None => packed(charts, &options, &plan, &on_read),
+                Some(placed) => arranged(charts, &meshes[index], &placed, how, &on_read),
+            }
+            .map(Some)
+        })
+        .collect::<Result<_, PipelineError>>()?;
+    (meshes.par_iter().enumerate())
+        .map(|(index, mesh)| {
+            let (first, size) = same_as[index].unwrap_or((index, 1.0));
+            let (charts, atlas) = atlases[first].as_ref().ok_or(PipelineError::NoTriangles)?;
+            Ok(Unwrapped {
+                grid: face_corners(*mesh, &divided.faces(index), charts, atlas),
+                charts: charts.iter().map(ChartRecord::new).collect(),
+                defects: divided.defects(index, mesh)?,
+                scale: atlas.scale / size,
+                same_as: (first != index).then_some(first),
+                still: placed_faces(mesh, &plan)?.map_or_else(Vec::new, |placed| placed.still()),
+                padding_texels: atlas.padding_texels,
+            })
+        })
+        .collect()
+}
+
+/// Which faces belong to islands that stay where they are put, if any do.
+fn placed_faces<'a>(
+    mesh: &Soup<'a>,
+    plan: &Plan,
+) -> Result<Option<PlacedFaces<'a>>, PipelineError> {
+    if plan.start == Start::Final {
+        Ok(PlacedFaces::new(
+            mesh.positions,
+            mesh.triangles,
+            mesh.seams,
+        )?)
+    } else {
+        Ok(None)
+    }
+}
+
+/// The charts enlarged by the weights of their faces.
+fn weighted(mut charts: Vec<MappedChart>, seams: &Seams) -> Vec<MappedChart> {
+    let Some(weights) = &seams.weights else {
+        return charts;
+    };
+    for MappedChart {
+        chart, embedding, ..
+    } in &mut charts
+    {
+        // All faces of a chart have one weight: where two meet there is a seam.
+        if let Some([corner, ..]) = chart.corners.first() {
+            let weight = weights[*corner as usize / 3];
+            for p in &mut embedding.uv {
+                *p = p.map(|x| weight * x);
+            }
+        }
+    }
+    charts
+}
+
+impl ChartRecord {
+    fn new(mapped: &MappedChart) -> Self {
+        Self {
+            faces: mapped.chart.disk.triangles.len(),
+            summary: mapped.embedding.summary,
+            seconds: mapped.seconds,
+        }
+    }
+}
+
+/// For every face of the input its corners in the atlas; `faces` are those that charts have.
+fn face_corners(
+    mesh: Soup,
+    faces: &[u32],
+    charts: &[MappedChart],
+    atlas: &Atlas,
+) -> Vec<GridCorners> {
+    let mut grid = vec![[[0; 2]; 3]; mesh.triangles.len()];
+    for (MappedChart { chart, .. }, placed) in charts.iter().zip(&atlas.placed) {
+        for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
+            for (&vertex, &corner) in triangle.iter().zip(corners) {
+                grid[corner as usize / 3][corner as usize % 3] = placed.grid[vertex as usize];
+            }
+        }
+    }
+    repeated::place(mesh.positions, mesh.triangles, faces, &mut grid);
+    grid
+}

@@ -1,0 +1,233 @@
+//! Documents whose surfaces are deformed in a cage.
+
+use super::cage_map::{CageMap, subdivision, widened};
+use super::cage_report::CageReport;
+use super::formats::BodyFormat;
+use super::frames::Frames;
+use super::moved::{check_format, check_frames, moved, moved_frame};
+use super::solution::{Deformed, solve};
+use crate::PipelineError;
+use crate::documents::merged::Merged;
+use crate::limits::Limits;
+use crate::observer::Stage;
+use crate::options::DeformOptions;
+use crate::start::start;
+use crate::tracker::Tracker;
+use unwrapd_deform::cage::{Cage, Caged, CagedSurface};
+use unwrapd_deform::{Body, Handle, Model, Problem, ProblemError, Solution};
+use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload, Written};
+use unwrapd_files::io::Format;
+use unwrapd_maps::certificate::{Crossings, crossings};
+use unwrapd_method::solver::Watch;
+
+/// A document with all its triangles in one cage.
+///
+/// Positions are those of the meshes, each once: transforms of nodes are not applied, so meshes that a scene sets apart may share
+/// voxels and then move together.
+pub struct CagedDocument {
+    document: Document,
+    cage: Cage,
+    problem: Problem,
+    handles: Vec<Handle>,
+    idle_parts: usize,
+    options: CageOptions,
+}
+
+/// How to put a document into a cage, deform it, and write it.
+#[derive(Clone, Debug)]
+pub struct CageOptions {
+    /// Voxels along the longest side of all triangles' bounding box.
+    pub n_voxels: u32,
+    /// Whether triangles are cut where they pass from one tetrahedron into the next.
+    pub surfaces: Surfaces,
+    /// What the deformation costs.
+    pub model: Model,
+    /// What kind of file to write: glTF for a glTF document, OBJ for OBJ, either for triangles without a document.
+    pub format: OutputFormat,
+    /// Name of the main file without its extension.
+    pub stem: String,
+    /// What may be used.
+    pub limits: Limits,
+}
+
+/// What becomes of triangles that reach over several tetrahedra, in which the cage's map differs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Surfaces {
+    /// Their vertices are moved, and they stay flat.
+    #[default]
+    Whole,
+    /// They are cut, so that they follow the cage exactly.
+    Split,
+}
+
+/// Deforms the surfaces of a file in a cage.
+pub fn deform(
+    upload: &Upload,
+    options: &DeformOptions,
+    n_voxels: u32,
+    tracker: &Tracker,
+) -> Result<Deformed, PipelineError> {
+    tracker.stage(Stage::Read);
+    let format = options.format.and_then(BodyFormat::of_document);
+    let format = format.unwrap_or(match Format::of_name(&upload.name) {
+        Some(Format::Obj) => OutputFormat::Obj,
+        _ => OutputFormat::Glb,
+    });
+    if options.frames {
+        check_frames(format)?;
+    }
+    let mut caged = CagedDocument::read(
+        upload,
+        &options.handles,
+        CageOptions {
+            n_voxels,
+            surfaces: if options.split {
+                Surfaces::Split
+            } else {
+                Surfaces::Whole
+            },
+            model: options.model.clone(),
+            format,
+            stem: options.caller.stem(upload),
+            limits: options.caller.limits,
+        },
+    )?;
+    caged.problem.search = options.pulling.search;
+    match start(upload, caged.problem.start.len())? {
+        Some(start) => {
+            caged.problem.start = start;
+            caged.problem.untangle_start()?;
+        }
+        None => caged.start_coarse(tracker),
+    }
+    let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
+    let frames = Frames {
+        tracker,
+        file: &file,
+    };
+    let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
+    let solved = solve(caged.problem(), options.plan(), tracker, viewer)?;
+    tracker.stage(Stage::Write);
+    let (written, cage) = caged.write(&solved.solution)?;
+    let mut report = solved.report;
+    report.warnings.extend_from_slice(&cage.warnings);
+    report.cage = Some(cage);
+    Ok(Deformed {
+        files: written.files,
+        report,
+        trace: solved.trace,
+    })
+}
+
+impl CagedDocument {
+    /// Reads a file, puts a cage around all triangles, and binds it to handles, which name places.
+    pub fn read(
+        upload: &Upload,
+        handles: &[Handle],
+        options: CageOptions,
+    ) -> Result<Self, PipelineError> {
+        let document = Document::read(upload)?;
+        options.limits.check(&document)?;
+        check_format(&document, options.format)?;
+        let is_vertex = |handle: &Handle| matches!(handle, Handle::Vertex { .. });
+        if let Some(handle) = handles.iter().position(is_vertex) {
+            return Err(ProblemError::VertexOfCage { handle }.into());
+        }
+        let positions = positions(&document);
+        let cage = Cage::around(&surfaces(&document, &positions), options.n_voxels)?;
+        let document = match options.surfaces {
+            Surfaces::Whole => document,
+            Surfaces::Split => {
+                let cuts = document.primitives().iter().map(|p| subdivision(&cage, p));
+                let cuts = cuts.collect::<Result<Vec<_>, _>>()?;
+                document.subdivided(&cuts)?
+            }
+        };
+        let mut problem = Problem::new(Body::from(cage.mesh()), handles, &options.model)?;
+        let idle_parts = problem.hold_idle_parts();
+        Ok(Self {
+            document,
+            cage,
+            problem,
+            handles: handles.to_vec(),
+            idle_parts,
+            options,
+        })
+    }
+
+    /// Lets a large cage start where a coarser one ends.
+    fn start_coarse(&mut self, watch: &dyn Watch) {
+        let positions = positions(&self.document);
+        let caged = Caged {
+            surfaces: &surfaces(&self.document, &positions),
+            handles: &self.handles,
+            model: &self.options.model,
+        };
+        caged.start(&mut self.problem, &self.cage, self.options.n_voxels, watch);
+    }
+
+    /// The cage as a body, with its handles.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    fn map<'a>(&'a self, x: &'a [f64]) -> CageMap<'a> {
+        CageMap {
+            cage: &self.cage,
+            deformed: x.as_chunks().0,
+        }
+    }
+
+    /// Writes the document with its surfaces where a solution of the problem carries them; everything else stays: nodes,
+    /// skins, morph targets, materials, UVs.
+    pub fn write(self, solution: &Solution) -> Result<(Written, CageReport), PipelineError> {
+        let crossings_before = crossings_of(&self.document);
+        let map = self.map(&solution.x);
+        let (moved, written) = moved(
+            &self.document,
+            &map,
+            self.options.format,
+            &self.options.stem,
+        )?;
+        let report = CageReport {
+            voxels: self.cage.mesh().tets().len() / 6,
+            tets: self.cage.mesh().tets().len(),
+            idle_parts: self.idle_parts,
+            surface_vertices: moved.primitives().iter().map(|p| p.positions.len()).sum(),
+            surface_triangles: moved.primitives().iter().map(|p| p.triangles.len()).sum(),
+            crossings_before,
+            crossings_after: crossings_of(&moved),
+            warnings: [self.document.warnings(), &written.notes.warnings].concat(),
+        };
+        Ok((written, report))
+    }
+}
+
+/// The positions of every primitive.
+pub fn positions(document: &Document) -> Vec<Vec<[f64; 3]>> {
+    let primitives = document.primitives().iter();
+    primitives.map(|p| widened(&p.positions)).collect()
+}
+
+/// The triangles of every primitive over its positions.
+pub fn surfaces<'a>(
+    document: &'a Document,
+    positions: &'a [Vec<[f64; 3]>],
+) -> Vec<CagedSurface<'a>> {
+    let primitives = positions.iter().zip(document.primitives());
+    primitives
+        .map(|(positions, primitive)| CagedSurface {
+            positions,
+            triangles: &primitive.triangles,
+        })
+        .collect()
+}
+
+fn crossings_of(document: &Document) -> Crossings {
+    let mut found = Crossings::default();
+    for group in document.groups(GroupBy::Scene) {
+        let merged = Merged::new(document.primitives(), &group);
+        found = crossings(&merged.positions, &merged.triangles);
+    }
+    found
+}

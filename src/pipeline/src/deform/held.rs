@@ -1,0 +1,108 @@
+//! Files as bodies in the hand.
+
+use super::caged::{positions, surfaces};
+use super::source::Source;
+use crate::PipelineError;
+use crate::options::{CommandOptions, DeformOptions, WarpOptions};
+use unwrapd_deform::cage::{Cage, Embedding};
+use unwrapd_deform::warp::{WarpError, picture_grid};
+use unwrapd_deform::{Body, BodyElements, Boundary, Handle, Session};
+use unwrapd_files::document::{Document, Upload};
+use unwrapd_files::picture::Image;
+use unwrapd_maps::mesh::boundary_triangles;
+
+/// A file as a body in the hand, and what of it is seen.
+pub struct HeldBody {
+    /// At rest, with the handles of a fixed border if there is one.
+    pub session: Session,
+    /// What is deformed.
+    pub body: Body,
+    /// The triangles that are seen: over the vertices of the body, or over those of the skin.
+    pub triangles: Vec<[u32; 3]>,
+    /// The surface that a cage carries along.
+    pub skin: Option<Skin>,
+    /// Columns and rows of the picture that lies on the body at rest.
+    pub picture: Option<[usize; 2]>,
+}
+
+/// A surface in a body of tetrahedra: each vertex is a mean of the corners of one of them.
+pub struct Skin {
+    /// Four vertices of the body each.
+    pub corners: Vec<[u32; 4]>,
+    /// Their weights, of sum 1 up to rounding.
+    pub weights: Vec<[f64; 4]>,
+}
+
+/// Takes what [`deform_file`](crate::deform_file) would deform into the hand. Its handles are for the caller to add.
+pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, PipelineError> {
+    options.check()?;
+    let Some(n_voxels) = options.cage else {
+        let source = Source::read(upload, options.triangles, &options.caller.limits)?;
+        let body = source.body()?;
+        let triangles = match &body.elements {
+            BodyElements::Triangles { corners, .. } => corners.clone(),
+            BodyElements::Tetrahedra { corners, .. } => boundary_triangles(corners),
+        };
+        return HeldBody::new(body, triangles, options);
+    };
+    let document = Document::read(upload)?;
+    options.caller.limits.check(&document)?;
+    let positions = positions(&document);
+    let surfaces = surfaces(&document, &positions);
+    let cage = Cage::around(&surfaces, n_voxels)?;
+    let mut triangles = Vec::new();
+    let mut places = Vec::new();
+    for surface in &surfaces {
+        let first = places.len() as u32;
+        triangles.extend(surface.triangles.iter().map(|t| t.map(|v| v + first)));
+        places.extend_from_slice(surface.positions);
+    }
+    let Embedding { tets, weights } = cage.embed(&places)?;
+    let corners = tets.iter().map(|&tet| cage.mesh().tets()[tet as usize]);
+    let corners = corners.collect();
+    let held = HeldBody::new(Body::from(cage.mesh()), triangles, options)?;
+    Ok(HeldBody {
+        skin: Some(Skin { corners, weights }),
+        ..held
+    })
+}
+
+impl HeldBody {
+    fn new(
+        body: Body,
+        triangles: Vec<[u32; 3]>,
+        options: &DeformOptions,
+    ) -> Result<Self, PipelineError> {
+        Ok(Self {
+            session: Session::new(body.clone(), &options.model)?,
+            body,
+            triangles,
+            skin: None,
+            picture: None,
+        })
+    }
+}
+
+/// Takes the grid on which [`warp_file`](crate::warp_file) would warp a picture into the hand: pixels, y down. Its handles are
+/// for the caller to add.
+pub fn hold_picture(upload: &Upload, options: &WarpOptions) -> Result<HeldBody, PipelineError> {
+    options.check()?;
+    let image = Image::decode(&upload.bytes)?;
+    let how = options.of_grid();
+    let grid = picture_grid(image.width, image.height, how.grid).map_err(WarpError::from)?;
+    let body = Body::from(&grid);
+    let mut session = Session::new(body.clone(), &options.model)?;
+    if how.boundary == Boundary::Fixed {
+        for [vertex, _] in grid.boundary() {
+            let to = grid.vertices()[vertex as usize].to_vec();
+            session.add(Handle::Vertex { vertex, to })?;
+        }
+    }
+    Ok(HeldBody {
+        session,
+        body,
+        triangles: grid.triangles().to_vec(),
+        skin: None,
+        picture: Some([image.width, image.height]),
+    })
+}

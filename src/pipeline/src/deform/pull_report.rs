@@ -1,0 +1,37 @@
+//! Maps that were pulled, as they are reported.
+
+use serde::Serialize;
+
+use unwrapd_deform::PullSummary;
+use unwrapd_maps::certificate::PlanarCertificate;
+
+/// What a map that was pulled is worth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PullReport {
+    /// How it was pulled.
+    #[serde(flatten)]
+    pub summary: PullSummary,
+    /// Pairs of boundary edges that cross or touch, exactly, before the map is rounded for a file.
+    pub crossings: u64,
+    /// Whether every triangle is positive and no two overlap: the certificate's conclusion.
+    pub bijective: bool,
+    /// What is proven about the result by exact predicates.
+    #[serde(flatten)]
+    pub certificate: PlanarCertificate,
+}
+
+impl PullReport {
+    pub(in crate) fn new(
+        summary: PullSummary,
+        crossings: u64,
+        certificate: PlanarCertificate,
+    ) -> Self {
+        Self {
+            summary,
+            crossings,
+            bijective: certificate.is_bijective(),
+            certificate,
+        }
+    }
+}

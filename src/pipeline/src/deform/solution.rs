@@ -1,0 +1,229 @@
+//! Problems solved under observation: the map, a report, a line per iteration.
+
+use std::cell::RefCell;
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::cage_report::CageReport;
+use super::missed::Completion;
+use super::plan::Plan;
+use crate::PipelineError;
+use crate::tracker::Tracker;
+use unwrapd_deform::{BodyElements, Method, Problem, Solution, Turns, Units, Unreached, Worth};
+use unwrapd_files::document::Warning;
+use unwrapd_maps::certificate::boundary_crossings;
+use unwrapd_method::solver::{Control, Iterate, Summary, Watch};
+
+/// What a body became.
+#[derive(Clone, Debug)]
+pub struct Deformed {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What the map is worth.
+    pub report: DeformReport,
+    /// A line per iteration as CSV: energy without the barrier, the barrier's and the constraints' share, smallest element, μ, σ,
+    /// α and the residual, as in [`Iterate`].
+    pub trace: String,
+}
+
+/// What a deformation is worth and how it was found.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct DeformReport {
+    /// How it was solved.
+    pub method: Method,
+    /// What the solver did.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// What the map is worth.
+    #[serde(flatten)]
+    pub worth: Worth,
+    /// How much was done of what was asked for.
+    pub completion: Completion,
+    /// The handles that did not come to their targets, and how far from them they are.
+    pub unreached: Vec<Unreached>,
+    /// What its energies are measured in.
+    pub units: Units,
+    /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossings: Option<u64>,
+    /// Turns of handles, and how many of them the map holds, of each that makes half a turn or more.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub turns: Vec<Turns>,
+    /// Elements of the supplied start that were inverted and had to be untangled.
+    pub untangled: usize,
+    /// The energy that the map tends to as the barrier strength tends to 0, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_without_barrier: Option<f64>,
+    /// The smallest size of an element over its rest size, over all iterates.
+    pub smallest_ever: f64,
+    /// Seconds of reading and checking, of a large cage with those of the coarser ones it starts from.
+    pub setup_seconds: f64,
+    /// Seconds of everything after that, but for writing.
+    pub solve_seconds: f64,
+    /// What users should know of the files.
+    pub warnings: Vec<Warning>,
+    /// The cage and the surfaces in it, if that is what was deformed.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub cage: Option<CageReport>,
+}
+
+/// A solution, its report, its trace.
+pub struct Solved {
+    pub solution: Solution,
+    pub report: DeformReport,
+    pub trace: String,
+}
+
+/// Solves a problem; `viewer` sees every iteration once.
+pub fn solve(
+    problem: &Problem,
+    plan: Plan,
+    tracker: &Tracker,
+    viewer: Option<&dyn Watch>,
+) -> Result<Solved, PipelineError> {
+    let setup_seconds = tracker.elapsed().as_secs_f64();
+    let trace = Trace {
+        tracker,
+        viewer,
+        x: RefCell::default(),
+        iterates: RefCell::default(),
+    };
+    let settings = plan.settings;
+    let mut solution = match plan.method {
+        Method::Projected => problem.solve(&settings, &trace)?,
+        Method::Levenberg => problem.solve_by_levenberg(&problem.levenberg, &trace)?,
+    };
+    if plan.barrier_continuation {
+        solution = problem.with_weaker_barrier(solution, &settings, tracker)?;
+    }
+    let energy_without_barrier = if plan.bias {
+        Some(problem.energy_without_barrier(&solution, &settings, tracker)?)
+    } else {
+        None
+    };
+    if solution.worth.inverted > 0 && problem.forbids_inversion() {
+        return Err(PipelineError::Inverted);
+    }
+    let crossings = crossings(problem, &solution.x);
+    if problem.boundary_barrier.is_some() && crossings > Some(0) {
+        return Err(PipelineError::Crossed);
+    }
+    let unreached = problem.unreached(&solution);
+    let turns = problem.turns(&solution.x);
+    let status = solution.summary.status;
+    let completion = Completion::of(status);
+    let warnings = (tracker.warning().into_iter()).chain(completion.warning(status, &unreached));
+    let report = DeformReport {
+        method: plan.method,
+        summary: solution.summary,
+        worth: solution.worth,
+        completion,
+        unreached,
+        units: problem.units,
+        crossings,
+        untangled: problem.untangled,
+        energy_without_barrier,
+        smallest_ever: trace.smallest().min(solution.worth.smallest),
+        setup_seconds,
+        solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
+        warnings: warnings.chain(turns_lost(&turns)).collect(),
+        turns,
+        cage: None,
+    };
+    Ok(Solved {
+        solution,
+        report,
+        trace: trace.csv(),
+    })
+}
+
+/// Says of each handle whose turns are lost how many are left.
+fn turns_lost(turns: &[Turns]) -> impl Iterator<Item = Warning> {
+    let lost = turns.iter().filter(|turns| turns.are_lost());
+    lost.map(|Turns { handle, asked, left }| {
+        let message = format!(
+            "handle {handle} asks for {asked:.2} turns, of which the body holds {left:.2}: the others went into a coil, or were \
+             lost where it passed through itself; a body that is stretched as well keeps more"
+        );
+        Warning::new("turns_lost", message)
+    })
+}
+
+/// How often the boundary of a body of the plane meets itself.
+fn crossings(problem: &Problem, x: &[f64]) -> Option<u64> {
+    match &problem.body.elements {
+        BodyElements::Triangles { corners, .. } => {
+            Some(boundary_crossings(x.as_chunks().0, corners))
+        }
+        BodyElements::Tetrahedra { .. } => None,
+    }
+}
+
+/// What happened in every iteration.
+struct Trace<'a> {
+    tracker: &'a Tracker<'a>,
+    viewer: Option<&'a dyn Watch>,
+    /// The positions of the iterate that comes next.
+    x: RefCell<Vec<f64>>,
+    iterates: RefCell<Vec<Iterate>>,
+}
+
+impl Watch for Trace<'_> {
+    fn iterate(&self, iterate: &Iterate) -> Control {
+        // Where one stage follows another the last iterate is shown again.
+        let mut iterates = self.iterates.borrow_mut();
+        let is_new = iterates
+            .last()
+            .is_none_or(|last| last.iteration < iterate.iteration);
+        let mut control = Control::Continue;
+        if is_new {
+            iterates.push(*iterate);
+            if let Some(viewer) = self.viewer {
+                viewer.positions(iterate, &self.x.borrow());
+                control = viewer.iterate(iterate);
+            }
+        }
+        match Watch::iterate(self.tracker, iterate) {
+            Control::Continue => control,
+            Control::Finish => Control::Finish,
+        }
+    }
+
+    fn positions(&self, _: &Iterate, x: &[f64]) {
+        if self.viewer.is_some() {
+            self.x.replace(x.to_vec());
+        }
+    }
+}
+
+impl Trace<'_> {
+    /// The smallest size of an element over its rest size, over all iterates.
+    fn smallest(&self) -> f64 {
+        let iterates = self.iterates.borrow();
+        let sizes = iterates.iter().map(|i| i.smallest);
+        sizes.fold(f64::INFINITY, f64::min)
+    }
+
+    fn csv(&self) -> String {
+        let mut text =
+            String::from("iteration,energy,barrier,constraint,smallest,mu,sigma,alpha,residual\n");
+        for i in self.iterates.borrow().iter() {
+            let numbers = [
+                i.energy - i.barrier,
+                i.barrier,
+                i.constraint,
+                i.smallest,
+                i.mu,
+                i.sigma,
+                i.alpha,
+                i.residual,
+            ];
+            let numbers = numbers.map(|x| format!("{x:e}")).join(",");
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{},{numbers}", i.iteration);
+        }
+        text
+    }
+}

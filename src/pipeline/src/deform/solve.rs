@@ -1,0 +1,96 @@
+//! Problems solved, of files and in memory.
+
+use super::frames::Frames;
+use super::solution::{DeformReport, Deformed, solve};
+use crate::PipelineError;
+use crate::arrays::unwrap::in_pool;
+use crate::limits::Limits;
+use crate::observer::{Observer, Stage};
+use crate::options::{CommandOptions, SolveOptions};
+use crate::tracker::Tracker;
+use unwrapd_deform::{Problem, ProblemError, ProblemFile, Solution};
+use unwrapd_files::document::{DocumentError, Upload};
+use unwrapd_files::io::{ElementFormat, Elements};
+use unwrapd_method::solver::Watch;
+
+/// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in any iterate.
+pub fn solve_file(
+    upload: &Upload,
+    options: &SolveOptions,
+    observer: &dyn Observer,
+) -> Result<Deformed, PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        tracker.stage(Stage::Read);
+        let (mut problem, elements) = read(upload, &options.caller.limits)?;
+        problem.search = options.pulling.search;
+        let file = |x: &[f64]| options.format.write(&elements, &problem, x);
+        let frames = Frames {
+            tracker: &tracker,
+            file: &file,
+        };
+        let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
+        let solved = solve(&problem, options.plan(), &tracker, viewer)?;
+        tracker.stage(Stage::Write);
+        let stem = options.caller.stem(upload);
+        Ok(Deformed {
+            files: vec![(
+                format!("{stem}.{}", options.format.extension()),
+                file(&solved.solution.x),
+            )],
+            report: solved.report,
+            trace: solved.trace,
+        })
+    })?
+}
+
+/// Solves a problem that is in memory, under the options that say nothing of files. `viewer` sees every iterate once, and may end the
+/// work with the present map, too.
+pub fn solve_problem(
+    problem: &Problem,
+    options: &SolveOptions,
+    observer: &dyn Observer,
+    viewer: &(dyn Watch + Sync),
+) -> Result<(Solution, DeformReport), PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        let problem = Problem {
+            search: options.pulling.search,
+            ..problem.clone()
+        };
+        let solved = solve(&problem, options.plan(), &tracker, Some(viewer))?;
+        Ok((solved.solution, solved.report))
+    })?
+}
+
+/// The problem and the mesh that its file names.
+fn read(upload: &Upload, limits: &Limits) -> Result<(Problem, Elements), PipelineError> {
+    let file = ProblemFile::parse(&upload.bytes)?;
+    let format = ElementFormat::of_name(&file.mesh).ok_or(DocumentError::UnknownFormat)?;
+    let elements = format.read(member(upload, &file.mesh)?)?;
+    limits.check_count(elements.triangles.len() + elements.tets.len())?;
+    let start = file.initial.as_ref().map(|initial| {
+        let not_numbers = || ProblemError::Malformed(format!("{initial} is not a list of numbers"));
+        Ok::<_, PipelineError>(numbers(member(upload, initial)?).ok_or_else(not_numbers)?)
+    });
+    let problem = file.with(elements.clone(), start.transpose()?)?;
+    Ok((problem, elements))
+}
+
+/// A file that the problem names, by its path or, where a client sent only that, its name.
+fn member<'a>(upload: &'a Upload, path: &str) -> Result<&'a [u8], PipelineError> {
+    let name = path.rsplit('/').next().unwrap_or_default();
+    let bytes = upload.resources.get(path).or(upload.resources.get(name));
+    let bytes = bytes.ok_or_else(|| DocumentError::MissingResource(path.to_owned()))?;
+    Ok(bytes)
+}
+
+/// Numbers separated by blanks.
+fn numbers(bytes: &[u8]) -> Option<Vec<f64>> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    text.split_ascii_whitespace()
+        .map(|word| word.parse().ok())
+        .collect()
+}

@@ -1,0 +1,180 @@
+//! From a file's bytes to a file's bytes: read, unwrap, write, read again, judge.
+
+use super::islands::placements;
+use super::merged::Merged;
+use super::new_uvs::new_uvs;
+use super::pictures::Pictures;
+use super::prepared::Prepared;
+use super::uv_arrays::UvArrays;
+use crate::PipelineError;
+use crate::arrays::plan::Plan;
+use crate::arrays::soup::Soup;
+use crate::arrays::unwrap::{in_pool, unwrap_all};
+use crate::judge::groups::WrittenUvs;
+use crate::judge::history::{add_history, promise_kept};
+use crate::judge::report::{Report, Seconds};
+use crate::judge::shortfalls::shortfalls;
+use crate::observer::{Observer, Stage};
+use crate::options::{CommandOptions, Island, Options};
+use crate::rebake::{self, rebaked};
+use crate::stop_watch::StopWatch;
+use crate::tracker::Tracker;
+use unwrapd_files::document::{
+    BakedTextures, Document, GroupBy, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+};
+use unwrapd_maps::mesh::VAxis;
+
+/// Everything that comes out of unwrapping a document.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What they are worth.
+    pub report: Report,
+    /// Draws the UV layout and the distortion.
+    pub pictures: Pictures,
+    /// The UVs that were written.
+    pub uvs: UvArrays,
+}
+
+/// Unwraps every mesh of a document and judges the bytes it writes.
+pub fn unwrap_document(
+    upload: &Upload,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Outcome, PipelineError> {
+    unwrap_around(upload, options, &[], observer)
+}
+
+/// The same with islands of kept UVs that stay where they are put.
+pub fn unwrap_around(
+    upload: &Upload,
+    options: &Options,
+    islands: &[Island],
+    observer: &dyn Observer,
+) -> Result<Outcome, PipelineError> {
+    let options = &options.resolved();
+    options.check()?;
+    let settings = options.settings();
+    let tracker = Tracker::new(observer, settings.budget);
+    in_pool(settings.workers, || {
+        unwrap_in_pool(upload, options, islands, &tracker)
+    })?
+}
+
+fn unwrap_in_pool(
+    upload: &Upload,
+    options: &Options,
+    islands: &[Island],
+    tracker: &Tracker,
+) -> Result<Outcome, PipelineError> {
+    let mut seconds = Seconds::default();
+    let mut watch = StopWatch::start(tracker);
+
+    tracker.stage(Stage::Read);
+    let (nodes, plan) = (options.nodes(), Plan::new(&options.settings()));
+    let Prepared {
+        document,
+        group_by,
+        seams,
+        origins,
+        texture,
+    } = Prepared::read(upload, options, &plan)?;
+    let groups = document.groups(group_by);
+    let primitives = nodes.primitives(&document)?;
+    let placed = placements(&document, &groups, islands)?;
+    let merged = |(group, placed)| {
+        let mut merged = Merged::with_seams((&document, &primitives), group, &seams, &plan)?;
+        merged.seams.texture = texture;
+        merged.seams.placed = placed;
+        Ok(merged)
+    };
+    let meshes: Vec<Merged> =
+        (groups.iter().zip(placed).map(merged)).collect::<Result<_, PipelineError>>()?;
+    seconds.read = watch.lap();
+
+    let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
+    let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    seconds.unwrap = watch.lap();
+
+    let uvs = new_uvs(&document, &groups, &atlases, options)?;
+    let mut baked = None;
+    if options.baking.rebake {
+        baked = Some(rebaked(&document, &groups, &uvs, options, tracker)?);
+    }
+    seconds.bake = watch.lap();
+
+    tracker.stage(Stage::Write);
+    let written = write(&document, (&uvs, group_by), baked.as_ref(), upload, options)?;
+    let v_axis = match options.format {
+        OutputFormat::Obj => VAxis::Up,
+        OutputFormat::Glb | OutputFormat::Gltf => VAxis::Down,
+    };
+    let notes = &written.notes.primitives;
+    let arrays = UvArrays::new(&document, (&uvs, v_axis), notes, &origins);
+    seconds.write = watch.lap();
+    let noticed = document.warnings().to_vec();
+    // What was written is read next: both would take twice the memory.
+    drop(primitives);
+    drop(document);
+
+    tracker.stage(Stage::Judge);
+    let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
+    for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
+        group.weights = mesh.seams.weights;
+    }
+    let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
+    add_history(&mut groups, &atlases, &uvs, (&plan, options));
+    seconds.judge = watch.lap();
+
+    let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
+    let missing = shortfalls(&judged);
+    promise_kept(&plan, &groups, &missing)?;
+    let warnings = [noticed, written.notes.warnings.clone(), missing];
+    let ended_early = tracker.warning();
+    let is_ended_early = ended_early.is_some();
+    let warnings = warnings.into_iter().flatten().chain(ended_early);
+    let mut report = Report::new(groups, warnings.collect());
+    report.ended_early = is_ended_early;
+    report.partly_done = baked.is_some_and(|baked| baked.is_partial());
+    report.options = Some(Options {
+        group_by: Some(group_by),
+        ..options.clone()
+    });
+    report.limits = Some(options.caller.limits);
+    report.written = Some(written.notes);
+    report.seconds = Some(seconds);
+    Ok(Outcome {
+        files: written.files,
+        report,
+        pictures: Pictures {
+            uvs,
+            texture: options.layout.resolution,
+            shown: options.heatmap_measure,
+            workers: options.settings().workers,
+        },
+        uvs: arrays,
+    })
+}
+
+fn write(
+    document: &Document,
+    (uvs, group_by): (&NewUvs, GroupBy),
+    baked: Option<&BakedTextures>,
+    upload: &Upload,
+    options: &Options,
+) -> Result<Written, PipelineError> {
+    let write_options = WriteOptions {
+        format: options.format,
+        stem: options.caller.stem(upload),
+        texcoord: options.sets.texcoord,
+        overwrite: options.sets.overwrite,
+        terms: Some(options.terms(group_by)),
+    };
+    let mut written = document.write_baked(uvs, &write_options, baked)?;
+    if let Some(baked) = baked {
+        let warnings = rebake::warnings(baked, options);
+        written.notes.warnings.extend(warnings);
+    }
+    Ok(written)
+}

@@ -1,0 +1,60 @@
+//! What is reported of edited UVs.
+
+use serde::Serialize;
+
+use crate::deform::missed::Completion;
+use crate::deform::pull_report::PullReport;
+use crate::judge::proven::Proven;
+use unwrapd_deform::Unreached;
+use unwrapd_deform::uv::{EditedUvs, UvRest};
+use unwrapd_files::document::Warning;
+
+/// What was done to the UVs of a document.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct EditReport {
+    /// Whether the whole UV set is proven in the bytes written: no face is flipped or degenerate, and no two faces that share
+    /// a UV space overlap, whether their charts have anchors or not. Warnings name what is missing.
+    pub certified: bool,
+    /// Whether the whole UV set is bijective in the bytes written.
+    pub bijective: bool,
+    /// What is lacking, in words.
+    pub lacking: Vec<&'static str>,
+    /// What is proven of the whole UV set.
+    pub proven: Proven,
+    /// How much was done of what was asked for.
+    pub completion: Completion,
+    /// What users should know of the file that was read, of the work and of the file that was written.
+    pub warnings: Vec<Warning>,
+    /// The shapes that were kept.
+    pub rest: UvRest,
+    /// The charts with anchors.
+    pub charts: Vec<ChartEditReport>,
+}
+
+/// What was done to a chart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ChartEditReport {
+    /// Its number among the charts of the document, in the order of their first faces.
+    pub chart: u32,
+    /// How many of its faces were flipped or empty and had to be untangled first.
+    pub untangled: usize,
+    /// What the map is worth; the certificate is about the bytes written.
+    #[serde(flatten)]
+    pub map: PullReport,
+}
+
+/// How much was done of what was asked for over all charts, and what to tell users of it.
+pub(super) fn completion(edited: &EditedUvs) -> (Completion, Option<Warning>) {
+    let summaries = || edited.charts.iter().map(|chart| &chart.summary);
+    let worst = summaries().max_by_key(|summary| Completion::of(summary.status));
+    let Some(status) = worst.map(|summary| summary.status) else {
+        return (Completion::Complete, None);
+    };
+    let completion = Completion::of(status);
+    let of_worst = summaries().filter(|summary| Completion::of(summary.status) == completion);
+    let mut unreached: Vec<Unreached> = of_worst.flat_map(|s| s.unreached.clone()).collect();
+    unreached.sort_by_key(|anchor| anchor.handle);
+    (completion, completion.warning(status, &unreached))
+}

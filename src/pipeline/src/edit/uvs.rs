@@ -1,0 +1,218 @@
+//! UVs of a document edited by anchors, and judged in the bytes that are written.
+
+use super::report::{ChartEditReport, EditReport, completion};
+use super::terms::{WholeJudgment, edited_terms};
+use crate::PipelineError;
+use crate::arrays::unwrap::in_pool;
+use crate::deform::pull_report::PullReport;
+use crate::observer::{Observer, Stage};
+use crate::options::{CommandOptions, EditOptions, Editing};
+use crate::start::start;
+use crate::tracker::Tracker;
+use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, edit_uvs_from};
+use unwrapd_files::document::{
+    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
+};
+use unwrapd_maps::certificate::{PlanarCertificate, boundary_crossings, certify_planar};
+use unwrapd_maps::mesh::CornerUvs;
+use unwrapd_method::barrier::BarrierKind;
+
+/// A document with edited UVs.
+#[derive(Clone, Debug)]
+pub struct EditedDocument {
+    /// The written files by relative name, the main file first.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What was done.
+    pub report: EditReport,
+}
+
+/// Pulls anchors of a document's UVs to their targets and judges the bytes it writes. UVs are in the numbers of the file, in
+/// glTF with v down; vertices count through all triangle primitives in file order.
+pub fn edit_document(
+    upload: &Upload,
+    editing: Editing,
+    options: &EditOptions,
+    observer: &dyn Observer,
+) -> Result<EditedDocument, PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        tracker.stage(Stage::Read);
+        let document = Document::read(upload)?;
+        options.caller.limits.check(&document)?;
+        let whole = Whole::gather(&document, options.texcoord)?;
+        let how = options.of_map(editing);
+        let start = start(upload, 6 * whole.triangles.len())?;
+        let start = start
+            .as_deref()
+            .map(|start| start.as_chunks().0.as_chunks().0);
+        let edited = edit_uvs_from(&whole.mesh(), start, &options.anchors, &how, &tracker)?;
+        tracker.stage(Stage::Write);
+        let stem = options.caller.stem(upload);
+        let mut write_options = WriteOptions {
+            format: options.format,
+            stem,
+            texcoord: Some(options.texcoord),
+            overwrite: false,
+            terms: Some(edited_terms(&document, options)?),
+        };
+        let uvs = new_uvs(&document, &whole, &edited);
+        let mut written = document.write(&uvs, &write_options)?;
+        tracker.stage(Stage::Judge);
+        let again = written.read_again()?;
+        let found = Whole::gather(&again, options.texcoord)?;
+        let places = places(&written, edited.uvs.len());
+        let charts = judge_charts(&edited, (&document, &again), (&found, &places))?;
+        let is_kept = charts.iter().all(|chart| chart.map.certificate.is_valid());
+        let overlaps = charts.iter().any(|chart| !chart.map.bijective);
+        if !is_kept && options.model.barrier != BarrierKind::None {
+            let what = "a triangle is flipped or without area";
+            return Err(PipelineError::NotValid(what.to_owned()));
+        }
+        if options.model.bijective && overlaps {
+            let what = "a chart overlaps itself";
+            return Err(PipelineError::NotValid(what.to_owned()));
+        }
+        let judgment = WholeJudgment::new(&again, options.texcoord)?;
+        if let Some(terms) = &mut write_options.terms
+            && !judgment.is_certified()
+        {
+            terms.overlaps = true;
+            written = document.write(&uvs, &write_options)?;
+        }
+        let mut warnings = [document.warnings(), &written.notes.warnings].concat();
+        warnings.extend(tracker.warning());
+        let (completion, unfinished) = completion(&edited);
+        warnings.extend(unfinished);
+        warnings.extend_from_slice(&judgment.warnings);
+        if !judgment.is_certified() {
+            warnings.extend(WholeJudgment::new(&document, options.texcoord)?.as_before());
+        }
+        let certified = judgment.is_certified();
+        let report = EditReport {
+            certified,
+            bijective: judgment.proven.bijective,
+            lacking: judgment.lacking,
+            proven: judgment.proven,
+            completion,
+            warnings,
+            rest: how.rest,
+            charts,
+        };
+        Ok(EditedDocument {
+            files: written.files,
+            report,
+        })
+    })?
+}
+
+/// All primitives of a document as one mesh; those without UVs have vertices only.
+pub(super) struct Whole {
+    positions: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    uvs: Vec<CornerUvs>,
+    /// The number of faces of each primitive that has UVs.
+    n_faces: Vec<Option<usize>>,
+}
+
+impl Whole {
+    pub fn gather(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
+        let mut whole = Self {
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            uvs: Vec::new(),
+            n_faces: Vec::new(),
+        };
+        for (index, primitive) in document.primitives().iter().enumerate() {
+            let uvs = document.corner_uvs(index, texcoord)?;
+            whole.n_faces.push(uvs.as_ref().map(Vec::len));
+            let first = whole.positions.len() as u32;
+            let positions = primitive.positions.iter().map(|p| p.map(f64::from));
+            whole.positions.extend(positions);
+            if let Some(uvs) = uvs {
+                let triangles = primitive.triangles.iter().map(|t| t.map(|v| v + first));
+                whole.triangles.extend(triangles);
+                whole.uvs.extend(uvs);
+            }
+        }
+        if whole.triangles.is_empty() {
+            let group = "the file".to_owned();
+            return Err(PipelineError::NoUvs { group, texcoord });
+        }
+        Ok(whole)
+    }
+
+    pub fn mesh(&self) -> UvMesh<'_> {
+        UvMesh {
+            positions: &self.positions,
+            triangles: &self.triangles,
+            uvs: &self.uvs,
+        }
+    }
+}
+
+fn new_uvs(document: &Document, whole: &Whole, edited: &EditedUvs) -> NewUvs {
+    let mut rest = edited.uvs.as_slice();
+    let mut next = |n: usize| -> Vec<Corners> {
+        let (own, others) = rest.split_at(n);
+        rest = others;
+        own.iter()
+            .map(|face| face.map(|uv| uv.map(|x| x as f32)))
+            .collect()
+    };
+    NewUvs {
+        layout: Layout::Edited,
+        pages: 1,
+        v_axis: document.v_axis(),
+        corners: whole.n_faces.iter().map(|n| n.map(&mut next)).collect(),
+    }
+}
+
+/// Where each face is among those of the file written.
+fn places(written: &Written, n_faces: usize) -> Vec<usize> {
+    let Some(faces) = &written.notes.faces else {
+        return (0..n_faces).collect();
+    };
+    let mut places = vec![0; n_faces];
+    for (place, &face) in faces.iter().enumerate() {
+        if let Some(slot) = places.get_mut(face as usize) {
+            *slot = place;
+        }
+    }
+    places
+}
+
+/// Judges each chart with anchors by itself in the written bytes, where each face has its place.
+fn judge_charts(
+    edited: &EditedUvs,
+    (document, again): (&Document, &Document),
+    (found, places): (&Whole, &[usize]),
+) -> Result<Vec<ChartEditReport>, PipelineError> {
+    if found.uvs.len() != edited.uvs.len() {
+        return Err(DocumentError::InvalidUvs.into());
+    }
+    let found: Vec<CornerUvs> = places.iter().map(|&place| found.uvs[place]).collect();
+    let flip_v = again.v_axis() != document.v_axis();
+    let charts = edited.charts.iter().map(|chart| {
+        let crossings = boundary_crossings(&chart.vertices, &chart.triangles);
+        let certificate = certified(&chart.faces, &found, flip_v);
+        ChartEditReport {
+            chart: chart.chart,
+            untangled: chart.untangled,
+            map: PullReport::new(chart.summary.clone(), crossings, certificate),
+        }
+    });
+    Ok(charts.collect())
+}
+
+/// Judges a chart by the numbers that the file has for its faces; `flip_v` says whether v points
+/// the other way in them than it did.
+fn certified(faces: &ChartFaces, uvs: &[CornerUvs], flip_v: bool) -> PlanarCertificate {
+    let place = |corner: u32| {
+        let [u, v] = uvs[corner as usize / 3][corner as usize % 3];
+        [u, if flip_v { -v } else { v }]
+    };
+    let places: Vec<[f64; 2]> = faces.corners().flatten().map(place).collect();
+    let triangles = (0..faces.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
+    certify_planar(&places, &triangles.collect::<Vec<_>>())
+}

@@ -1,0 +1,112 @@
+//! The UVs of one group as its bytes have them.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use crate::PipelineError;
+use unwrapd_files::document::{Document, Group, Primitive};
+use unwrapd_maps::certificate::{Certificate, Claims, certify};
+use unwrapd_maps::measure::{self, Measures};
+use unwrapd_maps::mesh::{CornerUvs, Resolution, VAxis};
+use unwrapd_method::numerics::vec3::{area_vector, norm};
+
+/// The UVs of one group with its mesh.
+#[derive(Clone, Debug)]
+pub struct GroupUvs {
+    pub name: String,
+    pub label: String,
+    pub positions: Vec<[f64; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    pub uvs: Vec<CornerUvs>,
+    /// The texel density intended for each face; one for all if absent.
+    pub weights: Option<Vec<f64>>,
+}
+
+impl GroupUvs {
+    pub fn gather(
+        document: &Document,
+        primitives: &[Primitive],
+        group: &Group,
+        set: &impl Fn(usize) -> Option<u32>,
+    ) -> Result<Self, PipelineError> {
+        let mut gathered = Self {
+            name: group.name.clone(),
+            label: group.label.clone(),
+            positions: vec![],
+            triangles: vec![],
+            uvs: vec![],
+            weights: None,
+        };
+        for &index in &group.primitives {
+            let primitive = &primitives[index];
+            let Some(texcoord) = set(index) else {
+                continue;
+            };
+            let uvs =
+                document
+                    .corner_uvs(index, texcoord)?
+                    .ok_or_else(|| PipelineError::NoUvs {
+                        group: group.label.clone(),
+                        texcoord,
+                    })?;
+            let first = gathered.positions.len() as u32;
+            gathered
+                .positions
+                .extend(primitive.positions.iter().map(|p| p.map(f64::from)));
+            gathered
+                .triangles
+                .extend(primitive.triangles.iter().map(|t| t.map(|v| v + first)));
+            gathered.uvs.extend(uvs);
+        }
+        Ok(gathered)
+    }
+
+    /// The area of the surface enlarged by its weights, if it has any.
+    pub fn intended_area(&self) -> Option<f64> {
+        let area = |(t, weight): (&[u32; 3], &f64)| {
+            let [a, b, c] = t.map(|v| self.positions[v as usize]);
+            norm(area_vector(a, b, c)) / 2.0 * weight * weight
+        };
+        let weights = self.weights.as_ref()?;
+        Some(self.triangles.iter().zip(weights).map(area).sum())
+    }
+
+    pub fn certify(&self, claims: &Claims) -> Certificate {
+        certify(&self.positions, &self.triangles, &self.uvs, claims)
+    }
+
+    /// `raster_texels` is the side of the raster on which coverage is counted.
+    pub fn measure(&self, v_axis: VAxis, texture: Resolution, raster_texels: u32) -> Measures {
+        let options = measure::MeasureOptions {
+            raster_texels,
+            aspect: texture.aspect(),
+            weights: self.weights.as_deref(),
+            ..measure::MeasureOptions::default()
+        };
+        measure::measure(
+            &self.positions,
+            &self.triangles,
+            &self.uvs,
+            v_axis,
+            &options,
+        )
+    }
+
+    /// Of what [`is_same`](Self::is_same) compares.
+    pub fn hash(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.triangles.hash(&mut hasher);
+        let uvs = self.uvs.as_flattened().as_flattened();
+        for x in uvs {
+            x.to_bits().hash(&mut hasher);
+        }
+        hasher.finish()
+    }
+
+    /// Whether all numbers are the same, whatever the names.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.triangles == other.triangles
+            && self.positions == other.positions
+            && self.uvs == other.uvs
+            && self.weights == other.weights
+    }
+}

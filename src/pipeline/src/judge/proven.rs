@@ -1,0 +1,230 @@
+//! What certificates prove together.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use unwrapd_maps::certificate::{Certificate, Overlap};
+use unwrapd_maps::mesh::Resolution;
+
+/// What is proven about the UVs of all groups, beside what was requested.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Proven {
+    /// No face is flipped or degenerate.
+    pub locally_injective: bool,
+    /// In addition, no two faces of a group overlap.
+    pub bijective: bool,
+    /// No chart is mirrored.
+    pub unmirrored: bool,
+    /// The distance between charts; null if none was requested.
+    pub padding: Option<ProvenPadding>,
+    /// Whether charts end on texel borders; null if not requested.
+    pub aligned: Option<bool>,
+    /// Whether every chart lies on one page; null if not requested.
+    pub pages: Option<ProvenPages>,
+    /// The coarsest of 16, 14 and 12 bits b at which every group stays bijective if each coordinate moves by
+    /// up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. Null if there is none.
+    pub safe_bits: Option<u32>,
+    /// The requested bits; null if none were requested.
+    pub bits: Option<ProvenBits>,
+}
+
+/// Whether charts keep a distance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ProvenPadding {
+    /// The requested distance, in texels.
+    pub asked_texels: u32,
+    /// The texture of the unit square.
+    pub resolution: Resolution,
+    /// Whether no two charts of a group are closer.
+    pub kept: bool,
+    /// The smallest distance between two charts, rounded; null if each group has one chart.
+    pub reached_texels: Option<f64>,
+}
+
+/// Whether every chart lies on one page.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ProvenPages {
+    /// The requested number of pages.
+    pub asked: u32,
+    /// The most pages that the charts of a group lie on.
+    pub used: usize,
+    /// Whether every chart lies on one of the requested pages.
+    pub kept: bool,
+}
+
+/// Whether the map holds at the requested bits.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ProvenBits {
+    /// The requested bits.
+    pub asked: u32,
+    /// Whether every group holds at them.
+    pub hold: bool,
+    /// Faces whose orientation is in doubt, plus pairs of chart edges whose separation is.
+    pub in_doubt: u64,
+}
+
+impl Proven {
+    /// What holds of all of some groups, judged by the same claims.
+    pub(in crate) fn of<'a>(
+        certificates: impl Iterator<Item = &'a Certificate> + Clone,
+    ) -> Self {
+        let all = |holds: fn(&Certificate) -> bool| certificates.clone().all(holds);
+        Self {
+            locally_injective: all(Certificate::is_valid),
+            bijective: all(Certificate::is_bijective),
+            unmirrored: all(|certificate| certificate.mirrored_charts == 0),
+            padding: padding(certificates.clone()),
+            aligned: (certificates.clone())
+                .map(|certificate| certificate.unaligned_charts.map(|n| n == 0))
+                .reduce(|a, b| Some(a? && b?))
+                .flatten(),
+            pages: pages(certificates.clone()),
+            safe_bits: all(|certificate| certificate.safe_bits.is_some())
+                .then(|| certificates.clone().filter_map(|c| c.safe_bits).max())
+                .flatten(),
+            bits: bits(certificates),
+        }
+    }
+}
+
+fn padding<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenPadding> {
+    let verdicts = certificates.filter_map(|certificate| certificate.padding.as_ref());
+    verdicts
+        .map(|verdict| ProvenPadding {
+            asked_texels: verdict.asked_texels,
+            resolution: verdict.resolution,
+            kept: verdict.kept,
+            reached_texels: verdict.reached_texels,
+        })
+        .reduce(|a, b| ProvenPadding {
+            kept: a.kept && b.kept,
+            reached_texels: [a.reached_texels, b.reached_texels]
+                .into_iter()
+                .flatten()
+                .reduce(f64::min),
+            ..a
+        })
+}
+
+fn pages<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenPages> {
+    let verdicts = certificates.filter_map(|certificate| certificate.pages.as_ref());
+    verdicts
+        .map(|verdict| ProvenPages {
+            asked: verdict.asked,
+            used: verdict.used,
+            kept: verdict.kept,
+        })
+        .reduce(|a, b| ProvenPages {
+            used: a.used.max(b.used),
+            kept: a.kept && b.kept,
+            ..a
+        })
+}
+
+fn bits<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenBits> {
+    let verdicts = certificates.filter_map(|certificate| certificate.bits.as_ref());
+    verdicts
+        .map(|verdict| ProvenBits {
+            asked: verdict.asked,
+            hold: verdict.hold,
+            in_doubt: verdict.faces_in_doubt as u64 + verdict.pairs_in_doubt,
+        })
+        .reduce(|a, b| ProvenBits {
+            hold: a.hold && b.hold,
+            in_doubt: a.in_doubt + b.in_doubt,
+            ..a
+        })
+}
+
+impl Proven {
+    /// What is requested and does not hold, in words; with [`Overlap::Skip`] faces may overlap.
+    pub fn lacks(&self, overlap: Overlap, mirrored: Mirrored) -> Vec<&'static str> {
+        let overlaps = overlap == Overlap::Test && self.locally_injective && !self.bijective;
+        let missing = [
+            (!self.locally_injective, "triangles flipped or without area"),
+            (overlaps, "triangles overlapping"),
+            (
+                mirrored == Mirrored::Refused && !self.unmirrored,
+                "charts mirrored",
+            ),
+            (
+                self.padding.as_ref().is_some_and(|p| !p.kept),
+                "charts closer than the padding",
+            ),
+            (self.aligned == Some(false), "charts not aligned to texels"),
+            (
+                self.pages.as_ref().is_some_and(|p| !p.kept),
+                "charts not on one page each",
+            ),
+            (
+                self.bits.as_ref().is_some_and(|b| !b.hold),
+                "not safe at the bits asked for",
+            ),
+        ];
+        let missing = missing.into_iter().filter(|(is_missing, _)| *is_missing);
+        missing.map(|(_, words)| words).collect()
+    }
+}
+
+/// Whether charts may be seen from behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mirrored {
+    /// They may.
+    Allowed,
+    /// They may not.
+    Refused,
+}
+
+/// In words, with what was asked for and does not hold.
+impl fmt::Display for Proven {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let not = |holds: bool| if holds { "" } else { "not " };
+        match (self.locally_injective, self.bijective) {
+            (true, true) => write!(
+                f,
+                "no triangle flipped, without area or overlapping (bijective)"
+            )?,
+            (true, false) => write!(f, "no triangle flipped or without area (locally injective)")?,
+            (false, _) => write!(
+                f,
+                "triangles flipped or without area (not locally injective)"
+            )?,
+        }
+        if !self.unmirrored {
+            write!(f, ", charts mirrored")?;
+        }
+        if let Some(padding) = &self.padding {
+            let (asked, resolution) = (padding.asked_texels, padding.resolution);
+            let not = not(padding.kept);
+            write!(f, ", charts {not}{asked} texels apart at {resolution}")?;
+            if let Some(reached) = padding.reached_texels {
+                write!(f, " (nearest {reached:.3})")?;
+            }
+        }
+        if let Some(aligned) = self.aligned {
+            write!(f, ", charts {}aligned to texels", not(aligned))?;
+        }
+        match &self.pages {
+            Some(pages) if pages.asked > 1 || !pages.kept => {
+                let (asked, used) = (pages.asked, pages.used);
+                let not = not(pages.kept);
+                write!(f, ", each chart {not}on one of {asked} pages ({used} used)")?;
+            }
+            _ => {}
+        }
+        match (&self.bits, self.safe_bits) {
+            (Some(bits), _) if !bits.hold => {
+                let (asked, in_doubt) = (bits.asked, bits.in_doubt);
+                write!(f, ", not safe at {asked} bits ({in_doubt} places in doubt)")
+            }
+            (Some(bits), None) => write!(f, ", safe at {} bits", bits.asked),
+            (_, Some(bits)) => write!(f, ", safe at {bits} bits"),
+            (None, None) => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Which UVs of a document are judged, and what of them.
+//!
+//! A record in the file may name the UV set and add requirements. The faces that are judged, and what shares a UV space, follow
+//! from the file's meshes and materials and from the caller alone: a file cannot talk its way out of a test.
+
+use crate::PipelineError;
+use crate::options::{CommandOptions, MeasureOptions};
+use unwrapd_files::document::{Document, DocumentError, Mark, Marked, Sets, Warning};
+use unwrapd_maps::certificate::Overlap;
+
+/// Which UVs of a document are judged, and what of them.
+pub struct Question {
+    /// The options, with what the record adds.
+    pub options: MeasureOptions,
+    /// The record of the document, if it fits the UVs and no set was asked for.
+    pub mark: Option<Mark>,
+    /// What to tell users about the record.
+    pub warning: Option<Warning>,
+}
+
+impl Question {
+    /// The question that `options` ask of a document, with what its record adds.
+    pub fn new(options: &MeasureOptions, document: &Document) -> Result<Self, PipelineError> {
+        let marked = match options.texcoord {
+            Some(_) => Marked::Not,
+            None => document.marked()?,
+        };
+        let mut question = Self::of_options(options);
+        match marked {
+            Marked::Not => {}
+            Marked::Stale => question.warning = Some(stale()),
+            Marked::Fits(mark) => {
+                let with_terms = options.with_terms(&mark.terms);
+                // Not every number that a file has can be asked for.
+                if with_terms.check().is_ok() {
+                    question.options = with_terms;
+                    question.mark = Some(*mark);
+                } else {
+                    question.warning = Some(stale());
+                }
+            }
+        }
+        Ok(question)
+    }
+
+    /// The question that `options` ask of UVs without a record.
+    pub fn of_options(options: &MeasureOptions) -> Self {
+        Self {
+            options: options.clone(),
+            mark: None,
+            warning: None,
+        }
+    }
+
+    /// The UV sets that are judged, by primitive.
+    pub fn sets(&self) -> Sets {
+        match &self.mark {
+            Some(mark) => mark.sets.clone(),
+            None => Sets::One(self.options.texcoord.unwrap_or(0)),
+        }
+    }
+
+    /// The UV set of every primitive; `None` for one that lacks the set and is left out because the caller asked for that.
+    ///
+    /// A primitive for which the record names no set is judged, too: in the lowest set that the record names.
+    pub fn set_of_each(&self, document: &Document) -> Result<Vec<Option<u32>>, DocumentError> {
+        let sets = self.sets();
+        let lowest = sets.lowest().unwrap_or(0);
+        let set = |primitive: usize| {
+            let set = sets.of(primitive).unwrap_or(lowest);
+            let is_left_out =
+                self.options.skip_missing && document.corner_uvs(primitive, set)?.is_none();
+            Ok((!is_left_out).then_some(set))
+        };
+        (0..document.primitives().len()).map(set).collect()
+    }
+
+    /// Whether pairs of faces have to be tested, where `asked` says whether they are asked for.
+    pub fn overlap(&self, asked: Overlap) -> Overlap {
+        let options = &self.options;
+        let needs_pairs = options.padding.is_some()
+            || options.bits.is_some()
+            || options.pages.is_some()
+            || options.aligned;
+        if needs_pairs {
+            Overlap::Test
+        } else {
+            self.promised(asked)
+        }
+    }
+
+    /// Whether faces may overlap: not if the record promises that they do not, whatever is `asked`.
+    pub fn promised(&self, asked: Overlap) -> Overlap {
+        match &self.mark {
+            Some(mark) if !mark.terms.overlaps => Overlap::Test,
+            _ => asked,
+        }
+    }
+}
+
+fn stale() -> Warning {
+    Warning::new(
+        "mark_stale",
+        "the UVs changed since unwrapd recorded its options, so the record is ignored",
+    )
+}

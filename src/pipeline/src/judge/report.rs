@@ -1,0 +1,207 @@
+//! The report: what was read, what was done, and what the written bytes are worth.
+
+use serde::Serialize;
+
+use super::bound_report::BoundReport;
+use super::group_uvs::GroupUvs;
+use super::proven::{Mirrored, Proven};
+use crate::arrays::unwrap::{ChartRecord, Unwrapped};
+use crate::limits::Limits;
+use crate::options::Options;
+use unwrapd_files::document::{Warning, WriteNotes};
+use unwrapd_maps::certificate::{Certificate, Overlap};
+use unwrapd_maps::measure::Measures;
+use unwrapd_maps::mesh::{Defects, Resolution};
+use unwrapd_method::solver::Status;
+
+/// Version of the report schema. It increases when a key is removed or changes its meaning.
+pub const SCHEMA_VERSION: u32 = 2;
+
+/// The report of a document: what was read, what was done, and the quality of the written bytes.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Report {
+    /// Version of this schema.
+    pub schema_version: u32,
+    /// Version of the program.
+    pub unwrapd_version: &'static str,
+    /// The requested options; absent if existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub options: Option<Options>,
+    /// The limits that applied; absent if existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<Limits>,
+    /// Whether everything requested is proven on the written bytes: no face is flipped or degenerate, no
+    /// chart is mirrored, no two faces overlap, and padding, pages, alignment and bits are as requested.
+    /// The warnings name what is missing. A missed distortion bound is only a warning.
+    pub certified: bool,
+    /// Whether the work ended before it was done, at its time limit or on request. The result is no less certified.
+    pub ended_early: bool,
+    /// Whether only a part of what was asked for was done: textures or colors that `rebake` should resample were not. The
+    /// warnings name them.
+    pub partly_done: bool,
+    /// What is proven on the written bytes, beside what was requested.
+    pub proven: Proven,
+    /// Warnings about the input file, the work and the written file.
+    pub warnings: Vec<Warning>,
+    /// One entry per atlas, in document order.
+    pub groups: Vec<GroupReport>,
+    /// Changes to the document; absent if existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written: Option<WriteNotes>,
+    /// Time of each stage; absent if existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<Seconds>,
+}
+
+/// One atlas.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct GroupReport {
+    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
+    pub name: String,
+    /// Name for display: the name of the mesh or material, otherwise `mesh 0`, `material 0` or `Whole scene`.
+    pub label: String,
+    /// Mean number of texels per unit of length of the mesh, for materials of weight 1: the square root of
+    /// UV area in texels over weighted surface area. Null if the surface has no area.
+    pub texels_per_unit: Option<f64>,
+    /// Distortion, seams, packing and overlaps, measured on the written bytes.
+    pub measures: Measures,
+    /// Exact judgment of the written bytes.
+    pub certificate: Certificate,
+    /// Defects of the mesh; absent if existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub defects: Option<Defects>,
+    /// How the atlas was made; absent if existing UVs were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub atlas: Option<AtlasReport>,
+}
+
+/// How an atlas was made.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct AtlasReport {
+    /// UV length of one unit of length of the mesh, along the longer side of the texture.
+    pub scale: f64,
+    /// `name` of the group with the same atlas: its mesh has the same shape, so both were mapped and packed once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub same_as: Option<String>,
+    /// Padding kept between charts, in texels at the requested resolution.
+    pub padding_texels: f64,
+    /// The bound on the distortion, and whether it was kept; absent unless `cut` is `auto`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound: Option<BoundReport>,
+    /// One entry per chart.
+    pub charts: Vec<ChartReport>,
+}
+
+/// How a chart was mapped.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ChartReport {
+    /// Triangles of the chart.
+    pub faces: usize,
+    /// How the optimization ended.
+    pub status: Status,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Factorizations, failed ones included.
+    pub factorizations: usize,
+    /// Energy of the start, barrier included, rest shapes scaled to mean area 1.
+    pub energy_first: f64,
+    /// Energy at the end, in the same units.
+    pub energy_last: f64,
+    /// Seconds for the map of the chart that this one was cut from, its cutting included.
+    pub seconds: f64,
+}
+
+/// Wall-clock time of each stage, in seconds.
+#[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Seconds {
+    /// Reading the document.
+    pub read: f64,
+    /// Cutting, mapping and packing.
+    pub unwrap: f64,
+    /// Resampling textures.
+    pub bake: f64,
+    /// Writing the document.
+    pub write: f64,
+    /// Rereading and judging the written bytes.
+    pub judge: f64,
+}
+
+impl Report {
+    /// The report of UVs as they are: what only unwrapping knows is absent.
+    pub(in crate) fn new(groups: Vec<GroupReport>, warnings: Vec<Warning>) -> Self {
+        let proven = Proven::of(groups.iter().map(|group| &group.certificate));
+        Self {
+            schema_version: SCHEMA_VERSION,
+            unwrapd_version: env!("CARGO_PKG_VERSION"),
+            options: None,
+            limits: None,
+            certified: proven.lacks(Overlap::Test, Mirrored::Refused).is_empty(),
+            ended_early: false,
+            partly_done: false,
+            proven,
+            warnings,
+            groups,
+            written: None,
+            seconds: None,
+        }
+    }
+}
+
+impl GroupReport {
+    /// What UVs are worth.
+    pub(in crate) fn new(
+        uvs: &GroupUvs,
+        measures: Measures,
+        certificate: Certificate,
+        texture: Resolution,
+    ) -> Self {
+        let area = uvs.intended_area().unwrap_or(measures.size.area_3d);
+        let squared = measures.size.area_uv / area;
+        Self {
+            name: uvs.name.clone(),
+            label: uvs.label.clone(),
+            texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
+            measures,
+            certificate,
+            defects: None,
+            atlas: None,
+        }
+    }
+
+    /// Whether everything requested is proven for this atlas, as [`Report::certified`] says for all.
+    pub fn is_certified(&self) -> bool {
+        let proven = Proven::of(std::iter::once(&self.certificate));
+        proven.lacks(Overlap::Test, Mirrored::Refused).is_empty()
+    }
+}
+
+impl AtlasReport {
+    pub(in crate) fn new(unwrapped: &Unwrapped) -> Self {
+        Self {
+            scale: unwrapped.scale,
+            padding_texels: unwrapped.padding_texels,
+            bound: None,
+            same_as: None,
+            charts: unwrapped.charts.iter().map(ChartReport::new).collect(),
+        }
+    }
+}
+
+impl ChartReport {
+    fn new(record: &ChartRecord) -> Self {
+        Self {
+            faces: record.faces,
+            status: record.summary.status,
+            iterations: record.summary.iterations,
+            factorizations: record.summary.factorizations,
+            energy_first: record.summary.energy_first,
+            energy_last: record.summary.energy_last,
+            seconds: record.seconds,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! What the UVs of a document are worth, and what can be proven of them.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::groups::WrittenUvs;
+use super::proven::{Mirrored, Proven};
+use super::question::Question;
+use super::report::Report;
+use crate::PipelineError;
+use crate::arrays::unwrap::in_pool;
+use crate::options::{CommandOptions, MeasureOptions, VerifyOptions};
+use unwrapd_files::document::{Document, GroupBy, Mark, Sets, Upload, Warning};
+use unwrapd_maps::certificate::{Certificate, Overlap};
+
+/// The exact judgment of a document's UVs.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Verified {
+    /// Whether everything requested holds.
+    pub certified: bool,
+    /// What is requested and does not hold, in words.
+    pub lacking: Vec<&'static str>,
+    /// What holds of all groups.
+    pub proven: Proven,
+    /// Which UVs were judged.
+    pub judged: Judged,
+    /// A certificate per group.
+    pub groups: Vec<VerifiedGroup>,
+    /// The record in the document, if it fits the UVs: what it requires was judged, too.
+    #[cfg_attr(feature = "schema", schema(value_type = Option<Object>))]
+    pub mark: Option<Mark>,
+    /// What users should know of the file that was read.
+    pub warnings: Vec<Warning>,
+}
+
+/// Which UVs of a document were judged.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Judged {
+    /// The UV set, or one for each triangle primitive in file order.
+    #[cfg_attr(feature = "schema", schema(value_type = Object))]
+    pub texcoord: Sets,
+    /// What shares a UV space.
+    pub group_by: GroupBy,
+    /// Faces that name a position twice, which need no UV area.
+    pub exempt_faces: usize,
+    /// Primitives without the UV set, left out on request.
+    pub skipped_primitives: usize,
+}
+
+/// In words.
+impl fmt::Display for Judged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shared = match self.group_by {
+            GroupBy::Mesh => "mesh",
+            GroupBy::Scene => "file",
+            GroupBy::Material => "material",
+            GroupBy::Primitive => "primitive",
+        };
+        write!(f, "{}, one atlas per {shared}", self.texcoord)?;
+        if self.exempt_faces > 0 {
+            let n = self.exempt_faces;
+            write!(f, "; exempt: {n} triangles that name a position twice")?;
+        }
+        if self.skipped_primitives > 0 {
+            let n = self.skipped_primitives;
+            write!(f, "; left out: {n} primitives without UVs")?;
+        }
+        Ok(())
+    }
+}
+
+/// The exact judgment of a group's UVs.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct VerifiedGroup {
+    /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
+    pub name: String,
+    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    pub label: String,
+    /// What is proven of it.
+    pub certificate: Certificate,
+}
+
+/// Measures the UVs that a document has.
+pub fn measure_document(
+    upload: &Upload,
+    options: &MeasureOptions,
+) -> Result<Report, PipelineError> {
+    with_uvs(upload, options, |document, question| {
+        let options = &question.options;
+        let uvs = WrittenUvs::asked(document, question)?;
+        let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution());
+        Ok(Report::new(groups, warnings(document, question)))
+    })
+}
+
+/// Judges the UVs that a document has. Shares no code with the writer.
+pub fn verify_document(
+    upload: &Upload,
+    options: &VerifyOptions,
+) -> Result<Verified, PipelineError> {
+    let promise = Promise::of(options);
+    with_uvs(upload, &options.judged, |document, question| {
+        let uvs = WrittenUvs::asked(document, question)?;
+        let mut verified = Verified::new(uvs, question, promise);
+        verified.judged.group_by = question.options.spaces(document).0;
+        verified.mark.clone_from(&question.mark);
+        verified.warnings = warnings(document, question);
+        Ok(verified)
+    })
+}
+
+/// What is to be proven beside the orientation of every face.
+#[derive(Clone, Copy)]
+pub struct Promise {
+    overlap: Overlap,
+    mirrored: Mirrored,
+}
+
+impl Promise {
+    pub fn of(options: &VerifyOptions) -> Self {
+        Self {
+            overlap: if options.bijective {
+                Overlap::Test
+            } else {
+                Overlap::Skip
+            },
+            mirrored: if options.unmirrored {
+                Mirrored::Refused
+            } else {
+                Mirrored::Allowed
+            },
+        }
+    }
+}
+
+impl Verified {
+    /// The judgment of UVs, without what only their file says.
+    pub(in crate) fn new(uvs: WrittenUvs, question: &Question, promise: Promise) -> Self {
+        let overlap = question.overlap(promise.overlap);
+        let certificates = uvs.certify(&question.options.claims(overlap));
+        let exempt_faces = certificates.iter().map(|c| c.exempt_faces).sum();
+        let judged = Judged {
+            texcoord: question.sets(),
+            group_by: question.options.group_by.unwrap_or(GroupBy::Scene),
+            exempt_faces,
+            skipped_primitives: uvs.n_skipped,
+        };
+        let groups: Vec<VerifiedGroup> = (uvs.groups.into_iter().zip(certificates))
+            .map(|(group, certificate)| VerifiedGroup {
+                name: group.name,
+                label: group.label,
+                certificate,
+            })
+            .collect();
+        let proven = Proven::of(groups.iter().map(|group| &group.certificate));
+        let lacking = proven.lacks(question.promised(promise.overlap), promise.mirrored);
+        Self {
+            certified: lacking.is_empty(),
+            lacking,
+            proven,
+            judged,
+            groups,
+            mark: None,
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// What is to be said of the document and of its mark.
+fn warnings(document: &Document, question: &Question) -> Vec<Warning> {
+    let warnings = document.warnings().iter().chain(&question.warning);
+    warnings.cloned().collect()
+}
+
+/// Answers a question about a document, within the limits.
+fn with_uvs<T: Send>(
+    upload: &Upload,
+    options: &MeasureOptions,
+    answer: impl FnOnce(&Document, &Question) -> Result<T, PipelineError> + Send,
+) -> Result<T, PipelineError> {
+    options.check()?;
+    in_pool(options.caller.workers(options.workers), || {
+        let document = Document::read(upload)?;
+        options.caller.limits.check(&document)?;
+        let question = Question::new(options, &document)?;
+        let (_, nodes) = question.options.spaces(&document);
+        let document = nodes.prepared(document)?;
+        options.caller.limits.check(&document)?;
+        answer(&document, &question)
+    })?
+}

@@ -1,0 +1,173 @@
+//! Refuses options that would have no effect: their user expects one.
+
+use super::{Course, KeptMaps, Options, Preset, Pulling};
+use crate::rebake::ImageFormat;
+use unwrapd_deform::{Method, Model};
+use unwrapd_files::document::{GroupBy, OutputFormat};
+use unwrapd_layout::charts::Cut;
+use unwrapd_method::barrier::BarrierKind;
+
+/// An option, what it goes with, and whether it is given without effect.
+type Idle = (&'static str, &'static str, bool);
+
+fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
+    match all.into_iter().find(|(.., is_idle)| *is_idle) {
+        Some((name, with, _)) => Err(format!("`{name}` requires {with}")),
+        None => Ok(()),
+    }
+}
+
+/// Refuses options of the projected method where another one solves.
+pub(super) fn check_method(
+    course: &Course,
+    pulling: Pulling,
+    method: Method,
+) -> Result<(), String> {
+    let is_other = method != Method::Projected;
+    let with = "`method` projected";
+    refused([
+        ("search", with, pulling.search && is_other),
+        ("tolerance", with, course.tolerance.is_some() && is_other),
+    ])
+}
+
+/// Refuses options of unwrapping that the others leave without effect. One that has its default value cannot be told from one that
+/// is absent.
+pub(in crate) fn check(options: &Options) -> Result<(), String> {
+    let default = Options::default();
+    let is_auto = options.cutting.cut == Cut::Auto && options.mapping.barrier != BarrierKind::None;
+    let is_kept = options.cutting.cut == Cut::Keep;
+    let is_obj = options.format == OutputFormat::Obj;
+    check_barrier(
+        options.mapping.barrier,
+        [
+            options.mapping.barrier_strength != default.mapping.barrier_strength,
+            options.mapping.barrier_support != default.mapping.barrier_support,
+        ],
+    )?;
+    refused([
+        (
+            "max_charts",
+            "`cut` auto and a `barrier`",
+            options.cutting.max_charts.is_some() && !is_auto,
+        ),
+        (
+            "max_distortion",
+            "`cut` auto and a `barrier`",
+            options.cutting.max_distortion.is_some() && !is_auto,
+        ),
+        (
+            "max_stretch",
+            "`cut` auto and a `barrier`",
+            options.cutting.max_stretch.is_some() && !is_auto,
+        ),
+        (
+            "seam_weight",
+            "`cut` auto and a `barrier`",
+            options.cutting.seam_weight != default.cutting.seam_weight && !is_auto,
+        ),
+        (
+            "symmetry",
+            "`cut` auto and a `barrier`",
+            options.cutting.symmetry != default.cutting.symmetry && !is_auto,
+        ),
+        (
+            "quality",
+            "`cut` auto, keep or seams",
+            options.cutting.quality != default.cutting.quality
+                && matches!(options.cutting.cut, Cut::Fast | Cut::Disk),
+        ),
+        (
+            "source_texcoord",
+            "`cut` keep",
+            options.sets.source_texcoord.is_some() && !is_kept,
+        ),
+        (
+            "kept_maps",
+            "`cut` keep",
+            options.cutting.kept_maps != KeptMaps::Optimized && !is_kept,
+        ),
+        (
+            "bake_size",
+            "`rebake`",
+            options.baking.bake_size.is_some() && !options.baking.rebake,
+        ),
+        (
+            "image_format",
+            "`rebake`",
+            options.baking.image_format != ImageFormat::Source && !options.baking.rebake,
+        ),
+        (
+            "texcoord",
+            "a glTF result: an OBJ file has one UV set",
+            options.sets.texcoord.is_some_and(|set| set > 0) && is_obj,
+        ),
+        (
+            "overwrite",
+            "a glTF result: an OBJ file has one UV set",
+            options.sets.overwrite && is_obj,
+        ),
+    ])?;
+    check_grouping(options, options.group_by)?;
+    let is_one_atlas = options.preset == Preset::Lightmap || is_obj;
+    match options.group_by {
+        Some(by) if by != GroupBy::Scene && is_one_atlas => Err(format!(
+            "`group_by` has no effect here: {} always has one atlas",
+            if is_obj { "an OBJ file" } else { "a lightmap" }
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses what tells materials of one atlas apart where each has its own. What shares an atlas may
+/// not be known before the file is read.
+pub(in crate) fn check_grouping(
+    options: &Options,
+    group_by: Option<GroupBy>,
+) -> Result<(), String> {
+    const WITH: &str = "an atlas with several materials: `group_by` mesh or scene";
+    if !matches!(group_by, Some(GroupBy::Material | GroupBy::Primitive)) {
+        return Ok(());
+    }
+    let is_density_given = options.layout.texels_per_unit.is_some();
+    refused([
+        ("material_borders", WITH, options.material_borders),
+        (
+            "texel_weight",
+            WITH,
+            !options.texel_weight.is_empty() && !is_density_given,
+        ),
+    ])
+}
+
+/// The same of what a deformation costs.
+pub(in crate) fn check_model(model: &Model) -> Result<(), String> {
+    // A bound of the conformal distortion and the boundary have barriers of their own, as strong.
+    let has_others = model.max_conformal.is_some() || model.bijective;
+    check_barrier(
+        model.barrier,
+        [
+            model.barrier_strength.is_some() && !has_others,
+            model.barrier_support != Model::default().barrier_support,
+        ],
+    )
+}
+
+/// A strength needs a barrier, a support the inverse spline.
+fn check_barrier(
+    barrier: BarrierKind,
+    [is_strength_given, is_support_given]: [bool; 2],
+) -> Result<(), String> {
+    refused([
+        (
+            "barrier_strength",
+            "a `barrier`",
+            is_strength_given && barrier == BarrierKind::None,
+        ),
+        (
+            "barrier_support",
+            "`barrier` inverse-spline",
+            is_support_given && barrier != BarrierKind::InverseSpline,
+        ),
+    ])
+}

@@ -1,0 +1,73 @@
+//! Islands that stay where they are put, as a user names them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::arrays::placement::Placement;
+use unwrapd_api::options::within;
+use unwrapd_maps::mesh::VAxis;
+
+/// How far an island may be moved, in UV, and its pivot lie from the origin.
+const FARTHEST: f64 = 1e6;
+/// Degrees that an island may turn at most: a hundred turns.
+const MOST_DEGREES: f64 = 36_000.0;
+/// The factors that an island may be scaled by.
+const SCALES: [f64; 2] = [1e-6, 1e6];
+
+/// An island, named by one of its faces, that is put somewhere and stays there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Island {
+    /// The triangle primitive, counted over the result from 0.
+    #[serde(default)]
+    pub primitive: u32,
+    /// One of its faces, from 0.
+    pub face: u32,
+    /// The way that the island moves.
+    #[serde(default, rename = "move")]
+    pub shift: [f64; 2],
+    /// Degrees that it turns by about the pivot, from the direction of u to that of v.
+    #[serde(default)]
+    pub turn: f64,
+    /// The factor by which it is scaled about the pivot.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// The pivot. The default is the middle of the island's bounding rectangle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pivot: Option<[f64; 2]>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Island {
+    /// Checks the numbers; the text names the island by its place in the list.
+    pub(super) fn check(&self, index: usize) -> Result<(), String> {
+        let named = |what: &str| format!("islands[{index}].{what}");
+        let far = |what: &str, value: f64| within(&named(what), value, -FARTHEST, FARTHEST);
+        within(&named("turn"), self.turn, -MOST_DEGREES, MOST_DEGREES)?;
+        within(&named("scale"), self.scale, SCALES[0], SCALES[1])?;
+        self.shift.into_iter().try_for_each(|x| far("move", x))?;
+        let pivot = self.pivot.into_iter().flatten();
+        pivot.into_iter().try_for_each(|x| far("pivot", x))
+    }
+
+    /// The same where v is up, for a face of a mesh.
+    pub(in crate) fn placement(
+        &self,
+        (number, face): (usize, u32),
+        v_axis: VAxis,
+    ) -> Placement {
+        let up = v_axis == VAxis::Up;
+        let sign = if up { 1.0 } else { -1.0 };
+        Placement {
+            number,
+            face,
+            shift: [self.shift[0], sign * self.shift[1]],
+            turn: sign * self.turn.to_radians(),
+            scale: self.scale,
+            pivot: (self.pivot).map(|[u, v]| [u, if up { v } else { 1.0 - v }]),
+        }
+    }
+}

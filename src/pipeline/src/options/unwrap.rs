@@ -1,0 +1,174 @@
+//! How a document is unwrapped.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Baking, Budget, Caller, Cutting, Layout, Mapping, Preset, Sets, Workers};
+use crate::arrays::settings::Settings;
+use crate::documents::nodes::Nodes;
+use crate::documents::texel_weight::TexelWeight;
+use unwrapd_api::options::options;
+use unwrapd_files::document::{GroupBy, OutputFormat, Terms};
+use unwrapd_files::picture::HeatmapMeasure;
+use unwrapd_layout::atlas::Borders;
+use unwrapd_maps::certificate::{Claims, Overlap, Padding};
+
+/// Edges of a document to cut in any mode.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(untagged)]
+pub enum GivenSeams {
+    /// Seams named by a word.
+    Named(NamedSeams),
+    /// The edges between these pairs of vertices, counted over the triangle primitives of the file
+    /// in order.
+    Edges(Vec<[u32; 2]>),
+}
+
+/// Seams that the document itself defines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum NamedSeams {
+    /// Hard edges: those where the normals of two faces differ.
+    Normals,
+}
+
+options! {
+    /// How a document is unwrapped: what [`Settings`] consist of, and what concerns the file. The
+    /// command line's long names in snake case.
+    pub struct Options under "Atlas" {
+        /// Purpose of the UVs.
+        pub preset: Preset = Preset::Material;
+        /// What shares an atlas and a texel density. The default for glTF is one atlas per
+        /// material; a mesh without a material has its own. Other files have one atlas.
+        ///
+        /// A lightmap and an OBJ file always have one atlas for the scene.
+        pub group_by: Option<GroupBy>;
+        /// Give a material of a glTF, by name or index, W times the linear texel density of the
+        /// others in its atlas.
+        ///
+        /// The surface is cut between materials of different weight. `texels_per_unit` refers to
+        /// weight 1, and distortion is measured against the intended density. Repeat the option for
+        /// several materials; JSON takes a list.
+        pub texel_weight: Vec<TexelWeight>, value "MATERIAL=W", also "texel_weights", schema(value_type = Vec<String>);
+        /// Number of mip levels beyond the first in which charts keep the padding, counted in
+        /// texels of each level. The default is 0, for a lightmap 2.
+        pub mips: Option<u32>, in 0..=12, value "N";
+        /// Also cut along the borders between materials.
+        pub material_borders: bool, arg(help_heading = "Where to cut");
+        /// What the heat map shows.
+        pub heatmap_measure: HeatmapMeasure = HeatmapMeasure::SymmetricDirichlet,
+            arg(help_heading = "Files and messages", requires = "heatmap");
+    }
+    files {
+        /// Edges to cut in any mode: normals for hard edges, or a list [[v, w], …] of vertex pairs.
+        /// Vertices are counted over the triangle primitives of the file in order.
+        pub seams: Option<GivenSeams>;
+        /// Format of the result.
+        pub format: OutputFormat = OutputFormat::Glb;
+    }
+    groups {
+        /// Where to cut.
+        pub cutting: Cutting;
+        /// How charts are laid out on a texture.
+        pub layout: Layout;
+        /// Which UV sets are read and written.
+        pub sets: Sets;
+        /// Whether textures are resampled, and into what.
+        pub baking: Baking;
+        /// How charts are mapped.
+        pub mapping: Mapping;
+        /// What works.
+        pub workers: Workers;
+        /// How long it may take.
+        pub budget: Budget;
+    }
+    untold {
+        /// What the code that unwraps says.
+        pub caller: Caller;
+    }
+}
+
+impl Options {
+    /// With what follows from the preset.
+    pub(in crate) fn resolved(&self) -> Self {
+        let mut options = Self {
+            mips: Some(self.mips()),
+            ..self.clone()
+        };
+        if self.preset == Preset::Lightmap {
+            options.group_by = Some(GroupBy::Scene);
+            options.sets.texcoord = self.sets.texcoord.or(Some(1));
+        }
+        options
+    }
+
+    /// Mip levels beyond the first in which charts keep the padding.
+    pub(in crate) fn mips(&self) -> u32 {
+        self.mips.unwrap_or(match self.preset {
+            Preset::Material => 0,
+            Preset::Lightmap => LIGHTMAP_MIPS,
+        })
+    }
+
+    /// What counts as a surface.
+    pub(in crate) fn nodes(&self) -> Nodes {
+        match self.preset {
+            Preset::Material => Nodes::Shared,
+            Preset::Lightmap => Nodes::Separate,
+        }
+    }
+
+    /// The part that concerns the geometry, within the limits.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            cutting: self.cutting,
+            mapping: self.mapping,
+            layout: Layout {
+                padding: self.layout.padding << self.mips(),
+                ..self.layout
+            },
+            borders: match self.preset {
+                Preset::Material => Borders::Free,
+                Preset::Lightmap => Borders::OnTexels,
+            },
+            workers: self.caller.workers(self.workers),
+            budget: self.caller.budget(self.budget),
+        }
+    }
+
+    /// What the certificate is asked to speak of.
+    pub(in crate) fn claims(&self) -> Claims {
+        let layout = &self.layout;
+        Claims {
+            overlap: Overlap::Test,
+            padding: Some(Padding {
+                texels: layout.padding << self.mips(),
+                resolution: layout.resolution,
+            }),
+            aligned: (self.preset == Preset::Lightmap).then_some(layout.resolution),
+            pages: Some(layout.pages),
+            bits: self.mapping.quantization_safe,
+            ..Claims::default()
+        }
+    }
+
+    /// What the written file says of its UVs, with what shares an atlas in it.
+    pub(in crate) fn terms(&self, group_by: GroupBy) -> Terms {
+        Terms {
+            group_by,
+            separate_nodes: self.nodes() == Nodes::Separate,
+            padding: Some(self.layout.padding),
+            resolution: self.layout.resolution,
+            pages: Some(self.layout.pages),
+            mips: self.mips(),
+            aligned: self.preset == Preset::Lightmap,
+            bits: self.mapping.quantization_safe,
+            overlaps: false,
+        }
+    }
+}
+
+/// Mip levels for which padding of a lightmap holds: of a distant room a quarter of the texels is
+/// shown along a side.
+const LIGHTMAP_MIPS: u32 = 2;

@@ -1,0 +1,69 @@
+//! How a picture is warped.
+
+use super::{Budget, Caller, CommandOptions, Pulling, Workers, idle};
+use crate::PipelineError;
+use unwrapd_api::options::{OptionSet, options};
+use unwrapd_deform::warp::{self, PictureHandle};
+use unwrapd_deform::{Boundary, Model};
+
+options! {
+    /// How a picture is warped. The command line's long names in snake case; a file of handles is
+    /// one with the handles only.
+    pub struct WarpOptions {
+        /// Number of grid cells along the longer side of the picture.
+        pub grid: usize = warp::WarpOptions::default().grid, value "N", schema(minimum = 1, maximum = 512);
+        /// Hold the border fixed, which makes the map bijective. Handles next to the border then
+        /// move the nearest inner vertex.
+        pub fix_border: bool;
+    }
+    files {
+        /// Points of the picture and their targets, in pixels, y down: {"handles": [{"at": [x, y],
+        /// "to": [x, y]}, …]}.
+        ///
+        /// Each handle moves its exact point. Next to a fixed border it moves the nearest inner
+        /// vertex of the grid by the same offset.
+        pub handles: Vec<PictureHandle>;
+    }
+    groups {
+        /// Energy and barrier, for a mean triangle area between ½ and 2.
+        pub model: Model;
+        /// Which ways handles go.
+        pub pulling: Pulling;
+        /// What works.
+        pub workers: Workers;
+        /// How long it may take.
+        pub budget: Budget;
+    }
+    untold {
+        /// What the code that warps says.
+        pub caller: Caller;
+    }
+}
+
+impl WarpOptions {
+    pub(in crate) fn of_grid(&self) -> warp::WarpOptions {
+        warp::WarpOptions {
+            grid: self.grid,
+            boundary: if self.fix_border {
+                Boundary::Fixed
+            } else {
+                Boundary::Free
+            },
+            model: self.model.clone(),
+            search: self.pulling.search,
+        }
+    }
+}
+
+impl CommandOptions for WarpOptions {
+    fn check(&self) -> Result<(), PipelineError> {
+        self.model.check()?;
+        (self.check_ranges())
+            .and_then(|()| idle::check_model(&self.model))
+            .map_err(PipelineError::InvalidOptions)
+    }
+
+    fn caller_mut(&mut self) -> &mut Caller {
+        &mut self.caller
+    }
+}
