@@ -242,24 +242,13 @@ pub use unwrapd_layout::{atlas, charts};
 pub use unwrapd_maps::{certificate, cut, embed, measure, mesh, plane};
 pub use unwrapd_method::{barrier, energy, numerics, solver};
 pub use unwrapd_pipeline as pipeline;
-
-
 #[cfg(feature = "service")]
-pub mod jobs;
+pub use unwrapd_server::{http, jobs, sessions, store, webhooks};
 #[cfg(feature = "service")]
-pub mod store;
-
-#[cfg(feature = "service")]
-pub mod sessions;
-
-#[cfg(feature = "service")]
-pub mod webhooks;
+pub use unwrapd_worker as worker;
 
 #[cfg(feature = "service")]
 pub mod bulk;
-
-#[cfg(feature = "service")]
-pub mod http;
 
 #[cfg(feature = "service")]
 pub mod cli;

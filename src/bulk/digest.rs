@@ -1,9 +1,9 @@
 //! What an output follows from, as one digest.
 
 use super::worker::Extra;
-use crate::jobs::Digest;
-use unwrapd_pipeline::{Options, Workers};
 use unwrapd_files::document::Upload;
+use unwrapd_pipeline::{Options, Workers};
+use unwrapd_server::jobs::Digest;
 
 /// What all assets of a run have in common.
 #[derive(Clone, Debug)]

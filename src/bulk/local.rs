@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use super::worker::{Task, Worker};
-use crate::jobs::{Contained, Failure, Kind};
+use unwrapd_api::{Failure, Kind};
+use unwrapd_server::jobs::Contained;
 
 /// Unwraps each asset in a child process.
 #[derive(Clone, Debug)]

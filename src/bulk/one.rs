@@ -15,8 +15,8 @@ use super::regular::read_regular;
 use super::row::{Row, Status};
 use super::trouble::{Trouble, unwritten};
 use super::worker::{Task, Worker};
-use crate::jobs::Failure;
-use unwrapd_files::document::Upload;
+use unwrapd_api::Failure;
+use unwrapd_files::document::{Upload, with_references};
 
 /// Does an asset unless that was done before.
 pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate) {
@@ -110,5 +110,7 @@ fn read(asset: &Asset) -> io::Result<Upload> {
     }
     let folder = asset.input.parent().unwrap_or(Path::new(""));
     let upload = Upload::single(name.to_string_lossy(), bytes);
-    Ok(upload.with_references(|reference| read_regular(&folder.join(reference)).ok()))
+    Ok(with_references(upload, |reference| {
+        read_regular(&folder.join(reference)).ok()
+    }))
 }

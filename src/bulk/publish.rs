@@ -12,7 +12,7 @@ use super::regular::read_regular;
 use super::row::Figures;
 use super::trouble::{Trouble, unwritten};
 use super::worker::Extra;
-use crate::jobs::{Failure, output_file};
+use unwrapd_api::{Failure, output_file};
 
 /// What outputs are worth, and the paths and sizes of what was written.
 pub(super) type Published = (Figures, Vec<(PathBuf, u64)>);

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::asset::Asset;
-use crate::jobs::{Failure, Gates, Worth};
+use unwrapd_api::{Failure, Worth};
+use unwrapd_server::jobs::Gates;
 
 /// What became of an asset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

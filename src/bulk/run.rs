@@ -13,7 +13,7 @@ use super::place::Place;
 use super::record::Record;
 use super::row::{Row, Status};
 use super::worker::Worker;
-use crate::jobs::Failure;
+use unwrapd_api::Failure;
 
 /// Told of every row as it comes.
 pub type Seen<'a> = &'a mut (dyn FnMut(&Row, Fate) + Send);

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::row::{Row, Status};
-use crate::jobs::Gates;
+use unwrapd_server::jobs::Gates;
 
 /// Names of the columns.
 const HEADER: [&str; 14] = [

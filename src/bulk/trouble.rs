@@ -2,8 +2,7 @@
 //! of the service.
 
 use std::io;
-
-use crate::jobs::Failure;
+use unwrapd_api::Failure;
 
 /// Why there is no output although the work may have been done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

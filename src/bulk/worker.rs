@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use crate::jobs::Failure;
+use unwrapd_api::Failure;
 use unwrapd_files::document::Upload;
 
 /// What is written beside an output if it is asked for.
@@ -58,7 +58,7 @@ pub trait Worker: Send + Sync + 'static {
     fn time_limit(&self) -> Option<Duration>;
 
     /// Unwraps an asset, and gives the roles of the files that it made. The n-th is left in the
-    /// task's folder as [`output_file`](crate::jobs::output_file)`(n)`. Dropped before its end, it
+    /// task's folder as [`output_file`](unwrapd_api::output_file)`(n)`. Dropped before its end, it
     /// stops.
     fn work(&self, task: Task<'_>) -> impl Future<Output = Result<Vec<String>, Failure>> + Send;
 }

@@ -1,10 +1,11 @@
 //! What a result has to be for exit status 0.
 
-use crate::jobs::{Gate, Gates, Worth};
-use unwrapd_pipeline::{Mirrored, Report};
 use unwrapd_maps::certificate::Overlap;
+use unwrapd_pipeline::{Mirrored, Report};
+use unwrapd_server::jobs::{Gate, Gates};
 
 use super::failure::Failure;
+use unwrapd_worker::worth_of;
 
 /// The gates of a command.
 #[derive(clap::Args)]
@@ -26,7 +27,7 @@ pub(super) struct Acceptance {
 impl Acceptance {
     /// A failure if a result that took so many seconds misses a gate; it is written all the same.
     pub(super) fn judge(&self, report: &Report, seconds: f64) -> Result<(), Failure> {
-        let worth = Worth::of(report);
+        let worth = worth_of(report);
         let missed: Vec<&Gate> = self.accept.missed(&worth, seconds).collect();
         if missed.is_empty() && report.partly_done {
             let message = "certified, but not all textures and colors were resampled (partly_done)";

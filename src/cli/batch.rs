@@ -12,7 +12,8 @@ use super::console::{self, Lines, print_json, say};
 use super::failure::Failure;
 use super::work_args::{JOB_MEMORY, cores, machine_memory, seconds};
 use crate::bulk::{self, Extra, Local, Order, Place, Row, Totals, Worker};
-use crate::jobs::{Contained, Pictures, Program};
+use unwrapd_api::Pictures;
+use unwrapd_server::jobs::{Contained, Program};
 
 /// The arguments of `batch`.
 #[derive(clap::Args)]

@@ -6,10 +6,10 @@ use super::console::warn_of;
 use super::failure::Failure;
 use super::input::{folder, read_file};
 use crate::bulk::{self, Asset, Extra, ShardChoice, array_variable};
-use crate::jobs::Gates;
-use unwrapd_pipeline::{CommandOptions, GivenSeams, NamedSeams, Options};
 use unwrapd_api::options::help_of;
 use unwrapd_files::document::OutputFormat;
+use unwrapd_pipeline::{CommandOptions, GivenSeams, NamedSeams, Options};
+use unwrapd_server::jobs::Gates;
 
 /// The arguments of commands over many files.
 #[derive(clap::Args)]

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::console::{one_line, say};
 use crate::bulk::{Fate, Figures, Row, Status, Totals};
-use crate::jobs::Gates;
+use unwrapd_server::jobs::Gates;
 
 /// Shows how far a run is.
 pub(super) struct BulkDisplay<'a> {

@@ -6,11 +6,11 @@ use super::console::{print, print_json};
 use super::failure::Failure;
 use super::process::blobs_url;
 use super::store_args::StoreArgs;
-use crate::jobs::{
+use unwrapd_server::jobs::{
     Blobs, Inspection, JobStore, Loss, Quarantined, StoreError, adopt, inspect, purge, repair,
     shared_identity,
 };
-use crate::store::blobs_at;
+use unwrapd_server::store::blobs_at;
 
 /// The arguments of `check`.
 #[derive(clap::Args)]

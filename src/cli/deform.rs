@@ -7,9 +7,9 @@ use super::format::body_format;
 use super::input::{read_file, read_upload};
 use super::output::caller;
 use super::records::Records;
-use unwrapd_pipeline::{CommandOptions, DeformOptions, deform_file};
 use unwrapd_api::options::help_of;
 use unwrapd_deform::parse_body_handles;
+use unwrapd_pipeline::{CommandOptions, DeformOptions, deform_file};
 
 /// Deforms a planar or tetrahedral mesh, or surfaces in a cage of tetrahedra, by handles. No
 /// element is inverted.

@@ -9,10 +9,10 @@ use super::input::{Mapped, read_file, read_upload};
 use super::output::{Files, Outputs, Target, caller};
 use super::progress::Display;
 use super::warp::print_pull;
-use unwrapd_pipeline::{CommandOptions, EditOptions, Editing, edit_document};
 use unwrapd_api::options::help_of;
 use unwrapd_deform::uv::parse_anchors;
 use unwrapd_files::document::OutputFormat;
+use unwrapd_pipeline::{CommandOptions, EditOptions, Editing, edit_document};
 
 /// Moves anchors of a UV map. Everything else stays as close to its place as possible, and no
 /// triangle is flipped.

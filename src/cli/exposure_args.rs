@@ -8,8 +8,8 @@ use clap::builder::BoolishValueParser;
 use nix::sys::resource::{Resource, getrlimit, setrlimit};
 
 use super::work_args::seconds;
-use crate::http::{Connections, origin};
-use crate::jobs::access::{KeyRing, KeyStore};
+use unwrapd_server::http::{Connections, origin};
+use unwrapd_server::jobs::access::{KeyRing, KeyStore};
 
 /// Connections at most if nothing else is said.
 const MOST_CONNECTIONS: u64 = 4096;

@@ -4,11 +4,11 @@ use std::io::Write;
 
 use super::escaping::escaped;
 use crate::bulk::{ListError, RemoteError};
-use unwrapd_pipeline::{Completion, PipelineError};
 use unwrapd_api::options::as_typed;
 use unwrapd_deform::ProblemError;
 use unwrapd_deform::uv::EditError;
 use unwrapd_deform::warp::WarpError;
+use unwrapd_pipeline::{Completion, PipelineError};
 
 /// Why a command ended, in one line, and its exit status.
 #[derive(Debug)]

@@ -6,9 +6,9 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use super::output::is_stream;
-use unwrapd_pipeline::BodyFormat;
 use unwrapd_files::document::OutputFormat;
 use unwrapd_files::io::Format;
+use unwrapd_pipeline::BodyFormat;
 
 /// The format of a document to write.
 pub(super) fn output_format(

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use crate::bulk::{MOST_BYTES, read_bounded, read_regular};
-use unwrapd_files::document::Upload;
+use unwrapd_files::document::{Upload, with_references};
 
 /// A file that has UVs.
 #[derive(clap::Args)]
@@ -50,7 +50,9 @@ fn read_named(path: &Path) -> io::Result<Vec<u8>> {
 /// Reads a file and the files that it references by relative URI.
 pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
     let (upload, folder) = (upload(path, read_file(path)?, []), folder(path));
-    Ok(upload.with_references(|reference| read_regular(&folder.join(reference)).ok()))
+    Ok(with_references(upload, |reference| {
+        read_regular(&folder.join(reference)).ok()
+    }))
 }
 
 /// A file that was read, with those of the files that it references that are there.

@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::console::{print, print_json, warn_of};
 use super::failure::Failure;
 use super::store_args::StoreArgs;
-use crate::jobs::Timestamp;
-use crate::jobs::access::{Key, KeyId, KeyStore, KeyText, NewKey, Owner, Scopes};
+use unwrapd_server::jobs::Timestamp;
+use unwrapd_server::jobs::access::{Key, KeyId, KeyStore, KeyText, NewKey, Owner, Scopes};
 
 /// Characters of a note at most.
 const MOST_OF_NAME: usize = 100;

@@ -3,8 +3,8 @@
 use super::console::{print_json, warn};
 use super::failure::Failure;
 use super::input::{Mapped, read_upload};
-use unwrapd_pipeline::{self, MeasureOptions};
 use unwrapd_maps::certificate::Certificate;
+use unwrapd_pipeline::{self as pipeline, MeasureOptions};
 
 /// Measures the UVs of a file: distortion, seams, packing, overlaps.
 #[derive(clap::Args)]

@@ -61,7 +61,7 @@ use clap::ArgMatches;
 use command::Command;
 use failure::Failure;
 
-use crate::jobs::Program;
+use unwrapd_server::jobs::Program;
 
 /// Runs a command line, which begins with the name of the program, and returns the exit code of the
 /// process. Children are instances of `program`.
@@ -72,13 +72,13 @@ pub fn run(arguments: Vec<OsString>, program: std::io::Result<Program>) -> u8 {
     // `serve` with the folder of it: no help, suggestion or completion knows them.
     if let [_, word, folder, ..] = &arguments[..] {
         if word == "compute" {
-            return crate::jobs::compute::run(Path::new(folder));
+            return unwrapd_worker::compute(Path::new(folder));
         }
         if word == "draw" {
-            return crate::jobs::compute::draw(Path::new(folder));
+            return unwrapd_worker::draw(Path::new(folder));
         }
         if word == "session" {
-            return crate::sessions::run(Path::new(folder));
+            return unwrapd_worker::session::run(Path::new(folder));
         }
     }
     let (command, typed) = command::typed(arguments);
@@ -120,7 +120,7 @@ fn run_typed(
         Command::WebhookSecret(args) => webhook_secret::run(&args),
         Command::Config(args) => config::run(&args, &command::command(), typed),
         Command::Openapi => {
-            console::print(crate::http::openapi());
+            console::print(unwrapd_server::http::openapi(&unwrapd_worker::Computations));
             Ok(())
         }
         Command::Health(args) => health::run(&args).map_err(Failure::other),

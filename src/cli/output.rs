@@ -12,8 +12,8 @@ use super::console::{self, Lines};
 use super::failure::Failure;
 use super::input::{folder, is_standard};
 use crate::bulk::read_regular;
-use unwrapd_pipeline::Caller;
 use unwrapd_files::document::Upload;
+use unwrapd_pipeline::Caller;
 
 /// Where a document is written.
 #[derive(clap::Args)]

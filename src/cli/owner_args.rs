@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::work_args::seconds;
-use crate::jobs::OwnerQuotas;
+use unwrapd_server::jobs::OwnerQuotas;
 
 /// What one owner may have. All keys of an owner count as one, so that a key that replaces another brings no more. Without keys,
 /// all callers are one owner.

@@ -10,8 +10,8 @@ use tokio_util::sync::CancellationToken;
 
 use super::store_args::url_path;
 use super::work_args::WorkArgs;
-use crate::jobs::{Blobs, JobStore, Jobs, Settings};
-use crate::store::{RecordStore, blobs_at};
+use unwrapd_server::jobs::{Blobs, JobStore, Jobs, Settings};
+use unwrapd_server::store::{RecordStore, blobs_at};
 
 /// Time for connections and computations to end after the stop signal and the time of grace.
 const STOP_TIME: Duration = Duration::from_secs(10);

@@ -9,8 +9,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::failure::Failure;
 use super::output::{Talk, write_whole};
-use unwrapd_pipeline::{Observer, Progress, Stage};
 use unwrapd_method::solver::Control;
+use unwrapd_pipeline::{Observer, Progress, Stage};
 
 /// Steps of the bar.
 const STEPS: u64 = 1000;

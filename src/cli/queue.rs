@@ -5,9 +5,9 @@ use serde::Serialize;
 use super::console::{print, print_json};
 use super::failure::Failure;
 use super::store_args::StoreArgs;
-use crate::jobs::access::{Owner, Reach};
-use crate::jobs::{JobStore, Listing, State, StoreError, retry_failed};
-use crate::store::RecordStore;
+use unwrapd_server::jobs::access::{Owner, Reach};
+use unwrapd_server::jobs::{JobStore, Listing, State, StoreError, retry_failed};
+use unwrapd_server::store::RecordStore;
 
 /// The arguments of `queue`.
 #[derive(clap::Args)]

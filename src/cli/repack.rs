@@ -13,9 +13,9 @@ use super::input::{Mapped, read_file, read_upload};
 use super::output::{Files, Outputs, Target, caller};
 use super::progress::Display;
 use super::unwrap::summarize;
-use unwrapd_pipeline::{CommandOptions, Island, RepackOptions, repack_document};
 use unwrapd_api::options::help_of;
 use unwrapd_files::document::OutputFormat;
+use unwrapd_pipeline::{CommandOptions, Island, RepackOptions, repack_document};
 
 /// The arguments of `repack`.
 #[derive(clap::Args)]

@@ -12,10 +12,10 @@ use super::process;
 use super::watch_args::measured;
 use super::webhook_args::WebhookArgs;
 use super::work_args::{WorkArgs, seconds};
-use crate::http;
-use crate::jobs::{self, Program};
-use crate::sessions::{self, Sessions};
-use crate::webhooks;
+use unwrapd_server::http;
+use unwrapd_server::jobs::{self, Program};
+use unwrapd_server::sessions::{self, Sessions};
+use unwrapd_server::webhooks;
 
 /// The arguments of `serve`. Each has an environment variable.
 #[derive(clap::Args)]

@@ -7,8 +7,8 @@ use super::format::body_format;
 use super::input::{read_file, upload};
 use super::output::caller;
 use super::records::Records;
-use unwrapd_pipeline::{CommandOptions, SolveOptions, solve_file};
 use unwrapd_deform::ProblemFile;
+use unwrapd_pipeline::{CommandOptions, SolveOptions, solve_file};
 
 /// Solves a problem file: pulls handles to their targets. No element is inverted.
 #[derive(clap::Args)]

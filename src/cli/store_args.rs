@@ -6,8 +6,8 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::failure::Failure;
 use super::privacy::{Database, make_private};
-use crate::jobs::Rules;
-use crate::store::RecordStore;
+use unwrapd_server::jobs::Rules;
+use unwrapd_server::store::RecordStore;
 
 /// Where records are.
 #[derive(clap::Args)]

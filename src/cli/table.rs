@@ -1,9 +1,9 @@
 //! Atlases in a table: at most ten lines and totals.
 
 use super::console::{one_line, say};
-use unwrapd_pipeline::{GroupReport, stretch_percent};
 use unwrapd_maps::certificate::Certificate;
 use unwrapd_maps::measure::Page;
+use unwrapd_pipeline::{GroupReport, stretch_percent};
 
 /// Lines at most, without those of the head and the totals.
 const LINES: usize = 10;

@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::input::read_upload;
 use super::progress::Display;
 use super::unwrap_args::Args;
-use unwrapd_pipeline::{self, AtlasPicture, CommandOptions, Outcome};
+use unwrapd_pipeline::{self as pipeline, AtlasPicture, CommandOptions, Outcome};
 
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {

@@ -7,9 +7,9 @@ use super::failure::Failure;
 use super::format::output_format;
 use super::input::read_file;
 use super::output::{Files, Outputs, Target, caller};
-use unwrapd_pipeline::{GivenSeams, NamedSeams, Options};
 use unwrapd_api::options::help_of;
 use unwrapd_files::document::OutputFormat;
+use unwrapd_pipeline::{GivenSeams, NamedSeams, Options};
 
 /// The arguments of `unwrap`.
 #[derive(clap::Args)]

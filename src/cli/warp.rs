@@ -8,10 +8,10 @@ use super::format::check_png;
 use super::input::{read_file, read_upload};
 use super::output::{OutputArgs, Outputs, caller};
 use super::progress::Display;
-use unwrapd_pipeline::{CommandOptions, PullReport, WarpOptions, warp_file};
 use unwrapd_api::options::help_of;
 use unwrapd_deform::Units;
 use unwrapd_deform::warp::parse_handles;
+use unwrapd_pipeline::{CommandOptions, PullReport, WarpOptions, warp_file};
 
 /// Warps a picture by handles without folding it.
 #[derive(clap::Args)]

@@ -9,9 +9,9 @@ use tokio_util::sync::CancellationToken;
 use tracing_subscriber::EnvFilter;
 
 use super::listen::listener;
-use crate::http::{Exposition, Measured, measure};
-use crate::jobs::Jobs;
-use crate::sessions::Sessions;
+use unwrapd_server::http::{Exposition, Measured, measure};
+use unwrapd_server::jobs::Jobs;
+use unwrapd_server::sessions::Sessions;
 
 /// What a process tells those who run it.
 #[derive(clap::Args)]

@@ -2,7 +2,7 @@
 
 use clap::builder::BoolishValueParser;
 
-use crate::webhooks::{Reachable, Secrets, Settings};
+use unwrapd_server::webhooks::{Reachable, Secrets, Settings};
 
 /// How the ends of jobs are told to others.
 #[derive(clap::Args)]

@@ -2,8 +2,8 @@
 
 use super::console::print;
 use super::failure::Failure;
-use crate::jobs::access::Owner;
-use crate::webhooks::Secrets;
+use unwrapd_server::jobs::access::Owner;
+use unwrapd_server::webhooks::Secrets;
 
 /// The arguments of `webhook-secret`.
 #[derive(clap::Args)]

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use super::store_args::StoreArgs;
 use super::watch_args::WatchArgs;
-use crate::jobs::{self, Deployment, Program, Rules};
+use unwrapd_server::jobs::{self, Deployment, Program, Rules};
+use unwrapd_worker::Computations;
 
 /// Default memory of a job, in bytes.
 pub(super) const JOB_MEMORY: u64 = 8 << 30;
@@ -147,6 +148,7 @@ impl WorkArgs {
             },
             scratch: self.store.data.join("scratch"),
             program,
+            catalog: &Computations,
             workers: self.workers(),
             cores: cores(),
             owner_running: self.owner_running,

@@ -1,7 +1,9 @@
 //! Readers of OBJ, OFF, PLY and STL: what they read, what they refuse, and that no byte makes them panic.
 use crate::places;
 use std::path::Path;
-use unwrapd_files::io::{Content, Format, IndexedTriangles, ReadError, obj, off, ply, stl};
+use unwrapd_files::io::{
+    Content, Format, IndexedTriangles, ReadError, detect, format_of_content, obj, off, ply, stl,
+};
 
 type Reader = fn(&[u8]) -> Result<IndexedTriangles, ReadError>;
 
@@ -155,7 +157,7 @@ fn every_format_fills_a_concave_polygon() {
 }
 
 fn detected(name: &str, bytes: &[u8]) -> Option<Format> {
-    Format::detect(name, bytes, Content::Surface)
+    detect(name, bytes, Content::Surface)
 }
 
 #[test]
@@ -204,7 +206,7 @@ fn content_is_told_apart_by_what_it_is_read_for() {
         (b"# a comment\nOFF\n", Surface, Some(Format::Off)),
         (b"solid words", Surface, None),
     ] {
-        let found = Format::of_content(bytes, bytes.len() as u64, content);
+        let found = format_of_content(bytes, bytes.len() as u64, content);
         assert_eq!(found, expected, "{content:?}: {}", bytes.escape_ascii());
     }
 }

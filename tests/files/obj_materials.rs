@@ -3,6 +3,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use unwrapd_files::document::{
     Corners, Document, Layout, NewUvs, OldUvs, OutputFormat, Upload, WriteOptions, Written,
+    references,
 };
 use unwrapd_maps::mesh::VAxis;
 
@@ -229,7 +230,7 @@ fn files_are_found_in_two_steps_and_never_outside() {
     let mut upload = Upload::single("house.obj", text.as_bytes().to_vec());
     let is_inside =
         |path: &String| !path.starts_with('/') && !path.contains("..") && !path.contains(':');
-    let first = upload.references();
+    let first = references(&upload);
     assert!(
         first.contains("parts/house.mtl") && first.iter().all(is_inside),
         "{first:?}"
@@ -238,7 +239,7 @@ fn files_are_found_in_two_steps_and_never_outside() {
     upload
         .resources
         .insert("parts/house.mtl".to_owned(), materials.as_bytes().to_vec());
-    let second = upload.references();
+    let second = references(&upload);
     for path in [
         "parts/some wood.png",
         "parts/n.png",

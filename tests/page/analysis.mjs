@@ -1,7 +1,7 @@
 // What the page computes itself, on maps whose numbers are known. It runs the worker of the bundle, without a browser.
 import assert from "node:assert/strict";
 
-const worker = new URL("../../src/http/page/dist/worker.js", import.meta.url);
+const worker = new URL("../../src/server/src/http/page/dist/worker.js", import.meta.url);
 
 /** The worker as a function. */
 async function analyst() {

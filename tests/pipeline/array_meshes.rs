@@ -1,13 +1,13 @@
 //! Meshes given as arrays that share an atlas.
 
+use unwrapd_layout::charts::Cut;
+use unwrapd_maps::certificate::{Claims, certify};
+use unwrapd_maps::mesh::MeshError;
 use unwrapd_pipeline::{
     Cutting, GivenSeams, Island, IslandError, MeasureOptions, MeshArrays, Options, PipelineError,
     RepackOptions, Unobserved, UnwrappedMeshes, VerifyOptions, WeldedUvs, measure_meshes,
     repack_meshes, unwrap, unwrap_meshes, verify_meshes,
 };
-use unwrapd_layout::charts::Cut;
-use unwrapd_maps::certificate::{Claims, certify};
-use unwrapd_maps::mesh::MeshError;
 
 use crate::zoo::{self, Mesh};
 

@@ -2,12 +2,12 @@
 
 use crate::zoo;
 use std::fmt::Write;
-use unwrapd_pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError, Surfaces};
 use unwrapd_deform::cage::{Cage, CagedSurface};
 use unwrapd_deform::{DeformationEnergy, Handle, Model, Solution};
 use unwrapd_files::document::{Document, OutputFormat, Upload, Written};
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::solver::{Control, Iterate, Settings};
+use unwrapd_pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError, Surfaces};
 
 fn upload(mesh: &zoo::Mesh) -> Upload {
     let mut text = String::from("OFF\n");

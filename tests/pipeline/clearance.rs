@@ -1,10 +1,10 @@
 //! Charts opened by the packer until the judge finds them safe to be rounded.
 
-use unwrapd_pipeline::{Layout, Mapping, Settings, Unobserved, unwrap};
 use unwrapd_layout::atlas::{ChartMap, cleared};
 use unwrapd_maps::certificate::{Certificate, Claims, certify};
 use unwrapd_maps::mesh::Resolution;
 use unwrapd_maps::plane::keep_apart;
+use unwrapd_pipeline::{Layout, Mapping, Settings, Unobserved, unwrap};
 
 use crate::uv_meshes::UvMesh;
 use crate::zoo;

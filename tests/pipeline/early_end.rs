@@ -4,13 +4,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
+use unwrapd_files::document::Upload;
+use unwrapd_maps::certificate::{Overlap, certify};
+use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{
     Budget, Cutting, Observer, Options, Progress, Settings, Stage, Unobserved, Workers, unwrap,
     unwrap_document,
 };
-use unwrapd_files::document::Upload;
-use unwrapd_maps::certificate::{Overlap, certify};
-use unwrapd_method::solver::Control;
 
 use crate::zoo::{self, Mesh};
 

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use unwrapd_layout::charts::{Cut, Quality};
+use unwrapd_maps::certificate::{Claims, certify, chart_ids};
 use unwrapd_pipeline::{
     Cutting, KeptMaps, Mapping, PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along,
 };
-use unwrapd_layout::charts::{Cut, Quality};
-use unwrapd_maps::certificate::{Claims, certify, chart_ids};
 
 use crate::zoo::{self, Mesh};
 

@@ -1,12 +1,12 @@
 //! Islands that stay where they are put, and others packed around them.
 
+use unwrapd_files::document::{Document, OutputFormat, Upload};
+use unwrapd_maps::certificate::chart_ids;
+use unwrapd_maps::mesh::{CornerUvs, Resolution};
 use unwrapd_pipeline::{
     Island, IslandError, Layout, Options, Outcome, PipelineError, RepackOptions, Unobserved,
     repack_document, unwrap_document,
 };
-use unwrapd_files::document::{Document, OutputFormat, Upload};
-use unwrapd_maps::certificate::chart_ids;
-use unwrapd_maps::mesh::{CornerUvs, Resolution};
 
 use crate::places;
 

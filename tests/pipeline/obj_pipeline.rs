@@ -1,14 +1,14 @@
 //! OBJ files of several objects and materials through the applications.
 use std::fmt::Write as _;
 use std::time::Duration;
-use unwrapd_pipeline::{
-    Baking, Cutting, EditOptions, Editing, GivenSeams, Observer, Options, Progress, Stage,
-    Unobserved, edit_document, unwrap_document,
-};
 use unwrapd_deform::uv::parse_anchors;
 use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload};
 use unwrapd_layout::charts::Cut;
 use unwrapd_method::solver::Control;
+use unwrapd_pipeline::{
+    Baking, Cutting, EditOptions, Editing, GivenSeams, Observer, Options, Progress, Stage,
+    Unobserved, edit_document, unwrap_document,
+};
 
 /// A cube of two materials that take turns, in two objects that share vertices; each face has the whole square as its UVs.
 fn cube() -> Upload {

@@ -1,8 +1,8 @@
 //! What a longer search for a full layout is good for, and one where there are many charts.
 
-use unwrapd_pipeline::{Cutting, Layout, PackingMode, Settings, Unobserved, unwrap};
 use unwrapd_layout::charts::Cut;
 use unwrapd_maps::certificate::{Claims, certify};
+use unwrapd_pipeline::{Cutting, Layout, PackingMode, Settings, Unobserved, unwrap};
 
 use crate::random::Random;
 use crate::zoo::voxels;

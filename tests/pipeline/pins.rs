@@ -2,13 +2,13 @@
 
 use std::cell::RefCell;
 
-use unwrapd_pipeline::{Cutting, Mapping, Settings, Unobserved, unwrap};
 use unwrapd_layout::charts::Cut;
 use unwrapd_maps::embed::{Embedding, Options, Pins, is_positive, parameterize};
 use unwrapd_maps::mesh::Disk;
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::energy::EnergyKind;
 use unwrapd_method::solver::{Control, Iterate, Watch};
+use unwrapd_pipeline::{Cutting, Mapping, Settings, Unobserved, unwrap};
 
 use crate::zoo;
 

@@ -3,16 +3,16 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use unwrapd_pipeline::{
-    Cutting, Mapping, Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped,
-    Workers, unwrap,
-};
 use unwrapd_layout::charts::{Cut, Quality};
 use unwrapd_maps::certificate::{Overlap, certify, chart_ids};
 use unwrapd_maps::measure::{MeasureOptions, Measures, measure};
 use unwrapd_maps::mesh::VAxis;
 use unwrapd_method::energy::EnergyKind;
 use unwrapd_method::solver::Control;
+use unwrapd_pipeline::{
+    Cutting, Mapping, Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped,
+    Workers, unwrap,
+};
 
 use crate::zoo::{self, Mesh};
 

@@ -3,11 +3,9 @@
 use std::sync::Mutex;
 use std::time::Duration;
 
-use unwrapd_pipeline::{
-    Cutting, Observer, Progress, Settings, Stage, Unobserved, Workers, unwrap,
-};
 use unwrapd_layout::charts::Cut;
 use unwrapd_method::solver::Control;
+use unwrapd_pipeline::{Cutting, Observer, Progress, Settings, Stage, Unobserved, Workers, unwrap};
 
 use crate::zoo::{self, Mesh};
 

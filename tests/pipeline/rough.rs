@@ -2,7 +2,6 @@
 
 use crate::zoo::{self, Mesh};
 use std::fmt::Write as _;
-use unwrapd_pipeline::{self, Options as DocumentOptions, Settings, unwrap, unwrap_document};
 use unwrapd_files::document::Upload;
 use unwrapd_layout::charts::{
     Bound, Bounded, Symmetry, Unobserved, charts_under_bound, smoothed_where_rough,
@@ -11,6 +10,9 @@ use unwrapd_maps::embed::{self, Options};
 use unwrapd_maps::mesh::Surface;
 use unwrapd_method::energy::EnergyKind;
 use unwrapd_method::numerics::random::Random;
+use unwrapd_pipeline::{
+    self as pipeline, Options as DocumentOptions, Settings, unwrap, unwrap_document,
+};
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")

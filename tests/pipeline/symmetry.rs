@@ -2,8 +2,8 @@
 
 use crate::zoo::{self, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
-use unwrapd_pipeline::{Cutting, Settings, Unobserved, Unwrapped, unwrap};
 use unwrapd_layout::charts::Symmetry;
+use unwrapd_pipeline::{Cutting, Settings, Unobserved, Unwrapped, unwrap};
 
 /// A body with four legs and a head. Its vertices are mirrored at y = 0; its edges are not.
 fn animal(n: u32, m: u32) -> Mesh {

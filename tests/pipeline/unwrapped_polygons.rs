@@ -2,11 +2,11 @@
 
 use crate::simple_polygons::{SimplePolygon, doubled_area, simple_polygon};
 use std::fmt::Write;
-use unwrapd_pipeline::{Cutting, Options, Outcome, Unobserved, unwrap_document};
 use unwrapd_files::document::{Document, OutputFormat, Upload};
 use unwrapd_files::io::obj;
 use unwrapd_layout::charts::Cut;
 use unwrapd_method::numerics::random::Random;
+use unwrapd_pipeline::{Cutting, Options, Outcome, Unobserved, unwrap_document};
 
 /// All polygons in one file, none with a vertex of another.
 fn file_of(polygons: &[SimplePolygon]) -> Upload {

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use unwrapd::jobs::Pace;
+use unwrapd_worker::Pace;
 
 fn seconds(seconds: f64) -> Duration {
     Duration::from_secs_f64(seconds)

@@ -1,7 +1,45 @@
-//! What the library, the command line and the service agree on.
+//! What the library, the command line, the server and its child processes agree on: plain data, and no computation.
 //!
 //! | module | contents |
 //! |---|---|
 //! | [`mod@options`] | options declared once, for code, JSON, schemas and the command line |
+//! | [`pipe`] | records between a server and the child of a live session |
+//!
+//! The other items are what a server tells a child ([`Task`], [`Drawing`]) and what it hears ([`Message`], [`Outcome`],
+//! [`Failure`]), the files and formats that both name ([`Upload`], [`Format`]), and what a server knows of computations without
+//! doing any ([`Catalog`]).
 
+mod catalog;
+mod failure;
+mod files;
+mod format;
+mod json;
+mod kind;
+mod limits;
+mod map_frame;
 pub mod options;
+mod picture;
+pub mod pipe;
+mod progress;
+mod task;
+mod upload;
+mod verdict;
+mod warning;
+
+pub use catalog::{Catalog, RefusedOptions};
+pub use failure::Failure;
+pub use files::{InputFile, OutputFile, sha256};
+pub use format::{Content, Format, SEARCHED_BYTES, extension, without_mark};
+pub use json::from_json;
+pub use kind::Kind;
+pub use limits::Limits;
+pub use map_frame::{MAPS, frame_header, number_frame};
+pub use picture::{DRAWING, Drawing, PICTURE, Picture};
+pub use progress::{Progress, Stage};
+pub use task::{
+    ERROR, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task, input_file, output_file,
+    read_json, read_upload, write_json,
+};
+pub use upload::{START, Upload};
+pub use verdict::{Verdict, Worth};
+pub use warning::Warning;

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::job::Problem;
 use crate::bulk::trouble::Trouble;
-use crate::jobs::Failure;
+use unwrapd_api::Failure;
 
 /// Between the first two tries; then twice as long each time.
 const FIRST_PAUSE: Duration = Duration::from_millis(250);

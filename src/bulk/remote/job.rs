@@ -1,8 +1,7 @@
 //! What is read of a job.
 
 use serde::Deserialize;
-
-use crate::jobs::Failure;
+use unwrapd_api::Failure;
 
 /// A job as the service tells it.
 #[derive(Deserialize)]

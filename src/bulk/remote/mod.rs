@@ -15,12 +15,12 @@ use reqwest::{Method, Url};
 
 use super::trouble::Trouble;
 use super::worker::{Extra, Task, Worker};
-use crate::jobs::{Failure, output_file};
 use unwrapd_files::document::Upload;
 
 pub use client::RemoteError;
 use client::{Client, answered, unreadable};
 use job::{Job, State};
+use unwrapd_api::{Failure, output_file};
 
 /// Seconds for which an answer about a job may be held back.
 const WAIT_SECONDS: u8 = 30;

@@ -73,7 +73,7 @@ pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
     struct File {
         handles: Vec<Handle>,
     }
-    let file: File = numbers::from_json(json)
+    let file: File = unwrapd_api::from_json(json)
         .map_err(|error| ProblemError::MalformedHandles(error.to_string()))?;
     Ok(file.handles)
 }

@@ -60,7 +60,6 @@ pub use boundary::Boundary;
 pub use deformation_energy::DeformationEnergy;
 pub use handles::parse_body_handles;
 pub use handles::{Bound, Handle, bind};
-pub use numbers::from_json;
 pub use potential::Potential;
 pub use problem::{Model, Problem};
 pub use problem_error::ProblemError;

@@ -89,7 +89,7 @@ pub enum Rest {
 impl ProblemFile {
     /// Parses JSON.
     pub fn parse(json: &[u8]) -> Result<Self, ProblemError> {
-        let file: Result<Self, _> = numbers::from_json(json);
+        let file: Result<Self, _> = unwrapd_api::from_json(json);
         let file = file.map_err(|error| ProblemError::Malformed(error.to_string()))?;
         file.handles.check(&file.targets, &file.sequence)?;
         Ok(file)

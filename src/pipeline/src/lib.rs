@@ -43,7 +43,7 @@ pub use arrays::settings::Settings;
 pub use arrays::unwrap::{ChartRecord, Unwrapped, in_pool, unwrap, unwrap_along};
 pub use error::PipelineError;
 pub use island_error::IslandError;
-pub use observer::{Observer, Progress, Stage, Unobserved};
+pub use observer::{Observer, Progress, Unobserved};
 pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
 
 pub use deform::cage_report::CageReport;
@@ -68,7 +68,6 @@ pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
 pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
 pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
 pub use judge::verify::{Judged, Verified, VerifiedGroup, measure_document, verify_document};
-pub use limits::Limits;
 pub use meshes::arrays::MeshArrays;
 pub use meshes::judged::{measure_meshes, verify_meshes};
 pub use meshes::unwrap::{UnwrappedMeshes, repack_meshes, unwrap_meshes};
@@ -79,4 +78,5 @@ pub use options::{
     SolveOptions, VerifyOptions, WarpOptions,
 };
 pub use rebake::ImageFormat;
-pub use start::{START, start_file};
+pub use start::start_file;
+pub use unwrapd_api::{Limits, START, Stage};

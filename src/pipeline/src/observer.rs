@@ -4,52 +4,9 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use unwrapd_api::Stage;
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::Control;
-
-/// The stages of a job, in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum Stage {
-    /// The file is being read.
-    Read,
-    /// Seams are being chosen.
-    Cut,
-    /// Charts are being mapped to the plane.
-    Map,
-    /// Handles are being pulled to their targets.
-    Deform,
-    /// Charts are being packed.
-    Pack,
-    /// Textures are being resampled.
-    Bake,
-    /// The document is being written.
-    Write,
-    /// The written bytes are being read again and judged.
-    Judge,
-}
-
-impl Stage {
-    /// The word used in JSON.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Read => "read",
-            Self::Cut => "cut",
-            Self::Map => "map",
-            Self::Deform => "deform",
-            Self::Pack => "pack",
-            Self::Bake => "bake",
-            Self::Write => "write",
-            Self::Judge => "judge",
-        }
-    }
-
-    /// Whether an early end shortens it.
-    pub(super) fn can_end_early(self) -> bool {
-        matches!(self, Self::Cut | Self::Map | Self::Deform | Self::Pack)
-    }
-}
 
 /// Where a job stands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

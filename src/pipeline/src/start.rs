@@ -1,15 +1,9 @@
 //! Maps at which work starts, as files beside its input.
 
 use crate::PipelineError;
+use unwrapd_api::START;
 use unwrapd_deform::ProblemError;
 use unwrapd_files::document::Upload;
-
-/// The name of the file beside an input that says where vertices are when handles begin to pull: coordinates one after another,
-/// `f64`, little-endian.
-///
-/// For bodies and pictures these are the vertices of the mesh, or of that which is made for the input; for UVs the corners of each
-/// face that has UVs, in file order. Rest shapes and the places that handles name are those of the input all the same.
-pub const START: &str = "start.f64";
 
 /// The `expected` coordinates of the start, if there is one beside the input.
 pub(super) fn start(upload: &Upload, expected: usize) -> Result<Option<Vec<f64>>, PipelineError> {

@@ -3,8 +3,9 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use super::observer::{Observer, Progress, Stage};
+use super::observer::{Observer, Progress};
 use super::options::Budget;
+use unwrapd_api::Stage;
 use unwrapd_files::document::Warning;
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::{Control, Iterate, Watch};

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::Serialize;
-use unwrapd::document::Upload;
+use unwrapd::document::{Upload, with_references};
 use unwrapd::pipeline::{
     self, CommandOptions, MeasureOptions, Observer, Options, Outcome, PipelineError, RepackOptions,
     VerifyOptions,
@@ -39,7 +39,7 @@ impl File<'_> {
             resources: self.resources,
         };
         match self.folder {
-            Some(folder) => upload.with_references(|name| {
+            Some(folder) => with_references(upload, |name| {
                 // A pipe may never have a writer, and a device may never end.
                 let path = folder.join(name);
                 let is_regular = fs::metadata(&path).is_ok_and(|file| file.is_file());

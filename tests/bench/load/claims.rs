@@ -6,10 +6,11 @@ use std::time::Instant;
 use futures_util::future;
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
-    Capacity, Ending, Enqueued, Happening, Job, JobId, JobStore, Kind, OwnerQuotas, Rules, Saying,
-    Share, Verdict, WorkerId,
+    Capacity, Ending, Enqueued, Happening, Job, JobId, JobStore, OwnerQuotas, Rules, Saying, Share,
+    WorkerId,
 };
 use unwrapd::store::RecordStore;
+use unwrapd_api::{Kind, Verdict};
 
 use super::count;
 

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use unwrapd::document::{Document, GroupBy, Upload};
+use unwrapd::document::{Document, GroupBy, Upload, references};
 use unwrapd::io::ElementFormat;
 
 const NAMES: [&str; 9] = [
@@ -19,7 +19,7 @@ fuzz_target!(|bytes: &[u8]| {
         let _ = format.read(content);
     }
     let upload = Upload::single(name, content.to_vec());
-    let _ = upload.references();
+    let _ = references(&upload);
     if let Ok(document) = Document::read(&upload) {
         let _ = document.primitives_in_scene();
         for by in [GroupBy::Material, GroupBy::Mesh] {

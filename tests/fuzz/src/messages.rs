@@ -4,9 +4,9 @@
 use libfuzzer_sys::fuzz_target;
 use serde_json::json;
 use unwrapd::document::Upload;
-use unwrapd::jobs::Kind;
+use unwrapd_api::Kind;
 use unwrapd::pipeline::Limits;
-use unwrapd::sessions::{Course, Message};
+use unwrapd_worker::session::{Course, Message};
 
 const SHEET: &[u8] = b"OFF\n9 8 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n\
     3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 3 4 7\n3 3 7 6\n3 4 5 8\n3 4 8 7\n";

@@ -2,7 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use unwrapd::jobs::{Kind, Work};
+use unwrapd_api::Kind;
+use unwrapd_worker::Work;
 
 const KINDS: [Kind; 9] = [
     Kind::Unwrap,

@@ -2,11 +2,11 @@
 
 use crate::places;
 use serde_json::{Value, json};
+use unwrapd_files::document::{Document, OutputFormat, Upload};
+use unwrapd_files::picture::Image;
 use unwrapd_pipeline::{
     Baking, CommandOptions, ImageFormat, Options, Preset, Sets, Unobserved, unwrap_document,
 };
-use unwrapd_files::document::{Document, OutputFormat, Upload};
-use unwrapd_files::picture::Image;
 
 use crate::build::{Builder, parts};
 use crate::documents::{grid_uvs, new_uvs, options, reread};

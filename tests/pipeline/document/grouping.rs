@@ -1,8 +1,8 @@
 //! What shares an atlas unless something else is asked for.
 
 use serde_json::{Value, json};
-use unwrapd_pipeline::{Options, Outcome, PipelineError, Unobserved, unwrap_document};
 use unwrapd_files::document::{Document, GroupBy, Upload};
+use unwrapd_pipeline::{Options, Outcome, PipelineError, Unobserved, unwrap_document};
 
 use crate::build::Builder;
 

@@ -1,12 +1,12 @@
 //! UVs for the light of a scene: a part of one atlas for whatever a node shows.
 
 use serde_json::json;
+use unwrapd_files::document::{Document, Upload};
+use unwrapd_maps::mesh::Resolution;
 use unwrapd_pipeline::{
     Cutting, Layout, MeasureOptions, Options, Outcome, PipelineError, Preset, Unobserved, Verified,
     VerifyOptions, unwrap_document, verify_document,
 };
-use unwrapd_files::document::{Document, Upload};
-use unwrapd_maps::mesh::Resolution;
 
 use crate::build::{Builder, parts};
 

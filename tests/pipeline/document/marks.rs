@@ -1,12 +1,12 @@
 //! What a file says of the UVs that were written to it, and how it is judged by that.
 
 use serde_json::{Value, json};
+use unwrapd_deform::uv::parse_anchors;
+use unwrapd_files::document::{Document, GroupBy, Marked, OutputFormat, Sets, Upload};
 use unwrapd_pipeline::{
     EditOptions, EditedDocument, Editing, Layout, MeasureOptions, Options, Preset, Unobserved,
     Verified, VerifyOptions, edit_document, measure_document, unwrap_document, verify_document,
 };
-use unwrapd_deform::uv::parse_anchors;
-use unwrapd_files::document::{Document, GroupBy, Marked, OutputFormat, Sets, Upload};
 
 use unwrapd_maps::mesh::Resolution;
 

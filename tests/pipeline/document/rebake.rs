@@ -2,9 +2,9 @@
 
 use base64::Engine as _;
 use serde_json::{Value, json};
-use unwrapd_pipeline::{Baking, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 use unwrapd_files::document::{GroupBy, OutputFormat, Upload};
 use unwrapd_files::picture::Image;
+use unwrapd_pipeline::{Baking, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 
 use crate::build::{Builder, parts};
 

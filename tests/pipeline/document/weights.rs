@@ -1,8 +1,8 @@
 //! Materials with more or fewer texels than others.
 
 use serde_json::json;
-use unwrapd_pipeline::{Layout, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 use unwrapd_files::document::{Document, GroupBy, Upload};
+use unwrapd_pipeline::{Layout, Options, Outcome, PipelineError, Unobserved, unwrap_document};
 
 use crate::build::Builder;
 

@@ -265,7 +265,7 @@ async fn jobs_of_every_kind_are_shown() {
 #[test]
 fn the_bundle_is_that_of_its_sources() {
     let folder = tempfile::tempdir().expect("a folder");
-    let sources = places::repository("src/http/page");
+    let sources = places::repository("src/server/src/http/page");
     let built = Command::new("node")
         .arg(sources.join("build.mjs"))
         .arg(folder.path())
@@ -294,7 +294,7 @@ fn the_bundle_is_that_of_its_sources() {
         let is_same = read(folder.path()) == read(&sources.join("dist"));
         assert!(
             is_same,
-            "{}: run `npm run build` in src/http/page",
+            "{}: run `npm run build` in src/server/src/http/page",
             name.display()
         );
     }

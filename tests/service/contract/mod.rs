@@ -11,10 +11,11 @@ use std::time::Duration;
 
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
-    Capacity, Changed, Enqueued, Happening, IdempotencyKey, InputFile, Job, JobId, JobStore, Kind,
-    OwnerQuotas, Progress, Rules, Saying, Share, WorkerId,
+    Capacity, Changed, Enqueued, Happening, IdempotencyKey, Job, JobId, JobStore, OwnerQuotas,
+    Rules, Saying, Share, WorkerId,
 };
 use unwrapd::store::RecordStore;
+use unwrapd_api::{InputFile, Kind, Progress};
 
 /// Short, since tests have to wait for the end of a lease.
 pub const RULES: Rules = Rules {

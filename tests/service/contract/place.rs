@@ -116,6 +116,7 @@ impl Place {
 
 fn settings(deployment: Deployment, scratch: PathBuf, workers: usize) -> Settings {
     Settings {
+        catalog: &unwrapd_worker::Computations,
         deployment,
         rules: RULES,
         scratch,

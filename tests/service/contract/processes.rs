@@ -7,9 +7,10 @@ use tempfile::TempDir;
 use tokio::runtime::Runtime;
 use unwrapd::jobs::access::{Owner, Reach};
 use unwrapd::jobs::{
-    Blobs, Ended, Handling, InputFile, Job, JobId, Jobs, Kind, Listing, State, Submission,
-    SubmitError, Submitted, Work,
+    Blobs, Ended, Handling, Job, JobId, Jobs, Listing, State, Submission, SubmitError, Submitted,
 };
+use unwrapd_api::{InputFile, Kind};
+use unwrapd_worker::Work;
 
 use super::faulty::Fault;
 use crate::harness::SOON;

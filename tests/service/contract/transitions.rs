@@ -2,10 +2,8 @@
 
 use std::time::Duration;
 
-use unwrapd::jobs::{
-    Ending, Failure, Happening, Job, OutputFile, Refusal, State, Timestamp, Verdict, Wish,
-    WorkerId, after,
-};
+use unwrapd::jobs::{Ending, Happening, Job, Refusal, State, Timestamp, Wish, WorkerId, after};
+use unwrapd_api::{Failure, OutputFile, Verdict};
 
 use super::{RULES, job, saying};
 

@@ -54,7 +54,7 @@ async fn a_data_folder_of_the_first_version_is_brought_up_to_date() {
     let options = SqliteConnectOptions::new().filename(&file);
     let pool = SqlitePool::connect_with(options.create_if_missing(true)).await;
     let pool = pool.expect("a database");
-    let first_version = include_str!("../../../src/store/schema/sqlite/1.sql");
+    let first_version = include_str!("../../../src/server/src/store/schema/sqlite/1.sql");
     let row = "INSERT INTO job (id, kind, state, options, input, output, attempt, lost, finish_early, ephemeral, seq, progress, created)
                VALUES ('019a0000-0000-7000-8000-000000000000', 'unwrap', 'succeeded', '{}', '[]', '[]', 1, 0, 0, 0, 9,
                        '{\"stage\":null,\"fraction\":1,\"chart\":0,\"charts\":0,\"iteration\":0,\"energy\":null,\"smallest\":null}', 0)";

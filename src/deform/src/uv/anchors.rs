@@ -50,7 +50,7 @@ pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
         anchors: Vec<Anchor>,
     }
     let file: File =
-        numbers::from_json(json).map_err(|error| EditError::Malformed(error.to_string()))?;
+        unwrapd_api::from_json(json).map_err(|error| EditError::Malformed(error.to_string()))?;
     Ok(file.anchors)
 }
 

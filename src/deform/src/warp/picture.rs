@@ -65,7 +65,7 @@ pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
         handles: Vec<PictureHandle>,
     }
     let file: File =
-        numbers::from_json(json).map_err(|error| WarpError::Malformed(error.to_string()))?;
+        unwrapd_api::from_json(json).map_err(|error| WarpError::Malformed(error.to_string()))?;
     Ok(file.handles)
 }
 

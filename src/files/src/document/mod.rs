@@ -29,11 +29,11 @@ mod obj_moved;
 mod obj_parts;
 mod obj_pieces;
 mod obj_text;
+mod references;
 pub mod soup;
 mod space_map;
 mod subdivision;
 mod texcoord_lines;
-mod upload;
 mod uvs;
 mod warning;
 
@@ -47,12 +47,12 @@ pub use error::DocumentError;
 pub use group::{Group, GroupBy, Primitive};
 pub use mark::{Mark, Marked, Sets, Terms};
 pub use notes::{AffectedTexture, PrimitiveNote, TangentsNote, WriteNotes};
+pub use references::{format_of, references, with_references};
 pub use space_map::SpaceMap;
 pub use subdivision::{AddedVertex, Subdivision};
+pub use unwrapd_api::{Upload, Warning};
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
-pub use upload::Upload;
 pub use uvs::{Corners, Layout, NewUvs, OutputFormat, WriteOptions, Written};
-pub use warning::Warning;
 
 /// A file as it was read.
 #[derive(Clone)]
@@ -68,7 +68,7 @@ pub enum Document {
 impl Document {
     /// Reads the main file of `upload`; its format is known by its content, else by the extension of its name.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
-        match upload.format() {
+        match format_of(upload) {
             Some(Format::Glb | Format::Gltf) => gltf::GltfDocument::read(upload).map(Self::Gltf),
             Some(Format::Obj) => obj::ObjDocument::read(upload).map(Self::Obj),
             _ => soup::SoupDocument::read(upload).map(Self::Soup),

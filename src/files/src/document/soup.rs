@@ -2,7 +2,7 @@
 use super::colors::{Color, from_srgb};
 use super::conversion::{Conversion, of_triangles};
 use super::warning::{listed, unused_not_finite};
-use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fanned};
+use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fanned, format_of};
 use crate::io::{self, Format};
 use unwrapd_maps::mesh::CornerUvs;
 
@@ -18,7 +18,7 @@ pub struct SoupDocument {
 impl SoupDocument {
     /// Reads the main file.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
-        let format = upload.format();
+        let format = format_of(upload);
         let (mesh, place) = match format {
             Some(Format::Off) => (io::off::read(&upload.bytes)?, "line"),
             Some(Format::Ply) => (io::ply::read(&upload.bytes)?, "face"),

@@ -1,25 +1,4 @@
-use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
-
-/// Something that users should know of a file that was read or written, and that is no error.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Warning {
-    /// Stable snake_case word.
-    pub code: Cow<'static, str>,
-    /// What happened and what to do, one or two sentences.
-    pub message: String,
-}
-
-impl Warning {
-    /// A warning with its code and its sentences.
-    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self {
-            code: Cow::Borrowed(code),
-            message: message.into(),
-        }
-    }
-}
+use unwrapd_api::Warning;
 
 /// Says that vertices that no face uses have coordinates that are not finite.
 pub(super) fn unused_not_finite(n_vertices: usize) -> Option<Warning> {

@@ -6,10 +6,10 @@
 //! `f32` once, −0 becoming 0: what is welded, mapped and measured is what is written. What is deformed ([`Elements`]) keeps
 //! its `f64`.
 mod cursor;
+mod detect;
 mod element_format;
 mod elements;
 mod faces;
-mod format;
 pub mod gmsh;
 pub mod medit;
 pub mod obj;
@@ -19,11 +19,12 @@ pub mod stl;
 pub mod tet;
 pub mod vtu;
 
+pub use detect::{detect, format_of_content};
 pub use element_format::ElementFormat;
 pub use elements::{Elements, text_positions};
 use faces::Faces;
 pub use faces::Fanned;
-pub use format::{Content, Format, SEARCHED_BYTES, extension, without_mark};
+pub use unwrapd_api::{Content, Format, SEARCHED_BYTES, extension, without_mark};
 pub use vtu::CellData;
 
 /// Positions and triangles of one file, in the file's order.

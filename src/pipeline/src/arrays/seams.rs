@@ -37,7 +37,7 @@ pub struct Seams {
 
 impl Seams {
     /// Checks that this fits a mesh.
-    pub(in crate) fn check(
+    pub(crate) fn check(
         &self,
         positions: &[[f64; 3]],
         triangles: &[[u32; 3]],
@@ -59,7 +59,7 @@ impl Seams {
     }
 
     /// What of it concerns some faces, and positions that are counted from the first of a range.
-    pub(in crate) fn restricted(&self, faces: &[u32], vertices: Range<u32>) -> Self {
+    pub(crate) fn restricted(&self, faces: &[u32], vertices: Range<u32>) -> Self {
         fn of<T: Copy>(all: Option<&Vec<T>>, faces: &[u32]) -> Option<Vec<T>> {
             let all = all?;
             Some(faces.iter().map(|&face| all[face as usize]).collect())
@@ -81,7 +81,7 @@ impl Seams {
     }
 
     /// Refuses pairs that are not the ends of an edge of some triangle: nothing would be cut there.
-    pub(in crate) fn check_edges(
+    pub(crate) fn check_edges(
         edges: &[[u32; 2]],
         positions: &[[f64; 3]],
         triangles: &[[u32; 3]],
@@ -112,7 +112,7 @@ impl Seams {
     }
 
     /// Cuts a surface, which was made of these positions, along its seams.
-    pub(in crate) fn cut(&self, surface: &mut Surface, positions: &[[f64; 3]]) {
+    pub(crate) fn cut(&self, surface: &mut Surface, positions: &[[f64; 3]]) {
         let key = |v: u32| position_key(positions[v as usize]);
         let edges = self.edges.iter().flatten();
         let edges: HashSet<_> = edges.map(|&[a, b]| sorted(key(a), key(b))).collect();

@@ -8,11 +8,12 @@ use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::solution::{Deformed, solve};
 use crate::PipelineError;
 use crate::documents::merged::Merged;
-use crate::limits::Limits;
-use crate::observer::Stage;
+use crate::limits;
 use crate::options::DeformOptions;
 use crate::start::start;
 use crate::tracker::Tracker;
+use unwrapd_api::Limits;
+use unwrapd_api::Stage;
 use unwrapd_deform::cage::{Cage, Caged, CagedSurface};
 use unwrapd_deform::{Body, Handle, Model, Problem, ProblemError, Solution};
 use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload, Written};
@@ -127,7 +128,7 @@ impl CagedDocument {
         options: CageOptions,
     ) -> Result<Self, PipelineError> {
         let document = Document::read(upload)?;
-        options.limits.check(&document)?;
+        limits::check(&options.limits, &document)?;
         check_format(&document, options.format)?;
         let is_vertex = |handle: &Handle| matches!(handle, Handle::Vertex { .. });
         if let Some(handle) = handles.iter().position(is_vertex) {

@@ -63,7 +63,7 @@ impl BodyFormat {
     }
 
     /// As the format of a document.
-    pub(in crate) fn of_document(self) -> Option<OutputFormat> {
+    pub(crate) fn of_document(self) -> Option<OutputFormat> {
         match self {
             Self::Obj => Some(OutputFormat::Obj),
             Self::Glb => Some(OutputFormat::Glb),
@@ -73,7 +73,7 @@ impl BodyFormat {
     }
 
     /// Refuses what a mesh that came without a document is not written as.
-    pub(in crate) fn check_for_mesh(self) -> Result<(), PipelineError> {
+    pub(crate) fn check_for_mesh(self) -> Result<(), PipelineError> {
         match self {
             Self::Glb | Self::Gltf => Err(PipelineError::InvalidOptions(
                 "`format`: of this input the result is txt, obj, off, msh, mesh, tet or vtu".into(),
@@ -84,12 +84,7 @@ impl BodyFormat {
 
     /// The file of a deformed body: `elements` with the positions `x`, coordinates one after another; VTK's with what the map does
     /// to each.
-    pub(in crate) fn write(
-        self,
-        elements: &Elements,
-        problem: &Problem,
-        x: &[f64],
-    ) -> Vec<u8> {
+    pub(crate) fn write(self, elements: &Elements, problem: &Problem, x: &[f64]) -> Vec<u8> {
         let format = self.file().and_then(ElementFormat::of);
         let dim = problem.body.dim();
         let text = match (format, dim) {

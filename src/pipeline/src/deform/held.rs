@@ -3,6 +3,7 @@
 use super::caged::{positions, surfaces};
 use super::source::Source;
 use crate::PipelineError;
+use crate::limits;
 use crate::options::{CommandOptions, DeformOptions, WarpOptions};
 use unwrapd_deform::cage::{Cage, Embedding};
 use unwrapd_deform::warp::{WarpError, picture_grid};
@@ -46,7 +47,7 @@ pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, P
         return HeldBody::new(body, triangles, options);
     };
     let document = Document::read(upload)?;
-    options.caller.limits.check(&document)?;
+    limits::check(&options.caller.limits, &document)?;
     let positions = positions(&document);
     let surfaces = surfaces(&document, &positions);
     let cage = Cage::around(&surfaces, n_voxels)?;

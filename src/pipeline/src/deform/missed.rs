@@ -25,7 +25,7 @@ pub enum Completion {
 
 impl Completion {
     /// How a pull that ended like this was completed.
-    pub(in crate) fn of(status: Status) -> Self {
+    pub(crate) fn of(status: Status) -> Self {
         match status {
             Status::Converged | Status::Stalled => Self::Complete,
             Status::IterationLimit | Status::Stopped => Self::EndedEarly,
@@ -34,11 +34,7 @@ impl Completion {
     }
 
     /// Warns of what is missing; `unreached` are the handles that are not at their targets.
-    pub(in crate) fn warning(
-        self,
-        status: Status,
-        unreached: &[Unreached],
-    ) -> Option<Warning> {
+    pub(crate) fn warning(self, status: Status, unreached: &[Unreached]) -> Option<Warning> {
         let (code, what) = match self {
             Self::Complete => return None,
             Self::TargetsMissed => (

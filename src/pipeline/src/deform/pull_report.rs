@@ -22,7 +22,7 @@ pub struct PullReport {
 }
 
 impl PullReport {
-    pub(in crate) fn new(
+    pub(crate) fn new(
         summary: PullSummary,
         crossings: u64,
         certificate: PlanarCertificate,

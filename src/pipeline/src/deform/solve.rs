@@ -4,10 +4,12 @@ use super::frames::Frames;
 use super::solution::{DeformReport, Deformed, solve};
 use crate::PipelineError;
 use crate::arrays::unwrap::in_pool;
-use crate::limits::Limits;
-use crate::observer::{Observer, Stage};
+use crate::limits;
+use crate::observer::Observer;
 use crate::options::{CommandOptions, SolveOptions};
 use crate::tracker::Tracker;
+use unwrapd_api::Limits;
+use unwrapd_api::Stage;
 use unwrapd_deform::{Problem, ProblemError, ProblemFile, Solution};
 use unwrapd_files::document::{DocumentError, Upload};
 use unwrapd_files::io::{ElementFormat, Elements};
@@ -70,7 +72,7 @@ fn read(upload: &Upload, limits: &Limits) -> Result<(Problem, Elements), Pipelin
     let file = ProblemFile::parse(&upload.bytes)?;
     let format = ElementFormat::of_name(&file.mesh).ok_or(DocumentError::UnknownFormat)?;
     let elements = format.read(member(upload, &file.mesh)?)?;
-    limits.check_count(elements.triangles.len() + elements.tets.len())?;
+    limits::check_count(limits, elements.triangles.len() + elements.tets.len())?;
     let start = file.initial.as_ref().map(|initial| {
         let not_numbers = || ProblemError::Malformed(format!("{initial} is not a list of numbers"));
         Ok::<_, PipelineError>(numbers(member(upload, initial)?).ok_or_else(not_numbers)?)

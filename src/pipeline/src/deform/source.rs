@@ -5,11 +5,12 @@ use super::moved::{check_format, check_frames, moved, moved_frame};
 use super::planar_map::PlanarMap;
 use crate::PipelineError;
 use crate::documents::merged::Merged;
-use crate::limits::Limits;
+use crate::limits;
+use unwrapd_api::Limits;
 use unwrapd_deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
 use unwrapd_deform::{Body, Problem};
 use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload};
-use unwrapd_files::io::{Content, ElementFormat, Elements, Format};
+use unwrapd_files::io::{Content, ElementFormat, Elements, Format, format_of_content};
 use unwrapd_files::picture::Image;
 use unwrapd_maps::mesh::Surface;
 
@@ -45,7 +46,7 @@ impl Source {
             let document = Document::read(upload)?;
             (surface(&document)?, Some(document))
         };
-        limits.check_count(elements.triangles.len() + elements.tets.len())?;
+        limits::check_count(limits, elements.triangles.len() + elements.tets.len())?;
         Ok(Self { elements, document })
     }
 
@@ -112,7 +113,7 @@ impl Source {
 
 /// What the content says of files that are no documents, which know their own formats.
 fn other_than_documents(bytes: &[u8]) -> Option<Format> {
-    let format = Format::of_content(bytes, bytes.len() as u64, Content::Body);
+    let format = format_of_content(bytes, bytes.len() as u64, Content::Body);
     format.filter(|format| !format.holds(Content::Surface))
 }
 
@@ -126,7 +127,7 @@ fn drawn(
     let Some(format @ (Format::Svg | Format::Png)) = format else {
         return Ok(None);
     };
-    limits.check_count(triangles)?;
+    limits::check_count(limits, triangles)?;
     let outline = if format == Format::Svg {
         let text = String::from_utf8_lossy(bytes);
         outline::of_svg(&text, &SvgSettings::default())?

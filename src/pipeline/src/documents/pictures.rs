@@ -24,10 +24,10 @@ const SIDE: u32 = 1024;
 /// What the pictures of a result are drawn from.
 #[derive(Clone, Debug)]
 pub struct Pictures {
-    pub(in crate) uvs: WrittenUvs,
-    pub(in crate) texture: Resolution,
-    pub(in crate) shown: HeatmapMeasure,
-    pub(in crate) workers: Workers,
+    pub(crate) uvs: WrittenUvs,
+    pub(crate) texture: Resolution,
+    pub(crate) shown: HeatmapMeasure,
+    pub(crate) workers: Workers,
 }
 
 /// A picture of an atlas, as the texture lies.

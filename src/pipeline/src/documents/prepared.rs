@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::merged::check_edges;
 use crate::PipelineError;
 use crate::arrays::plan::Plan;
+use crate::limits;
 use crate::options::{GivenSeams, Options, check_grouping};
 use unwrapd_files::document::{
     Document, DocumentError, GroupBy, OldUvs, OutputFormat, Primitive, Upload,
@@ -34,7 +35,7 @@ impl Prepared {
     /// Reads a document, and refuses what cannot be written of it before anything is done.
     pub fn read(upload: &Upload, options: &Options, plan: &Plan) -> Result<Self, PipelineError> {
         let document = Document::read(upload)?;
-        options.caller.limits.check(&document)?;
+        limits::check(&options.caller.limits, &document)?;
         let group_by = match options.format {
             // An OBJ file has one UV space, whatever was asked for.
             OutputFormat::Obj => GroupBy::Scene,

@@ -21,7 +21,7 @@ pub struct TexelWeight {
 }
 
 impl TexelWeight {
-    pub(in crate) fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         within("texel_weight", self.weight, 1e-3, 1e3)
     }
 }

@@ -14,11 +14,12 @@ use crate::judge::groups::WrittenUvs;
 use crate::judge::history::{add_history, promise_kept};
 use crate::judge::report::{Report, Seconds};
 use crate::judge::shortfalls::shortfalls;
-use crate::observer::{Observer, Stage};
+use crate::observer::Observer;
 use crate::options::{CommandOptions, Island, Options};
 use crate::rebake::{self, rebaked};
 use crate::stop_watch::StopWatch;
 use crate::tracker::Tracker;
+use unwrapd_api::Stage;
 use unwrapd_files::document::{
     BakedTextures, Document, GroupBy, NewUvs, OutputFormat, Upload, WriteOptions, Written,
 };

@@ -2,6 +2,7 @@
 
 use super::uvs::Whole;
 use crate::PipelineError;
+use crate::limits;
 use crate::options::{CommandOptions, EditOptions, Editing};
 use unwrapd_deform::uv::UvSession;
 use unwrapd_files::document::{Document, Upload};
@@ -14,7 +15,7 @@ pub fn hold_uvs(
 ) -> Result<UvSession, PipelineError> {
     options.check()?;
     let document = Document::read(upload)?;
-    options.caller.limits.check(&document)?;
+    limits::check(&options.caller.limits, &document)?;
     let whole = Whole::gather(&document, options.texcoord)?;
     Ok(UvSession::new(&whole.mesh(), options.of_map(editing)))
 }

@@ -5,10 +5,12 @@ use super::terms::{WholeJudgment, edited_terms};
 use crate::PipelineError;
 use crate::arrays::unwrap::in_pool;
 use crate::deform::pull_report::PullReport;
-use crate::observer::{Observer, Stage};
+use crate::limits;
+use crate::observer::Observer;
 use crate::options::{CommandOptions, EditOptions, Editing};
 use crate::start::start;
 use crate::tracker::Tracker;
+use unwrapd_api::Stage;
 use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, edit_uvs_from};
 use unwrapd_files::document::{
     Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
@@ -39,7 +41,7 @@ pub fn edit_document(
     in_pool(options.caller.workers(options.workers), || {
         tracker.stage(Stage::Read);
         let document = Document::read(upload)?;
-        options.caller.limits.check(&document)?;
+        limits::check(&options.caller.limits, &document)?;
         let whole = Whole::gather(&document, options.texcoord)?;
         let how = options.of_map(editing);
         let start = start(upload, 6 * whole.triangles.len())?;

@@ -58,7 +58,7 @@ pub fn stretch_percent(energy: f64) -> f64 {
 }
 
 impl BoundReport {
-    pub(in crate) fn new(
+    pub(crate) fn new(
         (bound, max_charts): (&Bound, Option<u32>),
         measured: &Distortion,
         (uvs, aspect): (&GroupUvs, f64),
@@ -96,7 +96,7 @@ impl BoundReport {
     }
 
     /// By how much which bound is missed, and where it is worst.
-    pub(in crate) fn shortfall(&self) -> String {
+    pub(crate) fn shortfall(&self) -> String {
         let mut parts = Vec::new();
         if let Some(reached) = (self.smoothed_distortion.or(self.distortion))
             .filter(|&reached| reached > self.max_distortion)
@@ -137,7 +137,7 @@ impl BoundReport {
 
 impl BoundReport {
     /// What a reader must know of a bound that only the smoothed surface keeps.
-    pub(in crate) fn caveat(&self) -> Option<String> {
+    pub(crate) fn caveat(&self) -> Option<String> {
         let smoothed = self.smoothed_distortion.filter(|_| self.kept)?;
         let [own, smoothed] = [self.distortion?, smoothed].map(stretch_percent);
         Some(format!(

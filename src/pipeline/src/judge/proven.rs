@@ -70,9 +70,7 @@ pub struct ProvenBits {
 
 impl Proven {
     /// What holds of all of some groups, judged by the same claims.
-    pub(in crate) fn of<'a>(
-        certificates: impl Iterator<Item = &'a Certificate> + Clone,
-    ) -> Self {
+    pub(crate) fn of<'a>(certificates: impl Iterator<Item = &'a Certificate> + Clone) -> Self {
         let all = |holds: fn(&Certificate) -> bool| certificates.clone().all(holds);
         Self {
             locally_injective: all(Certificate::is_valid),

@@ -6,8 +6,8 @@ use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
 use super::proven::{Mirrored, Proven};
 use crate::arrays::unwrap::{ChartRecord, Unwrapped};
-use crate::limits::Limits;
 use crate::options::Options;
+use unwrapd_api::Limits;
 use unwrapd_files::document::{Warning, WriteNotes};
 use unwrapd_maps::certificate::{Certificate, Overlap};
 use unwrapd_maps::measure::Measures;
@@ -133,7 +133,7 @@ pub struct Seconds {
 
 impl Report {
     /// The report of UVs as they are: what only unwrapping knows is absent.
-    pub(in crate) fn new(groups: Vec<GroupReport>, warnings: Vec<Warning>) -> Self {
+    pub(crate) fn new(groups: Vec<GroupReport>, warnings: Vec<Warning>) -> Self {
         let proven = Proven::of(groups.iter().map(|group| &group.certificate));
         Self {
             schema_version: SCHEMA_VERSION,
@@ -154,7 +154,7 @@ impl Report {
 
 impl GroupReport {
     /// What UVs are worth.
-    pub(in crate) fn new(
+    pub(crate) fn new(
         uvs: &GroupUvs,
         measures: Measures,
         certificate: Certificate,
@@ -181,7 +181,7 @@ impl GroupReport {
 }
 
 impl AtlasReport {
-    pub(in crate) fn new(unwrapped: &Unwrapped) -> Self {
+    pub(crate) fn new(unwrapped: &Unwrapped) -> Self {
         Self {
             scale: unwrapped.scale,
             padding_texels: unwrapped.padding_texels,

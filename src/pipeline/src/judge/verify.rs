@@ -10,6 +10,7 @@ use super::question::Question;
 use super::report::Report;
 use crate::PipelineError;
 use crate::arrays::unwrap::in_pool;
+use crate::limits;
 use crate::options::{CommandOptions, MeasureOptions, VerifyOptions};
 use unwrapd_files::document::{Document, GroupBy, Mark, Sets, Upload, Warning};
 use unwrapd_maps::certificate::{Certificate, Overlap};
@@ -139,7 +140,7 @@ impl Promise {
 
 impl Verified {
     /// The judgment of UVs, without what only their file says.
-    pub(in crate) fn new(uvs: WrittenUvs, question: &Question, promise: Promise) -> Self {
+    pub(crate) fn new(uvs: WrittenUvs, question: &Question, promise: Promise) -> Self {
         let overlap = question.overlap(promise.overlap);
         let certificates = uvs.certify(&question.options.claims(overlap));
         let exempt_faces = certificates.iter().map(|c| c.exempt_faces).sum();
@@ -185,11 +186,11 @@ fn with_uvs<T: Send>(
     options.check()?;
     in_pool(options.caller.workers(options.workers), || {
         let document = Document::read(upload)?;
-        options.caller.limits.check(&document)?;
+        limits::check(&options.caller.limits, &document)?;
         let question = Question::new(options, &document)?;
         let (_, nodes) = question.options.spaces(&document);
         let document = nodes.prepared(document)?;
-        options.caller.limits.check(&document)?;
+        limits::check(&options.caller.limits, &document)?;
         answer(&document, &question)
     })?
 }

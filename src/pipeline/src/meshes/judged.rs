@@ -7,6 +7,7 @@ use crate::judge::groups::WrittenUvs;
 use crate::judge::question::Question;
 use crate::judge::report::Report;
 use crate::judge::verify::{Promise, Verified};
+use crate::limits;
 use crate::options::{CommandOptions, MeasureOptions, VerifyOptions};
 use unwrapd_maps::certificate::Overlap;
 use unwrapd_maps::mesh::VAxis;
@@ -45,7 +46,7 @@ fn with_question<T: Send>(
         if group.triangles.is_empty() {
             return Err(PipelineError::NoTriangles);
         }
-        options.caller.limits.check_count(group.triangles.len())?;
+        limits::check_count(&options.caller.limits, group.triangles.len())?;
         let uvs = WrittenUvs {
             groups: vec![group],
             n_skipped: 0,

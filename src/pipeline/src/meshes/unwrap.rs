@@ -8,10 +8,12 @@ use crate::judge::groups::WrittenUvs;
 use crate::judge::history::{add_history, promise_kept};
 use crate::judge::report::{Report, Seconds};
 use crate::judge::shortfalls::shortfalls;
-use crate::observer::{Observer, Stage};
+use crate::limits;
+use crate::observer::Observer;
 use crate::options::{CommandOptions, Island, Options, RepackOptions};
 use crate::stop_watch::StopWatch;
 use crate::tracker::Tracker;
+use unwrapd_api::Stage;
 use unwrapd_maps::certificate::chart_ids;
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
@@ -74,7 +76,7 @@ fn unwrap_in_pool(
     tracker.stage(Stage::Read);
     let plan = Plan::new(&options.settings());
     let mut mesh = merged(meshes, options, &plan)?;
-    (options.caller.limits).check_count(mesh.triangles.len())?;
+    limits::check_count(&options.caller.limits, mesh.triangles.len())?;
     mesh.seams.placed = placements(meshes, islands)?;
     seconds.read = watch.lap();
 

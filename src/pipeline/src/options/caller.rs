@@ -2,7 +2,7 @@
 
 use super::{Budget, Workers};
 use crate::PipelineError;
-use crate::limits::Limits;
+use unwrapd_api::Limits;
 use unwrapd_files::document::Upload;
 
 /// Settings of the code that calls the pipeline. They are options neither in JSON nor on the command
@@ -17,19 +17,19 @@ pub struct Caller {
 
 impl Caller {
     /// The name of the files that are written, without extension.
-    pub(in crate) fn stem(&self, upload: &Upload) -> String {
+    pub(crate) fn stem(&self, upload: &Upload) -> String {
         self.stem.clone().unwrap_or_else(|| stem(&upload.name))
     }
 
     /// The workers asked for, as far as they are allowed.
-    pub(in crate) fn workers(&self, asked: Workers) -> Workers {
+    pub(crate) fn workers(&self, asked: Workers) -> Workers {
         Workers {
             threads: asked.threads.into_iter().chain(self.limits.threads).min(),
         }
     }
 
     /// The time asked for, as far as it is allowed.
-    pub(in crate) fn budget(&self, asked: Budget) -> Budget {
+    pub(crate) fn budget(&self, asked: Budget) -> Budget {
         let seconds = asked.time_budget.into_iter().chain(self.limits.seconds);
         Budget {
             time_budget: seconds.reduce(f64::min),

@@ -68,7 +68,7 @@ impl Cutting {
     }
 
     /// Checks what goes with what; the text names the option.
-    pub(in crate) fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         for (name, given) in [
             ("max_distortion", self.max_distortion),
             ("max_stretch", self.max_stretch),

@@ -84,7 +84,7 @@ impl DeformOptions {
         }
     }
 
-    pub(in crate) fn plan(&self) -> Plan {
+    pub(crate) fn plan(&self) -> Plan {
         self.course.plan(Method::Projected)
     }
 }

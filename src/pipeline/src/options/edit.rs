@@ -56,7 +56,7 @@ options! {
 }
 
 impl EditOptions {
-    pub(in crate) fn of_map(&self, editing: Editing) -> UvEditOptions {
+    pub(crate) fn of_map(&self, editing: Editing) -> UvEditOptions {
         let default = match editing {
             Editing::Map => UvEditOptions::edit(),
             Editing::Texture => UvEditOptions::texture(),

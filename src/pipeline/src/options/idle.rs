@@ -33,7 +33,7 @@ pub(super) fn check_method(
 
 /// Refuses options of unwrapping that the others leave without effect. One that has its default value cannot be told from one that
 /// is absent.
-pub(in crate) fn check(options: &Options) -> Result<(), String> {
+pub(crate) fn check(options: &Options) -> Result<(), String> {
     let default = Options::default();
     let is_auto = options.cutting.cut == Cut::Auto && options.mapping.barrier != BarrierKind::None;
     let is_kept = options.cutting.cut == Cut::Keep;
@@ -121,10 +121,7 @@ pub(in crate) fn check(options: &Options) -> Result<(), String> {
 
 /// Refuses what tells materials of one atlas apart where each has its own. What shares an atlas may
 /// not be known before the file is read.
-pub(in crate) fn check_grouping(
-    options: &Options,
-    group_by: Option<GroupBy>,
-) -> Result<(), String> {
+pub(crate) fn check_grouping(options: &Options, group_by: Option<GroupBy>) -> Result<(), String> {
     const WITH: &str = "an atlas with several materials: `group_by` mesh or scene";
     if !matches!(group_by, Some(GroupBy::Material | GroupBy::Primitive)) {
         return Ok(());
@@ -141,7 +138,7 @@ pub(in crate) fn check_grouping(
 }
 
 /// The same of what a deformation costs.
-pub(in crate) fn check_model(model: &Model) -> Result<(), String> {
+pub(crate) fn check_model(model: &Model) -> Result<(), String> {
     // A bound of the conformal distortion and the boundary have barriers of their own, as strong.
     let has_others = model.max_conformal.is_some() || model.bijective;
     check_barrier(

@@ -54,11 +54,7 @@ impl Island {
     }
 
     /// The same where v is up, for a face of a mesh.
-    pub(in crate) fn placement(
-        &self,
-        (number, face): (usize, u32),
-        v_axis: VAxis,
-    ) -> Placement {
+    pub(crate) fn placement(&self, (number, face): (usize, u32), v_axis: VAxis) -> Placement {
         let up = v_axis == VAxis::Up;
         let sign = if up { 1.0 } else { -1.0 };
         Placement {

@@ -20,7 +20,7 @@ pub enum PackingMode {
 
 impl PackingMode {
     /// The multiple of the usual search budget.
-    pub(in crate) fn passes(self) -> u64 {
+    pub(crate) fn passes(self) -> u64 {
         match self {
             Self::Fast => 1,
             Self::Tight => 10,
@@ -56,7 +56,7 @@ const _: () = assert!(Texture::MOST_PAGES == 10);
 
 impl Layout {
     /// Checks what goes with what; the text names the option.
-    pub(in crate) fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         check_texels(self.resolution, self.padding)
     }
 }

@@ -33,7 +33,7 @@ options! {
 
 impl Mapping {
     /// Checks what goes with what; the text names the option.
-    pub(in crate) fn check(&self, cut: Cut) -> Result<(), String> {
+    pub(crate) fn check(&self, cut: Cut) -> Result<(), String> {
         match self.quantization_safe {
             None | Some(12 | 14 | 16) => {}
             Some(bits) => {

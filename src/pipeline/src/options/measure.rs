@@ -74,12 +74,12 @@ impl CommandOptions for MeasureOptions {
 
 impl MeasureOptions {
     /// The texture that is judged.
-    pub(in crate) fn resolution(&self) -> Resolution {
+    pub(crate) fn resolution(&self) -> Resolution {
         self.resolution.unwrap_or(Layout::default().resolution)
     }
 
     /// What shares one UV space in a document, and what counts as a surface.
-    pub(in crate) fn spaces(&self, document: &Document) -> (GroupBy, Nodes) {
+    pub(crate) fn spaces(&self, document: &Document) -> (GroupBy, Nodes) {
         let nodes = if self.separate_nodes {
             Nodes::Separate
         } else {
@@ -89,7 +89,7 @@ impl MeasureOptions {
     }
 
     /// What the certificate is asked to speak of.
-    pub(in crate) fn claims(&self, overlap: Overlap) -> Claims {
+    pub(crate) fn claims(&self, overlap: Overlap) -> Claims {
         Claims {
             overlap,
             padding: self.padding.map(|texels| Padding {
@@ -105,7 +105,7 @@ impl MeasureOptions {
 
     /// Adds what a file's record requires. Distances in texels are one requirement: those of the options replace those of
     /// the record, so that a file cannot choose the texture in which a caller's padding is counted.
-    pub(in crate) fn with_terms(&self, terms: &Terms) -> Self {
+    pub(crate) fn with_terms(&self, terms: &Terms) -> Self {
         let mut required = Self {
             pages: self.pages.or(terms.pages),
             bits: self.bits.or(terms.bits),

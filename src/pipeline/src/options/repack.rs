@@ -38,7 +38,7 @@ options! {
 
 impl RepackOptions {
     /// The same as options of unwrapping, which then keeps islands and their maps.
-    pub(in crate) fn to_unwrap(&self) -> Options {
+    pub(crate) fn to_unwrap(&self) -> Options {
         Options {
             cutting: Cutting {
                 cut: Cut::Keep,

@@ -18,7 +18,7 @@ options! {
 
 impl Sets {
     /// The UV set that provides the islands.
-    pub(in crate) fn source(self) -> u32 {
+    pub(crate) fn source(self) -> u32 {
         self.source_texcoord.unwrap_or(0)
     }
 }

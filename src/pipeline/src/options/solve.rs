@@ -37,7 +37,7 @@ options! {
 }
 
 impl SolveOptions {
-    pub(in crate) fn plan(&self) -> Plan {
+    pub(crate) fn plan(&self) -> Plan {
         self.course.plan(self.method)
     }
 }

@@ -91,7 +91,7 @@ options! {
 
 impl Options {
     /// With what follows from the preset.
-    pub(in crate) fn resolved(&self) -> Self {
+    pub(crate) fn resolved(&self) -> Self {
         let mut options = Self {
             mips: Some(self.mips()),
             ..self.clone()
@@ -104,7 +104,7 @@ impl Options {
     }
 
     /// Mip levels beyond the first in which charts keep the padding.
-    pub(in crate) fn mips(&self) -> u32 {
+    pub(crate) fn mips(&self) -> u32 {
         self.mips.unwrap_or(match self.preset {
             Preset::Material => 0,
             Preset::Lightmap => LIGHTMAP_MIPS,
@@ -112,7 +112,7 @@ impl Options {
     }
 
     /// What counts as a surface.
-    pub(in crate) fn nodes(&self) -> Nodes {
+    pub(crate) fn nodes(&self) -> Nodes {
         match self.preset {
             Preset::Material => Nodes::Shared,
             Preset::Lightmap => Nodes::Separate,
@@ -138,7 +138,7 @@ impl Options {
     }
 
     /// What the certificate is asked to speak of.
-    pub(in crate) fn claims(&self) -> Claims {
+    pub(crate) fn claims(&self) -> Claims {
         let layout = &self.layout;
         Claims {
             overlap: Overlap::Test,
@@ -154,7 +154,7 @@ impl Options {
     }
 
     /// What the written file says of its UVs, with what shares an atlas in it.
-    pub(in crate) fn terms(&self, group_by: GroupBy) -> Terms {
+    pub(crate) fn terms(&self, group_by: GroupBy) -> Terms {
         Terms {
             group_by,
             separate_nodes: self.nodes() == Nodes::Separate,

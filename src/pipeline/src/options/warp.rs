@@ -41,7 +41,7 @@ options! {
 }
 
 impl WarpOptions {
-    pub(in crate) fn of_grid(&self) -> warp::WarpOptions {
+    pub(crate) fn of_grid(&self) -> warp::WarpOptions {
         warp::WarpOptions {
             grid: self.grid,
             boundary: if self.fix_border {

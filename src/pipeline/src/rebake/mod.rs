@@ -9,13 +9,13 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 use crate::PipelineError;
-use crate::observer::Stage;
 use crate::options::Options;
 use crate::tracker::Tracker;
 pub use format::ImageFormat;
 use images::read_images;
 use planes::Bake;
 use surface::Surface;
+use unwrapd_api::Stage;
 use unwrapd_files::bake::{Coverage, MOST_TEXELS, baked, side_for};
 use unwrapd_files::document::{
     BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning,

@@ -6,8 +6,9 @@ use std::time::Duration;
 
 use futures_util::future::join_all;
 use unwrapd::jobs::access::Owner;
-use unwrapd::jobs::{Ending, Happening, Job, JobId, JobStore, Share, State, Verdict, WorkerId};
+use unwrapd::jobs::{Ending, Happening, Job, JobId, JobStore, Share, State, WorkerId};
 use unwrapd::store::RecordStore;
+use unwrapd_api::Verdict;
 
 use super::get;
 use crate::contract::{RULES, change, claim, claim_soon, claimed, enqueued, job, saying, yes};

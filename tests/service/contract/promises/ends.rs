@@ -5,10 +5,11 @@ use std::time::Duration;
 
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
-    Changed, Ending, Enqueued, Failure, Happening, IdempotencyKey, JobId, JobStore, Reason,
-    Refusal, State, Wish,
+    Changed, Ending, Enqueued, Happening, IdempotencyKey, JobId, JobStore, Reason, Refusal, State,
+    Wish,
 };
 use unwrapd::store::RecordStore;
+use unwrapd_api::Failure;
 
 use super::{get, succeed};
 use crate::contract::{ROOM, change, claim, claim_soon, claimed, enqueued, job, saying, yes};

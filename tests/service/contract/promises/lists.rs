@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use unwrapd::jobs::access::{Owner, Reach};
-use unwrapd::jobs::{Job, JobId, JobStore, Kind, Listing, Metadata, Order, State, Timestamp};
+use unwrapd::jobs::{Job, JobId, JobStore, Listing, Metadata, Order, State, Timestamp};
 use unwrapd::store::RecordStore;
+use unwrapd_api::Kind;
 
 use crate::contract::{claim, enqueued, job};
 

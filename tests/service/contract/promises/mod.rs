@@ -16,10 +16,10 @@ use std::time::Duration;
 use futures_util::future::{BoxFuture, FutureExt};
 use unwrapd::jobs::access::Reach;
 use unwrapd::jobs::{
-    Ending, Happening, IdempotencyKey, Job, JobId, JobStore, Listing, OutputFile, Reason, Sweep,
-    Verdict,
+    Ending, Happening, IdempotencyKey, Job, JobId, JobStore, Listing, Reason, Sweep,
 };
 use unwrapd::store::RecordStore;
+use unwrapd_api::{OutputFile, Verdict};
 
 use super::{ROOM, RULES, change, claim, claim_soon, enqueued, job, saying, yes};
 use crate::harness::postgres::Postgres;

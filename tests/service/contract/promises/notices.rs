@@ -4,8 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use unwrapd::jobs::access::Reach;
-use unwrapd::jobs::{Ending, Failure, Happening, Job, JobStore, Notice, Outbox, State, Wish};
+use unwrapd::jobs::{Ending, Happening, Job, JobStore, Notice, Outbox, State, Wish};
 use unwrapd::store::RecordStore;
+use unwrapd_api::Failure;
 
 use super::succeed;
 use crate::contract::{change, claim, enqueued, job, saying};

@@ -7,9 +7,10 @@ use std::time::Duration;
 use futures_util::future::join_all;
 use unwrapd::jobs::{
     Capacity, Ending, Enqueued, Happening, IdempotencyKey, Job, JobId, JobStore, OwnerQuota,
-    OwnerQuotas, Saying, State, Timestamp, Verdict,
+    OwnerQuotas, Saying, State, Timestamp,
 };
 use unwrapd::store::RecordStore;
+use unwrapd_api::Verdict;
 
 use super::get;
 use crate::contract::{ROOM, change, claim, job, saying, yes};

@@ -3,7 +3,7 @@ use super::body::{Body, Target};
 use super::json::{item, item_mut, items, remove, required};
 use super::uri;
 use crate::document::DocumentError;
-use crate::io::{Content, Format};
+use crate::io::{Content, Format, detect, format_of_content};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -107,12 +107,12 @@ fn external_uri(image: &Value) -> Option<String> {
 
 /// The extension of a file with this content.
 pub(super) fn file_extension(bytes: &[u8]) -> &'static str {
-    let format = Format::of_content(bytes, bytes.len() as u64, Content::Texture);
+    let format = format_of_content(bytes, bytes.len() as u64, Content::Texture);
     format.map_or("bin", Format::extension)
 }
 
 /// The media type by content, else by name; `None` where it is not known, and an embedded image must have one.
 fn mime_type(name: &str, bytes: &[u8]) -> Option<&'static str> {
-    let format = Format::detect(name, bytes, Content::Texture)?;
+    let format = detect(name, bytes, Content::Texture)?;
     format.media_types().first().copied()
 }

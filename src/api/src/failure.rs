@@ -1,0 +1,35 @@
+//! Why a computation failed.
+
+use std::io::ErrorKind;
+
+use serde::{Deserialize, Serialize};
+
+/// Why a job failed: a stable code and one sentence for people.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Failure {
+    /// Stable snake_case word: a code of the pipeline, or `worker_lost`, `crashed`, `out_of_memory`, `timed_out`.
+    pub code: String,
+    /// One line.
+    pub detail: String,
+}
+
+impl Failure {
+    /// A failure with its code and its sentence.
+    pub fn new(code: &str, detail: impl Into<String>) -> Self {
+        Self {
+            code: code.to_owned(),
+            detail: detail.into(),
+        }
+    }
+}
+
+/// The folder of a computation, or its process, could not be used.
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        let code = match error.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "storage_full",
+            _ => "internal_error",
+        };
+        Self::new(code, error.to_string())
+    }
+}

@@ -1,0 +1,180 @@
+//! The table of file formats: their names, and what they hold. How their content is known is decided where they are read.
+
+/// How much of a file is searched for the words of its format, in bytes.
+pub const SEARCHED_BYTES: usize = 1 << 20;
+
+/// The formats of files that are read or written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Binary glTF.
+    Glb,
+    /// glTF as JSON.
+    Gltf,
+    /// Wavefront OBJ.
+    Obj,
+    /// Geomview OFF, text.
+    Off,
+    /// Stanford PLY, text or binary.
+    Ply,
+    /// Stereolithography, text or binary.
+    Stl,
+    /// Gmsh.
+    Msh,
+    /// Medit.
+    Mesh,
+    /// Counts, positions, corners of tetrahedra.
+    Tet,
+    /// VTK XML: written, not read.
+    Vtu,
+    /// PNG pictures.
+    Png,
+    /// JPEG pictures.
+    Jpeg,
+    /// Drawings.
+    Svg,
+    /// `WebP` pictures.
+    Webp,
+    /// KTX 2.0 textures.
+    Ktx2,
+    /// AVIF pictures.
+    Avif,
+    /// `DirectDraw` textures.
+    Dds,
+    /// Problem files and reports.
+    Json,
+    /// Positions, one per line.
+    Txt,
+    /// Tables.
+    Csv,
+}
+
+/// What a file is read for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Content {
+    /// A surface, with or without a document around it.
+    Surface,
+    /// A body to deform: a surface, a mesh of elements, or an outline.
+    Body,
+    /// A picture to warp.
+    Picture,
+    /// A problem to solve.
+    Problem,
+    /// An image that a glTF document names; most are passed on unread.
+    Texture,
+}
+
+impl Format {
+    /// The format that the extension of a file's name stands for.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let extension = extension(name);
+        let mut rows = ROWS.iter();
+        let row = rows.find(|row| row.extensions.contains(&extension.as_str()));
+        row.map(|row| row.format)
+    }
+
+    /// All formats.
+    pub fn all() -> impl Iterator<Item = Self> {
+        ROWS.iter().map(|row| row.format)
+    }
+
+    /// The formats that are read for `content`.
+    pub fn that_hold(content: Content) -> impl Iterator<Item = Self> {
+        Self::all().filter(move |format| format.holds(content))
+    }
+
+    /// Whether files of this format are read for `content`.
+    pub fn holds(self, content: Content) -> bool {
+        self.row().contents.contains(&content)
+    }
+
+    /// The extension that files of this format are written with.
+    pub fn extension(self) -> &'static str {
+        self.extensions()[0]
+    }
+
+    /// All its extensions, in lower case and without the dot.
+    pub fn extensions(self) -> &'static [&'static str] {
+        self.row().extensions
+    }
+
+    /// Its media types, the usual one first; none where it has none.
+    pub fn media_types(self) -> &'static [&'static str] {
+        self.row().media_types
+    }
+
+    fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
+}
+
+/// The extension of a file's name or path in lower case, without the dot; empty where there is none.
+pub fn extension(path: &str) -> String {
+    let name = path.rsplit(['/', '\\']).next().unwrap_or_default();
+    let extension = name.rsplit_once('.').map(|(_, extension)| extension);
+    extension.unwrap_or_default().to_ascii_lowercase()
+}
+
+/// Text without the byte order mark that some editors put before it.
+pub fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
+}
+
+/// What is known of a format.
+struct Row {
+    format: Format,
+    /// Without the dot, the one that is written first.
+    extensions: &'static [&'static str],
+    /// The one that is sent first.
+    media_types: &'static [&'static str],
+    contents: &'static [Content],
+}
+
+const fn row(
+    format: Format,
+    extensions: &'static [&'static str],
+    media_types: &'static [&'static str],
+    contents: &'static [Content],
+) -> Row {
+    Row {
+        format,
+        extensions,
+        media_types,
+        contents,
+    }
+}
+
+/// Media types that STL files have had.
+const STL_TYPES: &[&str] = &["model/stl", "application/sla", "application/vnd.ms-pki.stl"];
+
+/// In the order of [`Format`], in which messages list them too.
+#[rustfmt::skip]
+const ROWS: [Row; 20] = [
+    row(Format::Glb, &["glb"], &["model/gltf-binary"], &[Content::Surface, Content::Body]),
+    row(Format::Gltf, &["gltf"], &["model/gltf+json"], &[Content::Surface, Content::Body]),
+    row(Format::Obj, &["obj"], &["model/obj"], &[Content::Surface, Content::Body]),
+    row(Format::Off, &["off"], &["model/off"], &[Content::Surface, Content::Body]),
+    row(Format::Ply, &["ply"], &["model/ply", "application/ply"], &[Content::Surface, Content::Body]),
+    row(Format::Stl, &["stl"], STL_TYPES, &[Content::Surface, Content::Body]),
+    row(Format::Msh, &["msh"], &[], &[Content::Body]),
+    row(Format::Mesh, &["mesh"], &[], &[Content::Body]),
+    row(Format::Tet, &["tet"], &[], &[Content::Body]),
+    row(Format::Vtu, &["vtu"], &[], &[]),
+    row(Format::Png, &["png"], &["image/png"], &[Content::Body, Content::Picture, Content::Texture]),
+    row(Format::Jpeg, &["jpg", "jpeg"], &["image/jpeg"], &[Content::Picture, Content::Texture]),
+    row(Format::Svg, &["svg"], &["image/svg+xml"], &[Content::Body]),
+    row(Format::Webp, &["webp"], &["image/webp"], &[Content::Texture]),
+    row(Format::Ktx2, &["ktx2"], &["image/ktx2"], &[Content::Texture]),
+    row(Format::Avif, &["avif"], &["image/avif"], &[Content::Texture]),
+    row(Format::Dds, &["dds"], &["image/vnd-ms.dds"], &[Content::Texture]),
+    row(Format::Json, &["json"], &["application/json"], &[Content::Problem]),
+    row(Format::Txt, &["txt"], &["text/plain"], &[]),
+    row(Format::Csv, &["csv"], &["text/csv"], &[]),
+];
+
+const _: () = {
+    let mut index = 0;
+    while index < ROWS.len() {
+        assert!(ROWS[index].format as usize == index);
+        index += 1;
+    }
+};

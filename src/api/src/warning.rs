@@ -1,0 +1,25 @@
+//! Warnings of files and of results.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+/// Something that users should know of a file that was read or written, and that is no error.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Warning {
+    /// Stable snake_case word.
+    pub code: Cow<'static, str>,
+    /// What happened and what to do, one or two sentences.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning with its code and its sentences.
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            code: Cow::Borrowed(code),
+            message: message.into(),
+        }
+    }
+}

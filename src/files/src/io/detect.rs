@@ -1,0 +1,129 @@
+//! How the first bytes of a file tell its format.
+
+use super::{gmsh, medit, obj, off, ply, stl, tet};
+use unwrapd_api::{Content, Format, SEARCHED_BYTES, without_mark};
+
+/// Returns the format of a file that is read for `content`: by its first bytes where they tell, else by the extension of its name.
+pub fn detect(name: &str, bytes: &[u8], content: Content) -> Option<Format> {
+    let head = Head {
+        bytes: &bytes[..bytes.len().min(SEARCHED_BYTES)],
+        size: bytes.len() as u64,
+    };
+    head.find(content, signature)
+        .or_else(|| Format::of_name(name).filter(|format| format.holds(content)))
+        .or_else(|| head.find(content, resemblance))
+}
+
+/// Returns the format of a file of `size` bytes that is read for `content`, by its first bytes, of which [`SEARCHED_BYTES`] suffice.
+pub fn format_of_content(head: &[u8], size: u64, content: Content) -> Option<Format> {
+    let head = Head { bytes: head, size };
+    head.find(content, signature)
+        .or_else(|| head.find(content, resemblance))
+}
+
+/// Returns the test for bytes that no other format begins with; `None` where a format has none.
+fn signature(format: Format) -> Option<Test> {
+    match format {
+        Format::Glb => Some(is_glb),
+        Format::Gltf | Format::Json => Some(is_object),
+        Format::Off => Some(is_off),
+        Format::Ply => Some(is_ply),
+        Format::Stl => Some(is_stl),
+        Format::Msh => Some(is_msh),
+        Format::Mesh => Some(is_mesh),
+        Format::Png => Some(is_png),
+        Format::Jpeg => Some(is_jpeg),
+        Format::Svg => Some(is_svg),
+        Format::Webp => Some(is_webp),
+        Format::Ktx2 => Some(is_ktx2),
+        _ => None,
+    }
+}
+
+/// Returns the test for text that is usual in files of a format, for files whose name says nothing.
+fn resemblance(format: Format) -> Option<Test> {
+    match format {
+        Format::Obj => Some(is_obj),
+        Format::Tet => Some(is_tet),
+        _ => None,
+    }
+}
+
+/// Whether the first bytes of a file look like those of a format.
+type Test = fn(&Head) -> bool;
+
+/// The beginning of a file.
+struct Head<'a> {
+    bytes: &'a [u8],
+    /// Bytes of the whole file.
+    size: u64,
+}
+
+impl<'a> Head<'a> {
+    /// The first format for `content` whose test it passes.
+    fn find(&self, content: Content, test: fn(Format) -> Option<Test>) -> Option<Format> {
+        Format::that_hold(content).find(|&format| test(format).is_some_and(|is_it| is_it(self)))
+    }
+
+    /// What stands there, without a byte order mark and blanks before it.
+    fn text(&self) -> &'a [u8] {
+        without_mark(self.bytes).trim_ascii_start()
+    }
+}
+
+fn is_glb(head: &Head) -> bool {
+    head.bytes.starts_with(b"glTF")
+}
+
+fn is_object(head: &Head) -> bool {
+    head.text().starts_with(b"{")
+}
+
+fn is_obj(head: &Head) -> bool {
+    obj::has_vertex(head.text())
+}
+
+fn is_off(head: &Head) -> bool {
+    off::has_header(head.text())
+}
+
+fn is_ply(head: &Head) -> bool {
+    ply::has_header(head.bytes)
+}
+
+fn is_stl(head: &Head) -> bool {
+    stl::is_binary(head.bytes, head.size) || stl::is_text(head.bytes)
+}
+
+fn is_msh(head: &Head) -> bool {
+    gmsh::has_header(head.text())
+}
+
+fn is_mesh(head: &Head) -> bool {
+    medit::has_header(head.text())
+}
+
+fn is_tet(head: &Head) -> bool {
+    tet::has_counts(head.text())
+}
+
+fn is_png(head: &Head) -> bool {
+    head.bytes.starts_with(b"\x89PNG")
+}
+
+fn is_jpeg(head: &Head) -> bool {
+    head.bytes.starts_with(b"\xFF\xD8\xFF")
+}
+
+fn is_svg(head: &Head) -> bool {
+    let text = head.text();
+    text.starts_with(b"<") && text.windows(4).any(|word| word == b"<svg")
+}
+
+fn is_webp(head: &Head) -> bool {
+    head.bytes.starts_with(b"RIFF") && head.bytes.get(8..12) == Some(b"WEBP")
+}
+
+fn is_ktx2(head: &Head) -> bool {
+    head.bytes.starts_with(b"\xABKTX 20")
+}

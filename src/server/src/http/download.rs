@@ -1,0 +1,213 @@
+//! A stored file as an answer: whole, a range of it, or unchanged (RFC 9110).
+
+use std::ops::Range;
+
+use axum::body::Body;
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use super::App;
+use super::missing::job_not_found;
+use super::problem::{Code, Problem};
+use crate::jobs::{Job, Undrawn};
+use unwrapd_api::{Format, InputFile, OutputFile, Picture};
+
+/// Formats whose media types are answered with, as the `OpenAPI` document says; files of others are bytes.
+const TYPED: [Format; 7] = [
+    Format::Glb,
+    Format::Gltf,
+    Format::Obj,
+    Format::Json,
+    Format::Png,
+    Format::Txt,
+    Format::Csv,
+];
+
+/// A file of a job.
+#[derive(Clone, Copy)]
+pub(super) enum File<'a> {
+    /// One that it made.
+    Output(&'a OutputFile),
+    /// A picture of its result, which it has.
+    Picture(Picture),
+    /// One that it was made of, with its number.
+    Input(usize, &'a InputFile),
+}
+
+impl<'a> File<'a> {
+    fn name(&self) -> &str {
+        match self {
+            Self::Output(file) => &file.name,
+            Self::Picture(picture) => picture.role(),
+            Self::Input(_, file) => &file.name,
+        }
+    }
+
+    /// The name of its version: job and number, and for what was made the token and the role. Files never change.
+    fn tag(&self, job: &Job) -> String {
+        match self {
+            Self::Output(file) => {
+                let role = file.role.replace('/', "-");
+                format!("\"{}-{}-{role}\"", job.id, job.token)
+            }
+            Self::Picture(picture) => format!("\"{}-{}-{}\"", job.id, job.token, picture.role()),
+            Self::Input(index, _) => format!("\"{}-input-{index}\"", job.id),
+        }
+    }
+
+    /// Opens it; a picture is drawn if it is not kept.
+    async fn open(self, app: &App, job: &Job) -> Result<Opened<'a>, Problem> {
+        Ok(match self {
+            Self::Output(file) => Opened::Output(file),
+            Self::Input(_, file) => Opened::Input(file),
+            Self::Picture(wanted) => Opened::Picture(picture(app, job, wanted).await?),
+        })
+    }
+}
+
+/// A file whose size is known.
+enum Opened<'a> {
+    Output(&'a OutputFile),
+    Input(&'a InputFile),
+    Picture(Vec<u8>),
+}
+
+impl Opened<'_> {
+    fn bytes(&self) -> u64 {
+        match self {
+            Self::Output(file) => file.bytes,
+            Self::Input(file) => file.bytes,
+            Self::Picture(content) => content.len() as u64,
+        }
+    }
+
+    async fn read(self, app: &App, job: &Job, part: Range<u64>) -> Result<Body, Problem> {
+        Ok(match self {
+            Self::Output(file) => Body::from_stream(app.jobs.read(job, file, part).await?),
+            Self::Input(file) => Body::from_stream(app.jobs.read_input(job, file, part).await?),
+            Self::Picture(content) => {
+                Body::from(content[part.start as usize..part.end as usize].to_vec())
+            }
+        })
+    }
+}
+
+/// A picture that a job has, or why there is none.
+pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Vec<u8>, Problem> {
+    match app.jobs.picture(job, picture).await {
+        Ok(content) => Ok(content),
+        Err(Undrawn::Removed) => Err(job_not_found()),
+        Err(Undrawn::Failed(failure)) => Err(Problem::of_failure(&failure)),
+        Err(Undrawn::Store(error)) => Err(error.into()),
+    }
+}
+
+/// A file of a job, or what of it was asked for.
+pub(super) async fn answer(
+    app: &App,
+    job: &Job,
+    file: File<'_>,
+    headers: &HeaderMap,
+) -> Result<Response, Problem> {
+    let tag = file.tag(job);
+    if names(headers, header::IF_NONE_MATCH, &tag) {
+        return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
+    }
+    let opened = file.open(app, job).await?;
+    let bytes = opened.bytes();
+    let is_same =
+        (headers.get(header::IF_RANGE)).is_none_or(|given| given.as_bytes() == tag.as_bytes());
+    let range = match headers.get(header::RANGE).filter(|_| is_same) {
+        Some(value) => range(value, bytes),
+        None => Ok(None),
+    };
+    let Ok(range) = range else {
+        let detail = format!("the file has {bytes} bytes");
+        let problem = Problem::new(Code::RangeNotSatisfiable, detail).with_limit(bytes);
+        let size = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
+        return Ok((size, problem).into_response());
+    };
+    let part = range.clone().unwrap_or(0..bytes);
+    let content = opened.read(app, job, part.clone()).await?;
+    let length = part.end - part.start;
+    let mut response = content.into_response();
+    let headers = response.headers_mut();
+    let mut set = |name, value: &str| {
+        if let Ok(value) = HeaderValue::from_str(value) {
+            headers.insert(name, value);
+        }
+    };
+    set(header::CONTENT_TYPE, &content_type(file.name()));
+    set(header::CONTENT_LENGTH, &length.to_string());
+    set(header::CONTENT_DISPOSITION, &disposition(file.name()));
+    set(header::ACCEPT_RANGES, "bytes");
+    set(header::CACHE_CONTROL, "private, no-cache");
+    set(header::ETAG, &tag);
+    if range.is_some() {
+        let range = format!("bytes {}-{}/{bytes}", part.start, part.end - 1);
+        set(header::CONTENT_RANGE, &range);
+        *response.status_mut() = StatusCode::PARTIAL_CONTENT;
+    }
+    Ok(response)
+}
+
+/// Whether a header names this version, strongly or weakly: a proxy that compresses weakens tags.
+pub(super) fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) -> bool {
+    headers
+        .get_all(name)
+        .iter()
+        .filter_map(|value| value.to_str().ok())
+        .flat_map(|value| value.split(','))
+        .map(str::trim)
+        .any(|given| given == "*" || given.strip_prefix("W/").unwrap_or(given) == tag)
+}
+
+/// The one range of a Range header. What is no single range of bytes is ignored, as RFC 9110 asks; `Err` has no byte
+/// of the file in it.
+fn range(value: &HeaderValue, size: u64) -> Result<Option<Range<u64>>, ()> {
+    let spec = value
+        .to_str()
+        .ok()
+        .and_then(|text| text.strip_prefix("bytes="));
+    let Some((first, last)) = spec.and_then(|spec| spec.split_once('-')) else {
+        return Ok(None);
+    };
+    let range = match (first.trim().parse::<u64>(), last.trim().parse::<u64>()) {
+        (Ok(first), Ok(last)) if first <= last => first..size.min(last.saturating_add(1)),
+        (Ok(first), Err(_)) if last.trim().is_empty() => first..size,
+        (Err(_), Ok(count)) if first.trim().is_empty() => size - size.min(count)..size,
+        _ => return Ok(None),
+    };
+    if range.is_empty() {
+        Err(())
+    } else {
+        Ok(Some(range))
+    }
+}
+
+fn content_type(name: &str) -> String {
+    let format = Format::of_name(name).filter(|format| TYPED.contains(format));
+    match format.and_then(|format| format.media_types().first()) {
+        Some(text) if text.starts_with("text/") => format!("{text}; charset=utf-8"),
+        Some(media_type) => (*media_type).to_owned(),
+        None => "application/octet-stream".to_owned(),
+    }
+}
+
+/// Pictures and reports are shown, everything else is saved. The name is given in ASCII, and in UTF-8 if it needs it.
+fn disposition(name: &str) -> String {
+    let kind = match Format::of_name(name) {
+        Some(Format::Png | Format::Json) => "inline",
+        _ => "attachment",
+    };
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_' | ' ');
+    let ascii: String = name
+        .chars()
+        .map(|c| if plain(c) { c } else { '_' })
+        .collect();
+    if ascii == name {
+        return format!("{kind}; filename=\"{ascii}\"");
+    }
+    let encoded = percent_encoding::utf8_percent_encode(name, percent_encoding::NON_ALPHANUMERIC);
+    format!("{kind}; filename=\"{ascii}\"; filename*=UTF-8''{encoded}")
+}

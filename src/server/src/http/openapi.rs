@@ -1,0 +1,319 @@
+//! The OpenAPI document: what the handlers say, and what several of them have in common.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Map, Value, json};
+use utoipa::openapi::tag::TagBuilder;
+use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
+
+use super::causes::CAUSES;
+use super::problem::Code;
+use super::schemas::{self, bytes, reference};
+use super::security;
+use super::upload::{other_types, surface_types};
+use unwrapd_api::{Catalog, Kind};
+
+const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
+    distortion report out. Also deforms meshes, pictures and UVs by handles without inverting an element. Errors are \
+    RFC 9457 problems with a stable `code`; `x-problems` lists all codes. Errors caused by the input have status 422. A \
+    failed job reports the same codes in `error`, and so does the command line, which ends with 0 done and proven, 1 any other error, \
+    2 usage error, 3 unusable input, 4 written but not certified or not accepted, 5 targets not reached, 6 ended early with less than \
+    was asked for, 7 partly done. Once a service has an API key, calls need \
+    one: `security` of an operation names its scopes. What belongs to another owner does not exist for a caller.";
+
+const WEBHOOK: &str = "Posted to the `webhook` of a job when the job ends, as [Standard Webhooks](https://www.standardwebhooks.com) \
+    says. To verify it, take the bytes of the body as they came. Join `webhook-id`, `webhook-timestamp` and the body by `.`, and compute \
+    HMAC-SHA256 with the secret of the owner: the base64 after `whsec_` in what `unwrapd webhook-secret --owner NAME` prints. One \
+    of the signatures in `webhook-signature`, the base64 after `v1,`, must be equal; compare in constant time, and refuse a \
+    timestamp that is more than five minutes off. Any answer but 2xx and 410 is repeated after 5 s, 5 and 30 minutes, 2, 5, 10 and 14 \
+    hours. A notice may come twice.";
+
+/// What operations are about, in the order in which they are shown.
+const TAGS: [(&str, &str); 6] = [
+    ("synchronous", "Small meshes, answered at once"),
+    ("jobs", "Submit, list, watch and end jobs"),
+    ("results", "What jobs made"),
+    ("sessions", "Pull bodies, pictures and UVs live"),
+    ("access", "Keys, and signing in"),
+    ("service", "Health, metrics, and operating it"),
+];
+
+/// The paths of uploads whose kind the upload says.
+const OF_ANY_KIND: [&str; 2] = ["/v1/jobs", "/v1/sessions"];
+
+/// What stands above the paths.
+pub(super) fn preamble() -> OpenApi {
+    let license = LicenseBuilder::new()
+        .name("MIT OR Apache-2.0")
+        .identifier(Some("MIT OR Apache-2.0"))
+        .build();
+    let info = InfoBuilder::new()
+        .title("unwrapd")
+        .version(env!("CARGO_PKG_VERSION"))
+        .description(Some(DESCRIPTION))
+        .license(Some(license))
+        .build();
+    let tag = |(name, description): (&str, &str)| {
+        TagBuilder::new()
+            .name(name)
+            .description(Some(description))
+            .build()
+    };
+    OpenApiBuilder::new()
+        .info(info)
+        .tags(Some(TAGS.map(tag)))
+        .build()
+}
+
+/// The document as text. At open paths nobody needs a key.
+pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String]) -> String {
+    api.components
+        .get_or_insert_default()
+        .schemas
+        .extend(schemas::schemas(catalog));
+    let mut document = serde_json::to_value(api).unwrap_or_default();
+    document["servers"] =
+        json!([{ "url": "/", "description": "The service that this document comes from" }]);
+    document["x-problems"] = problems();
+    document["webhooks"] = webhooks();
+    schemas::merge_groups(&mut document["components"]["schemas"]);
+
+    let all = Kind::ALL.map(schemas::options);
+    let all: BTreeSet<&str> = all.into_iter().collect();
+    describe_upload(&mut document, "/v1/jobs", &Vec::from_iter(all));
+    let pulled = ["DeformOptions", "EditOptions", "WarpOptions"];
+    describe_upload(&mut document, "/v1/sessions", &pulled);
+    describe_upload(&mut document, "/v1/unwrap", &["Options"]);
+    describe_upload(&mut document, "/v1/measure", &["MeasureOptions"]);
+    let paths = &mut document["paths"];
+    let report = &mut paths["/v1/jobs/{id}/report"]["get"]["responses"]["200"];
+    report["content"]["application/json"]["schema"] = schemas::any_report();
+    for path in OF_ANY_KIND {
+        let form = &mut paths[path]["post"]["requestBody"]["content"]["multipart/form-data"];
+        form["schema"]["properties"]["kind"] = reference("Kind");
+    }
+    paths["/v1/sessions"]["post"]["requestBody"]["required"] = false.into();
+    for status in ["200", "202"] {
+        paths["/v1/jobs"]["post"]["responses"][status]["links"] = links();
+    }
+    for operations in members(paths) {
+        members(operations).for_each(complete);
+    }
+    security::describe(&mut document, open);
+    serde_json::to_string_pretty(&document).unwrap_or_default()
+}
+
+/// The values of an object.
+fn members(value: &mut Value) -> impl Iterator<Item = &mut Value> {
+    value.as_object_mut().into_iter().flat_map(Map::values_mut)
+}
+
+/// What holds for every operation: it may end with a problem, parameters are absent rather than null, files are bytes,
+/// and so are parts of them.
+fn complete(operation: &mut Value) {
+    if !operation["responses"]["206"].is_null() {
+        let mut content = operation["responses"]["200"]["content"].clone();
+        members(&mut content).for_each(|of_type| of_type["schema"] = bytes());
+        operation["responses"]["206"]["content"] = content;
+    }
+    for response in members(&mut operation["responses"]) {
+        for (media_type, content) in response
+            .get_mut("content")
+            .and_then(Value::as_object_mut)
+            .into_iter()
+            .flatten()
+        {
+            if !media_type.contains("json") && !media_type.starts_with("text/")
+                || media_type == "model/gltf+json"
+                || is_list_of_bytes(&content["schema"])
+            {
+                content["schema"] = bytes();
+            }
+        }
+    }
+    operation["responses"]["default"] = json!({
+        "description": "Any other error",
+        "content": { "application/problem+json": { "schema": reference("Problem") } },
+    });
+    let parameters = operation
+        .get_mut("parameters")
+        .and_then(Value::as_array_mut);
+    for parameter in parameters.into_iter().flatten() {
+        let Some(schema) = parameter.get_mut("schema").and_then(Value::as_object_mut) else {
+            continue;
+        };
+        schema.retain(|name, value| name != "default" || !value.is_null());
+        if let Some(types) = schema.get_mut("type").and_then(Value::as_array_mut) {
+            types.retain(|word| word != "null");
+        }
+        if let Some(choices) = schema.get_mut("oneOf").and_then(Value::as_array_mut) {
+            choices.retain(|choice| choice["type"] != "null");
+        }
+    }
+}
+
+/// Returns true for the schema of `Vec<u8>`, which stands for the bytes of a file, not for JSON.
+fn is_list_of_bytes(schema: &Value) -> bool {
+    let item = &schema["items"];
+    schema["type"] == "array" && item["type"] == "integer" && item["minimum"] == 0
+}
+
+/// Where a job leads.
+fn links() -> Value {
+    let operations = [
+        "getJob",
+        "watchJob",
+        "finishJob",
+        "retryJob",
+        "getResult",
+        "getReport",
+        "getLayout",
+        "getHeatmap",
+        "deleteJob",
+    ];
+    let link = |name: &str| {
+        let to_job = json!({ "operationId": name, "parameters": { "id": "$response.body#/id" } });
+        (name.to_owned(), to_job)
+    };
+    Value::Object(operations.into_iter().map(link).collect())
+}
+
+/// Describes the request that is posted to the `webhook` of a job.
+fn webhooks() -> Value {
+    let header = |name: &str, description: &str| {
+        json!({
+            "name": name, "in": "header", "required": true, "schema": { "type": "string" },
+            "description": description,
+        })
+    };
+    let nullable = |kind: &str| json!({ "type": [kind, "null"] });
+    let time = json!({ "type": "string", "format": "date-time" });
+    let data = json!({
+        "type": "object",
+        "description": "The job, in the words of `getJob`",
+        "required": ["id", "kind", "state", "metadata", "created_at", "finished_at"],
+        "properties": {
+            "id": { "type": "string", "format": "uuid" },
+            "kind": reference("Kind"),
+            "state": { "type": "string", "enum": ["succeeded", "failed", "cancelled"] },
+            "filename": nullable("string"),
+            "metadata": { "type": "object" },
+            "certified": nullable("boolean"),
+            "within_bound": nullable("boolean"),
+            "accepted": nullable("boolean"),
+            "error": {
+                "type": ["object", "null"],
+                "properties": { "code": { "type": "string" }, "detail": { "type": "string" } },
+            },
+            "created_at": time,
+            "started_at": { "type": ["string", "null"], "format": "date-time" },
+            "finished_at": time,
+        },
+    });
+    let body = json!({
+        "type": "object",
+        "required": ["type", "timestamp", "data"],
+        "properties": {
+            "type": { "type": "string", "enum": ["job.succeeded", "job.failed", "job.cancelled"] },
+            "timestamp": time,
+            "data": data,
+        },
+    });
+    json!({ "jobEnded": { "post": {
+        "operationId": "jobEnded",
+        "tags": ["jobs"],
+        "summary": "The end of a job",
+        "description": WEBHOOK,
+        "parameters": [
+            header("webhook-id", "Names the notice; repetitions have the same"),
+            header("webhook-timestamp", "Time of this delivery, in seconds since 1970"),
+            header("webhook-signature", "`v1,` and a signature; several, with spaces between, while a secret is replaced"),
+        ],
+        "requestBody": {
+            "required": true,
+            "content": { "application/json": { "schema": body } },
+        },
+        "responses": {
+            "2XX": { "description": "Received; the notice is not repeated" },
+            "410": { "description": "The receiver wants no more of it; the notice is not repeated" },
+        },
+        "security": [],
+    } } })
+}
+
+/// The table of codes.
+fn problems() -> Value {
+    let row = |code: &Code| {
+        let (word, status, title) = code.row();
+        json!({ "code": word, "status": status, "title": title })
+    };
+    let cause =
+        |&(word, title): &(&str, &str)| json!({ "code": word, "status": 422, "title": title });
+    let own = Code::ALL.iter().map(row);
+    own.chain(CAUSES.iter().map(cause)).collect()
+}
+
+/// What the uploads share: the body as a form or raw, options in the form or the query.
+fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
+    let is_job = OF_ANY_KIND.contains(&path);
+    let parameters = schemas::parameters(&document["components"]["schemas"], options);
+    let options: Vec<Value> = options.iter().map(|name| reference(name)).collect();
+    let operation = &mut document["paths"][path]["post"];
+    if let Some(known) = operation["parameters"].as_array_mut() {
+        known.extend(parameters);
+    }
+    let input = json!({ "type": "string", "format": "binary", "description": "The input, with its file name" });
+    let mut schema = json!({
+        "type": "object",
+        "properties": {
+            "mesh": input,
+            "options": { "anyOf": options },
+            "resource": {
+                "type": "array",
+                "items": bytes(),
+                "description": "Files that the input references (buffers, images, the mesh of a problem); the file name of \
+                    each is the relative path used in the input",
+            },
+        },
+    });
+    if is_job {
+        schema["properties"]["image"] = input;
+        schema["properties"]["priority"] =
+            json!({ "type": "integer", "minimum": -100, "maximum": 100 });
+        schema["properties"]["accept"] =
+            json!({ "type": "string", "description": "Gates, as in the query" });
+        schema["properties"]["webhook"] = json!({ "type": "string", "format": "uri", "description": "Where the end of the job is posted" });
+        schema["properties"]["metadata"] = json!({
+            "type": "object",
+            "description": "What the client notes of the job: at most 4096 bytes and 64 members",
+        });
+        schema["properties"]["problem"] = json!({
+            "type": "string",
+            "format": "binary",
+            "contentMediaType": "application/json",
+            "contentSchema": reference("ProblemFile"),
+            "description": "A problem file of `solve`, with its file name",
+        });
+        schema["oneOf"] = json!([{ "required": ["mesh"] }, { "required": ["image"] }, { "required": ["problem"] }]);
+    } else {
+        schema["required"] = json!(["mesh"]);
+    }
+    let mut content = Map::new();
+    let mut encoding = json!({ "options": { "contentType": "application/json" } });
+    if is_job {
+        encoding["metadata"] = encoding["options"].clone();
+    }
+    content.insert(
+        "multipart/form-data".to_owned(),
+        json!({ "schema": schema, "encoding": encoding }),
+    );
+    let others = other_types().filter(|_| is_job);
+    for media_type in surface_types().chain(others) {
+        content.insert(media_type.to_owned(), json!({ "schema": bytes() }));
+    }
+    operation["requestBody"] = json!({
+        "required": true,
+        "description": "The input as a form, with the files it references, or the bytes of a single file",
+        "content": content,
+    });
+}

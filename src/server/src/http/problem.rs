@@ -1,0 +1,165 @@
+//! Errors as RFC 9457 problems with stable codes.
+
+use std::num::NonZeroU16;
+
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+
+use super::causes;
+pub(super) use super::code::Code;
+use crate::jobs::{StoreError, meters};
+use unwrapd_api::Failure;
+
+/// How to ask again where a key is needed (RFC 6750).
+const CHALLENGE: &str = "Bearer realm=\"unwrapd\"";
+
+/// What went wrong (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
+#[derive(Clone, Debug, Serialize, utoipa::ToSchema)]
+pub(super) struct Problem {
+    /// Where the code is explained.
+    #[serde(rename = "type")]
+    #[schema(format = "uri-reference")]
+    kind: String,
+    /// Summary of the code.
+    title: String,
+    /// The HTTP status.
+    status: u16,
+    /// What went wrong in this case, in one line.
+    detail: String,
+    /// Stable code in snake_case.
+    code: String,
+    /// The limit that was exceeded, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit: Option<u64>,
+    /// The column of a formula at which it is wrong, from 1, if one is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<u16>, minimum = 1)]
+    column: Option<NonZeroU16>,
+    /// Seconds after which it may be tried again; those that are usual if nothing else is known.
+    #[serde(skip)]
+    retry_after: u32,
+}
+
+/// Seconds after which something that is busy may be tried again.
+const USUAL_PAUSE: u32 = 5;
+
+impl Problem {
+    /// A problem of the service.
+    pub fn new(code: Code, detail: impl Into<String>) -> Self {
+        let (word, status, title) = code.row();
+        Self {
+            kind: format!("/docs#{word}"),
+            title: title.to_owned(),
+            status,
+            detail: detail.into(),
+            code: word.to_owned(),
+            limit: None,
+            column: None,
+            retry_after: USUAL_PAUSE,
+        }
+    }
+
+    /// Names the limit that was exceeded.
+    pub fn with_limit(mut self, limit: u64) -> Self {
+        self.limit = Some(limit);
+        self
+    }
+
+    /// Names the column of a formula, if it is known.
+    pub fn with_column(self, column: Option<usize>) -> Self {
+        let column = column.and_then(|column| u16::try_from(column).ok());
+        let column = column.and_then(NonZeroU16::new);
+        Self { column, ..self }
+    }
+
+    /// Says after how many seconds it may be tried again.
+    pub fn retried_after(mut self, seconds: u64) -> Self {
+        self.retry_after = seconds as u32;
+        self
+    }
+
+    /// Something that should not happen: clients get no details, the log does.
+    pub fn internal(error: &dyn std::fmt::Display) -> Self {
+        tracing::error!(%error, "internal error");
+        let detail = "the log of the service says why, under the X-Request-Id of this answer";
+        Self::new(Code::InternalError, detail)
+    }
+
+    /// Why a job failed. A code that is not in the table belongs to the input.
+    pub fn of_failure(failure: &Failure) -> Self {
+        let known = Code::ALL.iter().find(|c| c.row().0 == failure.code);
+        let (status, title) = known.map_or_else(
+            || {
+                let meaning = causes::meaning(&failure.code);
+                (422, meaning.unwrap_or("The input cannot be used"))
+            },
+            |code| (code.row().1, code.row().2),
+        );
+        Self {
+            kind: format!("/docs#{}", failure.code),
+            title: title.to_owned(),
+            status,
+            detail: failure.detail.clone(),
+            code: failure.code.clone(),
+            limit: None,
+            column: None,
+            retry_after: USUAL_PAUSE,
+        }
+    }
+}
+
+impl From<StoreError> for Problem {
+    fn from(error: StoreError) -> Self {
+        meters::store_failed();
+        tracing::error!(%error, "store");
+        match error {
+            StoreError::Full(why) => Self::new(
+                Code::StorageFull,
+                format!("delete jobs, or try again later: {why}"),
+            ),
+            StoreError::Conflict(_) => Self::new(Code::Conflict, "look again, then try again"),
+            StoreError::Unavailable(_) | StoreError::Unanswered(_) => {
+                Self::new(Code::StoreUnavailable, "try again later")
+            }
+            StoreError::Damaged(what) => Self::new(Code::DamagedFile, what),
+            StoreError::Missing(what) => Self::new(Code::MissingFile, what),
+            // Where it is concerns nobody but whoever runs the service.
+            StoreError::File { why, .. } => {
+                let detail = format!("a file of the service cannot be used: {why}");
+                Self::new(Code::InternalError, detail)
+            }
+            StoreError::Other(_) => Self::internal(&error),
+        }
+    }
+}
+
+impl From<std::io::Error> for Problem {
+    fn from(error: std::io::Error) -> Self {
+        StoreError::from(error).into()
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let mut response = (status, serde_json::to_vec(&self).unwrap_or_default()).into_response();
+        let headers = response.headers_mut();
+        let mut set = |name, value| headers.insert(name, HeaderValue::from_static(value));
+        set(header::CONTENT_TYPE, "application/problem+json");
+        match status {
+            StatusCode::SERVICE_UNAVAILABLE | StatusCode::TOO_MANY_REQUESTS => {
+                headers.insert(header::RETRY_AFTER, self.retry_after.into());
+            }
+            StatusCode::UNAUTHORIZED => {
+                set(header::WWW_AUTHENTICATE, CHALLENGE);
+            }
+            StatusCode::UPGRADE_REQUIRED => {
+                set(header::UPGRADE, "websocket");
+                set(header::CONNECTION, "upgrade");
+            }
+            _ => {}
+        }
+        response
+    }
+}

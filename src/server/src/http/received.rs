@@ -1,0 +1,44 @@
+//! A received upload.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use super::wishes::Wishes;
+use crate::jobs::access::Owner;
+use crate::jobs::{Digest, Handling, Scratch, Submission};
+use unwrapd_api::{InputFile, Kind};
+
+/// A received upload. Its folder goes when it is dropped.
+pub(super) struct Received {
+    pub folder: Scratch,
+    pub kind: Kind,
+    /// The options, complete.
+    pub options: Value,
+    pub files: Vec<(InputFile, PathBuf)>,
+    pub handling: Handling,
+}
+
+impl Received {
+    /// What is to be submitted for an owner; the folder has to be kept until that is done.
+    pub fn into_submission(
+        self,
+        owner: &Owner,
+        wishes: Wishes,
+        ephemeral: bool,
+    ) -> (Submission, Scratch) {
+        let submission = Submission {
+            owner: owner.clone(),
+            digest: Digest::of_job(self.kind, &self.options, self.files.iter().map(|(f, _)| f)),
+            kind: self.kind,
+            options: self.options,
+            files: self.files,
+            handling: self.handling,
+            trace: wishes.trace,
+            reuse: wishes.reuse,
+            key: wishes.key,
+            ephemeral,
+        };
+        (submission, self.folder)
+    }
+}

@@ -1,0 +1,257 @@
+//! The files, options and kind of one upload, as they come in.
+
+use std::path::PathBuf;
+
+use axum::body::Body;
+use axum::extract::multipart::{Field, Multipart};
+use futures_util::{Stream, StreamExt};
+use serde_json::{Map, Value};
+use sha2::{Digest as _, Sha256};
+use tokio::io::AsyncWriteExt;
+
+use super::framing;
+use super::handling::{Said, once};
+use super::options::{self, UploadQuery};
+use super::parts::{INPUT_PARTS, MAX_FILES, at_most, at_most_name, malformed, text, unexpected};
+use super::problem::{Code, Problem};
+use super::received::Received;
+use super::references::referenced;
+use super::unpack::{self, Files};
+use crate::jobs::Scratch;
+use unwrapd_api::{Catalog, InputFile, Kind, from_json};
+
+/// Bytes of the name of the input: answers name their files after it, in a header.
+const MAX_INPUT_NAME: usize = 255;
+
+/// Takes in the parts of one upload.
+pub(super) struct Receiver {
+    catalog: &'static dyn Catalog,
+    folder: Scratch,
+    left: u64,
+    limit: u64,
+    input: Option<(InputFile, PathBuf)>,
+    resources: Vec<(InputFile, PathBuf)>,
+    kind: Option<Kind>,
+    has_options: bool,
+    options: Map<String, Value>,
+    said: Said,
+}
+
+impl Receiver {
+    /// An upload into a fresh folder, of at most `limit` bytes, of which something was said already.
+    pub fn new(
+        catalog: &'static dyn Catalog,
+        folder: PathBuf,
+        limit: u64,
+        said: Said,
+    ) -> Result<Self, Problem> {
+        Ok(Self {
+            catalog,
+            folder: Scratch::make(folder)?,
+            left: limit,
+            limit,
+            input: None,
+            resources: Vec::new(),
+            kind: None,
+            has_options: false,
+            options: Map::new(),
+            said,
+        })
+    }
+
+    /// Takes a body that is the input.
+    pub async fn body(&mut self, name: String, body: Body) -> Result<(), Problem> {
+        let stream = body.into_data_stream();
+        self.input = Some(self.store(name, stream, |e| broken(&e)).await?);
+        Ok(())
+    }
+
+    /// Takes a form.
+    pub async fn form(&mut self, mut form: Multipart) -> Result<(), Problem> {
+        while let Some(field) = form.next_field().await.map_err(|e| malformed(&e))? {
+            match field.name().unwrap_or_default() {
+                part if INPUT_PARTS.contains(&part) => {
+                    if self.input.is_some() {
+                        let detail = "there is more than one input: send one part named mesh, image or problem";
+                        return Err(Problem::new(Code::InvalidRequest, detail));
+                    }
+                    let name = field.file_name().unwrap_or_default().to_owned();
+                    self.input = Some(self.store(name, field, |e| malformed(&e)).await?);
+                }
+                "kind" => {
+                    let kind = options::kind(&text(field).await?)?;
+                    once("kind", self.kind.replace(kind).is_none())?;
+                }
+                "options" => {
+                    once("options", !std::mem::replace(&mut self.has_options, true))?;
+                    let text = text(field).await?;
+                    self.options = from_json(text.as_bytes()).map_err(|error| {
+                        let detail = format!("options are not a JSON object: {error}");
+                        Problem::new(Code::InvalidOptions, detail)
+                    })?;
+                }
+                "resource" => self.resource(field).await?,
+                part if Said::NAMES.contains(&part) => {
+                    let part = part.to_owned();
+                    self.said.take(&part, &text(field).await?)?;
+                }
+                part => return Err(unexpected(part)),
+            }
+        }
+        Ok(())
+    }
+
+    async fn resource(&mut self, field: Field<'_>) -> Result<(), Problem> {
+        let Some(name) = field.file_name().map(str::to_owned) else {
+            let detail = "a resource needs a file name: the path by which the input names it";
+            return Err(Problem::new(Code::InvalidRequest, detail));
+        };
+        let is_new = self.resources.iter().all(|(known, _)| known.name != name);
+        once(&format!("the resource {name:?}"), is_new)?;
+        if MAX_FILES <= self.resources.len() {
+            let detail = format!("an upload can have at most {MAX_FILES} files");
+            return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_FILES as u64));
+        }
+        let file = self.store(name, field, |e| malformed(&e)).await?;
+        self.resources.push(file);
+        Ok(())
+    }
+
+    /// Writes a stream to a fresh file, counting and hashing its bytes.
+    async fn store<B: AsRef<[u8]>, E>(
+        &mut self,
+        name: String,
+        stream: impl Stream<Item = Result<B, E>> + Unpin,
+        problem: impl Fn(E) -> Problem,
+    ) -> Result<(InputFile, PathBuf), Problem> {
+        at_most_name(&name)?;
+        let path = self.folder.path().join(format!(
+            "file-{}",
+            self.resources.len() + usize::from(self.input.is_some())
+        ));
+        let mut file = tokio::fs::File::create(&path).await?;
+        let (mut hash, mut bytes) = (Sha256::new(), 0);
+        let mut stream = stream;
+        while let Some(chunk) = stream.next().await {
+            let chunk = chunk.map_err(&problem)?;
+            let chunk = chunk.as_ref();
+            self.left = self.left.checked_sub(chunk.len() as u64).ok_or_else(|| {
+                let detail = format!("an upload can have at most {} bytes", self.limit);
+                Problem::new(Code::UploadTooLarge, detail).with_limit(self.limit)
+            })?;
+            bytes += chunk.len() as u64;
+            hash.update(chunk);
+            file.write_all(chunk).await?;
+        }
+        file.flush().await?;
+        let file = InputFile {
+            name,
+            bytes,
+            sha256: Some(format!("{:x}", hash.finalize())),
+        };
+        Ok((file, path))
+    }
+
+    /// Checks what came.
+    pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
+        let Some((input, path)) = self.input else {
+            let detail = "send it as part `mesh`, `image` or `problem`";
+            return Err(Problem::new(Code::MissingMesh, detail));
+        };
+        once("kind", query.kind.or(kind).is_none() || self.kind.is_none())?;
+        if kind.is_some() {
+            self.said.check_unkept()?;
+        }
+        let kind = kind.or(query.kind).or(self.kind).unwrap_or_default();
+        let mut given = self.options;
+        for (name, value) in query.options {
+            once(&name, given.insert(name.clone(), value).is_none())?;
+        }
+        let options = options::complete(self.catalog, kind, given)?;
+
+        let mut files = vec![(input, path)];
+        files.extend(self.resources);
+        let (catalog, limit) = (self.catalog, self.limit);
+        let looked = move || looked_at(catalog, files, kind, limit, query.filename);
+        let files = tokio::task::spawn_blocking(looked)
+            .await
+            .map_err(|error| Problem::internal(&error))??;
+        Ok(Received {
+            folder: self.folder,
+            kind,
+            options,
+            files,
+            handling: self.said.into_handling(kind)?,
+        })
+    }
+}
+
+/// The files of an upload, those of an archive unpacked, of which the first is what the kind reads.
+fn looked_at(
+    catalog: &dyn Catalog,
+    mut files: Files,
+    kind: Kind,
+    limit: u64,
+    filename: Option<String>,
+) -> Result<Files, Problem> {
+    let mut filename = filename;
+    if unpack::is_archive(&files[0].1)? {
+        if 1 < files.len() {
+            let detail = "an archive has all files in it: send no resource beside it";
+            return Err(Problem::new(Code::InvalidRequest, detail));
+        }
+        files = unpack::unpacked(catalog, &files[0].1, kind, limit)?;
+        // It was that of the archive.
+        filename = None;
+    } else {
+        retain_referenced(catalog, &mut files, kind)?;
+    }
+    let (input, path) = &mut files[0];
+    let format = framing::format(catalog, path, kind)?;
+    let name = filename.as_deref().unwrap_or(&input.name);
+    input.name = file_name(name, kind, format.extension());
+    at_most(&input.name, MAX_INPUT_NAME)?;
+    Ok(files)
+}
+
+/// Drops the resources of a form that its input does not refer to.
+fn retain_referenced(catalog: &dyn Catalog, files: &mut Files, kind: Kind) -> Result<(), Problem> {
+    let resources = &files[1..];
+    let known = resources.iter().map(|(file, _)| file.name.clone());
+    let (input, path) = &files[0];
+    let kept = referenced(
+        catalog,
+        kind,
+        &input.name,
+        &known.collect(),
+        || Ok(std::fs::read(path)?),
+        |name| match resources.iter().find(|(file, _)| file.name == name) {
+            Some((_, path)) => Ok(std::fs::read(path)?),
+            None => Ok(Vec::new()),
+        },
+    )?;
+    let mut is_input = true;
+    files.retain(|(file, _)| std::mem::take(&mut is_input) || kept.contains(&file.name));
+    Ok(())
+}
+
+/// A name for the input: what the client calls it, without folders and control characters, with an extension that is one of
+/// the kind's.
+fn file_name(given: &str, kind: Kind, extension: &str) -> String {
+    let name = given.rsplit(['/', '\\']).next().unwrap_or_default();
+    let name: String = name.chars().filter(|c| !c.is_control()).collect();
+    if name.is_empty() {
+        format!("input.{extension}")
+    } else if framing::is_named(&name, kind) {
+        name
+    } else {
+        format!("{name}.{extension}")
+    }
+}
+
+fn broken(error: &axum::Error) -> Problem {
+    Problem::new(
+        Code::InvalidRequest,
+        format!("the body is incomplete: {error}"),
+    )
+}

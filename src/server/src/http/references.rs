@@ -1,0 +1,80 @@
+//! Which files beside an input are kept: those that it can refer to. A job has its files for weeks, and what nobody reads is not
+//! worth the space.
+
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
+use serde_json::Value;
+
+use super::problem::Problem;
+use unwrapd_api::{Catalog, Content, Format, Kind, START, Upload};
+
+/// Held while an input is in memory to look for what it refers to: it may be as large as an upload.
+static LOOKING: Mutex<()> = Mutex::new(());
+
+/// Returns those of the `known` names that an input of a kind refers to. `input` reads the input, and `material` a material file
+/// of this name. An input that stands alone is not read.
+pub(super) fn referenced(
+    catalog: &dyn Catalog,
+    kind: Kind,
+    name: &str,
+    known: &BTreeSet<String>,
+    input: impl FnOnce() -> Result<Vec<u8>, Problem>,
+    material: impl FnMut(&str) -> Result<Vec<u8>, Problem>,
+) -> Result<BTreeSet<String>, Problem> {
+    if known.is_empty() {
+        return Ok(BTreeSet::new());
+    }
+    let _looking = LOOKING.lock().unwrap_or_else(PoisonError::into_inner);
+    let bytes = input()?;
+    let mut names = match kind.reads() {
+        Content::Problem => of_problem(&bytes, known),
+        _ => of_surface(catalog, Upload::single(name, bytes), known, material)?,
+    };
+    names.insert(START.to_owned());
+    Ok(names.intersection(known).cloned().collect())
+}
+
+/// What a mesh refers to, and what its material files do. Inputs of other formats refer to nothing.
+fn of_surface(
+    catalog: &dyn Catalog,
+    mut upload: Upload,
+    known: &BTreeSet<String>,
+    mut material: impl FnMut(&str) -> Result<Vec<u8>, Problem>,
+) -> Result<BTreeSet<String>, Problem> {
+    let names = catalog.references(&upload);
+    if catalog.format_of(&upload) != Some(Format::Obj) {
+        return Ok(names);
+    }
+    for name in names.intersection(known) {
+        let content = material(name)?;
+        upload.resources.insert(name.clone(), content);
+    }
+    Ok(catalog.references(&upload))
+}
+
+/// What the words of a problem file name: by path, or by name alone. One that is not JSON may mean any of them: it is refused later.
+fn of_problem(bytes: &[u8], known: &BTreeSet<String>) -> BTreeSet<String> {
+    let Ok(problem) = serde_json::from_slice::<Value>(bytes) else {
+        return known.clone();
+    };
+    let mut words = BTreeSet::new();
+    gather_words(&problem, &mut words);
+    let names = words
+        .iter()
+        .flat_map(|word| [Some(*word), word.rsplit('/').next()]);
+    let names: BTreeSet<&str> = names.flatten().collect();
+    let is_named = |name: &&String| names.contains(name.as_str());
+    known.iter().filter(is_named).cloned().collect()
+}
+
+fn gather_words<'a>(value: &'a Value, words: &mut BTreeSet<&'a str>) {
+    match value {
+        Value::String(word) => drop(words.insert(word)),
+        Value::Array(values) => values.iter().for_each(|value| gather_words(value, words)),
+        Value::Object(members) => members
+            .values()
+            .for_each(|value| gather_words(value, words)),
+        _ => {}
+    }
+}

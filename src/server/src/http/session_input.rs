@@ -1,0 +1,130 @@
+//! What a session is made of: an upload, or files of a job.
+
+use std::sync::Arc;
+
+use axum::extract::{Query, Request};
+use futures_util::StreamExt;
+use serde::Deserialize;
+use tokio::io::AsyncWriteExt;
+
+use super::App;
+use super::missing::{existing, job_not_found};
+use super::options::{UploadQuery, complete};
+use super::problem::{Code, Problem};
+use super::received::Received;
+use super::upload::{self, accepts};
+use crate::jobs::access::Caller;
+use crate::jobs::{Handling, Job, JobId, Scratch, State};
+use unwrapd_api::{InputFile, Kind};
+
+/// What of a job a session takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum JobFile {
+    /// What it made.
+    #[default]
+    Result,
+    /// What it was made of.
+    Input,
+}
+
+/// A job that is named instead of an upload.
+#[derive(Deserialize)]
+struct Named {
+    job: Option<String>,
+    #[serde(default)]
+    file: JobFile,
+}
+
+/// The input and the options of a session.
+pub(super) async fn received(
+    app: &Arc<App>,
+    caller: &Caller,
+    request: Request,
+) -> Result<Received, Problem> {
+    let Query(named) = Query::<Named>::try_from_uri(request.uri())
+        .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
+    let Some(job) = named.job else {
+        return upload::receive(app, None, request).await;
+    };
+    accepts(app)?;
+    let mut query = UploadQuery::read(request.uri())?;
+    query.options.shift_remove("job");
+    query.options.shift_remove("file");
+    let kind = query.kind.unwrap_or(Kind::EditUv);
+    let options = complete(app.jobs.settings().catalog, kind, query.options)?;
+    let id = job.parse().map_err(|_| job_not_found())?;
+    let job = existing(app, &caller.reach(), id).await?;
+    let path = (app.jobs.settings().scratch).join(format!("upload-{}", JobId::fresh()));
+    let folder = Scratch::make(path)?;
+    let mut files = Vec::new();
+    for (number, file) in wanted(&job, named.file)?.into_iter().enumerate() {
+        let place = folder.path().join(format!("file-{number}"));
+        let mut content = match file {
+            Wanted::Input(file) => app.jobs.read_input(&job, file, 0..file.bytes).await?,
+            Wanted::Output(file) => app.jobs.read(&job, file, 0..file.bytes).await?,
+        };
+        let mut copy = tokio::fs::File::create(&place).await?;
+        while let Some(bytes) = content.next().await {
+            copy.write_all(&bytes?).await?;
+        }
+        copy.flush().await?;
+        files.push((file.listed(), place));
+    }
+    Ok(Received {
+        folder,
+        kind,
+        options,
+        files,
+        handling: Handling::default(),
+    })
+}
+
+/// A file of a job.
+enum Wanted<'a> {
+    Input(&'a InputFile),
+    Output(&'a unwrapd_api::OutputFile),
+}
+
+impl Wanted<'_> {
+    fn listed(&self) -> InputFile {
+        match self {
+            Self::Input(file) => (*file).clone(),
+            Self::Output(file) => InputFile {
+                name: file.name.clone(),
+                bytes: file.bytes,
+                sha256: file.sha256.clone(),
+            },
+        }
+    }
+}
+
+/// The files of a job that a session takes, the mesh first.
+fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
+    if file == JobFile::Input {
+        return Ok(job.input.iter().map(Wanted::Input).collect());
+    }
+    match job.state {
+        State::Succeeded => {}
+        State::Queued | State::Running => {
+            return Err(Problem::new(Code::NotFinished, "wait for its end"));
+        }
+        State::Failed | State::Cancelled => {
+            let verb = if job.state == State::Failed {
+                "has"
+            } else {
+                "has been"
+            };
+            let detail = format!("the job {verb} {}", job.state.word());
+            return Err(Problem::new(Code::NoResult, detail));
+        }
+    }
+    let no_result = || Problem::new(Code::NoResult, "the job makes no file");
+    let result = job.output("result").ok_or_else(no_result)?;
+    let others = job
+        .output
+        .iter()
+        .filter(|file| file.role.starts_with("files/"));
+    let all = std::iter::once(result).chain(others);
+    Ok(all.map(Wanted::Output).collect())
+}

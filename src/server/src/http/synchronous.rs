@@ -1,0 +1,160 @@
+//! Small meshes in one call.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, HeaderName, HeaderValue};
+use axum::response::Response;
+
+use super::answers::CallProblems;
+use super::jobs::wait_for;
+use super::problem::{Code, Problem};
+use super::wishes::Wishes;
+use super::{App, Shared, download, upload};
+use crate::jobs::access::Caller;
+use crate::jobs::{Ended, Job, JobId, Jobs, State as JobState, Submitted};
+use unwrapd_api::{Kind, Verdict};
+
+const CERTIFIED: HeaderName = HeaderName::from_static("unwrapd-certified");
+const WITHIN_BOUND: HeaderName = HeaderName::from_static("unwrapd-within-bound");
+const WARNINGS: HeaderName = HeaderName::from_static("unwrapd-warnings");
+
+/// Unwrap a mesh and get it back.
+///
+/// For meshes that take seconds. The call waits in the same queue as jobs, and nothing is kept. The
+/// answer is one file, in the `format` `glb` or `obj`. The format `gltf`, the report and the
+/// pictures require a job (`needs_job`). The header `unwrapd-certified` says whether everything
+/// requested is proven. The header `unwrapd-within-bound` says whether the distortion keeps its
+/// bound. The header `unwrapd-warnings` lists the codes of the warnings. Closing the connection
+/// cancels the call.
+#[utoipa::path(
+    post, path = "/v1/unwrap", operation_id = "unwrap", tag = "synchronous",
+    params(("filename" = Option<String>, Query, description = "File name of a raw body")),
+    responses(
+        (status = 200, description = "The mesh with its new UVs", headers(
+            ("unwrapd-certified" = bool, description = "Whether everything requested is proven on these bytes"),
+            ("unwrapd-within-bound" = bool, description = "Whether the distortion keeps its bound; absent if there is none"),
+            ("unwrapd-warnings" = String, description = "Codes of the warnings; absent if there are none"),
+        ), content((Vec<u8> = "model/gltf-binary"), (Vec<u8> = "model/obj"))),
+        CallProblems,
+    )
+)]
+pub(super) async fn unwrap(
+    State(app): Shared,
+    caller: Caller,
+    request: Request,
+) -> Result<Response, Problem> {
+    run(&app, &caller, Kind::Unwrap, request).await
+}
+
+/// Measure the UVs of a mesh and get the report.
+///
+/// For meshes that take seconds. Nothing is kept. Closing the connection cancels the call.
+#[utoipa::path(
+    post, path = "/v1/measure", operation_id = "measure", tag = "synchronous",
+    params(("filename" = Option<String>, Query, description = "File name of a raw body")),
+    responses(
+        (status = 200, description = "The report", body = ref("#/components/schemas/Report")),
+        CallProblems,
+    )
+)]
+pub(super) async fn measure(
+    State(app): Shared,
+    caller: Caller,
+    request: Request,
+) -> Result<Response, Problem> {
+    run(&app, &caller, Kind::Measure, request).await
+}
+
+async fn run(
+    app: &Arc<App>,
+    caller: &Caller,
+    kind: Kind,
+    request: Request,
+) -> Result<Response, Problem> {
+    let wishes = Wishes {
+        key: None,
+        ..Wishes::read(request.headers())?
+    };
+    let received = upload::receive(app, Some(kind), request).await?;
+    if received
+        .options
+        .get("format")
+        .is_some_and(|format| format == "gltf")
+    {
+        let detail = "a gltf has files beside it: POST /v1/jobs, or ask for glb";
+        return Err(Problem::new(Code::NeedsJob, detail));
+    }
+    let (submission, _folder) = received.into_submission(caller.owner(), wishes, true);
+    let (Submitted::New(job) | Submitted::Replay(job)) = app.jobs.submit(submission).await?;
+    let _guest = Guest {
+        jobs: &app.jobs,
+        id: job.id,
+    };
+    match wait_for(app, &caller.reach(), job.id, app.settings.synchronous_time).await? {
+        Ended::Yes(job) => answer(app, &job).await,
+        Ended::NotYet(_) if app.stop.is_cancelled() => {
+            Err(Problem::new(Code::Stopping, "try again, or elsewhere"))
+        }
+        Ended::NotYet(job) => {
+            let seconds = app.settings.synchronous_time.as_secs();
+            let what = match job.state {
+                JobState::Queued => "not begun, behind other jobs,",
+                _ => "not done",
+            };
+            let detail = format!("{what} within {seconds} s: make it a job with POST /v1/jobs");
+            Err(Problem::new(Code::TimedOut, detail).with_limit(seconds))
+        }
+    }
+}
+
+async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
+    match (&job.failure, job.state, job.output.first()) {
+        (Some(failure), _, _) => Err(Problem::of_failure(failure)),
+        (None, JobState::Succeeded, Some(file)) => {
+            let mut response =
+                download::answer(app, job, download::File::Output(file), &HeaderMap::new()).await?;
+            tell_verdict(&job.verdict, response.headers_mut());
+            Ok(response)
+        }
+        _ => Err(Problem::new(
+            Code::WorkerLost,
+            "the computation was cancelled",
+        )),
+    }
+}
+
+/// What stands in a job, as headers: nothing else of it is left.
+fn tell_verdict(verdict: &Verdict, headers: &mut HeaderMap) {
+    for (name, verdict) in [
+        (CERTIFIED, verdict.worth.certified),
+        (WITHIN_BOUND, verdict.within_bound),
+    ] {
+        if let Some(verdict) = verdict {
+            let verdict = if verdict { "true" } else { "false" };
+            headers.insert(name, HeaderValue::from_static(verdict));
+        }
+    }
+    let codes: BTreeSet<&str> = (verdict.warnings.iter())
+        .map(|warning| warning.code.as_ref())
+        .collect();
+    let codes = Vec::from_iter(codes).join(", ");
+    if let Ok(codes) = HeaderValue::from_str(&codes)
+        && !codes.is_empty()
+    {
+        headers.insert(WARNINGS, codes);
+    }
+}
+
+/// A job that goes with its caller, answered or not.
+struct Guest<'a> {
+    jobs: &'a Arc<Jobs>,
+    id: JobId,
+}
+
+impl Drop for Guest<'_> {
+    fn drop(&mut self) {
+        self.jobs.dismiss(self.id);
+    }
+}

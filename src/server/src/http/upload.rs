@@ -1,0 +1,203 @@
+//! From a request to a received upload.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Duration;
+
+use axum::BoxError;
+use axum::body::{Body, Bytes};
+use axum::extract::{FromRequest, Multipart, Request};
+use axum::http::{HeaderMap, header};
+use futures_util::{Stream, StreamExt, stream};
+
+use super::App;
+use super::options::UploadQuery;
+use super::problem::{Code, Problem};
+use super::received::Received;
+use super::receiver::Receiver;
+use super::steady::{Steady, Tardy, Tempo};
+use crate::jobs::JobId;
+use unwrapd_api::{Content, Format, Kind};
+
+/// How long the rest of a refused body is waited for. What comes later finds the connection closed.
+const DRAIN_TIME: Duration = Duration::from_secs(1);
+
+/// What the parts of a form may have around their files.
+const FRAMING_BYTES: u64 = 8 << 20;
+
+/// Media types of raw bodies that leave the format to the content.
+const UNTOLD: [&str; 3] = ["text/plain", "application/zip", BYTES];
+const BYTES: &str = "application/octet-stream";
+/// What `curl --data-binary` says of every body if it is not told otherwise.
+const CURL: &str = "application/x-www-form-urlencoded";
+
+/// Those of surfaces.
+pub(super) fn surface_types() -> impl Iterator<Item = &'static str> {
+    let named = Format::that_hold(Content::Surface).flat_map(Format::media_types);
+    named.chain(&UNTOLD).copied()
+}
+
+/// Those of pictures, drawings and problem files.
+pub(super) fn other_types() -> impl Iterator<Item = &'static str> {
+    let others = formats().filter(|format| !format.holds(Content::Surface));
+    others.flat_map(Format::media_types).copied()
+}
+
+/// The formats that jobs of some kind read.
+fn formats() -> impl Iterator<Item = Format> {
+    Format::all().filter(|format| Kind::ALL.iter().any(|kind| format.holds(kind.reads())))
+}
+
+/// Receives an upload to disk and checks what can be checked without computing: size, framing, options. `kind` is
+/// given where the path already says it.
+///
+/// What is left of the body of a refused upload is read and forgotten, for a while: a client that is still sending
+/// when the connection closes may never see the answer. One that asks before it sends is answered at once.
+pub(super) async fn receive(
+    app: &Arc<App>,
+    kind: Option<Kind>,
+    request: Request,
+) -> Result<Received, Problem> {
+    let (head, body) = request.into_parts();
+    let asks_first = head.headers.contains_key(header::EXPECT);
+    let may_come = accepts(app).and_then(|()| may_fit(app, &head.headers));
+    let tardy = Arc::new(OnceLock::new());
+    let tempo = Tempo {
+        silence: app.settings.connections.silence,
+        rate: app.settings.upload_rate,
+    };
+    let body = Steady::new(body.into_data_stream(), tempo, Arc::clone(&tardy));
+    let body = Arc::new(Mutex::new(body));
+    let mut rest = shared(Arc::clone(&body));
+    let received = match may_come {
+        Err(problem) if asks_first => return Err(problem),
+        Err(problem) => Err(problem),
+        Ok(()) => {
+            let request = Request::from_parts(head, Body::from_stream(shared(body)));
+            let all = tokio::time::timeout(app.settings.upload_time, parse(app, kind, request));
+            all.await
+                .unwrap_or_else(|_| Err(late("the upload", app.settings.upload_time)))
+        }
+    };
+    match tardy.get() {
+        Some(Tardy::Silent) => return Err(late("the next piece of the body", tempo.silence)),
+        Some(Tardy::Slow) => return Err(slow(tempo)),
+        None => {}
+    }
+    if received.is_err() {
+        drain(&mut rest).await;
+    }
+    received
+}
+
+/// Reads what is left of the body of a refused request, for a while.
+async fn drain<E>(rest: &mut (impl Stream<Item = Result<Bytes, E>> + Unpin)) {
+    let drained = async { while let Some(Ok(_)) = rest.next().await {} };
+    let _ = tokio::time::timeout(DRAIN_TIME, drained).await;
+}
+
+/// Does so for a request of which nothing was read, unless its client asks before it sends.
+pub(super) async fn drain_refused(request: Request) {
+    if !request.headers().contains_key(header::EXPECT) {
+        drain(&mut request.into_body().into_data_stream()).await;
+    }
+}
+
+/// A body of which others read too.
+fn shared(body: Arc<Mutex<Steady>>) -> impl Stream<Item = Result<Bytes, BoxError>> + Unpin + Send {
+    stream::poll_fn(move |context| {
+        let mut body = body.lock().unwrap_or_else(PoisonError::into_inner);
+        body.poll_next_unpin(context)
+    })
+}
+
+fn late(what: &str, time: Duration) -> Problem {
+    let seconds = time.as_secs();
+    let detail = format!("{what} did not arrive within {seconds} s");
+    Problem::new(Code::RequestTimeout, detail).with_limit(seconds)
+}
+
+fn slow(Tempo { silence, rate }: Tempo) -> Problem {
+    let seconds = silence.as_secs_f64();
+    let detail = format!("the body came with less than {rate} bytes a second for {seconds} s");
+    Problem::new(Code::RequestTimeout, detail).with_limit(rate)
+}
+
+/// Whether the length that is announced can be that of an upload.
+fn may_fit(app: &App, headers: &HeaderMap) -> Result<(), Problem> {
+    let length = headers.get(header::CONTENT_LENGTH);
+    let length = length.and_then(|length| length.to_str().ok()?.parse::<u64>().ok());
+    let limit = app.settings.upload_bytes;
+    if length.is_some_and(|length| limit.saturating_add(FRAMING_BYTES) < length) {
+        let detail = format!("an upload can have at most {limit} bytes");
+        return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(limit));
+    }
+    Ok(())
+}
+
+/// Whether this process takes in jobs now.
+pub(super) fn accepts(app: &App) -> Result<(), Problem> {
+    if app.jobs.is_draining() {
+        return Err(Problem::new(Code::Draining, "try again elsewhere"));
+    }
+    Ok(app.jobs.has_room()?)
+}
+
+async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Received, Problem> {
+    let mut query = UploadQuery::read(request.uri())?;
+    if kind.is_some() && query.kind.is_some() {
+        return Err(Problem::new(
+            Code::InvalidRequest,
+            "the path already sets the kind",
+        ));
+    }
+    let limit = app.settings.upload_bytes;
+    let scratch = &app.jobs.settings().scratch;
+    let folder = scratch.join(format!("upload-{}", JobId::fresh()));
+    let mut receiver = Receiver::new(
+        app.jobs.settings().catalog,
+        folder,
+        limit,
+        std::mem::take(&mut query.said),
+    )?;
+    let media_type = media_type(request.headers());
+    if media_type == "multipart/form-data" {
+        let form = Multipart::from_request(request, &())
+            .await
+            .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
+        receiver.form(form).await?;
+    } else {
+        let has_type = |format: &Format| format.media_types().contains(&media_type.as_str());
+        let format = formats().find(has_type);
+        if format.is_none() && !UNTOLD.contains(&media_type.as_str()) {
+            let detail = format!(
+                "{media_type:?} is not the type of a mesh, a picture, a drawing or a problem"
+            );
+            return Err(Problem::new(Code::UnsupportedMediaType, detail));
+        }
+        let given = disposition_name(request.headers());
+        let made = || format.map(|format| format!("input.{}", format.extension()));
+        let name = given.or_else(made).unwrap_or_default();
+        receiver.body(name, request.into_body()).await?;
+    }
+    receiver.finish(kind, query).await
+}
+
+/// The media type without parameters, in lower case. A missing one is that of bytes, and so is the
+/// one that says nothing.
+fn media_type(headers: &HeaderMap) -> String {
+    let value = headers.get(header::CONTENT_TYPE);
+    let value = value.map_or(BYTES, |value| value.to_str().unwrap_or_default());
+    let essence = value.split(';').next().unwrap_or_default();
+    match essence.trim().to_ascii_lowercase() {
+        essence if essence == CURL => BYTES.to_owned(),
+        essence => essence,
+    }
+}
+
+/// `filename="…"` of a Content-Disposition header.
+fn disposition_name(headers: &HeaderMap) -> Option<String> {
+    let value = headers.get(header::CONTENT_DISPOSITION)?.to_str().ok()?;
+    let (_, name) = value.split_once("filename=")?;
+    let name = name.split(';').next()?.trim();
+    Some(name.trim_matches('"').to_owned())
+}

@@ -1,0 +1,77 @@
+//! The text of a key, which only its owner keeps.
+
+use std::fmt;
+use std::fmt::Write as _;
+
+use subtle::ConstantTimeEq;
+
+use super::key_id::{ID_BYTES, KeyId};
+use crate::jobs::{StoreError, StoreResult};
+use unwrapd_api::sha256;
+
+/// What a key begins with, so that people and scanners for leaked secrets know it.
+const PREFIX: &str = "uw_";
+/// Random bytes of a secret.
+const SECRET_BYTES: usize = 32;
+
+/// The text of a key: `uw_ID_SECRET`, both parts in hexadecimal digits.
+pub struct KeyText {
+    id: KeyId,
+    secret: String,
+}
+
+impl KeyText {
+    /// A fresh one, of the system's randomness.
+    pub fn fresh() -> StoreResult<Self> {
+        Ok(Self {
+            id: KeyId::recorded(random_hex::<ID_BYTES>()?),
+            secret: random_hex::<SECRET_BYTES>()?,
+        })
+    }
+
+    /// The key that a text is, if it has the form of one.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (id, secret) = text.strip_prefix(PREFIX)?.split_once('_')?;
+        Some(Self {
+            id: id.parse().ok()?,
+            secret: secret.to_owned(),
+        })
+    }
+
+    /// What names it, and is no secret.
+    pub fn id(&self) -> &KeyId {
+        &self.id
+    }
+
+    /// What is kept of the secret.
+    pub fn digest(&self) -> String {
+        sha256(self.secret.as_bytes())
+    }
+
+    /// Whether this is the digest of its secret. That takes as long wherever they differ.
+    pub fn has_digest(&self, digest: &str) -> bool {
+        self.digest().as_bytes().ct_eq(digest.as_bytes()).into()
+    }
+
+    /// The whole text, to be given to its owner.
+    pub fn reveal(&self) -> String {
+        format!("{PREFIX}{}_{}", self.id, self.secret)
+    }
+}
+
+/// Without the secret: it must not come into a log.
+impl fmt::Debug for KeyText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{PREFIX}{}_…", self.id)
+    }
+}
+
+fn random_hex<const N: usize>() -> StoreResult<String> {
+    let mut bytes = [0; N];
+    let filled = getrandom::fill(&mut bytes);
+    filled.map_err(|error| StoreError::Other(format!("no randomness: {error}")))?;
+    Ok(bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    }))
+}

@@ -1,0 +1,75 @@
+//! Whether a file is what was stored.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use futures_util::{StreamExt, stream};
+use sha2::{Digest, Sha256};
+
+use super::blobs::Content;
+use super::store_error::{StoreError, StoreResult};
+
+/// Bytes that are read at once.
+const BLOCK: usize = 1 << 16;
+
+fn compared(sha256: &str, expected: &str) -> StoreResult<()> {
+    if sha256 == expected {
+        return Ok(());
+    }
+    let detail = "a stored file is damaged: its checksum is not that of what was stored";
+    Err(StoreError::Damaged(detail.to_owned()))
+}
+
+/// Reads a local file and compares its checksum, if that is known.
+pub(super) async fn check(path: &Path, expected: Option<&str>) -> StoreResult<()> {
+    match expected {
+        Some(expected) => compared(&of(path).await?, expected),
+        None => Ok(()),
+    }
+}
+
+/// The checksum of a local file.
+pub(super) async fn of(path: &Path) -> StoreResult<String> {
+    let path = path.to_owned();
+    let read = tokio::task::spawn_blocking(move || of_file(&path)).await;
+    Ok(read.map_err(std::io::Error::from)??)
+}
+
+fn of_file(path: &Path) -> std::io::Result<String> {
+    let mut file = File::open(path)?;
+    let (mut hash, mut block) = (Sha256::new(), vec![0; BLOCK]);
+    loop {
+        match file.read(&mut block)? {
+            0 => return Ok(format!("{:x}", hash.finalize())),
+            length => hash.update(&block[..length]),
+        }
+    }
+}
+
+/// Passes a whole file on. If its checksum is not the expected one, it ends with an error instead
+/// of its last block, so that no reader takes it for whole.
+pub(super) fn checked(content: Content, expected: String) -> Content {
+    let state = (content, Sha256::new(), None::<Vec<u8>>, Some(expected));
+    let blocks = stream::unfold(state, async |(mut content, mut hash, mut held, mut end)| {
+        loop {
+            match content.next().await {
+                Some(Ok(block)) => {
+                    hash.update(&block);
+                    if let Some(block) = held.replace(block) {
+                        return Some((Ok(block), (content, hash, held, end)));
+                    }
+                }
+                Some(Err(error)) => return Some((Err(error), (content, hash, None, None))),
+                None => {
+                    let expected = end.take()?;
+                    let sha256 = format!("{:x}", std::mem::take(&mut hash).finalize());
+                    let last = compared(&sha256, &expected);
+                    let last = last.map(|()| held.take().unwrap_or_default());
+                    return Some((last, (content, hash, None, None)));
+                }
+            }
+        }
+    });
+    blocks.boxed()
+}

@@ -1,0 +1,215 @@
+//! The compute child as a process: how it is started, told and ended.
+
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{ExitStatus, Stdio};
+use std::time::Duration;
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use tokio::io::{AsyncBufReadExt, AsyncReadExt, AsyncWriteExt, BufReader, Lines};
+use tokio::process::{ChildStdin, ChildStdout};
+use tokio::task::JoinHandle;
+
+use super::program::Program;
+use unwrapd_api::{Failure, Message};
+
+/// Between a request to end and the end by force.
+const GRACE: Duration = Duration::from_millis(100);
+/// For a child that has said all to be gone.
+const LAST_WORDS: Duration = Duration::from_secs(5);
+/// Unit of processor times in `/proc`, the same on all of Linux.
+const TICK_MS: u64 = 10;
+/// How much of a child's standard error is kept.
+const STDERR_BYTES: u64 = 64 << 10;
+
+/// A running compute child. Dropping it kills the process.
+pub(super) struct Child {
+    process: tokio::process::Child,
+    messages: Lines<BufReader<ChildStdout>>,
+    stderr: JoinHandle<String>,
+    /// Kept open: the child ends when it closes, that is also when this process is lost.
+    stdin: Option<ChildStdin>,
+}
+
+/// How a child ended by itself.
+pub(super) enum Exit {
+    Code(i32),
+    Signal(i32),
+    OutOfMemory,
+}
+
+/// Starts the program with `WORD FOLDER` in a process group of its own, with pipes, and with the allocator's setting in its
+/// environment: address space that was freed must not count against the memory limit. Dropping it kills the process.
+pub fn spawn(
+    program: &Program,
+    word: &str,
+    folder: &Path,
+) -> std::io::Result<tokio::process::Child> {
+    program
+        .command(word, folder)
+        .env("_RJEM_MALLOC_CONF", "retain:false")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .process_group(0)
+        .kill_on_drop(true)
+        .spawn()
+}
+
+impl Child {
+    /// Starts the program with `WORD FOLDER`.
+    pub fn start(program: &Program, word: &str, folder: &Path) -> std::io::Result<Self> {
+        let mut process = spawn(program, word, folder)?;
+        let gone = || std::io::Error::other("a pipe of the compute child is missing");
+        let stdout = process.stdout.take().ok_or_else(gone)?;
+        let stderr = process.stderr.take().ok_or_else(gone)?;
+        Ok(Self {
+            stdin: process.stdin.take(),
+            messages: BufReader::new(stdout).lines(),
+            stderr: tokio::spawn(read_stderr(stderr)),
+            process,
+        })
+    }
+
+    /// The next message; `None` when the child will say no more. Lines that are no message are ignored.
+    pub async fn next_message(&mut self) -> Option<Message> {
+        loop {
+            let line = self.messages.next_line().await.ok()??;
+            if let Ok(message) = serde_json::from_str(&line) {
+                return Some(message);
+            }
+        }
+    }
+
+    /// Asks to finish early with the present valid map.
+    pub fn interrupt(&self) {
+        self.signal(Signal::SIGINT);
+    }
+
+    /// Asks for the maps under way.
+    pub async fn ask_for_maps(&mut self) {
+        if let Some(stdin) = &mut self.stdin {
+            // It may be gone already: then there are none.
+            let _ = stdin.write_all(&[0]).await;
+        }
+    }
+
+    /// Ends it: by request, then by force.
+    pub async fn terminate(&mut self) -> std::io::Result<()> {
+        self.signal(Signal::SIGTERM);
+        if tokio::time::timeout(GRACE, self.process.wait())
+            .await
+            .is_err()
+        {
+            self.process.kill().await?;
+        }
+        Ok(())
+    }
+
+    /// How it ended, once it has said all.
+    pub async fn wait(mut self) -> std::io::Result<Exit> {
+        let status = if let Ok(status) = tokio::time::timeout(LAST_WORDS, self.process.wait()).await
+        {
+            status?
+        } else {
+            self.process.kill().await?;
+            self.process.wait().await?
+        };
+        let stderr = self.stderr.await.unwrap_or_default();
+        if !stderr.is_empty() {
+            tracing::warn!(%status, stderr, "compute child");
+        }
+        Ok(exit(status, &stderr))
+    }
+
+    /// Memory that it holds in RAM.
+    pub fn resident_bytes(&self) -> u64 {
+        let Some(pid) = self.process.id() else {
+            return 0;
+        };
+        let status = std::fs::read_to_string(format!("/proc/{pid}/status")).unwrap_or_default();
+        let resident = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        let kib = resident.and_then(|text| text.trim().strip_suffix(" kB")?.parse::<u64>().ok());
+        kib.unwrap_or(0) << 10
+    }
+
+    /// Milliseconds of processor time that it has used.
+    pub fn cpu_ms(&self) -> u64 {
+        let Some(pid) = self.process.id() else {
+            return 0;
+        };
+        let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        // The name, which is in brackets, may have spaces in it.
+        let fields = stat.rsplit_once(") ").map_or("", |(_, fields)| fields);
+        let ticks = fields.split(' ').skip(11).take(2);
+        ticks.filter_map(|it| it.parse::<u64>().ok()).sum::<u64>() * TICK_MS
+    }
+
+    fn signal(&self, signal: Signal) {
+        if let Some(pid) = self.process.id() {
+            // It may be gone already: then there is nobody to tell.
+            let _ = kill(Pid::from_raw(pid as i32), signal);
+        }
+    }
+}
+
+/// What a process says on its standard error, up to 64 KiB of it.
+pub async fn read_stderr(stderr: tokio::process::ChildStderr) -> String {
+    let mut kept = Vec::new();
+    let mut limited = stderr.take(STDERR_BYTES);
+    let _ = limited.read_to_end(&mut kept).await;
+    let _ = tokio::io::copy(&mut limited.into_inner(), &mut tokio::io::sink()).await;
+    String::from_utf8_lossy(&kept).trim_end().to_owned()
+}
+
+fn exit(status: ExitStatus, stderr: &str) -> Exit {
+    // What the standard library prints before it aborts on a failed allocation.
+    if status.signal() == Some(Signal::SIGABRT as i32) && stderr.contains("memory allocation of ") {
+        return Exit::OutOfMemory;
+    }
+    match status.signal() {
+        Some(signal) => Exit::Signal(signal),
+        None => Exit::Code(status.code().unwrap_or_default()),
+    }
+}
+
+impl Exit {
+    /// Whether somebody ended it who was not this program and not the child itself.
+    pub fn is_from_outside(&self) -> bool {
+        let outside = [Signal::SIGKILL, Signal::SIGTERM, Signal::SIGINT];
+        matches!(self, Self::Signal(number) if outside.iter().any(|it| *it as i32 == *number))
+    }
+
+    /// Whether it was ended by force, as the system does for want of memory.
+    pub fn is_kill(&self) -> bool {
+        matches!(self, Self::Signal(number) if *number == Signal::SIGKILL as i32)
+    }
+
+    /// Why a child ended that could not say so itself.
+    pub fn cause(&self) -> Failure {
+        match *self {
+            Self::OutOfMemory => {
+                Failure::new("out_of_memory", "needs more memory than the limit allows")
+            }
+            Self::Code(code) => Failure::new(
+                "crashed",
+                format!(
+                    "the computation ended with exit code {code}, which is a bug in the service"
+                ),
+            ),
+            Self::Signal(number) => {
+                let signal = Signal::try_from(number).ok();
+                let name = signal.map_or_else(|| number.to_string(), |s| s.to_string());
+                if self.is_from_outside() {
+                    let detail = format!("the computation was terminated from outside by {name}");
+                    return Failure::new("worker_lost", detail);
+                }
+                let detail = format!(
+                    "the computation was terminated by {name}, which is a bug in the service"
+                );
+                Failure::new("crashed", detail)
+            }
+        }
+    }
+}

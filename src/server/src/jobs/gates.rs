@@ -1,0 +1,178 @@
+//! What a result has to be to be accepted.
+
+use std::fmt;
+use std::str::FromStr;
+use unwrapd_api::{Kind, Worth};
+
+/// One condition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Gate {
+    /// There is a result.
+    Written,
+    /// Everything requested is proven of it.
+    Certified,
+    /// It has so many charts at most.
+    MaxCharts(u64),
+    /// The mean symmetric Dirichlet energy of its worst atlas is so large at most. It has the name of the option that
+    /// bounds the same; `max_symmetric_dirichlet` is read as well.
+    MaxDistortion(f64),
+    /// The 99th percentile of the stretch of its worst atlas is so large at most.
+    MaxStretch(f64),
+    /// It took so many seconds at most.
+    MaxSeconds(f64),
+}
+
+/// Conditions, all of which a result has to meet; written `max_charts=12,certified`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gates(Vec<Gate>);
+
+/// Why conditions cannot be read, or cannot be judged. Each names the part that is wrong.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GateError {
+    /// There is no such condition.
+    #[error("{0:?} is not a gate: expected {WORDS}")]
+    Unknown(String),
+    /// A number is missing or cannot be read.
+    #[error("{part:?} needs {expected}")]
+    Value {
+        /// The part.
+        part: String,
+        /// What it needs.
+        expected: &'static str,
+    },
+    /// A condition that has no number has one.
+    #[error("{0:?} takes no value")]
+    NoValue(String),
+    /// Nothing of the kind is known of results of a job of this kind.
+    #[error("{gate:?} cannot be judged: a {kind} job {lacks}")]
+    Unjudged {
+        /// The condition.
+        gate: String,
+        /// The kind of the job.
+        kind: &'static str,
+        /// What jobs of this kind do not do.
+        lacks: &'static str,
+    },
+}
+
+const WORDS: &str = "written, certified, max_charts=N, max_distortion=E, max_stretch=S or \
+                     max_seconds=T";
+
+impl Default for Gates {
+    /// Certified, as with the exit status of `unwrap`.
+    fn default() -> Self {
+        Self(vec![Gate::Certified])
+    }
+}
+
+impl Gates {
+    /// Whether a result that took so many seconds meets all conditions.
+    pub fn accept(&self, worth: &Worth, seconds: f64) -> bool {
+        self.missed(worth, seconds).next().is_none()
+    }
+
+    /// The conditions that it does not meet.
+    pub fn missed(&self, worth: &Worth, seconds: f64) -> impl Iterator<Item = &Gate> {
+        let is_missed = move |gate: &&Gate| !gate.accepts(worth, seconds);
+        self.0.iter().filter(is_missed)
+    }
+
+    /// Whether all conditions can be judged of jobs of a kind.
+    pub fn check(&self, kind: Kind) -> Result<(), GateError> {
+        let unjudged = |(gate, lacks): (&Gate, &'static str)| GateError::Unjudged {
+            gate: gate.to_string(),
+            kind: kind.word(),
+            lacks,
+        };
+        let mut lacking = self.0.iter().filter_map(|gate| match gate {
+            Gate::Written | Gate::MaxSeconds(_) => None,
+            Gate::Certified => (!kind.proves()).then_some((gate, "proves nothing")),
+            _ => (!kind.measures()).then_some((gate, "measures no atlas")),
+        });
+        lacking.next().map_or(Ok(()), |found| Err(unjudged(found)))
+    }
+}
+
+impl Gate {
+    fn accepts(self, worth: &Worth, seconds: f64) -> bool {
+        // What has no area has no distortion.
+        let is_within = |figure: Option<f64>, most: f64| figure.is_none_or(|figure| figure <= most);
+        match self {
+            Self::Written => true,
+            Self::Certified => worth.certified == Some(true),
+            Self::MaxCharts(most) => worth.charts.is_none_or(|charts| charts <= most),
+            Self::MaxDistortion(most) => is_within(worth.distortion, most),
+            Self::MaxStretch(most) => is_within(worth.stretch, most),
+            Self::MaxSeconds(most) => seconds <= most,
+        }
+    }
+}
+
+/// As it is read.
+impl fmt::Display for Gate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Written => f.write_str("written"),
+            Self::Certified => f.write_str("certified"),
+            Self::MaxCharts(most) => write!(f, "max_charts={most}"),
+            Self::MaxDistortion(most) => write!(f, "max_distortion={most}"),
+            Self::MaxStretch(most) => write!(f, "max_stretch={most}"),
+            Self::MaxSeconds(most) => write!(f, "max_seconds={most}"),
+        }
+    }
+}
+
+/// As they are read.
+impl fmt::Display for Gates {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let gates: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&gates.join(","))
+    }
+}
+
+impl FromStr for Gates {
+    type Err = GateError;
+
+    fn from_str(text: &str) -> Result<Self, GateError> {
+        let gates = text.split(',').map(|part| part.trim().parse());
+        gates.collect::<Result<_, _>>().map(Self)
+    }
+}
+
+impl FromStr for Gate {
+    type Err = GateError;
+
+    fn from_str(part: &str) -> Result<Self, GateError> {
+        let (word, value) = match part.split_once('=') {
+            Some((word, value)) => (word, Some(value)),
+            None => (part, None),
+        };
+        let needs = |expected| GateError::Value {
+            part: part.to_owned(),
+            expected,
+        };
+        let number = || {
+            let number = value.and_then(|value| value.parse::<f64>().ok());
+            let number = number.filter(|number| (0.0..).contains(number));
+            number.ok_or(needs("a number, 0 or more"))
+        };
+        let gate = match word {
+            "written" => Self::Written,
+            "certified" => Self::Certified,
+            "max_charts" => {
+                let count = value.and_then(|value| value.parse().ok());
+                return Ok(Self::MaxCharts(count.ok_or(needs("a whole number"))?));
+            }
+            "max_distortion" | "max_symmetric_dirichlet" => {
+                return number().map(Self::MaxDistortion);
+            }
+            "max_stretch" => return number().map(Self::MaxStretch),
+            "max_seconds" => return number().map(Self::MaxSeconds),
+            _ => return Err(GateError::Unknown(part.to_owned())),
+        };
+        match value {
+            None => Ok(gate),
+            Some(_) => Err(GateError::NoValue(part.to_owned())),
+        }
+    }
+}

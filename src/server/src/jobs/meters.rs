@@ -1,0 +1,138 @@
+//! What those who run the service count and time: jobs, their stages, and what went wrong.
+//!
+//! The names follow the conventions of Prometheus and do not change, because dashboards and alerts
+//! know them. Each process counts what it did itself; what is read of the store is the same in all.
+
+use metrics::{
+    Unit, counter, describe_counter, describe_gauge, describe_histogram, gauge, histogram,
+};
+use tokio::time::Instant;
+
+use super::job::Job;
+use super::state::State;
+use super::timestamp::Timestamp;
+use unwrapd_api::{Kind, Stage};
+
+const ENQUEUED: &str = "unwrapd_jobs_enqueued_total";
+const FINISHED: &str = "unwrapd_jobs_finished_total";
+const FAILURES: &str = "unwrapd_job_failures_total";
+const TAKEN: &str = "unwrapd_jobs_taken_from_workers_total";
+const STORE_ERRORS: &str = "unwrapd_store_errors_total";
+const LOSSES: &str = "unwrapd_damaged_files_total";
+const QUARANTINE_STOPPED: &str = "unwrapd_quarantine_stopped";
+const WAIT: &str = "unwrapd_job_wait_seconds";
+const RUN: &str = "unwrapd_job_run_seconds";
+const STAGE: &str = "unwrapd_job_stage_seconds";
+
+/// Results of jobs. A copy of an earlier result is one of its own.
+const RESULTS: [&str; 4] = ["succeeded", "failed", "cancelled", "reused"];
+
+/// Says what is counted here, and starts the counters at zero, so that their first rise is seen.
+pub fn describe() {
+    describe_counter!(ENQUEUED, "Jobs accepted by this process");
+    describe_counter!(FINISHED, "Jobs whose end this process recorded");
+    describe_counter!(FAILURES, "Failed jobs by the code of their problem");
+    describe_counter!(TAKEN, "Jobs taken from silent workers");
+    describe_counter!(STORE_ERRORS, "Calls of the store that failed");
+    describe_counter!(LOSSES, "Stored files that were found missing or damaged");
+    describe_gauge!(
+        QUARANTINE_STOPPED,
+        "Whether so many files have no job that none of them is deleted"
+    );
+    let seconds = Unit::Seconds;
+    describe_histogram!(WAIT, seconds, "From acceptance to the latest start");
+    describe_histogram!(RUN, seconds, "From the latest start to the end");
+    describe_histogram!(STAGE, seconds, "Time in each stage of a computation");
+    for kind in Kind::ALL.map(Kind::word) {
+        counter!(ENQUEUED, "kind" => kind).absolute(0);
+        for result in RESULTS {
+            counter!(FINISHED, "kind" => kind, "result" => result).absolute(0);
+        }
+    }
+    counter!(TAKEN).absolute(0);
+    counter!(STORE_ERRORS).absolute(0);
+    counter!(LOSSES).absolute(0);
+    gauge!(QUARANTINE_STOPPED).set(0.0);
+}
+
+/// A job was accepted.
+pub(super) fn enqueued(job: &Job) {
+    counter!(ENQUEUED, "kind" => job.kind.word()).increment(1);
+    finished(job);
+}
+
+/// A job changed: counted if that was its end.
+pub(super) fn finished(job: &Job) {
+    let Some(end) = job.finished.filter(|_| job.state.is_final()) else {
+        return;
+    };
+    let kind = job.kind.word();
+    let is_copy = job.is_copy();
+    let result = if is_copy { "reused" } else { job.state.word() };
+    counter!(FINISHED, "kind" => kind, "result" => result).increment(1);
+    if let Some(failure) = job.failure.as_ref().filter(|_| job.state == State::Failed) {
+        counter!(FAILURES, "code" => failure.code.clone()).increment(1);
+    }
+    if let Some(start) = job.started {
+        let seconds = |until: Timestamp, from| until.since(from) as f64 / 1000.0;
+        histogram!(WAIT, "kind" => kind).record(seconds(start, job.created));
+        histogram!(RUN, "kind" => kind, "result" => result).record(seconds(end, start));
+    }
+}
+
+/// A job was taken from a silent worker.
+pub(super) fn taken() {
+    counter!(TAKEN).increment(1);
+}
+
+/// A call of the store failed.
+pub fn store_failed() {
+    counter!(STORE_ERRORS).increment(1);
+}
+
+/// A stored file is missing or damaged.
+pub(super) fn file_lost() {
+    counter!(LOSSES).increment(1);
+}
+
+/// Whether so many files have no job that none of them is deleted.
+pub(super) fn quarantine_stopped(is_stopped: bool) {
+    gauge!(QUARANTINE_STOPPED).set(f64::from(u8::from(is_stopped)));
+}
+
+/// Times the stages of an attempt, the last one until it is dropped.
+pub(super) struct StageClock {
+    kind: Kind,
+    present: Option<(Stage, Instant)>,
+}
+
+impl StageClock {
+    /// Before the first stage.
+    pub fn of(kind: Kind) -> Self {
+        Self {
+            kind,
+            present: None,
+        }
+    }
+
+    /// The stage that an attempt is in.
+    pub fn show(&mut self, stage: Option<Stage>) {
+        if self.present.map(|(stage, _)| stage) != stage {
+            self.end();
+            self.present = stage.map(|stage| (stage, Instant::now()));
+        }
+    }
+
+    fn end(&mut self) {
+        if let Some((stage, since)) = self.present.take() {
+            let (kind, seconds) = (self.kind.word(), since.elapsed().as_secs_f64());
+            histogram!(STAGE, "kind" => kind, "stage" => stage.word()).record(seconds);
+        }
+    }
+}
+
+impl Drop for StageClock {
+    fn drop(&mut self) {
+        self.end();
+    }
+}

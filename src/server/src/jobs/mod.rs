@@ -1,0 +1,136 @@
+//! What a job is, its states, its queue, the compute child and progress events.
+//!
+//! A job is a recorded request: input files, options, a state. It is queued when its record and its files are safely
+//! stored. From then on it ends succeeded, failed with a cause, or cancelled, despite any crash or restart:
+//!
+//! ```text
+//!          ┌── retried ───────────┐
+//!          ▼                      │
+//! queued ──claimed──► running ──► succeeded | failed | cancelled
+//!    ▲                   │
+//!    └── worker lost ────┘   (with a pause, and not for ever: see [`Rules`])
+//! ```
+//!
+//! [`after`] is that picture as a function: what becomes of a record when something happens. A
+//! worker holds a job under a token and a lease by the store's clock, which its signs of life
+//! renew. Whoever finds a lease over puts the job back and raises the token. From then on nothing
+//! that the former worker says changes the record, and its files have names of their own.
+//! One process or many, it is the same four operations: claim, beat, sweep, end.
+//!
+//! The worker itself computes nothing. Every attempt runs in a child process of the same program
+//! (`unwrapd compute`, [`Program`]), which gets a folder with the input and writes its results there. A mesh
+//! that exhausts memory, overflows a stack or finds a bug ends its own attempt; memory goes back to
+//! the system; a cancel always works, because it is a signal. The child ends when its standard
+//! input closes, so a killed worker leaves no orphans. A worker that cannot renew its lease in time
+//! ends its child and hands the job back. After an outage of the store, workers get the time of a
+//! lease for that before anybody takes jobs from them.
+//!
+//! A job whose input, options and engine equal those of an earlier one gets a copy of its result
+//! instead (`reuse.rs`), unless the client refuses. Pictures of a result are drawn when they are first
+//! asked for (`pictures.rs`).
+//!
+//! A job that has ended is kept for a time ([`Settings::retention`]) and then removed with its
+//! files.
+//!
+//! Owners take turns, and priorities order what each of them has waiting ([`JobStore::claim`]).
+//! A process keeps one slot in reserve for small jobs, which do not wait for large ones.
+//!
+//! Every job belongs to an owner, and whoever asks for one says how far they see ([`access`]).
+//!
+//! Where records and files live is not decided here: [`JobStore`] and [`Blobs`] are traits.
+
+pub mod access;
+mod attempt;
+mod beats;
+mod blobs;
+mod capacity;
+mod cgroup;
+mod checksum;
+mod child;
+mod clock;
+mod conclusion;
+mod contained;
+mod deadline;
+mod digest;
+mod drain;
+mod drawing_queue;
+mod gates;
+mod handling;
+mod identity;
+mod inspection;
+mod job;
+mod keys;
+mod lane;
+mod lease;
+mod listing;
+mod live;
+mod map_feed;
+mod memory_failure;
+mod metadata;
+pub mod meters;
+mod outbox;
+mod output;
+mod pictures;
+mod program;
+mod progress;
+mod quarantine;
+mod queue;
+mod quotas;
+mod retention;
+mod retry;
+mod reuse;
+mod runner;
+mod running;
+mod scratch;
+mod settings;
+mod space;
+mod state;
+mod storage;
+mod store_error;
+mod store_id;
+mod submit;
+mod subscription;
+mod supervision;
+mod sweeping;
+mod timestamp;
+mod transition;
+mod watching;
+mod webhook;
+
+pub use blobs::{Blobs, Content};
+pub use capacity::Usage;
+pub use child::{read_stderr, spawn};
+pub use clock::{Steadiness, SteadyClock};
+pub use contained::Contained;
+pub use digest::Digest;
+pub use gates::{Gate, GateError, Gates};
+pub use handling::Handling;
+pub use identity::{adopt, shared_identity};
+pub use inspection::{Inspection, Loss, LostFile, inspect, purge, repair};
+pub use job::{Job, JobId};
+pub use lease::{Rules, SUSPECT, Token, WorkerId};
+pub use listing::{Listing, Order};
+pub use metadata::{Metadata, MetadataError};
+pub use outbox::{Notice, Outbox};
+pub use pictures::Undrawn;
+pub use program::Program;
+pub use progress::{Event, Saying};
+pub use queue::{Ended, Jobs};
+pub use quotas::{Capacity, OwnerQuota, OwnerQuotas};
+pub use retry::{Retried, retry_failed};
+pub use scratch::Scratch;
+pub use settings::{Deployment, Settings};
+pub use space::free_bytes;
+pub use state::State;
+pub use storage::{
+    Beat, Census, Changed, Enqueued, IdempotencyKey, JobStore, Quarantined, Queue, Reason, Share,
+    Sweep,
+};
+pub use store_error::{StoreError, StoreResult};
+pub use store_id::StoreId;
+pub use submit::{Submission, SubmitError, Submitted};
+pub use subscription::Subscription;
+pub use timestamp::Timestamp;
+pub use transition::{Ending, Happening, Refusal, Wish, after};
+pub use watching::NextMaps;
+pub use webhook::{Webhook, WebhookError};

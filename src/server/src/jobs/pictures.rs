@@ -1,0 +1,259 @@
+//! Pictures of results, drawn when they are first asked for and kept from then on.
+//!
+//! Drawing a small mesh costs more than unwrapping it, and most pictures are never looked at. So a job leaves what a picture can be
+//! drawn from: its result and its report. The first request for a picture starts a child (`unwrapd draw FOLDER`) in the process that
+//! answers it, whether or not that process computes jobs. The child draws what the computation would have drawn, and the picture is
+//! stored beside the result and noted in the record.
+//!
+//! The record decides. A picture that is not noted there does not exist, one of a job that was removed meanwhile is removed again, and
+//! one that is missing or damaged is drawn anew. Its key names its content, so that two processes which draw the same picture do
+//! not overwrite each other.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use futures_util::TryStreamExt;
+
+use super::access::Reach;
+use super::checksum;
+use super::child::Child;
+use super::contained::finished;
+use super::job::{Job, JobId};
+use super::keys::{input_key, output_key, picture_key};
+use super::queue::Jobs;
+use super::scratch::Scratch;
+use super::storage::Changed;
+use super::store_error::{StoreError, StoreResult};
+use super::transition::Happening;
+use unwrapd_api::{
+    DRAWING, Drawing, Failure, Format, Kind, OutputFile, PICTURE, Picture, input_file, output_file,
+    sha256, write_json,
+};
+
+/// For a picture to be drawn while its client waits: the default of synchronous calls.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum Undrawn {
+    /// The job was removed meanwhile.
+    #[error("the job was removed")]
+    Removed,
+    /// It could not be drawn.
+    #[error("{}", .0.detail)]
+    Failed(Failure),
+    /// Records or files cannot be used.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl Job {
+    /// The pictures that can be had of its result.
+    pub fn pictures(&self) -> &'static [Picture] {
+        match self.output.first() {
+            Some(_) if self.is_atlas() => &Picture::ALL,
+            Some(result) if Format::of_name(&result.name) == Some(Format::Png) => {
+                &[Picture::Thumbnail]
+            }
+            _ => &[],
+        }
+    }
+
+    /// What it made beside pictures.
+    pub fn results(&self) -> impl Iterator<Item = &OutputFile> {
+        let is_picture = |file: &OutputFile| Picture::ALL.iter().any(|it| it.role() == file.role);
+        self.output.iter().filter(move |file| !is_picture(file))
+    }
+
+    /// A picture that was drawn: when it was asked for, or by a version of the program that drew all when the job ended.
+    pub fn drawn(&self, picture: Picture) -> Option<&OutputFile> {
+        let drawn = self.drawn.iter().chain(&self.output);
+        drawn.into_iter().find(|file| file.role == picture.role())
+    }
+
+    /// Where a picture is that was drawn.
+    fn key_of_drawn(&self, picture: Picture) -> Option<(String, &OutputFile)> {
+        let file = self.drawn(picture)?;
+        let key = match self
+            .output
+            .iter()
+            .position(|other| std::ptr::eq(other, file))
+        {
+            Some(index) => output_key(self.id, self.token, index),
+            None => picture_key(self.id, self.token, file),
+        };
+        Some((key, file))
+    }
+
+    fn is_atlas(&self) -> bool {
+        matches!(self.kind, Kind::Unwrap | Kind::Repack)
+    }
+
+    /// Whether a picture shows densities that only the input tells.
+    fn needs_input(&self, picture: Picture) -> bool {
+        let weights = self.options.get("texel_weight");
+        let is_weighed = weights
+            .and_then(|list| list.as_array())
+            .is_some_and(|list| !list.is_empty());
+        picture == Picture::Heatmap && is_weighed
+    }
+}
+
+impl Jobs {
+    /// Returns a picture of a job that has it: the one that is kept, or one that is drawn now and kept.
+    ///
+    /// # Errors
+    /// If the job was removed meanwhile, the picture cannot be drawn, or the stores cannot be used.
+    pub async fn picture(
+        self: &Arc<Self>,
+        job: &Job,
+        picture: Picture,
+    ) -> Result<Vec<u8>, Undrawn> {
+        if let Some(kept) = self.kept(job, picture).await? {
+            return Ok(kept);
+        }
+        let turn = self.drawing.turn(job.id).await;
+        let now = self.store.get(&Reach::All, job.id).await?;
+        let job = now.ok_or(Undrawn::Removed)?;
+        // Another request may have had the turn before.
+        if let Some(kept) = self.kept(&job, picture).await? {
+            return Ok(kept);
+        }
+        let place = self.drawing.place().await;
+        let jobs = Arc::clone(self);
+        // A client that leaves does not stop it between storing and noting.
+        let drawn = self.tasks.spawn(async move {
+            let drawn = jobs.draw(&job, picture).await;
+            drop((turn, place));
+            match drawn {
+                Err(Undrawn::Store(error)) if error.is_loss() => {
+                    // Its files go after its record.
+                    let now = jobs.store.get(&Reach::All, job.id).await?;
+                    Err(now.map_or(Undrawn::Removed, |_| error.into()))
+                }
+                drawn => drawn,
+            }
+        });
+        drawn
+            .await
+            .map_err(|error| Undrawn::Failed(Failure::new("internal_error", error.to_string())))?
+    }
+
+    /// The picture as it is stored; `None` if there is none, or it is damaged.
+    async fn kept(&self, job: &Job, picture: Picture) -> StoreResult<Option<Vec<u8>>> {
+        let Some((key, file)) = job.key_of_drawn(picture) else {
+            return Ok(None);
+        };
+        match self.whole(&key, file).await {
+            Ok(content) => Ok(Some(content)),
+            Err(error) => match self.lost_file(error).await {
+                error if error.is_loss() => {
+                    tracing::warn!(key, %error, "a picture is drawn again");
+                    Ok(None)
+                }
+                error => Err(error),
+            },
+        }
+    }
+
+    async fn whole(&self, key: &str, file: &OutputFile) -> StoreResult<Vec<u8>> {
+        let mut content = self.blobs.read(key, 0..file.bytes).await?;
+        if let Some(expected) = &file.sha256 {
+            content = checksum::checked(content, expected.clone());
+        }
+        let append = async |mut all: Vec<u8>, block: Vec<u8>| {
+            all.extend(block);
+            Ok(all)
+        };
+        content.try_fold(Vec::new(), append).await
+    }
+
+    /// Draws a picture, stores it and notes it.
+    async fn draw(&self, job: &Job, picture: Picture) -> Result<Vec<u8>, Undrawn> {
+        self.has_room()?;
+        let path = self
+            .settings
+            .scratch
+            .join(format!("draw-{}", JobId::fresh()));
+        let scratch = Scratch::make(path).map_err(StoreError::from)?;
+        let folder = scratch.path();
+        self.bring(job, picture, folder).await?;
+        let child = Child::start(&self.settings.program, "draw", folder)?;
+        let detail = format!("the picture was not drawn within {} s", PATIENCE.as_secs());
+        let late = Failure::new("timed_out", detail);
+        finished(child, folder, PATIENCE, late).await?;
+
+        let path = folder.join(PICTURE);
+        let content = tokio::fs::read(&path).await?;
+        let file = OutputFile {
+            role: picture.role().to_owned(),
+            name: picture.role().to_owned(),
+            bytes: content.len() as u64,
+            sha256: Some(sha256(&content)),
+        };
+        let key = picture_key(job.id, job.token, &file);
+        self.blobs.put(&key, &path).await?;
+        let drawn = Happening::Drawn(job.token, file);
+        if let Changed::Missing = self.store.change(&Reach::All, job.id, &drawn).await? {
+            // Whoever removed the record has removed its files already, or is about to.
+            self.blobs.remove(&job.id.to_string()).await?;
+            return Err(Undrawn::Removed);
+        }
+        Ok(content)
+    }
+
+    /// Brings what a picture is drawn from to the folder of a child.
+    async fn bring(&self, job: &Job, picture: Picture, folder: &Path) -> StoreResult<()> {
+        let mut output = Vec::new();
+        for (index, file) in job.output.iter().enumerate() {
+            if !is_drawn_from(file, job.is_atlas()) {
+                continue;
+            }
+            let to = folder.join(output_file(output.len()));
+            let key = output_key(job.id, job.token, index);
+            let fetched = self.fetch_verified(&key, file.sha256.as_deref(), &to).await;
+            if fetched.as_ref().is_err_and(StoreError::is_loss) {
+                self.spoil(job).await;
+            }
+            fetched?;
+            output.push(file.clone());
+        }
+        let mut input = Vec::new();
+        if job.needs_input(picture) {
+            for (index, file) in job.input.iter().enumerate() {
+                let to = folder.join(input_file(index));
+                let key = input_key(job.id, index);
+                self.fetch_verified(&key, file.sha256.as_deref(), &to)
+                    .await?;
+                input.push(file.name.clone());
+            }
+        }
+        let drawing = Drawing {
+            picture,
+            input,
+            output,
+            memory: self.settings.memory,
+        };
+        Ok(write_json(folder, DRAWING, &drawing)?)
+    }
+}
+
+/// Whether pictures are drawn from this file of a job. Everything that belongs to a mesh is read with it.
+fn is_drawn_from(file: &OutputFile, is_atlas: bool) -> bool {
+    file.role == "result"
+        || (is_atlas && (file.role == "report" || file.role.starts_with("files/")))
+}
+
+/// A folder, a file in it, or the child could not be used.
+impl From<std::io::Error> for Undrawn {
+    fn from(error: std::io::Error) -> Self {
+        Self::Store(error.into())
+    }
+}
+
+impl From<Failure> for Undrawn {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}

@@ -1,0 +1,250 @@
+//! All sessions of this process.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use serde_json::Value;
+use tokio::process::{Child, ChildStderr, ChildStdout};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio_util::bytes::Bytes;
+use tokio_util::task::TaskTracker;
+
+use super::pipe;
+use super::session::{End, Parts, Session};
+use crate::jobs::access::{Owner, Reach};
+use crate::jobs::{self, JobId, Scratch, read_stderr};
+use unwrapd_api::pipe::{FAILED, MESH};
+use unwrapd_api::{Failure, InputFile, Kind, Limits, Pictures, TASK, Task, input_file, write_json};
+
+/// For a child to read its input and be ready.
+const START_TIME: Duration = Duration::from_mins(2);
+
+/// How many sessions there may be, and how long.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Sessions at the same time.
+    pub most: usize,
+    /// Those of one owner. `None`: half of all, or all where nobody has a key.
+    pub most_of_owner: Option<usize>,
+    /// Silence of all clients after which a session ends.
+    pub idle: Duration,
+}
+
+impl Settings {
+    /// Sessions of one owner at the same time.
+    fn most_of(&self, owner: &Owner) -> usize {
+        self.most_of_owner.unwrap_or(match owner.name() {
+            Some(_) => self.most.div_ceil(2),
+            None => self.most,
+        })
+    }
+}
+
+/// All sessions of this process.
+pub struct Sessions {
+    settings: Settings,
+    jobs: jobs::Settings,
+    slots: Arc<Semaphore>,
+    slots_of_owners: Mutex<HashMap<Owner, Arc<Semaphore>>>,
+    open: Mutex<BTreeMap<JobId, Arc<Session>>>,
+    tasks: TaskTracker,
+}
+
+/// What a session is made of.
+pub struct Opened {
+    /// Whose it is.
+    pub owner: Owner,
+    /// What a job would do.
+    pub kind: Kind,
+    /// The options of the job, complete.
+    pub options: Value,
+    /// The mesh, then the files it refers to, each with the place where it lies now. They are moved away.
+    pub files: Vec<(InputFile, PathBuf)>,
+}
+
+/// Why a session was not opened.
+#[derive(Debug)]
+pub enum Unopened {
+    /// There are as many as there may be.
+    AllTaken,
+    /// Its owner has as many as one may have.
+    OwnTaken,
+    /// The input or the options are of no use, or the service failed.
+    Failed(Failure),
+}
+
+impl From<std::io::Error> for Unopened {
+    fn from(error: std::io::Error) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl Sessions {
+    /// None yet. Children get what the settings of jobs give those.
+    pub fn new(settings: Settings, jobs: jobs::Settings) -> Self {
+        Self {
+            slots: Arc::new(Semaphore::new(settings.most)),
+            slots_of_owners: Mutex::default(),
+            open: Mutex::default(),
+            tasks: TaskTracker::new(),
+            settings,
+            jobs,
+        }
+    }
+
+    /// How many there may be, and how long.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        lock(&self.open).len()
+    }
+
+    /// Opens a session. When this returns, its child has read the input and is ready.
+    pub async fn open(self: &Arc<Self>, opened: Opened) -> Result<Arc<Session>, Unopened> {
+        let slots = self.slots(&opened.owner)?;
+        let id = JobId::fresh();
+        let folder = Scratch::make(self.jobs.scratch.join(format!("session-{id}")))?;
+        for (index, (_, path)) in opened.files.iter().enumerate() {
+            tokio::fs::rename(path, folder.path().join(input_file(index))).await?;
+        }
+        write_json(folder.path(), TASK, &self.task(&opened))?;
+        let mut child = jobs::spawn(&self.jobs.program, "session", folder.path())?;
+        let gone = || std::io::Error::other("a pipe of the child is missing");
+        let mut stdout = child.stdout.take().ok_or_else(gone)?;
+        let stdin = child.stdin.take().ok_or_else(gone)?;
+        tokio::spawn(log(id, child.stderr.take().ok_or_else(gone)?));
+        let session = Arc::new(Session::new(Parts {
+            id,
+            owner: opened.owner,
+            mesh: mesh(&mut stdout).await.map_err(Unopened::Failed)?,
+            kind: opened.kind,
+            options: opened.options,
+            input: opened.files.into_iter().map(|(file, _)| file).collect(),
+            folder,
+            stdin,
+        }));
+        lock(&self.open).insert(id, Arc::clone(&session));
+        let supervised = Arc::clone(self).supervise(Arc::clone(&session), child, stdout, slots);
+        self.tasks.spawn(supervised);
+        tracing::info!(session = %id, kind = session.kind.word(), "opened");
+        Ok(session)
+    }
+
+    /// The places of a session: one of all, and one of its owner.
+    fn slots(&self, owner: &Owner) -> Result<[OwnedSemaphorePermit; 2], Unopened> {
+        let most = self.settings.most_of(owner);
+        let of_owner = Arc::clone(
+            (lock(&self.slots_of_owners).entry(owner.clone()))
+                .or_insert_with(|| Arc::new(Semaphore::new(most))),
+        );
+        let all = Arc::clone(&self.slots).try_acquire_owned();
+        Ok([
+            all.map_err(|_| Unopened::AllTaken)?,
+            of_owner
+                .try_acquire_owned()
+                .map_err(|_| Unopened::OwnTaken)?,
+        ])
+    }
+
+    fn task(&self, opened: &Opened) -> Task {
+        let threads = self.jobs.threads(lock(&self.open).len() + 1);
+        Task {
+            kind: opened.kind,
+            input: opened.files.iter().map(|(f, _)| f.name.clone()).collect(),
+            options: opened.options.clone(),
+            limits: Limits {
+                triangles: Some(self.jobs.triangles),
+                threads: Some(threads),
+                seconds: None,
+            },
+            memory: self.jobs.memory,
+            pictures: Pictures::LeftOut,
+        }
+    }
+
+    /// Relays until the session ends, and ends its child.
+    async fn supervise(
+        self: Arc<Self>,
+        session: Arc<Session>,
+        mut child: Child,
+        mut stdout: ChildStdout,
+        slots: [OwnedSemaphorePermit; 2],
+    ) {
+        tokio::select! {
+            said = session.relay(&mut stdout) => {
+                session.close(End::Failed(said.unwrap_or_else(crashed)));
+            }
+            () = session.expired(self.settings.idle) => session.close(End::Expired),
+            _ = session.ended() => {}
+        }
+        lock(&self.open).remove(&session.id);
+        if let Err(error) = child.kill().await {
+            tracing::warn!(session = %session.id, %error, "child not ended");
+        }
+        let why = session.ended().await;
+        tracing::info!(session = %session.id, ?why, "ended");
+        drop(slots);
+    }
+
+    /// The session of this id, if it is within reach.
+    pub fn get(&self, reach: &Reach, id: JobId) -> Option<Arc<Session>> {
+        let session = lock(&self.open).get(&id).cloned();
+        session.filter(|session| reach.covers(&session.owner))
+    }
+
+    /// The sessions within reach, in the order in which they were opened.
+    pub fn list(&self, reach: &Reach) -> Vec<Arc<Session>> {
+        let open = lock(&self.open);
+        let within = open.values().filter(|session| reach.covers(&session.owner));
+        within.cloned().collect()
+    }
+
+    /// Ends all sessions, and returns when their children are gone.
+    pub async fn stop(&self) {
+        self.slots.close();
+        for session in self.list(&Reach::All) {
+            session.close(End::Stopping);
+        }
+        self.tasks.close();
+        self.tasks.wait().await;
+    }
+}
+
+/// The mesh, with which a child says that it is ready.
+async fn mesh(stdout: &mut ChildStdout) -> Result<Bytes, Failure> {
+    match tokio::time::timeout(START_TIME, pipe::receive(stdout)).await {
+        Ok(Ok((MESH, mesh))) => Ok(mesh),
+        Ok(Ok((FAILED, failure))) => {
+            Err(serde_json::from_slice(&failure).unwrap_or_else(|_| crashed()))
+        }
+        Ok(_) => Err(crashed()),
+        Err(_) => {
+            let detail = "the input was not read in time";
+            Err(Failure::new("timed_out", detail))
+        }
+    }
+}
+
+/// Logs what a child says beside its work.
+async fn log(session: JobId, stderr: ChildStderr) {
+    let said = read_stderr(stderr).await;
+    if !said.is_empty() {
+        tracing::warn!(%session, said, "session child");
+    }
+}
+
+fn crashed() -> Failure {
+    Failure::new(
+        "crashed",
+        "the computation ended, which is a bug in the service",
+    )
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,147 @@
+//! The compute child: one attempt at one job, in its own process.
+//!
+//! It reads the attempt's folder, limits its own memory, tells its progress on standard output and leaves its results
+//! in the folder. SIGTERM ends it as it ends any process; SIGINT has it finish early with the present valid map; a
+//! byte on its standard input asks for the maps under way; when that closes, the server is gone, and so is it.
+
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use nix::sys::resource::{Resource, setrlimit};
+use nix::sys::signal::{SigSet, Signal};
+
+use crate::drawing::{DrawingError, DrawingTask};
+use crate::frames::Frames;
+use crate::maps::Maps;
+use crate::reporter::Reporter;
+use crate::work::Work;
+use unwrapd_api::{
+    ERROR, Failure, NO_SPACE, OUTCOME, Outcome, OutputFile, TASK, Task, output_file, read_json,
+    read_upload, sha256, write_json,
+};
+use unwrapd_pipeline::PipelineError;
+
+/// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
+pub fn run(folder: &Path) -> u8 {
+    reported(attempt(folder), folder)
+}
+
+/// Draws the picture of a result in `folder`, and returns the exit code of the process in the same way.
+pub fn draw(folder: &Path) -> u8 {
+    reported(drawn(folder), folder)
+}
+
+fn reported(attempt: Attempt<()>, folder: &Path) -> u8 {
+    match attempt {
+        Ok(()) => 0,
+        Err((exit_code, failure)) => {
+            eprintln!("{}: {}", failure.code, failure.detail);
+            match write_json(folder, ERROR, &failure) {
+                Ok(()) => exit_code,
+                Err(error) => unwritten(error).0,
+            }
+        }
+    }
+}
+
+type Attempt<T> = Result<T, (u8, Failure)>;
+
+fn attempt(folder: &Path) -> Attempt<()> {
+    let finish = Arc::new(AtomicBool::new(false));
+    let maps = Arc::new(Maps::new(folder));
+    listen(&finish, &maps).map_err(internal)?;
+    let task: Task = read_json(folder, TASK).map_err(internal)?;
+    contain(task.memory).map_err(internal)?;
+    let reporter = Reporter::start(finish, Frames::new(folder), maps).map_err(internal)?;
+    let upload = read_upload(folder, &task.input).map_err(internal)?;
+    let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
+    let mut made = work
+        .run(&upload, task.limits, &reporter)
+        .map_err(|e| refusal(&e))?;
+    made.complete(task.pictures).map_err(|e| refusal(&e))?;
+    let mut output = Vec::new();
+    for (index, (role, name, bytes)) in made.files.into_iter().enumerate() {
+        std::fs::write(folder.join(output_file(index)), &bytes).map_err(unwritten)?;
+        output.push(OutputFile {
+            role,
+            name,
+            bytes: bytes.len() as u64,
+            sha256: Some(sha256(&bytes)),
+        });
+    }
+    Reporter::tell_cpu();
+    let frames = reporter.into_frames();
+    frames.into_output(&mut output).map_err(unwritten)?;
+    let verdict = made.verdict;
+    write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(unwritten)
+}
+
+fn drawn(folder: &Path) -> Attempt<()> {
+    end_with_server(|| {}).map_err(internal)?;
+    let task = DrawingTask::read(folder).map_err(internal)?;
+    contain(task.memory()).map_err(internal)?;
+    let png = task.png(folder).map_err(|error| match error {
+        DrawingError::Pipeline(error) => refusal(&error),
+        DrawingError::Io(error) => internal(error),
+    })?;
+    DrawingTask::write(folder, &png).map_err(unwritten)
+}
+
+/// Limits the memory of this process, in bytes.
+pub fn contain(memory: u64) -> std::io::Result<()> {
+    setrlimit(Resource::RLIMIT_DATA, memory, memory)?;
+    // A crash is reported by its signal; an image of the memory would only fill the disk.
+    Ok(setrlimit(Resource::RLIMIT_CORE, 0, 0)?)
+}
+
+/// Starts the threads that hear standard input, where a byte asks for maps, its end, and SIGINT. Called before any other thread exists, since a
+/// thread inherits which signals are blocked.
+fn listen(finish: &Arc<AtomicBool>, maps: &Arc<Maps>) -> std::io::Result<()> {
+    let mut signals = SigSet::empty();
+    signals.add(Signal::SIGINT);
+    signals.thread_block()?;
+    let finish = Arc::clone(finish);
+    std::thread::Builder::new().spawn(move || {
+        while signals.wait().is_ok() {
+            finish.store(true, Ordering::Relaxed);
+        }
+    })?;
+    let maps = Arc::clone(maps);
+    end_with_server(move || maps.ask())
+}
+
+/// Starts the thread that ends this process when its standard input closes. `hear` is called for every byte before that.
+fn end_with_server(hear: impl Fn() + Send + 'static) -> std::io::Result<()> {
+    std::thread::Builder::new().spawn(move || {
+        let mut byte = [0];
+        while matches!(std::io::stdin().read(&mut byte), Ok(1..)) {
+            hear();
+        }
+        std::process::exit(1);
+    })?;
+    Ok(())
+}
+
+fn refusal(error: &PipelineError) -> (u8, Failure) {
+    (
+        error.exit_code(),
+        Failure::new(error.code(), error.to_string()),
+    )
+}
+
+/// A file could not be written.
+fn unwritten(error: std::io::Error) -> (u8, Failure) {
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            let detail = format!("no space left: {error}");
+            (NO_SPACE as u8, Failure::new("storage_full", detail))
+        }
+        _ => internal(error),
+    }
+}
+
+fn internal(error: impl std::fmt::Display) -> (u8, Failure) {
+    (1, Failure::new("internal_error", error.to_string()))
+}

@@ -1,0 +1,114 @@
+//! Maps of charts under way, in the compute child: kept and told only while somebody asks.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use crate::map_frame::{self, ChartKey};
+use unwrapd_api::{MAPS, Message, frame_header};
+use unwrapd_layout::charts::MapUnderway;
+
+/// Least time from frame to frame.
+const INTERVAL: Duration = Duration::from_millis(100);
+/// Bytes of frames per second, on average.
+const RATE: f64 = 8e6;
+/// Bytes of a frame at most: what more there is is left out.
+const MOST_BYTES: usize = 32 << 20;
+/// How long after a request somebody is taken to be watching: the next one is on its way.
+const WATCHED: Duration = Duration::from_secs(3);
+
+/// The newest maps that were not told yet.
+pub(crate) struct Maps {
+    folder: PathBuf,
+    start: Instant,
+    /// Whether somebody waits for a frame.
+    is_asked: AtomicBool,
+    /// Until when somebody watches, in milliseconds since the start.
+    watched: AtomicU64,
+    kept: Mutex<Kept>,
+}
+
+#[derive(Default)]
+struct Kept {
+    maps: BTreeMap<ChartKey, Vec<u8>>,
+    bytes: usize,
+    /// When the next frame may be told.
+    next: Duration,
+}
+
+impl Maps {
+    /// Nobody has asked yet.
+    pub fn new(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_path_buf(),
+            start: Instant::now(),
+            is_asked: AtomicBool::new(false),
+            watched: AtomicU64::new(0),
+            kept: Mutex::default(),
+        }
+    }
+
+    /// Somebody waits for a frame.
+    pub fn ask(&self) {
+        let until = (self.start.elapsed() + WATCHED).as_millis() as u64;
+        self.watched.store(until, Ordering::Relaxed);
+        self.is_asked.store(true, Ordering::Release);
+    }
+
+    /// Takes a map, if somebody watches. Without that it costs two loads.
+    pub fn take(&self, surface: usize, map: &MapUnderway) {
+        let until = self.watched.load(Ordering::Relaxed);
+        let is_watched = || (self.start.elapsed().as_millis() as u64) < until;
+        if until == 0 || !self.is_asked.load(Ordering::Relaxed) && !is_watched() {
+            return;
+        }
+        let key = map_frame::key(surface, map);
+        let encoded = map_frame::encoded(key, map);
+        let mut kept = self.kept();
+        kept.keep(key, encoded);
+        self.tell(&mut kept);
+    }
+
+    /// Tells what is there, if somebody waits for it.
+    pub fn flush(&self) {
+        self.tell(&mut self.kept());
+    }
+
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn tell(&self, kept: &mut Kept) {
+        let now = self.start.elapsed();
+        if kept.maps.is_empty() || now < kept.next || !self.is_asked.load(Ordering::Acquire) {
+            return;
+        }
+        let mut frame = frame_header();
+        frame.extend(std::mem::take(&mut kept.maps).into_values().flatten());
+        kept.bytes = 0;
+        kept.next = now + INTERVAL.max(Duration::from_secs_f64(frame.len() as f64 / RATE));
+        self.is_asked.store(false, Ordering::Release);
+        // A frame that cannot be written is one that a slow watcher misses.
+        let partial = self.folder.join("maps.partial");
+        let written = std::fs::write(&partial, frame);
+        if written
+            .and_then(|()| std::fs::rename(&partial, self.folder.join(MAPS)))
+            .is_ok()
+        {
+            Message::Maps.tell();
+        }
+    }
+}
+
+impl Kept {
+    /// Replaces the map of a chart.
+    fn keep(&mut self, key: ChartKey, map: Vec<u8>) {
+        self.bytes -= self.maps.remove(&key).map_or(0, |former| former.len());
+        if self.bytes + map.len() <= MOST_BYTES {
+            self.bytes += map.len();
+            self.maps.insert(key, map);
+        }
+    }
+}

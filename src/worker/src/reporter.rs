@@ -1,0 +1,153 @@
+//! What the compute child tells the server.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use nix::sys::resource::{UsageWho, getrusage};
+use nix::sys::time::TimeValLike;
+
+use crate::frames::Frames;
+use crate::maps::Maps;
+use crate::pace::Pace;
+use unwrapd_api::{Message, Progress};
+use unwrapd_layout::charts::MapUnderway;
+use unwrapd_method::solver::Control;
+use unwrapd_pipeline::{self as pipeline, Observer};
+
+/// Least time between two reports of one stage.
+const TELL_INTERVAL: Duration = Duration::from_millis(25);
+
+/// Silence after which an estimate is told: clients see the share move at least once a second.
+const SILENCE: Duration = Duration::from_millis(500);
+
+/// Tells the server how far the work is, and the pipeline how long it has taken.
+pub(crate) struct Reporter {
+    start: Instant,
+    finish: Arc<AtomicBool>,
+    told: Arc<Mutex<Told>>,
+    frames: Mutex<Frames>,
+    maps: Arc<Maps>,
+}
+
+/// What was told last, and when the share moved.
+#[derive(Default)]
+struct Told {
+    progress: Progress,
+    at: Duration,
+    pace: Pace,
+}
+
+impl Reporter {
+    /// Says that the child is ready, and starts the thread that tells estimates.
+    pub(crate) fn start(
+        finish: Arc<AtomicBool>,
+        frames: Frames,
+        maps: Arc<Maps>,
+    ) -> std::io::Result<Self> {
+        Message::Ready.tell();
+        let reporter = Self {
+            start: Instant::now(),
+            finish,
+            told: Arc::default(),
+            frames: Mutex::new(frames),
+            maps,
+        };
+        let (start, told) = (reporter.start, Arc::clone(&reporter.told));
+        let maps = Arc::clone(&reporter.maps);
+        std::thread::Builder::new().spawn(move || {
+            loop {
+                std::thread::sleep(SILENCE);
+                lock(&told).estimate(start.elapsed());
+                maps.flush();
+            }
+        })?;
+        Ok(reporter)
+    }
+
+    /// Tells how much processor time was used.
+    pub(crate) fn tell_cpu() {
+        if let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) {
+            let times = [usage.user_time(), usage.system_time()];
+            let ms = times.map(|time| time.num_milliseconds());
+            Message::Cpu(ms.iter().sum::<i64>().max(0) as u64).tell();
+        }
+    }
+
+    /// The frames that were shown.
+    pub(crate) fn into_frames(self) -> Frames {
+        let frames = self.frames.into_inner();
+        frames.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Told {
+    /// Tells a report, unless one of its stage was told just now. One in which the share stays where
+    /// it is waits for the next that is told.
+    fn report(&mut self, progress: Progress, now: Duration) {
+        let begins = self.progress.stage != progress.stage;
+        if !begins && now < self.at + TELL_INTERVAL {
+            return;
+        }
+        let shown = self.progress.fraction;
+        let fraction = self.pace.reported(progress.fraction, now);
+        self.progress = progress;
+        if begins || shown < fraction {
+            self.tell(fraction, now);
+        } else {
+            self.progress.fraction = shown;
+            self.estimate(now);
+        }
+    }
+
+    /// Tells an estimate, if the share has not moved for a while.
+    fn estimate(&mut self, now: Duration) {
+        if self.progress.stage.is_some() && self.at + SILENCE <= now {
+            let fraction = self.pace.estimated(now);
+            self.tell(fraction, now);
+        }
+    }
+
+    fn tell(&mut self, fraction: f64, now: Duration) {
+        (self.progress.fraction, self.at) = (fraction, now);
+        Message::Progress(self.progress).tell();
+    }
+}
+
+impl Observer for Reporter {
+    fn progress(&self, progress: &pipeline::Progress) -> Control {
+        // Flat charts are laid out without an iteration: there is no energy then, and no smallest face.
+        let has_iterate = (progress.iteration, progress.energy, progress.smallest) != (0, 0.0, 0.0);
+        let progress = Progress {
+            stage: Some(progress.stage),
+            fraction: progress.fraction,
+            chart: progress.chart as u64,
+            charts: progress.charts as u64,
+            iteration: progress.iteration as u64,
+            energy: Some(progress.energy).filter(|e| has_iterate && e.is_finite()),
+            smallest: Some(progress.smallest).filter(|s| has_iterate && s.is_finite()),
+        };
+        lock(&self.told).report(progress, self.start.elapsed());
+        if self.finish.load(Ordering::Relaxed) {
+            Control::Finish
+        } else {
+            Control::Continue
+        }
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.start.elapsed()
+    }
+
+    fn map(&self, surface: usize, map: &MapUnderway) {
+        self.maps.take(surface, map);
+    }
+
+    fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
+        lock(&self.frames).add(number, file);
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

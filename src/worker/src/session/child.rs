@@ -1,0 +1,148 @@
+//! The child process of a session.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::os::fd::AsFd;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, sync_channel};
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::course::Course;
+use super::message::Message;
+use crate::attempt::contain;
+use unwrapd_api::pipe::{self, BAKE, BAKED, FAILED, FRAME, MESH, REPLY};
+use unwrapd_api::{Failure, START, TASK, Task, read_json, read_upload};
+use unwrapd_pipeline::{Workers, in_pool, start_file};
+
+/// Messages that wait. Behind them the pipe fills up, and the client waits.
+const MOST_WAITING: usize = 1024;
+
+/// What came from the server.
+enum Said {
+    Message(Result<Message, (u32, Failure)>),
+    Bake,
+}
+
+/// Runs the session in `folder` until standard input ends, and returns the exit code of the process.
+pub fn run(folder: &Path) -> u8 {
+    // Not buffered by lines, as standard output is.
+    let out = match std::io::stdout().as_fd().try_clone_to_owned() {
+        Ok(out) => File::from(out),
+        Err(_) => return 1,
+    };
+    let Err(failure) = session(folder, &out) else {
+        return 0;
+    };
+    tell(&out, FAILED, &json(&failure));
+    3
+}
+
+fn session(folder: &Path, out: &File) -> Result<(), Failure> {
+    // First of all: a child whose server is gone does not read on.
+    let said = listen()?;
+    let task: Task = read_json(folder, TASK)?;
+    contain(task.memory)?;
+    let workers = Workers {
+        threads: task.limits.threads,
+    };
+    let served = in_pool(workers, move || {
+        let upload = read_upload(folder, &task.input)?;
+        let course = Course::new(task.kind, &task.options, &upload, task.limits)?;
+        serve(course, &said, folder, out);
+        Ok(())
+    });
+    served.map_err(|error| Failure::new(error.code(), error.to_string()))?
+}
+
+/// Starts the thread that hears the server. The process ends with standard input: the server is gone, or wants it to.
+fn listen() -> std::io::Result<Receiver<Said>> {
+    let (say, said) = sync_channel(MOST_WAITING);
+    std::thread::Builder::new().spawn(move || {
+        let mut stdin = std::io::stdin().lock();
+        while let Ok((tag, bytes)) = pipe::read(&mut stdin) {
+            let heard = match tag {
+                BAKE => Said::Bake,
+                _ => Said::Message(Message::read(&bytes)),
+            };
+            if say.send(heard).is_err() {
+                break;
+            }
+        }
+        std::process::exit(0);
+    })?;
+    Ok(said)
+}
+
+/// Takes messages as they come, iterates while there is something to do, and tells a frame each time.
+fn serve(mut course: Course, said: &Receiver<Said>, folder: &Path, out: &File) {
+    tell(out, MESH, &course.mesh());
+    tell(out, FRAME, &course.frame());
+    loop {
+        let first = if course.is_moving() {
+            None
+        } else {
+            match said.recv() {
+                Ok(first) => Some(first),
+                Err(_) => return,
+            }
+        };
+        let batch: Vec<Said> = first.into_iter().chain(said.try_iter()).collect();
+        take(&mut course, batch, folder, out);
+        course.step();
+        tell(out, FRAME, &course.frame());
+    }
+}
+
+/// Takes what came since the last iteration. Of several moves of a handle, with nothing but moves between them, only the last
+/// has an effect: dragging is not held up by places that are left already.
+fn take(course: &mut Course, batch: Vec<Said>, folder: &Path, out: &File) {
+    let is_late = superseded(&batch);
+    for (said, is_late) in batch.into_iter().zip(is_late) {
+        let reply = match said {
+            Said::Bake => {
+                tell(out, BAKED, &json(&bake(course, folder)));
+                continue;
+            }
+            Said::Message(Ok(message)) if is_late => course.supersede(message.n),
+            Said::Message(Ok(message)) => course.take(&message),
+            Said::Message(Err((n, error))) => course.refuse(n, error),
+        };
+        tell(out, REPLY, &json(&reply));
+    }
+}
+
+/// Which of these are moves that a later one takes the place of.
+fn superseded(batch: &[Said]) -> Vec<bool> {
+    let mut moved_later = BTreeSet::new();
+    let mut late = vec![false; batch.len()];
+    for (said, is_late) in batch.iter().zip(&mut late).rev() {
+        match said {
+            Said::Message(Ok(message)) => match message.moved() {
+                Some(name) => *is_late = !moved_later.insert(name),
+                None => moved_later.clear(),
+            },
+            _ => moved_later.clear(),
+        }
+    }
+    late
+}
+
+/// Leaves the start in the folder; its handles, or why that failed.
+fn bake(course: &Course, folder: &Path) -> Result<Vec<Value>, Failure> {
+    let (handles, start) = course.baked();
+    std::fs::write(folder.join(START), start_file(&start))?;
+    Ok(handles)
+}
+
+fn json(value: &impl Serialize) -> Vec<u8> {
+    serde_json::to_vec(value).unwrap_or_default()
+}
+
+/// Nobody listens any more if this fails: there is no reason to go on.
+fn tell(mut out: &File, tag: u8, bytes: &[u8]) {
+    if pipe::write(&mut out, tag, bytes).is_err() {
+        std::process::exit(1);
+    }
+}

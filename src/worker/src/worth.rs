@@ -1,0 +1,20 @@
+//! What an atlas is worth, by its report.
+
+use unwrapd_api::Worth;
+use unwrapd_pipeline::Report;
+
+/// Returns what an atlas is worth by its report.
+pub fn worth_of(report: &Report) -> Worth {
+    let measures = || report.groups.iter().map(|group| &group.measures);
+    let worst = |figures: Vec<Option<f64>>| figures.into_iter().flatten().reduce(f64::max);
+    Worth {
+        certified: Some(report.certified),
+        charts: Some(measures().map(|of| of.seams.charts as u64).sum()),
+        distortion: worst(
+            measures()
+                .map(|of| of.distortion.sym_dirichlet_mean)
+                .collect(),
+        ),
+        stretch: worst(measures().map(|of| of.distortion.stretch_p99).collect()),
+    }
+}
