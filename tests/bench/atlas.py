@@ -4,7 +4,7 @@
     python3 tests/bench/atlas.py --judge path/to/uvmetrics.py --unwrapd target/release/unwrapd MESH... [-- --packing tight]
 
 JUDGE is a program `JUDGE FILE --json` that prints its measures of a file's UVs. The interpreter needs numpy, uvunwrap and xatlas
-from PyPI, and open3d for `--peers UVAtlas`. Every tool gets the same mesh: positions in f32, welded where equal, faces without
+from PyPI, open3d for `--peers UVAtlas`, and bpy for `--peers Blender`, whose Smart UV Project it is. Every tool gets the same mesh: positions in f32, welded where equal, faces without
 three corners dropped. What stands after `--` goes to unwrapd. uvunwrap runs twice: as it is, and with the padding that leaves
 the gap of 2 texels that unwrapd keeps, so that the shares of the square compare. xatlas gets the mesh with a diagonal of 1000,
 because what it takes for an area of zero does not scale.
@@ -82,11 +82,29 @@ def run_uvatlas(positions, faces):
     return mesh.triangle.texture_uvs.numpy()
 
 
+def run_blender(positions, faces):
+    import bpy
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    mesh = bpy.data.meshes.new("mesh")
+    mesh.from_pydata(positions.tolist(), [], faces.tolist())
+    thing = bpy.data.objects.new("object", mesh)
+    bpy.context.collection.objects.link(thing)
+    bpy.context.view_layer.objects.active = thing
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.smart_project()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    uv = np.empty(2 * len(mesh.loops), np.float32)
+    mesh.uv_layers.active.uv.foreach_get("vector", uv)
+    return uv.reshape(-1, 3, 2).astype(float)
+
+
 PEERS = {
     "uvunwrap": lambda v, f: run_uvunwrap(v, f, {}),
     "uvunwrap, gap 2": lambda v, f: run_uvunwrap(v, f, {"padding": 1}),
     "xatlas": run_xatlas,
     "UVAtlas": run_uvatlas,
+    "Blender": run_blender,
 }
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws atlases of `unwrapd unwrap`, uvunwrap and xatlas side by side, and the meshes with a checkerboard through them.
+"""Draws atlases of `unwrapd unwrap`, uvunwrap, xatlas and Blender side by side, and the meshes with a checkerboard through them.
 
     python3 tests/bench/gallery --judge path/to/uvmetrics.py --unwrapd target/release/unwrapd --data DIR --out P.png [NAME...]
 
@@ -39,7 +39,7 @@ MESHES = {
     "Mug": ("hard/mug.obj", (60, 20, "z"), "CC0"),
     "Hand": ("disk/hand_lowres.obj", (20, 10, "y"), "Max Planck Society via SMPL, CC BY 4.0"),
 }
-TOOLS = {"unwrapd": "unwrapd", "uvunwrap, gap 2": "uvunwrap", "xatlas": "xatlas"}
+TOOLS = {"unwrapd": "unwrapd", "uvunwrap, gap 2": "uvunwrap", "xatlas": "xatlas", "Blender": "Blender, Smart UV Project"}
 SIDE, MARGIN, LINE, CHECKS, COLORS = 252, 16, 32, 24, 96
 FONTS = Path("/usr/share/fonts/truetype/dejavu")
 
@@ -53,20 +53,20 @@ def atlases_of(arguments, path, folder):
     figures = atlas.ours(arguments, path, folder)
     positions, faces, uv = atlas.read_obj(folder / "ours.obj")
     yield "unwrapd", figures, Atlas(positions, faces, uv)
-    for tool in list(TOOLS)[1:]:
+    for tool in arguments.tools[1:]:
         figures = atlas.theirs(arguments, tool, positions, faces, folder)
         yield TOOLS[tool], figures, Atlas(*atlas.read_obj(folder / "theirs.obj"))
 
 
-def cell(figures, charts, view):
-    """The mesh, beside it the square, and the figures under both."""
+def cell(figures, charts, view, in_seconds):
+    """The mesh, beside it the square, and the figures under both, the last of which is the covered share or the CPU seconds."""
     picture = Image.new("RGB", (2 * SIDE + MARGIN, SIDE + LINE), "white")
     picture.paste(surface(charts, SIDE, CHECKS, view), (0, 0))
     picture.paste(layout(charts, SIDE, CHECKS), (SIDE + MARGIN, 0))
     pen = ImageDraw.Draw(picture)
     plural = "" if figures["charts"] == 1 else "s"
     text = (f"{figures['charts']} chart{plural} · seam {figures['seam']:.1f} · E {figures['E']:.2f} · "
-            f"fill {100 * figures['fill']:.0f} %")
+            + (f"{figures['cpu']:.1f} s" if in_seconds else f"fill {100 * figures['fill']:.0f} %"))
     pen.text((picture.width / 2, SIDE + LINE / 2 + 3), text, "#333", font(21), "mm")
     return picture
 
@@ -78,17 +78,17 @@ def row(arguments, name, folder):
     for tool, figures, charts in atlases_of(arguments, arguments.data / file, folder):
         print(f"{name:8} | {tool:8} | {figures['charts']:4} | {figures['seam']:5.2f} | {figures['E']:.3f} | {figures['fill']:.3f}",
               flush=True)
-        cells.append(cell(figures, charts, view))
+        cells.append(cell(figures, charts, view, arguments.seconds))
     return f"{name}, {len(charts.faces):,} faces · {credit}", cells
 
 
-def sheet(rows):
+def sheet(rows, tools):
     """All cells under the names of the tools."""
     wide, high = rows[0][1][0].size
     step, pitch = wide + 2 * MARGIN, high + LINE + MARGIN
-    picture = Image.new("RGB", (len(TOOLS) * step, len(rows) * pitch + 2 * LINE), "white")
+    picture = Image.new("RGB", (len(tools) * step, len(rows) * pitch + 2 * LINE), "white")
     pen = ImageDraw.Draw(picture)
-    for k, tool in enumerate(TOOLS.values()):
+    for k, tool in enumerate(TOOLS[name] for name in tools):
         pen.text((k * step + step / 2, LINE), tool, "black", font(26, k == 0), "mm")
     for j, (title, cells) in enumerate(rows):
         top = 3 * LINE + j * pitch
@@ -105,11 +105,13 @@ def main():
     parser.add_argument("--unwrapd", default="target/release/unwrapd")
     parser.add_argument("--data", required=True, type=Path)
     parser.add_argument("--out", required=True, type=Path)
+    parser.add_argument("--tools", nargs="+", choices=TOOLS, default=list(TOOLS)[:3], help="unwrapd first")
+    parser.add_argument("--seconds", action="store_true", help="show the CPU seconds in place of the covered share")
     arguments = SimpleNamespace(**vars(parser.parse_args()), options=[])
     print("mesh | tool | charts | seam | E | fill")
     with tempfile.TemporaryDirectory() as folder:
         rows = [row(arguments, name, Path(folder)) for name in arguments.names]
-    sheet(rows).quantize(COLORS, Image.Quantize.MEDIANCUT, kmeans=5, dither=Image.Dither.NONE).save(arguments.out, optimize=True)
+    sheet(rows, arguments.tools).quantize(COLORS, Image.Quantize.MEDIANCUT, kmeans=5, dither=Image.Dither.NONE).save(arguments.out, optimize=True)
 
 
 if __name__ == "__main__":
