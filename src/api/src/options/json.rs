@@ -4,7 +4,7 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 
-use super::OptionSet;
+use super::option_set::OptionSet;
 
 /// A JSON object of options.
 pub type Object = Map<String, Value>;

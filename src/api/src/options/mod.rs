@@ -14,28 +14,14 @@
 //! What is not said here is how options depend on each other: that their owners check.
 
 mod declare;
+mod json;
+mod option_set;
 mod range;
 
 pub use crate::options;
+pub use option_set::OptionSet;
 pub use range::Ranged;
 pub use range::within;
-
-/// Options that are set together, with the groups that they consist of.
-pub trait OptionSet: Sized {
-    /// Checks every number against its range; the text names the option.
-    fn check_ranges(&self) -> Result<(), String>;
-
-    /// The names of all options, those of groups included.
-    fn names() -> Vec<&'static str>;
-
-    /// What is said of an option of this set, apart from those of its groups.
-    fn about(name: &str) -> Option<&'static str>;
-
-    /// Takes the options out of a JSON object; what is absent has its default.
-    fn taken_from(given: &mut Object) -> Result<Self, String>;
-}
-
-mod json;
 
 pub use json::Object;
 pub use json::{deserialized, taken};

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::OptionSet;
+use super::option_set::OptionSet;
 
 /// A value as it is typed: what JSON has for it, without quotes.
 pub fn typed<T: Serialize>(value: &T) -> String {

@@ -9,11 +9,11 @@ use axum::http::{HeaderMap, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+use super::app::{App, Shared};
 use super::problem::{Code, Problem};
 use super::scopes::needed;
 use super::upload::drain_refused;
 use super::windows::Standing;
-use super::{App, Shared};
 use crate::jobs::access::{Caller, Denied, Scope};
 
 /// The cookie of pages that signed in.

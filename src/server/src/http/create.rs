@@ -6,13 +6,13 @@ use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::Response;
 
+use super::app::{App, Shared, json};
 use super::extract::preferred_wait;
 use super::jobs::{view, wait_for};
 use super::problem::{Code, Problem};
 use super::upload;
 use super::view::{JobView, job_path};
 use super::wishes::Wishes;
-use super::{App, Shared, json};
 use crate::jobs::access::Caller;
 use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted, Webhook};
 use crate::webhooks;

@@ -6,7 +6,7 @@ use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::App;
+use super::app::App;
 use super::missing::job_not_found;
 use super::problem::{Code, Problem};
 use crate::jobs::{Job, Undrawn};

@@ -4,7 +4,7 @@ use axum::Json;
 use axum::extract::State;
 use serde::Serialize;
 
-use super::{App, Shared};
+use super::app::{App, Shared};
 
 /// Whether this process takes in jobs, and what it still has to do.
 #[derive(Serialize, utoipa::ToSchema)]

@@ -13,11 +13,11 @@ use axum::response::{IntoResponse, Response};
 use futures_util::{StreamExt, stream};
 use serde::Deserialize;
 
+use super::app::{App, Shared};
 use super::extract::{Parameters, PathId};
 use super::missing::missing;
 use super::problem::{Code, Problem};
 use super::socket::{KEEP_ALIVE, MOST_MESSAGE_BYTES, goodbye, refusal};
-use super::{App, Shared};
 use crate::jobs::Subscription;
 use crate::jobs::access::Caller;
 

@@ -5,8 +5,8 @@ use axum::http::HeaderMap;
 use axum::http::request::Parts;
 use axum::response::Response;
 
-use super::Shared;
 use super::answers::FileAnswers;
+use super::app::Shared;
 use super::download::{self, File};
 use super::extract::PathId;
 use super::missing::existing;

@@ -7,11 +7,11 @@ use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 
+use super::app::{App, Shared, json};
 use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId};
 use super::missing::{existing, missing};
 use super::problem::{Code, Problem};
 use super::view::JobView;
-use super::{App, Shared, json};
 use crate::jobs::access::{Caller, Reach};
 use crate::jobs::{Changed, Ended, Job, JobId, Reason, Refusal, Wish};
 

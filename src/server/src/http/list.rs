@@ -5,12 +5,12 @@ use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 
+use super::app::{Shared, json};
 use super::extract::Parameters;
 use super::handling::metadata;
 use super::jobs::view;
 use super::problem::{Code, Problem};
 use super::view::JobPage;
-use super::{Shared, json};
 use crate::jobs::access::{Caller, Owner};
 use crate::jobs::{JobId, Listing, Metadata, Order, State as JobState, Timestamp};
 use unwrapd_api::Kind;

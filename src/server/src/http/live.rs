@@ -10,10 +10,10 @@ use futures_util::stream::{SplitSink, SplitStream};
 use futures_util::{SinkExt, StreamExt};
 use tokio::sync::broadcast::error::RecvError;
 
+use super::app::{App, Shared};
 use super::problem::{Code, Problem};
 use super::sessions::PathSession;
 use super::socket::{KEEP_ALIVE, MOST_MESSAGE_BYTES, goodbye, refusal};
-use super::{App, Shared};
 use crate::jobs::access::Caller;
 use crate::sessions::{End, Session};
 

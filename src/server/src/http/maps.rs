@@ -7,7 +7,7 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 
-use super::Shared;
+use super::app::Shared;
 use super::extract::{Parameters, PathId};
 use super::missing::missing;
 use super::problem::{Code, Problem};

@@ -1,6 +1,6 @@
 //! Jobs that are not there, or not any more, or not for whoever asks: that is all the same to them.
 
-use super::App;
+use super::app::App;
 use super::problem::{Code, Problem};
 use crate::jobs::access::Reach;
 use crate::jobs::{Job, JobId};

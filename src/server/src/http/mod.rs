@@ -6,6 +6,7 @@
 
 mod admission;
 mod answers;
+mod app;
 mod assets;
 mod causes;
 mod code;
@@ -60,11 +61,8 @@ mod view;
 mod windows;
 mod wishes;
 
-use std::net::IpAddr;
 use std::sync::Arc;
 
-use axum::http::{StatusCode, header};
-use axum::response::{IntoResponse, Response};
 use axum::{Router, routing::get};
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
@@ -72,35 +70,15 @@ use tokio_util::task::TaskTracker;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use self::app::App;
 pub use self::exposition::{Exposition, Measured, measure};
 pub use self::origins::origin;
-use self::problem::Problem;
 pub use self::settings::{Connections, Settings};
 use self::windows::Windows;
 use crate::jobs::Jobs;
-use crate::jobs::access::{KeyRing, Owner};
+use crate::jobs::access::KeyRing;
 use crate::sessions::Sessions;
 use unwrapd_api::Catalog;
-
-/// What every handler may use.
-struct App {
-    jobs: Arc<Jobs>,
-    sessions: Arc<Sessions>,
-    keys: Arc<KeyRing>,
-    exposition: Exposition,
-    /// Requests of each owner.
-    requests: Option<Windows<Owner>>,
-    /// Archives of each owner that are made or sent.
-    archives: Arc<crowds::Crowds<Owner>>,
-    /// Wrong keys from each address.
-    wrong_keys: Windows<IpAddr>,
-    settings: Settings,
-    stop: CancellationToken,
-    sockets: TaskTracker,
-}
-
-/// How handlers get it.
-type Shared = axum::extract::State<Arc<App>>;
 
 /// The table of contents. What is here, and what is open, is in the OpenAPI document. Calls of these
 /// need a key, once there is one.
@@ -200,12 +178,4 @@ pub async fn serve(
     app.sockets.close();
     app.sockets.wait().await;
     Ok(())
-}
-
-/// An answer with a JSON body.
-fn json<T: serde::Serialize>(status: StatusCode, body: &T) -> Response {
-    match serde_json::to_vec(body) {
-        Ok(bytes) => (status, [(header::CONTENT_TYPE, "application/json")], bytes).into_response(),
-        Err(error) => Problem::internal(&error).into_response(),
-    }
 }

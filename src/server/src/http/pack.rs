@@ -17,12 +17,13 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::answers::ArchiveProblems;
+use super::app::{App, Shared};
 use super::crowds::Crowds;
+use super::download;
 use super::extract::PathId;
 use super::missing::existing;
 use super::problem::{Code, Problem};
 use super::results::check_succeeded;
-use super::{App, Shared, download};
 use crate::jobs::access::Caller;
 use crate::jobs::{Job, JobId, Scratch};
 

@@ -4,8 +4,8 @@ use axum::Json;
 use axum::extract::State;
 use serde::Serialize;
 
+use super::app::{App, Shared};
 use super::problem::Problem;
-use super::{App, Shared};
 
 /// Whether waiting jobs are started, by any process.
 #[derive(Serialize, utoipa::ToSchema)]

@@ -6,7 +6,7 @@ use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::Response;
 
-use super::Shared;
+use super::app::Shared;
 use super::assets::{self, Asset};
 use super::problem::{Code, Problem};
 

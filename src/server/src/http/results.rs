@@ -5,11 +5,11 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 
 use super::answers::{FileAnswers, PictureAnswers};
+use super::app::{App, Shared};
 use super::download::{self, File};
 use super::extract::{PathId, PathName};
 use super::missing::existing;
 use super::problem::{Code, Problem};
-use super::{App, Shared};
 use crate::jobs::access::Caller;
 use crate::jobs::{Job, JobId, State as JobState};
 use unwrapd_api::Picture;

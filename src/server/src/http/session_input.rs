@@ -7,7 +7,7 @@ use futures_util::StreamExt;
 use serde::Deserialize;
 use tokio::io::AsyncWriteExt;
 
-use super::App;
+use super::app::App;
 use super::missing::{existing, job_not_found};
 use super::options::{UploadQuery, complete};
 use super::problem::{Code, Problem};

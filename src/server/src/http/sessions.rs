@@ -9,11 +9,11 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde_json::Value;
 
+use super::app::{App, Shared, json};
 use super::create::located;
 use super::problem::{Code, Problem};
 use super::session_input::received;
 use super::view::JobView;
-use super::{App, Shared, json};
 use crate::jobs::access::Caller;
 use crate::jobs::{JobId, Submitted};
 use crate::sessions::{Baked, End, Opened, Session, Unopened};

@@ -6,8 +6,8 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 
-use super::Shared;
 use super::admission::COOKIE;
+use super::app::Shared;
 use super::problem::{Code, Problem};
 use crate::jobs::Timestamp;
 use crate::jobs::access::{Caller, Scopes, Signed};

@@ -8,10 +8,11 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue};
 use axum::response::Response;
 
 use super::answers::CallProblems;
+use super::app::{App, Shared};
 use super::jobs::wait_for;
 use super::problem::{Code, Problem};
 use super::wishes::Wishes;
-use super::{App, Shared, download, upload};
+use super::{download, upload};
 use crate::jobs::access::Caller;
 use crate::jobs::{Ended, Job, JobId, Jobs, State as JobState, Submitted};
 use unwrapd_api::{Kind, Verdict};

@@ -9,7 +9,7 @@ use axum::extract::{FromRequest, Multipart, Request};
 use axum::http::{HeaderMap, header};
 use futures_util::{Stream, StreamExt, stream};
 
-use super::App;
+use super::app::App;
 use super::options::UploadQuery;
 use super::problem::{Code, Problem};
 use super::received::Received;
