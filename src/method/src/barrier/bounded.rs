@@ -9,10 +9,10 @@ use crate::numerics::square::Matrix;
 /// ```text
 /// ψ + β (1/g(y) − 1)   for y < 1, ψ above     y = (K − q)/((1 − a) K)     g(y) = y³ − 3y² + 3y
 /// ```
-/// The barrier is zero for q ≤ aK, so an ordinary triangle does not feel it, and infinite at q = K: where the inverse spline
-/// keeps triangles from inverting, this keeps them from degenerating to needles. Weighted as ψ is. Domain: that of ψ with
-/// det J > 0 and q < K, +∞ outside; the start must be inside. From: Schüller et al. 2013, section 6 (future work). Tests:
-/// `barrier::taylor_bounded`, `deform::conformal_distortion_stays_below_its_bound`.
+/// The barrier is zero for q ≤ aK, so it does not affect ordinary triangles, and infinite at q = K: as the inverse
+/// spline keeps triangles from inverting, it keeps them from degenerating to needles. Weighted like ψ. Domain: that of
+/// ψ with det J > 0 and q < K, +∞ outside; the start must be inside. From: Schüller et al. 2013, section 6 (future
+/// work). Tests: `barrier::taylor_bounded`, `deform::conformal_distortion_stays_below_its_bound`.
 pub struct Bounded {
     /// ψ.
     pub density: Box<dyn Density<2>>,
@@ -22,11 +22,11 @@ pub struct Bounded {
     pub beta: f64,
 }
 
-/// a: the share of the bound from which the barrier is felt.
+/// a: the share of the bound above which the barrier is nonzero.
 const ONSET: f64 = 0.7;
 
 impl Bounded {
-    /// The barrier and its first two derivatives in q; zero for q ≤ aK.
+    /// Returns the barrier and its first two derivatives in q; zero for q ≤ aK.
     fn barrier(&self, q: f64) -> [f64; 3] {
         let support = (1.0 - ONSET) * self.bound;
         let [value, first, second] = reciprocal((self.bound - q) / support);

@@ -1,4 +1,4 @@
-//! A barrier in words and numbers.
+//! Choice and parameters of a barrier.
 
 use super::{AugmentedLog, InverseSpline, Log, NeoHookean, NoBarrier};
 use crate::energy::Guard;
@@ -27,11 +27,11 @@ pub enum BarrierKind {
 /// A barrier with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Barrier {
-    /// Which.
+    /// Kind of barrier.
     pub kind: BarrierKind,
     /// β, the barrier's factor.
     pub beta: f64,
-    /// s, the share of its rest size below which an element feels the inverse spline.
+    /// s, the share of the rest size below which the inverse spline is nonzero.
     pub s: f64,
     /// ε, the size at which the barrier is infinite; see [`epsilon`](super::epsilon).
     pub epsilon: f64,
@@ -46,7 +46,7 @@ impl Barrier {
         epsilon: 0.0,
     };
 
-    /// Does what the kind says with its guard.
+    /// Calls `action` with the guard of this kind.
     fn with<R>(&self, action: impl FnOnce(&dyn Guard) -> R) -> R {
         let &Self {
             kind,

@@ -21,7 +21,7 @@ pub struct InverseSpline {
 }
 
 impl InverseSpline {
-    /// s(1 − ε/λ⁰): the det J above the floor at which the support ends.
+    /// Returns s(1 − ε/λ⁰): the det J above the floor at which the support ends.
     fn support(&self, rest_size: f64) -> f64 {
         self.s * (1.0 - self.floor(rest_size))
     }
@@ -31,9 +31,9 @@ impl InverseSpline {
     }
 }
 
-/// 1/g(y) − 1 and its first two derivatives, 0 from y = 1 on; y > 0.
+/// Returns 1/g(y) − 1 and its first two derivatives, 0 for y ≥ 1; y > 0.
 ///
-/// g is y³ − 3y² + 3y, and not written as 1 − (1 − y)³, which cancels where it matters, near 0.
+/// g is y³ − 3y² + 3y, not written as 1 − (1 − y)³, which would cancel near 0, where accuracy matters.
 pub(super) fn reciprocal(y: f64) -> [f64; 3] {
     if y >= 1.0 {
         return [0.0; 3];

@@ -2,7 +2,7 @@
 
 use crate::energy::Guard;
 
-/// The plain logarithm: felt at every size, and without a minimum.
+/// The plain logarithm: nonzero at every size, without a minimum.
 ///
 /// ```text
 /// φ = −β log(λ − ε)
@@ -37,7 +37,7 @@ impl Guard for Log {
     }
 }
 
-/// The logarithm with its slope at rest taken away.
+/// The logarithm minus its slope at rest.
 ///
 /// ```text
 /// φ = β (−log(λ − ε) + (λ − λ⁰)/r + log r)     r = λ⁰ − ε

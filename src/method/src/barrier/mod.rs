@@ -1,12 +1,12 @@
 //! Barriers that go to infinity as an element degenerates.
 //!
-//! A barrier is what makes a map locally injective: a function of an element's size that is zero for elements of
-//! ordinary size, so that it does not disturb the energy where nothing is wrong, and grows to infinity as the size
-//! falls to ε. With a line search that never steps past a root of an element's area, no element ever inverts: every
-//! iterate is a valid map. (Schüller, Kavan, Panozzo, Sorkine-Hornung 2013, Locally Injective Mappings.)
+//! A barrier makes a map locally injective. It is a function of an element's size that is zero for elements of ordinary
+//! size, so that it does not disturb the energy there, and grows to infinity as the size falls to ε. With a line search
+//! that never steps past a root of an element's area, no element ever inverts: every iterate is a valid map. (Schüller,
+//! Kavan, Panozzo, Sorkine-Hornung 2013, Locally Injective Mappings.)
 //!
-//! Being a function of det J a barrier is isotropic too: it joins a density as a [`Guard`](crate::energy::Guard), one projection for both.
-//! [`map_energy`] puts them together from the words of the options.
+//! As a function of det J a barrier is isotropic too: it joins a density as a [`Guard`](crate::energy::Guard), with one
+//! projection for both. [`map_energy`] combines both from the choices in a [`MapEnergy`].
 
 mod bounded;
 mod guard;
@@ -24,7 +24,7 @@ pub use none::NoBarrier;
 
 use crate::energy::{Arap, EnergyKind, Lscm, RestShape, SymmetricDirichlet, Term, Triangles};
 
-/// An energy of maps of surfaces and a barrier, in words and numbers.
+/// Choice of an energy and a barrier for maps of surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapEnergy {
     /// The density.
@@ -33,7 +33,7 @@ pub struct MapEnergy {
     pub barrier: Barrier,
 }
 
-/// The energy of maps of `triangles` with these rest shapes, ready for the solver.
+/// Creates the energy of maps of `triangles` with these rest shapes, ready for the solver.
 ///
 /// β and ε are absolute, as in the paper: scale the rest shapes to a mean area of 1 first.
 ///
@@ -53,8 +53,8 @@ pub fn map_energy(
     })
 }
 
-/// The paper's ε = 1e-5·(smallest rest area), or a tenth of the start's smallest area where that is less, so that the
-/// start is inside the domain.
+/// Returns the paper's ε = 1e-5·(smallest rest area), or a tenth of the start's smallest area if that is less, so that
+/// the start is inside the domain.
 pub fn epsilon(smallest_rest_area: f64, smallest_start_area: f64) -> f64 {
     (1e-5 * smallest_rest_area).min(0.1 * smallest_start_area)
 }

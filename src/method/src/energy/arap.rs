@@ -32,11 +32,11 @@ impl<const D: usize> Density<D> for Arap {
     }
 }
 
-/// [`Arap`] with the rotation of each element frozen in its quadratic model, as the paper solves it: value and gradient are
-/// those of ARAP, the matrix is the constant Laplacian of ½‖J − R‖² for the present R.
+/// [`Arap`] with the rotation of each element frozen in its quadratic model, as the paper solves it: value and gradient
+/// are those of ARAP, the matrix is the constant Laplacian of ½‖J − R‖² for the current R.
 ///
-/// The model lies above the energy, so its steps descend, but it converges linearly with a long tail.
-/// From: Schüller et al. 2013, section 4. Tests: `energy::frozen_arap_is_a_majorizer`.
+/// The model lies above the energy, so its steps descend, but it converges linearly with a long tail. From: Schüller et
+/// al. 2013, section 4. Tests: `energy::frozen_arap_is_a_majorizer`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FrozenArap;
 

@@ -1,4 +1,4 @@
-//! What a density and a barrier have to say of themselves.
+//! The interfaces of a density and of a barrier.
 
 use crate::numerics::square::Matrix;
 
@@ -7,28 +7,28 @@ use crate::numerics::square::Matrix;
 /// Three functions make an energy: gradient, Hessian and its projection in the coordinates of the vertices follow from
 /// them. ψ must be symmetric in its arguments.
 pub trait Density<const D: usize>: Send + Sync {
-    /// ψ is finite where Πσ = det J is greater than this; −∞ if everywhere.
+    /// Returns the bound of det J = Πσ above which ψ is finite; −∞ if it is finite everywhere.
     fn floor(&self) -> f64;
 
-    /// ψ(σ), +∞ outside the domain.
+    /// Returns ψ(σ), +∞ outside the domain.
     fn value(&self, sigma: &[f64; D]) -> f64;
 
-    /// ∂ψ/∂σᵢ.
+    /// Returns ∂ψ/∂σᵢ.
     fn gradient(&self, sigma: &[f64; D]) -> [f64; D];
 
-    /// ∂²ψ/∂σᵢ∂σⱼ.
+    /// Returns ∂²ψ/∂σᵢ∂σⱼ.
     fn hessian(&self, sigma: &[f64; D]) -> Matrix<D>;
 
-    /// Gradient and Hessian. A density that computes both at once overrides this.
+    /// Returns gradient and Hessian. A density that computes both at once overrides this.
     fn derivatives(&self, sigma: &[f64; D]) -> ([f64; D], Matrix<D>) {
         (self.gradient(sigma), self.hessian(sigma))
     }
 
-    /// The curvature against a rotation in the plane of the axes i and j, (ψᵢ + ψⱼ)/(σᵢ + σⱼ) given the gradient.
+    /// Returns the curvature against a rotation in the plane of the axes i and j, (ψᵢ + ψⱼ)/(σᵢ + σⱼ), given the
+    /// gradient.
     ///
-    /// A density has a reason to say it itself if it knows the quotient without dividing, as
-    /// [`FoldoverFree`](super::FoldoverFree) does, or minimizes a model other than its own Hessian, as
-    /// [`FrozenArap`](super::FrozenArap).
+    /// Override this if the quotient can be computed without a division, as in [`FoldoverFree`](super::FoldoverFree),
+    /// or if the density minimizes a model other than its own Hessian, as [`FrozenArap`](super::FrozenArap) does.
     fn twist(&self, sigma: &[f64; D], gradient: &[f64; D], i: usize, j: usize) -> f64 {
         // Where two singular values cancel a rotation has no axis; rounding of σ is of this relative size.
         (gradient[i] + gradient[j])
@@ -40,13 +40,13 @@ pub trait Density<const D: usize>: Send + Sync {
 
 /// A function φ of an element's size, det J, added to the density's share before the projection.
 pub trait Guard: Send + Sync {
-    /// φ is finite where det J is greater than this; −∞ if everywhere.
+    /// Returns the bound of det J above which φ is finite; −∞ if it is finite everywhere.
     fn floor(&self, rest_size: f64) -> f64;
 
-    /// φ(det J) of an element, not weighted by its size; +∞ at and below the floor.
+    /// Returns φ(det J) of an element, not weighted by its size; +∞ at and below the floor.
     fn value(&self, det: f64, rest_size: f64) -> f64;
 
-    /// φ′ and φ″ at a det J above the floor.
+    /// Returns φ′ and φ″ at a det J above the floor.
     fn derivatives(&self, det: f64, rest_size: f64) -> [f64; 2];
 }
 

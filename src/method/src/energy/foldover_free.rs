@@ -1,4 +1,4 @@
-//! An energy that is finite where elements are inverted, and drives them out of it.
+//! An energy that is finite where elements are inverted, and drives them out of inversion.
 
 use super::Density;
 use crate::numerics::square::Matrix;
@@ -8,15 +8,15 @@ use crate::numerics::square::Matrix;
 /// ```text
 /// ψ = N/(D χ^{2/D}) + λ(Δ² + 1)/(2χ)     χ = ½(Δ + √(ε² + Δ²))     N = Σσᵢ², Δ = Πσ = det J
 /// ```
-/// As ε goes to 0, χ goes to Δ where that is positive, and ψ to the density of [`Mips`](super::Mips) and λ times the size's
-/// ½(Δ + 1/Δ); minimum then 1 + λ, at rotations. Without unit; the sum over a mesh is weighted by rest size. Domain: everywhere
-/// for ε > 0, det J > 0 for ε = 0. From: Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, Foldover-free maps in 50
-/// lines of code. Tests: `energy::taylor_foldover_free`.
+/// As ε goes to 0, χ goes to Δ where that is positive, and ψ to the density of [`Mips`](super::Mips) plus λ times the
+/// size term ½(Δ + 1/Δ); the minimum is then 1 + λ, at rotations. Dimensionless; the sum over a mesh is weighted by
+/// rest size. Domain: everywhere for ε > 0, det J > 0 for ε = 0. From: Garanzha, Kaporin, Kudryavtseva, Protais, Ray,
+/// Sokolov 2021, Foldover-free maps in 50 lines of code. Tests: `energy::taylor_foldover_free`.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldoverFree {
-    /// ε: the smaller, the more an inverted element costs.
+    /// ε: the smaller, the higher the cost of an inverted element.
     pub epsilon: f64,
-    /// λ: how much size counts beside shape.
+    /// λ: weight of size relative to shape.
     pub lambda: f64,
 }
 
@@ -28,7 +28,7 @@ impl FoldoverFree {
         self.epsilon > 0.0 || delta > 0.0
     }
 
-    /// χ(Δ).
+    /// Returns χ(Δ).
     pub fn regularized(&self, delta: f64) -> f64 {
         let root = self.epsilon.hypot(delta);
         if delta > 0.0 {
@@ -46,7 +46,7 @@ impl FoldoverFree {
         [chi, chi / root, 0.5 * ratio * ratio / root]
     }
 
-    /// χ^{−2/D}/D, which N is multiplied with.
+    /// Returns the factor χ^{−2/D}/D of N.
     fn shape<const D: usize>([chi, first, second]: Jet) -> Jet {
         let p = 2.0 / D as f64;
         let value = chi.powf(-p) / D as f64;
@@ -58,7 +58,7 @@ impl FoldoverFree {
         ]
     }
 
-    /// λ(Δ² + 1)/(2χ).
+    /// Returns λ(Δ² + 1)/(2χ).
     fn size(&self, delta: f64, [chi, first, second]: Jet) -> Jet {
         let half = 0.5 * self.lambda / chi;
         let value = half * (delta * delta + 1.0);
@@ -70,7 +70,7 @@ impl FoldoverFree {
         ]
     }
 
-    /// h, h′, and with N put in the first and second derivative of N·h + g by Δ alone, where ψ = N·h(Δ) + g(Δ).
+    /// Returns h and h′, and the first and second derivative of N·h + g by Δ at constant N, where ψ = N·h(Δ) + g(Δ).
     fn parts<const D: usize>(&self, sigma: &[f64; D]) -> ([f64; 2], [f64; 2]) {
         let delta = sigma.iter().product();
         let n: f64 = sigma.iter().map(|s| s * s).sum();
@@ -80,7 +80,7 @@ impl FoldoverFree {
     }
 }
 
-/// The product of all singular values but these two, which may be the same.
+/// Returns the product of all singular values except the i-th and j-th, which may be the same.
 fn without<const D: usize>(sigma: &[f64; D], i: usize, j: usize) -> f64 {
     let others = (0..D).filter(|&k| k != i && k != j);
     others.map(|k| sigma[k]).product()

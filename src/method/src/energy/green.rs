@@ -8,8 +8,9 @@ use crate::numerics::square::Matrix;
 /// ```text
 /// ψ = Σᵢ (σᵢ² − 1)² = ‖JᵀJ − I‖²
 /// ```
-/// Minimum 0, at rotations and reflections. Without unit. The paper sums it over the elements without a weight: give the rest
-/// shapes weight 1 for that. Domain: every J. From: Schüller et al. 2013, section 4. Tests: `energy::taylor_*`.
+/// Minimum 0, at rotations and reflections. Dimensionless. The paper sums it over the elements without a weight: set
+/// the weight of the rest shapes to 1 for that. Domain: every J. From: Schüller et al. 2013, section 4. Tests:
+/// `energy::taylor_*`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Green;
 
@@ -50,7 +51,7 @@ pub struct StVenantKirchhoff {
     pub mu: f64,
 }
 
-/// Eᵢ.
+/// Returns Eᵢ.
 fn strain<const D: usize>(sigma: &[f64; D]) -> [f64; D] {
     sigma.map(|s| 0.5 * (s * s - 1.0))
 }

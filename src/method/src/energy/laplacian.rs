@@ -1,17 +1,17 @@
-//! Laplacians of a mesh and the energies of the displacement made of them.
+//! Laplacians of a mesh, and energies of the displacement made of them.
 
 use super::{Quadratic, RestShape};
 
-/// A symmetric matrix over the vertices, row by row: column and entry, columns increasing.
+/// A symmetric matrix over the vertices: for each row its columns, increasing, and entries.
 type Rows = Vec<Vec<(u32, f64)>>;
 
-/// The Dirichlet energy of the displacement.
+/// Returns the Dirichlet energy of the displacement.
 ///
 /// ```text
 /// ½ Σ A‖J − I‖² = ½ (x − x⁰)ᵀ L (x − x⁰)     L the positive cotangent Laplacian
 /// ```
-/// `elements` have D + 1 vertices each, with one rest shape and true size `sizes` each; `rest` are the positions x⁰. Unit of
-/// a size. Tests: `energy::dirichlet_is_the_distance_from_the_identity`.
+/// `elements` have D + 1 vertices each, with one rest shape and true size `sizes` each; `rest` are the positions x⁰.
+/// Unit: that of a size. Tests: `energy::dirichlet_is_the_distance_from_the_identity`.
 pub fn dirichlet<const D: usize>(
     elements: &[&[u32]],
     shapes: &[RestShape<D>],
@@ -22,7 +22,8 @@ pub fn dirichlet<const D: usize>(
     quadratic(D, &laplacian, rest)
 }
 
-/// The biharmonic energy of the displacement, ½ (x − x⁰)ᵀ L M⁻¹ L (x − x⁰) with the cotangent Laplacian L and lumped masses M.
+/// Returns the biharmonic energy of the displacement, ½ (x − x⁰)ᵀ L M⁻¹ L (x − x⁰) with the cotangent Laplacian L and
+/// lumped masses M.
 ///
 /// From: Botsch and Sorkine 2008, On Linear Variational Surface Deformation Methods. Tests: `energy::taylor_quadratic`.
 pub fn biharmonic<const D: usize>(
@@ -36,7 +37,8 @@ pub fn biharmonic<const D: usize>(
     quadratic(D, &gram(&laplacian, |row| 1.0 / masses[row]), rest)
 }
 
-/// ½ ‖G(x − x⁰)‖² with the graph Laplacian G: a vertex's number of neighbors on the diagonal, −1 for each neighbor.
+/// Returns ½ ‖G(x − x⁰)‖² with the graph Laplacian G: the number of neighbors of a vertex on the diagonal, −1 for each
+/// neighbor.
 ///
 /// Tests: `energy::taylor_quadratic`.
 pub fn uniform_biharmonic(dim: usize, elements: &[&[u32]], rest: Vec<f64>) -> Quadratic {
@@ -55,8 +57,8 @@ pub fn uniform_biharmonic(dim: usize, elements: &[&[u32]], rest: Vec<f64>) -> Qu
     quadratic(dim, &gram(&rows(rest.len() / dim, entries), |_| 1.0), rest)
 }
 
-/// Lumped masses for [`biharmonic`] in the plane: hybrid Voronoi areas (Meyer et al. 2003), which at an obtuse corner give
-/// half the triangle to it and a quarter to each of the others.
+/// Returns lumped masses for [`biharmonic`] in the plane: hybrid Voronoi areas (Meyer et al. 2003), which give half of
+/// an obtuse triangle to its obtuse corner and a quarter to each of the others.
 pub fn voronoi_areas(n_vertices: usize, triangles: &[[u32; 3]], x: &[[f64; 2]]) -> Vec<f64> {
     let mut masses = vec![0.0; n_vertices];
     for triangle in triangles {
@@ -84,7 +86,7 @@ pub fn voronoi_areas(n_vertices: usize, triangles: &[[u32; 3]], x: &[[f64; 2]]) 
     masses
 }
 
-/// L, Σ size·∇λₖ·∇λₗ over the elements.
+/// Returns L, the sum of size·∇λₖ·∇λₗ over the elements.
 fn cotangent<const D: usize>(
     n_vertices: usize,
     elements: &[&[u32]],
@@ -108,7 +110,7 @@ fn cotangent<const D: usize>(
     rows(n_vertices, entries)
 }
 
-/// Entries by row, those of one place summed.
+/// Groups entries by row and sums those at the same place.
 fn rows(n_vertices: usize, mut entries: Vec<(u32, u32, f64)>) -> Rows {
     entries.sort_by_key(|&(row, column, _)| (row, column));
     let mut rows: Rows = vec![Vec::new(); n_vertices];
@@ -121,7 +123,7 @@ fn rows(n_vertices: usize, mut entries: Vec<(u32, u32, f64)>) -> Rows {
     rows
 }
 
-/// LᵀWL of a symmetric L and a diagonal W.
+/// Returns LᵀWL for a symmetric L and a diagonal W.
 fn gram(laplacian: &Rows, weight: impl Fn(usize) -> f64) -> Rows {
     let mut entries = Vec::new();
     for (k, row) in laplacian.iter().enumerate() {

@@ -8,9 +8,9 @@ use crate::numerics::square::Matrix;
 /// ```text
 /// ψ = ½ (σ₁ − σ₂)²
 /// ```
-/// Minimum 0, at similarities, the zero map among them: without a barrier or two fixed vertices a free boundary shrinks
-/// to a point. Without unit; the sum over a mesh is an area. Domain: every J of the plane; quadratic.
-/// From: Lévy et al. 2002, Least Squares Conformal Maps. Tests: `energy::taylor_*`.
+/// Minimum 0, at similarities, including the zero map: without a barrier or two fixed vertices a free boundary shrinks
+/// to a point. Dimensionless; the sum over a mesh is an area. Domain: every J of the plane; quadratic. From: Lévy et
+/// al. 2002, Least Squares Conformal Maps. Tests: `energy::taylor_*`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lscm;
 

@@ -8,21 +8,22 @@ use crate::numerics::square::Matrix;
 /// ```text
 /// ψ = Σᵢ σᵢ² / (D Δ^{2/D})     Δ = Πσ = det J     (in the plane ½(σ₁/σ₂ + σ₂/σ₁))
 /// ```
-/// Minimum 1, at similarities: it does not know size. Without unit; the sum over a mesh is weighted by rest size. Domain
-/// det J > 0, +∞ outside. From: Hormann and Greiner 2000, MIPS. Tests: `energy::taylor_*`.
+/// Minimum 1, at similarities: it is independent of scale. Dimensionless; the sum over a mesh is weighted by rest size.
+/// Domain det J > 0, +∞ outside. From: Hormann and Greiner 2000, MIPS. Tests: `energy::taylor_*`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mips;
 
-/// Conformal and size distortion in one exponential, which weighs the worst elements most.
+/// Conformal and size distortion in one exponential, which emphasizes the worst elements.
 ///
 /// ```text
 /// ψ = exp(½ s (m + ½(Δ + Δ⁻¹)))     m the density of [`Mips`], Δ = det J
 /// ```
-/// Minimum eˢ, at rotations. Without unit; the sum over a mesh is weighted by rest size. Domain det J > 0, +∞ outside.
-/// From: Fu, Liu, Guo 2015, Computing Locally Injective Mappings by Advanced MIPS, with α = ½. Tests: `energy::taylor_*`.
+/// Minimum eˢ, at rotations. Dimensionless; the sum over a mesh is weighted by rest size. Domain det J > 0, +∞ outside.
+/// From: Fu, Liu, Guo 2015, Computing Locally Injective Mappings by Advanced MIPS, with α = ½. Tests:
+/// `energy::taylor_*`.
 #[derive(Clone, Copy, Debug)]
 pub struct Amips {
-    /// How much more the worst elements weigh.
+    /// Exponent s: the larger, the more the worst elements weigh.
     pub s: f64,
 }
 
@@ -61,13 +62,13 @@ fn norm_squared<const D: usize>(sigma: &[f64; D]) -> f64 {
     sigma.iter().map(|s| s * s).sum()
 }
 
-/// Δ^{−2/D}/D.
+/// Returns Δ^{−2/D}/D.
 fn scale<const D: usize>(sigma: &[f64; D]) -> f64 {
     sigma.iter().product::<f64>().powf(-2.0 / D as f64) / D as f64
 }
 
 impl Amips {
-    /// The exponent, its gradient and its Hessian.
+    /// Returns the exponent, its gradient and its Hessian.
     fn exponent<const D: usize>(self, sigma: &[f64; D]) -> (f64, [f64; D], Matrix<D>) {
         let det: f64 = sigma.iter().product();
         let (first, second) = (0.5 * (1.0 - 1.0 / (det * det)), 1.0 / (det * det * det));

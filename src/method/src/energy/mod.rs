@@ -1,16 +1,17 @@
 //! Deformation energies as functions of singular values.
 //!
-//! An isotropic energy does not know directions: what an element contributes is a function ψ of the signed singular values
-//! of its Jacobian J, weighted by its rest size. A density ([`Density`]) gives ψ, ∂ψ and ∂²ψ in σ and nothing else, once
-//! for triangles in the plane and tetrahedra in space. One's own is typed as text or written as a closure ([`Formula`]).
+//! An isotropic energy is independent of directions: an element contributes a function ψ of the signed singular values
+//! of its Jacobian J, weighted by its rest size. A density ([`Density`]) gives only ψ, ∂ψ and ∂²ψ in σ, once for
+//! triangles in the plane and tetrahedra in space. Custom densities are typed as text or written as closures
+//! ([`Formula`]).
 //!
-//! A function of det J alone, such as a barrier, joins as a [`Guard`]; both are summed before the one projection of the Hessian to positive semidefinite, which is in closed form
-//! because in the frame of the singular vectors the Hessian is one number for each twist and flip and one D×D block
-//! ([`Modes`]).
+//! A function of det J alone, such as a barrier, joins as a [`Guard`]. Both are summed before the one projection of the
+//! Hessian to positive semidefinite. The projection has a closed form because in the frame of the singular vectors the
+//! Hessian is one number for each twist and flip and one D×D block ([`Modes`]).
 //!
-//! [`Triangles`] and [`Tetrahedra`] sum over a mesh. Energies of the displacement that are quadratic forms stand beside
-//! them ([`Quadratic`]), and anything else that gives value, gradient and Hessian block of a stencil can: the solver sees
-//! a [`Term`] and knows no energy by name. Nothing here knows where a map comes from or how it is improved.
+//! [`Triangles`] and [`Tetrahedra`] sum over a mesh. Quadratic forms of the displacement ([`Quadratic`]) complement
+//! them, as can anything else that gives value, gradient and Hessian block of a stencil: the solver sees a [`Term`] and
+//! knows no energy by name. This module does not know where a map comes from or how it is improved.
 
 mod arap;
 mod density;

@@ -5,10 +5,11 @@ use crate::numerics::symmetric::relax_negative;
 
 use super::Density;
 
-/// Singular values nearer than this share of the largest count as equal where their difference is divided by.
+/// Singular values that differ by less than this share of the largest count as equal before a division by their
+/// difference.
 const EQUAL: f64 = 1e-6;
 
-/// What gradient and Hessian of ψ(σ(J)) consist of, with J = U diag(σ) Vᵀ:
+/// Gradient and Hessian of ψ(σ(J)) with J = U diag(σ) Vᵀ:
 ///
 /// ```text
 /// ∇ψ = U diag(slope) Vᵀ
@@ -16,7 +17,7 @@ const EQUAL: f64 = 1e-6;
 ///                          U (eᵢeⱼᵀ + eⱼeᵢᵀ) Vᵀ/√2 with eigenvalues flip = (ψᵢ − ψⱼ)/(σᵢ − σⱼ),
 /// and on the span of the U eᵢeᵢᵀ Vᵀ the D×D block scaling = ∂²ψ/∂σ².
 /// ```
-/// Twist and flip of a pair stand at `[i][j]` for i < j. From: Smith, de Goes, Kim 2019, Analytic Eigensystems for
+/// Twist and flip of a pair are stored at `[i][j]` for i < j. From: Smith, de Goes, Kim 2019, Analytic Eigensystems for
 /// Isotropic Distortion Energies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modes<const D: usize> {
@@ -31,7 +32,7 @@ pub struct Modes<const D: usize> {
 }
 
 impl<const D: usize> Modes<D> {
-    /// The derivatives of `weight`·ψ.
+    /// Computes the derivatives of `weight`·ψ.
     pub fn new(density: &dyn Density<D>, sigma: &[f64; D], weight: f64) -> Self {
         let (gradient, hessian) = density.derivatives(sigma);
         let (mut twist, mut flip) = ([[0.0; D]; D], [[0.0; D]; D]);
@@ -55,7 +56,7 @@ impl<const D: usize> Modes<D> {
         }
     }
 
-    /// The first derivatives of `weight`·ψ alone; the second are left 0.
+    /// Computes only the first derivatives of `weight`·ψ; the second are 0.
     pub fn of_slope(density: &dyn Density<D>, sigma: &[f64; D], weight: f64) -> Self {
         Self {
             slope: density.gradient(sigma).map(|g| weight * g),
@@ -65,7 +66,7 @@ impl<const D: usize> Modes<D> {
         }
     }
 
-    /// Adds those of a function φ(det J), given φ′ and φ″. With κᵢ = Π_{j≠i} σⱼ and κᵢⱼ = Π_{k≠i,j} σₖ:
+    /// Adds the derivatives of a function φ(det J), given φ′ and φ″. With κᵢ = Π_{j≠i} σⱼ and κᵢⱼ = Π_{k≠i,j} σₖ:
     ///
     /// ```text
     /// slopeᵢ = φ′κᵢ    scalingᵢⱼ = φ″κᵢκⱼ + φ′κᵢⱼ (i ≠ j)    twistᵢⱼ = φ′κᵢⱼ    flipᵢⱼ = −φ′κᵢⱼ
@@ -92,8 +93,8 @@ impl<const D: usize> Modes<D> {
         }
     }
 
-    /// The Hessian with its negative eigenvalues λ replaced by τλ: the nearest positive semidefinite one for τ = 0, the
-    /// true one for τ = 1. The slope stays.
+    /// Replaces the negative eigenvalues λ of the Hessian by τλ: τ = 0 gives the nearest positive semidefinite Hessian,
+    /// τ = 1 the true one. The slope does not change.
     #[must_use]
     pub fn project(mut self, tau: f64) -> Self {
         let relax = |lambda: f64| lambda.max(tau * lambda);
@@ -103,7 +104,7 @@ impl<const D: usize> Modes<D> {
         self
     }
 
-    /// What stands before dFᵢⱼ² and dFᵢⱼ·dFⱼᵢ in the frame, for a pair i < j: twist and flip as matrix entries.
+    /// Returns the coefficients of dFᵢⱼ² and dFᵢⱼ·dFⱼᵢ in the frame for a pair i, j: twist and flip as matrix entries.
     fn shear(&self, i: usize, j: usize) -> [f64; 2] {
         let (i, j) = (i.min(j), i.max(j));
         [
@@ -112,8 +113,8 @@ impl<const D: usize> Modes<D> {
         ]
     }
 
-    /// The block of two vertices in the frame, given the gradients g and h of their barycentric coordinates there: entry
-    /// `[r][s]` is the second derivative in coordinate r of the one and s of the other.
+    /// Returns the block of two vertices in the frame, given the gradients g and h of their barycentric coordinates
+    /// there: entry `[r][s]` is the second derivative in coordinate r of the first vertex and s of the second.
     pub fn block(&self, g: &[f64; D], h: &[f64; D]) -> Matrix<D> {
         let mut block = [[0.0; D]; D];
         for r in 0..D {

@@ -8,8 +8,8 @@ use crate::numerics::square::Matrix;
 /// ```text
 /// ψ = ½ μ (Σᵢ σᵢ² − D) − μ log Δ + ½ λ log² Δ     Δ = Πσ = det J
 /// ```
-/// Minimum 0, at rotations. Unit of the parameters; the sum over a mesh is weighted by rest size. Domain det J > 0, +∞
-/// outside. From: Bonet and Wood 1997, Nonlinear Continuum Mechanics, equation 5.28. Tests: `energy::taylor_*`.
+/// Minimum 0, at rotations. Unit: that of the parameters; the sum over a mesh is weighted by rest size. Domain det J >
+/// 0, +∞ outside. From: Bonet and Wood 1997, Nonlinear Continuum Mechanics, equation 5.28. Tests: `energy::taylor_*`.
 #[derive(Clone, Copy, Debug)]
 pub struct NeoHookean {
     /// The first Lamé parameter λ ≥ 0.

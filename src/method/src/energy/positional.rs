@@ -3,13 +3,13 @@
 use super::{Assembly, Term};
 use crate::numerics::stencils::Stencils;
 
-/// A linear function of positions that should have a given value: vertices, in increasing order, with their weights. Of a
-/// point in an element these are its barycentric coordinates.
+/// A linear function of positions with a target value: vertices, in increasing order, with their weights. For a point
+/// in an element these are its barycentric coordinates.
 pub type Row = Vec<(u32, f64)>;
 
-/// α‖Cx − t‖² with a sparse C, the same for each coordinate.
+/// α‖Cx − t‖² with a sparse C that is the same for each coordinate.
 ///
-/// Minimum 0, where Cx = t. Unit of α times a length squared. Domain: everywhere. From: Schüller et al. 2013, equation 9.
+/// Minimum 0, where Cx = t. Unit: α times a length squared. Domain: everywhere. From: Schüller et al. 2013, equation 9.
 /// Tests: `energy::taylor_positional`.
 #[derive(Clone, Debug)]
 pub struct Positional {
@@ -24,19 +24,19 @@ pub struct Positional {
 }
 
 impl Positional {
-    /// Cx: where each row is, coordinates one after another.
+    /// Iterates over Cx: the position of each row, coordinates one after another.
     pub fn places<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         let rows = self.rows.iter();
         rows.flat_map(move |row| (0..self.dim).map(move |k| self.place(row, k, x)))
     }
 
-    /// Coordinate `k` of where a row is.
+    /// Returns coordinate `k` of the position of a row.
     fn place(&self, row: &Row, k: usize, x: &[f64]) -> f64 {
         let weighted = row.iter().map(|&(v, w)| w * x[self.dim * v as usize + k]);
         weighted.sum()
     }
 
-    /// Adds 2αCᵀ·`moves`: by how much the negative gradient grows where the targets move.
+    /// Adds 2αCᵀ·`moves` to `sum`: the growth of the negative gradient when the targets move.
     pub fn add_pull(&self, moves: &[f64], sum: &mut [f64]) {
         for (row, moves) in self.rows.iter().zip(moves.chunks(self.dim)) {
             for &(v, weight) in row {
@@ -47,7 +47,7 @@ impl Positional {
         }
     }
 
-    /// ‖Cx − d‖² for these positions d.
+    /// Returns ‖Cx − d‖² for these positions d.
     pub fn residual(&self, x: &[f64], targets: &[f64]) -> f64 {
         let gaps = self.places(x).zip(targets).map(|(place, t)| place - t);
         gaps.map(|gap| gap * gap).sum()

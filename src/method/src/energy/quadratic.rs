@@ -1,4 +1,4 @@
-//! Energies of the displacement that are quadratic forms.
+//! Quadratic forms of the displacement.
 
 use super::{Assembly, Term};
 use crate::numerics::stencils::Stencils;
@@ -14,14 +14,14 @@ pub struct Quadratic {
     diagonal: Vec<f64>,
     /// Row, column < row, entry.
     entries: Vec<(u32, u32, f64)>,
-    /// The entries of each whole row: where those of a vertex begin, and the other vertex and the entry of each.
+    /// For each vertex the start of its row in `rows`, whose items are the other vertex and the entry.
     starts: Vec<usize>,
     rows: Vec<(u32, f64)>,
 }
 
 impl Quadratic {
-    /// `rest` holds `dim` coordinates per vertex; of Q the diagonal, and every entry `(row, column, value)` with
-    /// row > column, each at most once.
+    /// Creates the energy. `rest` holds `dim` coordinates per vertex; Q is given by its diagonal and every entry `(row,
+    /// column, value)` with row > column, each at most once.
     pub fn new(
         dim: usize,
         rest: Vec<f64>,
@@ -40,7 +40,7 @@ impl Quadratic {
         }
     }
 
-    /// A coordinate of Q times the displacement.
+    /// Returns a coordinate of Q times the displacement.
     fn image(&self, x: &[f64], coordinate: usize) -> f64 {
         let (vertex, k) = (coordinate / self.dim, coordinate % self.dim);
         let moved = |coordinate: usize| x[coordinate] - self.rest[coordinate];
@@ -52,7 +52,7 @@ impl Quadratic {
     }
 }
 
-/// The entries of the whole rows of a symmetric matrix, each row in the order of `entries`.
+/// Expands the lower triangle of a symmetric matrix to whole rows, each in the order of `entries`.
 fn rows(n: usize, entries: &[(u32, u32, f64)]) -> (Vec<usize>, Vec<(u32, f64)>) {
     let mut starts = vec![0; n + 1];
     for &(row, column, _) in entries {

@@ -1,29 +1,29 @@
-//! What an element is without distortion.
+//! Rest shapes of elements.
 
 use crate::numerics::square::{Matrix, Square};
 use crate::numerics::vec3;
 
-/// The rest shape of a triangle (D = 2) or tetrahedron (D = 3) v₀…v_D, as the map needs it.
+/// Rest shape of a triangle (D = 2) or tetrahedron (D = 3) v₀…v_D, in the form that maps need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestShape<const D: usize = 2> {
-    /// The inverse of the matrix with columns v₁ − v₀, …, v_D − v₀. Its rows are the gradients of the barycentric
+    /// Inverse of the matrix with columns v₁ − v₀, …, v_D − v₀. Its rows are the gradients of the barycentric
     /// coordinates of v₁, …, v_D.
     pub inverse: Matrix<D>,
-    /// The rest size: area or volume.
+    /// Rest size: area or volume.
     pub size: f64,
-    /// The density's factor: the rest size, unless the caller has a reason.
+    /// Factor of the density: the rest size, unless the caller changes it.
     pub weight: f64,
 }
 
 impl RestShape<2> {
-    /// The triangle with edges v₁ − v₀ and v₂ − v₀ in its own plane.
+    /// Creates the triangle with edges v₁ − v₀ and v₂ − v₀ in its own plane.
     ///
-    /// The area must be positive; what to do with a triangle of no area is the caller's to decide.
+    /// The area must be positive; the caller decides how to treat a triangle of zero area.
     pub fn from_edges(first: [f64; 2], second: [f64; 2]) -> Self {
         Self::of([first, second], 0.5)
     }
 
-    /// A triangle of space laid into the plane: v₀ at the origin, v₁ on the positive first axis, v₂ above it.
+    /// Lays a triangle of space into the plane: v₀ at the origin, v₁ on the positive first axis, v₂ above it.
     pub fn from_corners([a, b, c]: [[f64; 3]; 3]) -> Self {
         let (first, second) = (vec3::sub(b, a), vec3::sub(c, a));
         let length = vec3::norm(first);
@@ -34,14 +34,14 @@ impl RestShape<2> {
 }
 
 impl RestShape<3> {
-    /// The tetrahedron with these corners; its volume must be positive.
+    /// Creates the tetrahedron with these corners; its volume must be positive.
     pub fn from_tetrahedron([a, b, c, d]: [[f64; 3]; 4]) -> Self {
         Self::of([b, c, d].map(|corner| vec3::sub(corner, a)), 1.0 / 6.0)
     }
 }
 
 impl<const D: usize> RestShape<D> {
-    /// The same shape where lengths are measured in this unit.
+    /// Converts the shape to another unit of length.
     #[must_use]
     pub fn in_unit(&self, unit: f64) -> Self {
         let size = unit.powi(D as i32);
@@ -52,7 +52,7 @@ impl<const D: usize> RestShape<D> {
         }
     }
 
-    /// The element with these edges from v₀, whose size is `share` of their determinant.
+    /// Creates the element with these edges from v₀, whose size is `share` of their determinant.
     fn of(edges: Matrix<D>, share: f64) -> Self
     where
         Matrix<D>: Square<D>,

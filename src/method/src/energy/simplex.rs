@@ -6,29 +6,29 @@ use super::term::Assembly;
 use crate::numerics::square::{Matrix, Square, apply, apply_transposed, times, transposed};
 use crate::numerics::svd::Svd;
 
-/// An element as the sums need it: vertices in increasing order, because then the blocks of its Hessian lie in the lower
-/// triangle of the matrix without a question. Its orientation is in the order of `gradients`.
+/// An element in the form that sums over a mesh need. Its vertices are in increasing order, so that the blocks of its
+/// Hessian lie in the lower triangle of the matrix. Its orientation is in the order of `gradients`.
 #[derive(Clone, Copy, Debug)]
 pub struct Simplex<const D: usize> {
     first: u32,
     others: [u32; D],
     /// Gradients of the barycentric coordinates of the other vertices.
     gradients: Matrix<D>,
-    /// Their determinant: one over the determinant of the rest edges, with the sign of the reordering.
+    /// Determinant of the gradients: one over the determinant of the rest edges, with the sign of the reordering.
     orientation: f64,
     pub size: f64,
     pub weight: f64,
-    /// det J must stay above this.
+    /// Lower bound of det J.
     pub floor: f64,
 }
 
-/// Gradient and Hessian of one element's energy, ready to be taken to the vertices.
+/// Gradient and Hessian of one element's energy, to be distributed to the vertices.
 pub struct Pulled<'a, const D: usize> {
     simplex: &'a Simplex<D>,
     modes: Modes<D>,
     u: Matrix<D>,
     u_transposed: Matrix<D>,
-    /// The gradients of the barycentric coordinates in the frame of V.
+    /// Gradients of the barycentric coordinates in the frame of V.
     framed: Matrix<D>,
 }
 
@@ -36,7 +36,7 @@ impl<const D: usize> Simplex<D>
 where
     Matrix<D>: Square<D>,
 {
-    /// The element with D + 1 vertices `first` and `others`, in the order of its rest shape.
+    /// Creates the element with D + 1 vertices `first` and `others`, in the order of its rest shape.
     pub fn new(first: u32, others: [u32; D], rest: &RestShape<D>, floor: f64) -> Self {
         let mut opposite = [0.0; D];
         for gradient in &rest.inverse {
@@ -68,7 +68,7 @@ where
         simplex
     }
 
-    /// Its vertices in increasing order.
+    /// Returns the vertices in increasing order.
     pub fn vertices(&self) -> impl Iterator<Item = u32> {
         std::iter::once(self.first).chain(self.others)
     }
@@ -82,12 +82,12 @@ where
         })
     }
 
-    /// det J: the present size over the rest size, signed.
+    /// Returns det J: the present size over the rest size, signed.
     pub fn det(&self, x: &[f64]) -> f64 {
         self.edges(x).det() * self.orientation
     }
 
-    /// J and its determinant, which from the edges has a smaller rounding error than from J.
+    /// Returns J and its determinant; computed from the edges it has a smaller rounding error than from J.
     pub fn jacobian(&self, x: &[f64]) -> (Matrix<D>, f64) {
         let edges = self.edges(x);
         (
@@ -96,7 +96,7 @@ where
         )
     }
 
-    /// Coefficients of det J(x + t d) − floor in powers of t.
+    /// Returns the coefficients of det J(x + t d) − floor in powers of t.
     pub fn margin_polynomial(&self, x: &[f64], d: &[f64]) -> [f64; 4] {
         let mut margin = self
             .edges(x)
@@ -106,7 +106,7 @@ where
         margin
     }
 
-    /// Derivatives in J, not yet projected, taken to the vertices with negative eigenvalues times `tau`.
+    /// Prepares derivatives in J for the vertices and multiplies the negative eigenvalues of the Hessian by `tau`.
     pub fn pull(&self, modes: Modes<D>, svd: &Svd<D>, tau: f64) -> Pulled<'_, D> {
         Pulled {
             simplex: self,
@@ -119,7 +119,7 @@ where
 }
 
 impl<const D: usize> Pulled<'_, D> {
-    /// Hands out the gradient at each vertex.
+    /// Calls `add` with each vertex and its gradient.
     pub fn gradients(&self, mut add: impl FnMut(u32, [f64; D])) {
         let mut first = [0.0; D];
         for (&vertex, g) in self.simplex.others.iter().zip(&self.framed) {
@@ -133,7 +133,7 @@ impl<const D: usize> Pulled<'_, D> {
         add(self.simplex.first, first);
     }
 
-    /// The block of the `k`-th and `l`-th of the other vertices, rows those of the `k`-th.
+    /// Returns the block of the `k`-th and `l`-th of the other vertices, rows those of the `k`-th.
     fn block(&self, k: usize, l: usize) -> Matrix<D> {
         let framed = self.modes.block(&self.framed[k], &self.framed[l]);
         times(&times(&self.u, &framed), &self.u_transposed)
@@ -141,7 +141,7 @@ impl<const D: usize> Pulled<'_, D> {
 
     /// Adds the Hessian's blocks of every vertex and pair of vertices.
     ///
-    /// Blocks of the first vertex follow from the others, because moving all alike changes nothing.
+    /// The blocks of the first vertex follow from the others, because a common translation changes nothing.
     pub fn add_blocks(&self, stencil: usize, assembly: &mut Assembly) {
         // Row sums: minus the blocks of each of the other vertices with the first.
         let mut sums = [[[0.0; D]; D]; D];

@@ -10,7 +10,7 @@ use crate::numerics::square::{Matrix, Square};
 use crate::numerics::stencils::Stencils;
 use crate::numerics::svd::Svd;
 
-/// Elements that are decomposed at once.
+/// Number of elements decomposed at once.
 const LANES: usize = 8;
 
 /// Σ over elements of weight·ψ(σ(J)) + φ(det J): a density and a guard on triangles (D = 2) or tetrahedra (D = 3).
@@ -27,7 +27,7 @@ pub type Triangles = Simplices<2>;
 pub type Tetrahedra = Simplices<3>;
 
 impl Simplices<2> {
-    /// The energy of maps of `triangles`, one rest shape each.
+    /// Creates the energy of maps of `triangles`, one rest shape each.
     ///
     /// # Panics
     /// If there are fewer or more rest shapes than triangles.
@@ -43,7 +43,7 @@ impl Simplices<2> {
 }
 
 impl Simplices<3> {
-    /// The energy of maps of `tetrahedra`, one rest shape each.
+    /// Creates the energy of maps of `tetrahedra`, one rest shape each.
     ///
     /// # Panics
     /// If there are fewer or more rest shapes than tetrahedra.
@@ -83,7 +83,7 @@ where
         }
     }
 
-    /// `sum` and the values of some elements.
+    /// Returns `sum` plus the values of some elements.
     fn add_values<const N: usize>(&self, sum: f64, elements: &[Simplex<D>; N], x: &[f64]) -> f64 {
         let (matrices, dets) = jacobians(elements, x);
         let sigmas = Matrix::all_singular_values(&matrices, &dets);
@@ -94,7 +94,7 @@ where
         })
     }
 
-    /// The derivatives of some elements, the first of which is the `first` of all.
+    /// Adds the derivatives of some elements; their stencils are numbered from `first`.
     fn add_derivatives_of<const N: usize>(
         &self,
         first: usize,
@@ -115,7 +115,8 @@ where
         }
     }
 
-    /// Negative eigenvalues of the Hessian times `tau`; without `tau`, the gradient alone.
+    /// Computes the derivatives of an element. The negative eigenvalues of the Hessian are multiplied by `tau`; without
+    /// `tau`, only the gradient is computed.
     fn pulled<'a>(
         &self,
         element: &'a Simplex<D>,
@@ -133,7 +134,7 @@ where
     }
 }
 
-/// The Jacobians of some elements, and their determinants.
+/// Returns the Jacobians of some elements, and their determinants.
 fn jacobians<const D: usize, const N: usize>(
     elements: &[Simplex<D>; N],
     x: &[f64],

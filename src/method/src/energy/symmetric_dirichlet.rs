@@ -8,9 +8,9 @@ use crate::numerics::square::Matrix;
 /// ```text
 /// ψ = ½ Σᵢ (σᵢ² + σᵢ⁻²)
 /// ```
-/// Minimum D, at rotations. Without unit; the sum over a mesh is an area or volume. Domain det J > 0, +∞ outside: a
-/// barrier of its own. From: Smith and Schaefer 2015, Bijective Parameterization with Free Boundaries. (Reports and bounds quote it
-/// without the factor ½, with minimum 4 in the plane.) Tests: `energy::taylor_*`.
+/// Minimum D, at rotations. Dimensionless; the sum over a mesh is an area or volume. Domain det J > 0, +∞ outside: it
+/// is its own barrier. From: Smith and Schaefer 2015, Bijective Parameterization with Free Boundaries. (Reports and
+/// bounds quote it without the factor ½, with minimum 4 in the plane.) Tests: `energy::taylor_*`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SymmetricDirichlet;
 

@@ -3,7 +3,7 @@
 use super::Density;
 use crate::numerics::square::Matrix;
 
-/// ψ = 0: for a barrier alone, beside an energy that is not a sum over elements. Domain: every J.
+/// ψ = 0: for a barrier alone, next to an energy that is not a sum over elements. Domain: every J.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Zero;
 

@@ -11,16 +11,17 @@ pub struct BlockPattern {
     scalar: SymmetricPattern,
 }
 
-/// Where the blocks of one term's pairs of vertices lie in the values of a [`BlockPattern`], in the order of
-/// [`Stencils::pairs`]. Found once, so that adding a stencil's Hessian is plain additions at known places.
+/// Places of the blocks of one term's pairs of vertices in the values of a [`BlockPattern`], in the order of
+/// [`Stencils::pairs`]. Found once, so that adding a stencil's Hessian takes only additions at known places.
 #[derive(Clone, Debug)]
 pub struct Slots {
-    /// Of each stencil, its first pair.
+    /// First pair of each stencil.
     starts: Vec<u32>,
     pairs: Vec<PairSlot>,
 }
 
-/// The place of the block of two vertices: of its first entry, and how far the columns of the smaller vertex are apart.
+/// Place of the block of two vertices: that of its first entry, and the distance between the columns of the smaller
+/// vertex.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PairSlot {
     first: u32,
@@ -28,10 +29,11 @@ pub struct PairSlot {
 }
 
 impl BlockPattern {
-    /// The pattern of `n_vertices` vertices with `dim` coordinates, 2 or 3, and the slots of each term's stencils.
+    /// Creates the pattern of `n_vertices` vertices with `dim` coordinates, 2 or 3, and the slots of each term's
+    /// stencils.
     ///
     /// # Panics
-    /// If a stencil names a vertex that there is not.
+    /// If a stencil names a vertex that does not exist.
     pub fn new(dim: usize, n_vertices: usize, terms: &[Stencils]) -> (Self, Vec<Slots>) {
         let pairs = || terms.iter().flat_map(Stencils::pairs);
         let (starts, neighbors) = larger_neighbors(n_vertices, pairs);
@@ -53,7 +55,7 @@ impl BlockPattern {
         (Self { dim, scalar }, slots)
     }
 
-    /// The slots of more stencils, if every pair of theirs has a block here.
+    /// Returns the slots of more stencils; `None` if a pair has no block in this pattern.
     pub fn slots(&self, stencils: &Stencils) -> Option<Slots> {
         let mut are_all_here = true;
         let slot = |(small, large): (u32, u32)| {
@@ -78,17 +80,17 @@ impl BlockPattern {
         })
     }
 
-    /// The same pattern, entry by entry.
+    /// Returns the pattern entry by entry.
     pub fn scalar(&self) -> &SymmetricPattern {
         &self.scalar
     }
 
-    /// Coordinates per vertex.
+    /// Returns the number of coordinates per vertex.
     pub fn dim(&self) -> usize {
         self.dim
     }
 
-    /// Adds the symmetric block of one vertex; its lower triangle is read.
+    /// Adds the symmetric block of one vertex; only its lower triangle is read.
     pub fn add_diagonal<const D: usize>(&self, values: &mut [f64], vertex: u32, block: &Matrix<D>) {
         for column in 0..D {
             let first = self.scalar.col_ptr[D * vertex as usize + column];
@@ -127,13 +129,13 @@ impl BlockPattern {
         }
     }
 
-    /// The slots of the diagonal entries, one for each unknown.
+    /// Returns the slots of the diagonal entries, one for each unknown.
     pub fn diagonal(&self) -> &[usize] {
         &self.scalar.col_ptr[..self.scalar.n]
     }
 
-    /// Every slot in the rows and columns of the vertices for which `chosen` is true, the diagonal included, with its row
-    /// and column.
+    /// Returns every slot in the rows and columns of the vertices for which `chosen` is true, including the diagonal,
+    /// with its row and column.
     pub fn rows_and_columns(&self, chosen: &[bool]) -> Vec<Entry> {
         let pattern = &self.scalar;
         let chosen = |unknown: usize| chosen[unknown / self.dim];
@@ -154,11 +156,11 @@ impl BlockPattern {
 /// A stored entry of a symmetric matrix.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    /// Its place in the values.
+    /// Place in the values.
     pub slot: usize,
-    /// Its row.
+    /// Row.
     pub row: usize,
-    /// Its column, at most the row.
+    /// Column, at most the row.
     pub column: usize,
 }
 
@@ -175,13 +177,13 @@ impl Slots {
         }
     }
 
-    /// The slots of a stencil's pairs of vertices.
+    /// Returns the slots of a stencil's pairs of vertices.
     pub fn of(&self, stencil: usize) -> &[PairSlot] {
         &self.pairs[self.starts[stencil] as usize..self.starts[stencil + 1] as usize]
     }
 }
 
-/// For each vertex its neighbors with a larger index, sorted: `neighbors[starts[v]..starts[v + 1]]`.
+/// Returns for each vertex its neighbors with a larger index, sorted: `neighbors[starts[v]..starts[v + 1]]`.
 fn larger_neighbors<P: Iterator<Item = (u32, u32)>>(
     n_vertices: usize,
     pairs: impl Fn() -> P,

@@ -1,9 +1,9 @@
-//! Boxes along the axes of plane and space.
+//! Axis-aligned boxes of plane and space.
 
-/// The smallest and the greatest coordinates of a box.
+/// Smallest and greatest coordinates of a box.
 pub type Bounds<const D: usize = 2> = [[f64; D]; 2];
 
-/// The box of some points; of none, one that encloses nothing and meets nothing.
+/// Returns the box of some points; without points, a box that encloses and meets nothing.
 pub fn bounds_of<const D: usize>(points: &[[f64; D]]) -> Bounds<D> {
     let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
     for point in points {
@@ -15,12 +15,12 @@ pub fn bounds_of<const D: usize>(points: &[[f64; D]]) -> Bounds<D> {
     bounds
 }
 
-/// The box with its sides moved out by `margin`.
+/// Returns the box with its sides moved out by `margin`.
 pub fn widened<const D: usize>([low, high]: Bounds<D>, margin: f64) -> Bounds<D> {
     [low.map(|x| x - margin), high.map(|x| x + margin)]
 }
 
-/// Whether two boxes have a common point; their sides belong to them.
+/// Returns whether two closed boxes have a common point.
 pub fn touch<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
     (0..D).all(|axis| a[0][axis] <= b[1][axis] && b[0][axis] <= a[1][axis])
 }

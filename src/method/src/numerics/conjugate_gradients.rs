@@ -2,18 +2,19 @@
 
 use super::cholesky::{NotPositiveDefinite, SymmetricPattern};
 
-/// What is left of the residual, in the norm of the preconditioner: a direction for Newton's method need not be more exact, as its
-/// error is of the same order as what the step leaves of the gradient.
+/// Relative residual of the solution, in the norm of the preconditioner: a direction for Newton's method need not be
+/// more exact, as its error is of the same order as what the step leaves of the gradient.
 const TOLERANCE: f64 = 1e-4;
 
-/// Iterations at most; every one brings x nearer to the solution, so that what is found by then is good too.
+/// Most iterations; each brings x nearer to the solution, so an early end still gives a useful direction.
 const MOST_ITERATIONS: usize = 2_000;
 
 /// Conjugate gradients, preconditioned by a symmetric Gauss–Seidel sweep, M = (L + D) D⁻¹ (L + D)ᵀ.
 ///
-/// Memory: four vectors beside the matrix. Time: per iteration three passes over the matrix; their number grows with the mesh's
-/// diameter in elements. On one thread, so that sums have one order. From: Hestenes and Stiefel 1952, Methods of Conjugate
-/// Gradients for Solving Linear Systems; Saad 2003, Iterative Methods for Sparse Linear Systems, section 10.2.
+/// Memory: four vectors besides the matrix. Time: three passes over the matrix per iteration; their number grows with
+/// the mesh's diameter in elements. Runs on one thread, so that sums have one order. From: Hestenes and Stiefel 1952,
+/// Methods of Conjugate Gradients for Solving Linear Systems; Saad 2003, Iterative Methods for Sparse Linear Systems,
+/// section 10.2.
 pub struct ConjugateGradients {
     residual: Vec<f64>,
     swept: Vec<f64>,
@@ -22,7 +23,7 @@ pub struct ConjugateGradients {
 }
 
 impl ConjugateGradients {
-    /// For systems of `n` unknowns.
+    /// Allocates the workspace for systems of `n` unknowns.
     pub fn new(n: usize) -> Self {
         Self {
             residual: vec![0.0; n],
@@ -32,10 +33,11 @@ impl ConjugateGradients {
         }
     }
 
-    /// Replaces b by x with Ax = b up to a relative residual of 1e-4. A is given by its pattern and the values of its
-    /// lower triangle.
+    /// Replaces b in `x` by the solution of Ax = b up to a relative residual of 1e-4. A is given by its pattern and the
+    /// values of its lower triangle.
     ///
-    /// Says so when it comes upon a direction along which A is not positive; `x` is then what was found before.
+    /// # Errors
+    /// If it finds a direction along which A is not positive; `x` is then the last iterate.
     pub fn solve(
         &mut self,
         pattern: &SymmetricPattern,
@@ -75,14 +77,14 @@ impl ConjugateGradients {
     }
 }
 
-/// A symmetric matrix by its lower triangle.
+/// A symmetric matrix, given by its lower triangle.
 struct Matrix<'a> {
     pattern: &'a SymmetricPattern,
     values: &'a [f64],
 }
 
 impl Matrix<'_> {
-    /// The diagonal entry of a column and what is below it: rows and values.
+    /// Returns the diagonal entry of a column and the rows and values below it.
     fn column(&self, j: usize) -> (f64, impl Iterator<Item = (usize, f64)>) {
         let slots = self.pattern.col_ptr[j]..self.pattern.col_ptr[j + 1];
         let (rows, values) = (&self.pattern.row_idx[slots.clone()], &self.values[slots]);
@@ -90,7 +92,7 @@ impl Matrix<'_> {
         (values[0], below.map(|(&row, &value)| (row, value)))
     }
 
-    /// z with Mz = r.
+    /// Solves Mz = r.
     fn sweep(&self, r: &[f64], z: &mut [f64]) -> Result<(), NotPositiveDefinite> {
         z.copy_from_slice(r);
         for j in 0..z.len() {

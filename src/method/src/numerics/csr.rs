@@ -1,20 +1,21 @@
-//! Sparse matrices as other programs have them.
+//! Sparse matrices in the row format of other programs.
 
 use super::cholesky::SymmetricPattern;
 
-/// A sparse matrix by rows: row `i` has the values `data[indptr[i]..indptr[i + 1]]` in the columns `indices[…]`, which ascend.
+/// A sparse matrix by rows: row `i` has the values `data[indptr[i]..indptr[i + 1]]` in the columns `indices[…]`, which
+/// increase.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Csr {
-    /// The stored values.
+    /// Stored values.
     pub data: Vec<f64>,
-    /// The column of each.
+    /// Column of each value.
     pub indices: Vec<usize>,
-    /// Where each row starts, and where the last ends.
+    /// Start of each row, and the end of the last.
     pub indptr: Vec<usize>,
 }
 
 impl Csr {
-    /// The whole of a symmetric matrix of which the lower triangle is given by columns, rows ascending.
+    /// Expands the lower triangle of a symmetric matrix, given by columns with increasing rows, to the whole matrix.
     pub fn of_lower(pattern: &SymmetricPattern, values: &[f64]) -> Self {
         let columns = || (0..pattern.n).map(|c| (c, pattern.col_ptr[c]..pattern.col_ptr[c + 1]));
         let mut indptr = vec![0; pattern.n + 1];

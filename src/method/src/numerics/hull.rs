@@ -2,7 +2,7 @@
 
 use super::vec2::doubled_area;
 
-/// The corners of the convex hull of points, counter-clockwise; of points that are all one, none.
+/// Returns the corners of the convex hull of points, counter-clockwise; an empty list if all points are equal.
 ///
 /// From: Andrew 1979 (monotone chain).
 pub fn convex_hull(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {

@@ -1,7 +1,8 @@
-//! Singular values of 3×3 matrices by one-sided Jacobi rotations (Hestenes), which find small ones as exactly as large ones.
+//! Singular values of 3×3 matrices by one-sided Jacobi rotations (Hestenes), which find small ones as exactly as large
+//! ones.
 //!
-//! Rotations wait for roots and quotients, so several matrices are turned at once, a lane each. Every lane gets the bits that it
-//! would get alone.
+//! Rotations wait for roots and quotients, so several matrices are processed at once, one per lane. Every lane gets
+//! exactly the bits that it would get alone.
 
 #![expect(
     clippy::inline_always,
@@ -16,29 +17,29 @@ use super::lanes::{Lanes, Vector, cross, dot};
 use super::svd::{Matrix, Svd};
 use super::vec3;
 
-/// Sweeps of rotations at most; four are usual.
+/// Most sweeps of rotations; four are usual.
 const MAX_SWEEPS: usize = 30;
 
 /// Three columns in each lane.
 type Columns<const N: usize> = [Vector<N>; 3];
 
-/// The decomposition of a matrix with this determinant.
+/// Decomposes a matrix with this determinant.
 pub fn svd3(f: &Matrix<3>, det: f64) -> Svd<3> {
     let [svd] = svds3(&[*f], &[det]);
     svd
 }
 
-/// The decompositions of matrices with these determinants.
+/// Decomposes matrices with these determinants.
 pub fn svds3<const N: usize>(f: &[Matrix<3>; N], det: &[f64; N]) -> [Svd<3>; N] {
     Arch::new().dispatch(Decompose { f, det })
 }
 
-/// The signed singular values of matrices with these determinants.
+/// Returns the signed singular values of matrices with these determinants.
 pub fn singular_values3<const N: usize>(f: &[Matrix<3>; N], det: &[f64; N]) -> [[f64; 3]; N] {
     Arch::new().dispatch(Measure { f, det })
 }
 
-/// All of the decompositions.
+/// Computes the whole decompositions.
 struct Decompose<'a, const N: usize> {
     f: &'a [Matrix<3>; N],
     det: &'a [f64; N],
@@ -61,7 +62,7 @@ impl<const N: usize> WithSimd for Decompose<'_, N> {
     }
 }
 
-/// The singular values alone.
+/// Computes only the singular values.
 struct Measure<'a, const N: usize> {
     f: &'a [Matrix<3>; N],
     det: &'a [f64; N],
@@ -89,13 +90,14 @@ fn identity<const N: usize>() -> Columns<N> {
     array::from_fn(|c| array::from_fn(|r| Lanes::all(f64::from(u8::from(r == c)))))
 }
 
-/// The matrix of a lane, rows first.
+/// Returns the matrix of a lane, rows first.
 #[inline(always)]
 fn matrix<const N: usize>(columns: &Columns<N>, lane: usize) -> Matrix<3> {
     array::from_fn(|r| array::from_fn(|c| columns[c][r].0[lane]))
 }
 
-/// Turns the columns of the first until they are orthogonal, the longest first, and those of the others with them.
+/// Rotates the columns of the first matrix until they are orthogonal, sorts them by decreasing length, and applies the
+/// same to the others.
 #[inline(always)]
 fn diagonalize<const N: usize, const M: usize>(turned: &mut [Columns<N>; M]) {
     const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -121,7 +123,8 @@ fn diagonalize<const N: usize, const M: usize>(turned: &mut [Columns<N>; M]) {
     }
 }
 
-/// Turns columns i and j of the first so that they are orthogonal; false if they were in every lane.
+/// Rotates columns i and j of the first so that they are orthogonal; returns `false` if they already were in every
+/// lane.
 #[inline(always)]
 fn orthogonalize<const N: usize, const M: usize>(
     turned: &mut [Columns<N>; M],
@@ -150,7 +153,7 @@ fn orthogonalize<const N: usize, const M: usize>(
     true
 }
 
-/// The directions of orthogonal columns, completed to a rotation where columns are zero.
+/// Returns the directions of orthogonal columns, completed to a rotation where columns are zero.
 #[inline(always)]
 fn axes<const N: usize>(a: &Columns<N>) -> Columns<N> {
     let first = direction(a[0], |_| [1.0, 0.0, 0.0]);
@@ -160,7 +163,7 @@ fn axes<const N: usize>(a: &Columns<N>) -> Columns<N> {
     [first, second, cross(first, second)]
 }
 
-/// The lengths of orthogonal columns; the last from the determinant.
+/// Returns the lengths of orthogonal columns; the last is computed from the determinant.
 #[inline(always)]
 fn signed<const N: usize>(a: &Columns<N>, det: &[f64; N]) -> [Lanes<N>; 3] {
     let [first, second] = [a[0], a[1]].map(|column| dot(column, column).sqrt());
@@ -170,7 +173,7 @@ fn signed<const N: usize>(a: &Columns<N>, det: &[f64; N]) -> [Lanes<N>; 3] {
     [first, second, third]
 }
 
-/// Unit vectors along `a`; in a lane where it is zero, `otherwise`.
+/// Returns unit vectors along `a`; in a lane where it is zero, `otherwise`.
 #[inline(always)]
 fn direction<const N: usize>(a: Vector<N>, otherwise: impl Fn(usize) -> [f64; 3]) -> Vector<N> {
     let length = dot(a, a).sqrt();

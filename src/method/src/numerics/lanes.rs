@@ -1,4 +1,4 @@
-//! Numbers of several matrices, a lane each, on which an operation acts at once.
+//! Numbers of several matrices, one per lane, processed at once.
 
 #![expect(
     clippy::inline_always,
@@ -8,7 +8,7 @@
 use std::array;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `N` numbers. What is computed in a lane is to the bit what `f64` computes, whatever the processor offers.
+/// `N` numbers. Each lane computes bit for bit what `f64` computes, on every processor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lanes<const N: usize>(pub [f64; N]);
 
@@ -16,7 +16,7 @@ pub struct Lanes<const N: usize>(pub [f64; N]);
 pub type Vector<const N: usize> = [Lanes<N>; 3];
 
 impl<const N: usize> Lanes<N> {
-    /// The same in all lanes.
+    /// Sets all lanes to `x`.
     #[inline(always)]
     pub fn all(x: f64) -> Self {
         Self([x; N])
@@ -32,34 +32,34 @@ impl<const N: usize> Lanes<N> {
         Self(array::from_fn(|l| f(self.0[l], other.0[l])))
     }
 
-    /// √x.
+    /// Returns √x.
     #[must_use]
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
-    /// |x|.
+    /// Returns |x|.
     #[must_use]
     #[inline(always)]
     pub fn abs(self) -> Self {
         self.map(f64::abs)
     }
 
-    /// 1 with the sign of x.
+    /// Returns 1 with the sign of x.
     #[must_use]
     #[inline(always)]
     pub fn signum(self) -> Self {
         self.map(|x| 1.0_f64.copysign(x))
     }
 
-    /// Where x < y.
+    /// Returns the lanes in which x < y.
     #[inline(always)]
     pub fn less(self, y: Self) -> [bool; N] {
         array::from_fn(|l| self.0[l] < y.0[l])
     }
 
-    /// `chosen` where `mask` says so, else `otherwise`.
+    /// Returns `chosen` in lanes where `mask` is set, `otherwise` in the others.
     #[inline(always)]
     pub fn select(mask: [bool; N], chosen: Self, otherwise: Self) -> Self {
         Self(array::from_fn(|l| {
@@ -113,13 +113,13 @@ impl<const N: usize> Neg for Lanes<N> {
     }
 }
 
-/// a·b.
+/// Returns a·b.
 #[inline(always)]
 pub fn dot<const N: usize>(a: Vector<N>, b: Vector<N>) -> Lanes<N> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// a × b.
+/// Returns a × b.
 #[inline(always)]
 pub fn cross<const N: usize>(a: Vector<N>, b: Vector<N>) -> Vector<N> {
     [

@@ -1,27 +1,29 @@
 //! Symmetric positive definite systems of any size.
 //!
-//! A factorization takes memory in proportion to n log n on surfaces, where a minimization peaks at about 2 kB per triangle, and
-//! to n^(4/3) in solids: 4 kB per tetrahedron at 50,000, 7 at 100,000, 10 at 500,000 (`tests/bench/scale.rs`,
-//! `tests/bench/solids.rs`). It is known before it is taken. Beyond a bound conjugate gradients take over: memory is then in
-//! proportion to n, at the price of a time per direction that grows with the number of elements along the mesh.
+//! A factorization takes memory in proportion to n log n on surfaces, where a minimization peaks at about 2 kB per
+//! triangle, and to n^(4/3) in solids: 4 kB per tetrahedron at 50,000, 7 at 100,000, 10 at 500,000
+//! (`tests/bench/scale.rs`, `tests/bench/solids.rs`). The amount is known before it is allocated. Beyond a bound
+//! conjugate gradients take over: memory is then in proportion to n, but the time per direction grows with the number
+//! of elements along the mesh.
 
 use super::cholesky::{Cholesky, NotPositiveDefinite, SymmetricPattern, Work};
 use super::conjugate_gradients::ConjugateGradients;
 
-/// The memory that a factorization may take, its fronts' updates included. The factor of half a million tetrahedra is 2.4 GB, the
-/// whole process then has 4.9 (`tests/bench/solids.rs`).
+/// Most memory of a factorization, including the updates of its fronts. The factor of half a million tetrahedra is 2.4
+/// GB, the whole process then has 4.9 (`tests/bench/solids.rs`).
 pub const MOST_BYTES: usize = 6 << 30;
 
-/// A factorization where its memory, which is known once the pattern is analyzed, is within a bound; conjugate gradients beyond.
+/// A factorization if its memory, which is known once the pattern is analyzed, is within a bound; otherwise conjugate
+/// gradients.
 pub enum LinearSolver {
-    /// Factors once for all right sides.
+    /// Factors once for all right-hand sides.
     Direct(Box<Cholesky>),
-    /// Starts anew for each.
+    /// Iterates anew for each right-hand side.
     Iterative(ConjugateGradients),
 }
 
 impl LinearSolver {
-    /// For matrices of this pattern, made of blocks as [`Cholesky::analyze`] has them, within so many bytes.
+    /// Creates a solver for matrices of this pattern, made of blocks as in [`Cholesky::analyze`], within `most_bytes`.
     pub fn within(pattern: &SymmetricPattern, block: usize, most_bytes: usize) -> Self {
         match Cholesky::analyze_within(pattern, block, most_bytes) {
             Some(cholesky) => Self::Direct(Box::new(cholesky)),
@@ -29,7 +31,8 @@ impl LinearSolver {
         }
     }
 
-    /// Takes a matrix by the values of its lower triangle, to be given again to [`solve`](Self::solve).
+    /// Prepares solving with a matrix, given by the values of its lower triangle; the same values must be passed to
+    /// [`solve`](Self::solve).
     pub fn prepare(&mut self, values: &[f64]) -> Result<(), NotPositiveDefinite> {
         match self {
             Self::Direct(cholesky) => cholesky.factor(values),
@@ -37,7 +40,7 @@ impl LinearSolver {
         }
     }
 
-    /// Replaces b by the solution x of Ax = b for the matrix prepared.
+    /// Replaces b in `x` by the solution of Ax = b for the prepared matrix.
     pub fn solve(
         &mut self,
         pattern: &SymmetricPattern,
@@ -53,7 +56,7 @@ impl LinearSolver {
         }
     }
 
-    /// What one factorization takes, if there is one.
+    /// Returns the cost of one factorization; `None` for conjugate gradients.
     pub fn work(&self) -> Option<Work> {
         match self {
             Self::Direct(cholesky) => Some(cholesky.work()),

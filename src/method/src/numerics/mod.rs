@@ -1,9 +1,9 @@
 //! Small linear algebra, sparse Cholesky, exact predicates.
 //!
-//! What every other module computes with, and nothing about meshes: vectors and matrices of plane and space, a sparse
-//! factorization whose symbolic part is done once per pattern, conjugate gradients where it does
-//! not fit, and the exact sign of an orientation. Everything is plain `f64` arrays; after the analysis
-//! of its pattern, solving a system allocates nothing.
+//! The numerical basis of all other modules, without meshes: vectors and matrices of plane and space, a sparse
+//! factorization whose symbolic part is done once per pattern, conjugate gradients where it does not fit into memory,
+//! and the exact sign of an orientation. Everything is plain `f64` arrays; after the analysis of its pattern, solving a
+//! system allocates nothing.
 
 pub mod block;
 pub mod bounds;

@@ -1,22 +1,22 @@
-//! The nearest of many points of space.
+//! Nearest neighbors among points of space.
 
-/// Points below a node that are compared one by one.
+/// Largest number of points that are compared one by one.
 const LEAF: usize = 8;
-/// Room for ranges that wait to be searched.
+/// Capacity for ranges that wait to be searched.
 const DEPTH: usize = 32;
 
 /// A k-d tree over points of space.
 #[derive(Clone, Debug)]
 pub struct PointTree {
     points: Vec<[f64; 3]>,
-    /// The points in the order of the tree: the median of a range is in its middle, with what is below it on the left.
+    /// Points in the order of the tree: the median of a range is in its middle, with the lower side on the left.
     order: Vec<u32>,
-    /// The axis along which the range around each place is divided.
+    /// Axis along which the range around each place is divided.
     axis: Vec<u8>,
 }
 
 impl PointTree {
-    /// Of these points, in any order. O(n log n).
+    /// Builds the tree of these points, in any order. O(n log n).
     pub fn new(points: Vec<[f64; 3]>) -> Self {
         let mut tree = Self {
             order: (0..points.len() as u32).collect(),
@@ -43,12 +43,13 @@ impl PointTree {
         tree
     }
 
-    /// The points.
+    /// Returns the points.
     pub fn points(&self) -> &[[f64; 3]] {
         &self.points
     }
 
-    /// The nearest point of which `accepts` holds, closer than `reach`, the lowest number of equals; and its distance.
+    /// Returns the nearest point for which `accepts` holds and its distance; `None` if there is none closer than
+    /// `reach`. Among equals returns the lowest index.
     pub fn nearest(
         &self,
         to: [f64; 3],

@@ -7,16 +7,16 @@ use std::array::from_fn;
 
 /// The principal axes of points.
 pub struct PrincipalAxes {
-    /// The mean of the points.
+    /// Mean of the points.
     pub center: [f64; 3],
-    /// Unit vectors, that of the largest extent first. Each points to where the points reach farther.
+    /// Unit vectors by decreasing extent. Each points to the side on which the points reach farther.
     pub axes: [[f64; 3]; 3],
-    /// The sum of the third powers of the coordinates along each: 0 along one that a mirror image only turns around.
+    /// Sum of the third powers of the coordinates along each axis: 0 along an axis of mirror symmetry.
     pub skew: [f64; 3],
 }
 
 impl PrincipalAxes {
-    /// Of these points.
+    /// Computes the axes of these points.
     pub fn of(points: impl Iterator<Item = [f64; 3]> + Clone) -> Self {
         let n = points.clone().count().max(1) as f64;
         let center = (points.clone()).fold([0.0; 3], |sum, p| add_scaled(sum, 1.0 / n, p));

@@ -1,8 +1,8 @@
-//! Where a polynomial of low degree first vanishes.
+//! First positive roots of polynomials of low degree.
 
-/// The smallest positive root of c₀ + c₁t + c₂t² + c₃t³ if it is below `best`, else `best`; c₀ > 0.
+/// Returns the smallest positive root of c₀ + c₁t + c₂t² + c₃t³ if it is below `best`, else `best`; c₀ > 0.
 ///
-/// Most elements are done with the first line: on (0, best) the polynomial is above the sum of its negative parts.
+/// Most elements are done after the first line: on (0, best) the polynomial is above the sum of its negative parts.
 pub fn smallest_root_below([c0, c1, c2, c3]: [f64; 4], best: f64) -> f64 {
     if c0 + best * (c1.min(0.0) + best * (c2.min(0.0) + best * c3.min(0.0))) > 0.0 {
         return best;
@@ -14,8 +14,8 @@ pub fn smallest_root_below([c0, c1, c2, c3]: [f64; 4], best: f64) -> f64 {
     }
 }
 
-/// The roots are q/c₂ and c₀/q with q = −½(c₁ ± √disc), the sign that of c₁: no difference of near numbers, and no special
-/// case where c₂ vanishes.
+/// Solves a quadratic. The roots are q/c₂ and c₀/q with q = −½(c₁ ± √disc), the sign that of c₁: this avoids
+/// cancellation and a special case for c₂ = 0.
 fn quadratic([c0, c1, c2]: [f64; 3], best: f64) -> f64 {
     let discriminant = c1 * c1 - 4.0 * c0 * c2;
     if discriminant < 0.0 {
@@ -28,8 +28,8 @@ fn quadratic([c0, c1, c2]: [f64; 3], best: f64) -> f64 {
         .fold(best, f64::min)
 }
 
-/// Between its turning points the polynomial is monotone: the first such piece that ends below zero holds the root, which
-/// bisection finds from the positive side.
+/// Solves a cubic. Between its turning points the polynomial is monotone: the first such piece that ends below zero
+/// holds the root, which bisection finds from the positive side.
 fn cubic(c: [f64; 4], best: f64) -> f64 {
     let [c0, c1, c2, c3] = c;
     let value = |t: f64| c0 + t * (c1 + t * (c2 + t * c3));
@@ -52,7 +52,7 @@ fn cubic(c: [f64; 4], best: f64) -> f64 {
     best
 }
 
-/// Where c₁ + 2c₂t + 3c₃t² vanishes, in increasing order; NaN where it does not.
+/// Returns the roots of c₁ + 2c₂t + 3c₃t² in increasing order; NaN if there are none.
 fn turning_points([c1, c2, c3]: [f64; 3]) -> [f64; 2] {
     let discriminant = c2 * c2 - 3.0 * c1 * c3;
     let q = -(c2 + discriminant.sqrt().copysign(c2));
@@ -60,7 +60,7 @@ fn turning_points([c1, c2, c3]: [f64; 3]) -> [f64; 2] {
     [s.min(t), s.max(t)]
 }
 
-/// Where the sign changes in (`low`, `high`].
+/// Returns the place of the sign change in (`low`, `high`].
 fn bisect(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     // 60 halvings leave nothing of any interval that matters.
     for _ in 0..60 {

@@ -1,18 +1,19 @@
-//! Rotations of the plane and of space, their logarithms, and those that fit best.
+//! Rotations of plane and space, their logarithms, and best-fitting rotations.
 
 use super::square::{Matrix, Square, identity, times, transposed};
 use super::vec3;
 
 /// Rotations and their logarithms.
 pub trait Rotation<const D: usize> {
-    /// The antisymmetric matrix of the rotation with the smallest angle; at half a turn one of the two.
+    /// Returns the antisymmetric matrix of the rotation with the smallest angle; at half a turn one of the two.
     fn log(&self) -> Matrix<D>;
-    /// The rotation exp(s·log).
+    /// Returns the rotation exp(s·log).
     fn exp(log: &Matrix<D>, s: f64) -> Matrix<D>;
-    /// The logarithm of a turn by an angle in radians, counter-clockwise seen against the axis; in the plane the axis says
-    /// nothing.
+    /// Returns the logarithm of a turn by an angle in radians, counter-clockwise seen against the axis; in the plane
+    /// the axis is ignored.
     fn about(axis: [f64; 3], angle: f64) -> Matrix<D>;
-    /// By how much a logarithm turns about a unit axis, in radians: what [`about`](Self::about) was given.
+    /// Returns the angle in radians by which a logarithm turns about a unit axis: the inverse of
+    /// [`about`](Self::about).
     fn angle(log: &Matrix<D>, axis: [f64; 3]) -> f64;
 }
 
@@ -54,7 +55,7 @@ impl Rotation<3> for Matrix<3> {
         }
     }
 
-    /// Rodrigues.
+    /// Uses Rodrigues' formula.
     fn exp(log: &Self, s: f64) -> Self {
         let speed = vec3::norm(vector(log));
         if speed == 0.0 {
@@ -78,12 +79,12 @@ impl Rotation<3> for Matrix<3> {
     }
 }
 
-/// The axis of an antisymmetric matrix, as long as its angle.
+/// Returns the axis of an antisymmetric matrix, scaled by its angle.
 fn vector(log: &Matrix<3>) -> [f64; 3] {
     [log[2][1], log[0][2], log[1][0]]
 }
 
-/// The axis of a rotation by half a turn, R = 2aaᵀ − I.
+/// Returns the axis of a rotation by half a turn, R = 2aaᵀ − I.
 fn half_turn_axis(rotation: &Matrix<3>) -> [f64; 3] {
     let largest = (0..3)
         .max_by(|&i, &j| rotation[i][i].total_cmp(&rotation[j][j]))
@@ -92,8 +93,8 @@ fn half_turn_axis(rotation: &Matrix<3>) -> [f64; 3] {
     vec3::unit(column)
 }
 
-/// The rotation that best takes places to others, in the least-squares sense, each about their centroid. There is none of a
-/// single place, and in space none of places on a line.
+/// Returns the rotation that best takes places to others, in the least-squares sense, each about their centroid. `None`
+/// for a single place, and in space for places on a line.
 pub fn best_rotation<const D: usize>(pairs: &[([f64; D], [f64; D])]) -> Option<Matrix<D>>
 where
     Matrix<D>: Square<D>,
@@ -112,7 +113,7 @@ where
     is_determined.then(|| times(&svd.u, &transposed(&svd.v)))
 }
 
-/// The means of both places of pairs; the origin of no pair.
+/// Returns the means of both places of pairs; the origin if there are no pairs.
 pub fn centroids<const D: usize>(pairs: &[([f64; D], [f64; D])]) -> ([f64; D], [f64; D]) {
     let n = pairs.len().max(1) as f64;
     let (mut from, mut to) = ([0.0; D], [0.0; D]);

@@ -1,4 +1,4 @@
-//! Square matrices of the plane and of space: what differs between 2×2 and 3×3.
+//! Square matrices of plane and space: the differences between 2×2 and 3×3.
 //!
 //! Everything else about elements is written once for both dimensions.
 
@@ -9,30 +9,30 @@ pub use super::svd::Matrix;
 use super::svd::{Svd, singular_values2, svd2};
 use super::vec3;
 
-/// What energies need of a matrix, in either dimension.
+/// Operations on matrices that energies need, in either dimension.
 pub trait Square<const D: usize>: Copy {
-    /// Its determinant.
+    /// Returns the determinant.
     fn det(&self) -> f64;
 
-    /// Coefficients of det(self + t·`direction`) in powers of t.
+    /// Returns the coefficients of det(self + t·`direction`) in powers of t.
     fn det_along(&self, direction: &Self) -> [f64; 4];
 
-    /// Its inverse, given its determinant.
+    /// Returns the inverse, given the determinant.
     fn inverse(&self, det: f64) -> Matrix<D>;
 
-    /// The signed singular value decompositions of matrices, given their determinants.
+    /// Returns the signed singular value decompositions of matrices, given their determinants.
     fn svds<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [Svd<D>; N];
 
-    /// Their signed singular values alone; see [`Svd`].
+    /// Returns only the signed singular values of matrices, given their determinants; see [`Svd`].
     fn all_singular_values<const N: usize>(matrices: &[Self; N], dets: &[f64; N]) -> [[f64; D]; N];
 
-    /// Its signed singular value decomposition, given its determinant.
+    /// Returns the signed singular value decomposition, given the determinant.
     fn svd(&self, det: f64) -> Svd<D> {
         let [svd] = Self::svds(&[*self], &[det]);
         svd
     }
 
-    /// Its signed singular values alone; see [`Svd`].
+    /// Returns only the signed singular values, given the determinant; see [`Svd`].
     fn singular_values(&self, det: f64) -> [f64; D] {
         let [values] = Self::all_singular_values(&[*self], &[det]);
         values
@@ -101,12 +101,12 @@ impl Square<3> for Matrix<3> {
     }
 }
 
-/// `value` times the identity.
+/// Returns `value` times the identity.
 pub fn identity<const D: usize>(value: f64) -> Matrix<D> {
     array::from_fn(|r| array::from_fn(|c| if r == c { value } else { 0.0 }))
 }
 
-/// a · b.
+/// Returns a · b.
 pub fn times<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
     let mut product = [[0.0; D]; D];
     for (row, a) in product.iter_mut().zip(a) {
@@ -119,17 +119,17 @@ pub fn times<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
     product
 }
 
-/// aᵀ.
+/// Returns aᵀ.
 pub fn transposed<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
     array::from_fn(|r| array::from_fn(|c| a[c][r]))
 }
 
-/// a · x.
+/// Returns a · x.
 pub fn apply<const D: usize>(a: &Matrix<D>, x: &[f64; D]) -> [f64; D] {
     a.map(|row| (0..D).map(|c| row[c] * x[c]).sum())
 }
 
-/// aᵀ · x.
+/// Returns aᵀ · x.
 pub fn apply_transposed<const D: usize>(a: &Matrix<D>, x: &[f64; D]) -> [f64; D] {
     let mut image = [0.0; D];
     for (row, x) in a.iter().zip(x) {

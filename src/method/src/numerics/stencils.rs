@@ -1,4 +1,4 @@
-//! Which vertices meet in each summand of an energy.
+//! Stencils: the vertices of each summand of an energy.
 
 /// Lists of vertices, each in increasing order and without repetition.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -8,7 +8,7 @@ pub struct Stencils {
 }
 
 impl Stencils {
-    /// Stencils of `size` vertices each, one after another.
+    /// Creates stencils of `size` vertices each from their vertices, one after another.
     pub fn uniform(size: usize, vertices: impl Iterator<Item = u32>) -> Self {
         let vertices: Vec<u32> = vertices.collect();
         let starts = (0..=vertices.len()).step_by(size).map(|i| i as u32);
@@ -18,7 +18,7 @@ impl Stencils {
         }
     }
 
-    /// Stencils of any sizes.
+    /// Creates stencils of any sizes.
     pub fn of<'a>(stencils: impl Iterator<Item = &'a [u32]>) -> Self {
         let mut found = Self {
             starts: vec![0],
@@ -31,14 +31,15 @@ impl Stencils {
         found
     }
 
-    /// Each stencil's vertices.
+    /// Iterates over the vertices of each stencil.
     pub fn iter(&self) -> impl Iterator<Item = &[u32]> + Clone {
         self.starts
             .windows(2)
             .map(|w| &self.vertices[w[0] as usize..w[1] as usize])
     }
 
-    /// Every pair of vertices of a stencil, smaller first, in the order (0, 1), (0, 2), (1, 2), (0, 3), …
+    /// Iterates over the pairs of vertices of each stencil, smaller first, in the order (0, 1), (0, 2), (1, 2), (0, 3),
+    /// …
     pub fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + Clone {
         self.iter().flat_map(|stencil| {
             (1..stencil.len()).flat_map(move |j| (0..j).map(move |i| (stencil[i], stencil[j])))

@@ -1,27 +1,27 @@
-//! Convex hulls known by their extent in a few directions.
+//! Convex hulls represented by their extent in a few directions.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-/// Directions, evenly spread. The hull of a circle comes out 0.3 % too large.
+/// Number of directions, evenly spread. The hull of a circle comes out 0.3 % too large.
 const N: usize = 32;
 
-/// How far a set of points reaches in each of 32 directions: a convex hull whose union with another costs 32 comparisons.
+/// Support function of a point set in 32 directions: a convex hull whose union with another costs 32 comparisons.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support([f64; N]);
 
 impl Support {
-    /// Of no points.
+    /// The hull of no points.
     pub const EMPTY: Self = Self([f64::NEG_INFINITY; N]);
 
-    /// Of one more point.
+    /// Adds a point.
     pub fn add(&mut self, p: [f64; 2], directions: &Directions) {
         for (reach, d) in self.0.iter_mut().zip(&directions.0) {
             *reach = reach.max(p[0] * d[0] + p[1] * d[1]);
         }
     }
 
-    /// Of the points of both.
+    /// Adds the points of the other.
     pub fn unite(&mut self, other: &Self) {
         for (reach, &r) in self.0.iter_mut().zip(&other.0) {
             // One instruction, where `max` looks for what is not a number.
@@ -29,10 +29,10 @@ impl Support {
         }
     }
 
-    /// The area of the polygon that the reaches bound; 0 of no points.
+    /// Returns the area of the polygon bounded by the 32 directions; 0 without points.
     ///
-    /// Each of its edges touches the hull. The edge between two neighbors is as long as they and its own reach say:
-    /// (h₋ + h₊ − 2 h cos δ) / sin δ, with δ the angle between directions.
+    /// Each of its edges touches the hull. The length of an edge follows from its own reach h and those of its
+    /// neighbors: (h₋ + h₊ − 2 h cos δ) / sin δ, with δ the angle between directions.
     pub fn area(&self) -> f64 {
         if self.0[0] == f64::NEG_INFINITY {
             return 0.0;
@@ -45,8 +45,8 @@ impl Support {
         (0..N).map(edge).sum::<f64>() / 2.0
     }
 
-    /// The area of the smallest square around what the reaches bound, of those at 32 angles; 0 of no points. Around a square it
-    /// comes out up to a fifth too large.
+    /// Returns the area of the smallest square around the polygon among those at 32 angles; 0 without points. Around a
+    /// square it comes out up to a fifth too large.
     pub fn square(&self) -> f64 {
         if self.0[0] == f64::NEG_INFINITY {
             return 0.0;
@@ -54,7 +54,7 @@ impl Support {
         self.sides().fold(f64::INFINITY, f64::min).powi(2)
     }
 
-    /// The sides of squares around what the reaches bound.
+    /// Returns the sides of squares around the polygon, at 32 angles.
     fn sides(&self) -> impl Iterator<Item = f64> {
         let between = &*BETWEEN;
         (0..N / 4).flat_map(move |i| {
@@ -69,9 +69,9 @@ impl Support {
         })
     }
 
-    /// The area of the hull, and twice by how much the smallest square around it exceeds another: what the points take up of an
-    /// atlas for which that other square should be enough. What a hull leaves empty other charts fill in part, what is too
-    /// long for the square nothing makes good.
+    /// Returns the area of the hull plus twice the excess of its smallest enclosing square over `square`: the room that
+    /// the points take in an atlas of that area. Other charts partly fill the gaps of a hull, but nothing makes up for
+    /// a chart too long for the square.
     pub fn room(&self, square: f64) -> f64 {
         let fits = self.sides().any(|side| side.powi(2) <= square);
         let excess = if fits { 0.0 } else { self.square() - square };

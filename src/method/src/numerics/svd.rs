@@ -7,8 +7,8 @@ pub type Matrix<const D: usize> = [[f64; D]; D];
 
 /// F = U diag(σ) Vᵀ with rotations U and V.
 ///
-/// σ₁ ≥ σ₂ ≥ … in absolute value; all are nonnegative but the last, which has the sign of det F. The last is found from
-/// the determinant, so that it is exact to rounding however small it is.
+/// σ₁ ≥ σ₂ ≥ … in absolute value; all are nonnegative except the last, which has the sign of det F. The last is
+/// computed from the determinant, so that it is exact to rounding however small it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Svd<const D: usize> {
     /// U, a rotation.
@@ -19,7 +19,8 @@ pub struct Svd<const D: usize> {
     pub v: Matrix<D>,
 }
 
-/// The norms p = (σ₁ + σ₂)/√2 and m = (σ₁ − σ₂)/√2 of the parts of a 2×2 matrix that rotate and that reflect, and the parts.
+/// Returns the norms p = (σ₁ + σ₂)/√2 and m = (σ₁ − σ₂)/√2 of the rotating and the reflecting part of a 2×2 matrix, and
+/// the parts.
 #[inline]
 fn parts([[a, b], [c, d]]: &Matrix<2>) -> ([f64; 2], [[f64; 2]; 2]) {
     let similar = [a + d, c - b].map(|f| FRAC_1_SQRT_2 * f);
@@ -35,14 +36,14 @@ fn from_parts([p, m]: [f64; 2], det: f64) -> [f64; 2] {
     [first, if first > 0.0 { det / first } else { 0.0 }]
 }
 
-/// The signed singular values of a matrix with this determinant.
+/// Returns the signed singular values of a matrix with this determinant.
 #[inline]
 pub fn singular_values2(f: &Matrix<2>, det: f64) -> [f64; 2] {
     from_parts(parts(f).0, det)
 }
 
-/// The decomposition of a matrix with this determinant, without an angle: the parts that rotate and reflect turn by φ_u − φ_v
-/// and φ_u + φ_v.
+/// Decomposes a matrix with this determinant without computing angles: the rotating and reflecting parts turn by φ_u −
+/// φ_v and φ_u + φ_v.
 #[inline]
 pub fn svd2(f: &Matrix<2>, det: f64) -> Svd<2> {
     let (norms, [similar, reflected]) = parts(f);
@@ -63,7 +64,7 @@ pub fn svd2(f: &Matrix<2>, det: f64) -> Svd<2> {
     }
 }
 
-/// Cosine and sine of half the angle with this cosine and sine.
+/// Returns cosine and sine of half the angle with this cosine and sine.
 #[inline]
 fn half_angle([cos, sin]: [f64; 2]) -> [f64; 2] {
     if cos >= 0.0 {

@@ -2,8 +2,8 @@
 
 use super::square::{Matrix, identity};
 
-/// The symmetric matrix with its negative eigenvalues λ replaced by τλ: the nearest positive semidefinite one for τ = 0,
-/// the matrix itself for τ = 1.
+/// Replaces the negative eigenvalues λ of a symmetric matrix by τλ: τ = 0 gives the nearest positive semidefinite
+/// matrix, τ = 1 the matrix itself.
 ///
 /// By cyclic Jacobi rotations; exact after one for 2×2.
 pub fn relax_negative<const D: usize>(matrix: &Matrix<D>, tau: f64) -> Matrix<D> {
@@ -23,7 +23,7 @@ pub fn relax_negative<const D: usize>(matrix: &Matrix<D>, tau: f64) -> Matrix<D>
     relaxed
 }
 
-/// By leading pivots.
+/// Returns whether all pivots of an elimination are positive.
 fn is_positive_definite<const D: usize>(matrix: &Matrix<D>) -> bool {
     let mut a = *matrix;
     for k in 0..D {
@@ -40,7 +40,7 @@ fn is_positive_definite<const D: usize>(matrix: &Matrix<D>) -> bool {
     true
 }
 
-/// Eigenvalues and, as rows, eigenvectors of length 1; in no order. By cyclic Jacobi rotations.
+/// Returns eigenvalues and, as rows, eigenvectors of length 1, unordered. By cyclic Jacobi rotations.
 pub fn eigen<const D: usize>(matrix: &Matrix<D>) -> ([f64; D], Matrix<D>) {
     const MAX_SWEEPS: usize = 20;
     let mut a = *matrix;
@@ -59,7 +59,7 @@ pub fn eigen<const D: usize>(matrix: &Matrix<D>) -> ([f64; D], Matrix<D>) {
     (std::array::from_fn(|k| a[k][k]), vectors)
 }
 
-/// Makes entry (i, j) zero by a rotation; false if it was negligible.
+/// Makes entry (i, j) zero by a rotation; returns `false` if it was negligible.
 fn annihilate<const D: usize>(a: &mut Matrix<D>, q: &mut Matrix<D>, i: usize, j: usize) -> bool {
     let z = a[i][j];
     if z.abs() <= 1e-17 * (a[i][i].abs() + a[j][j].abs()) || !z.is_finite() {

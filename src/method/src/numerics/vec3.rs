@@ -1,21 +1,21 @@
 //! Vectors of space as plain `[f64; 3]`.
 
-/// a − b.
+/// Returns a − b.
 pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// a + t b.
+/// Returns a + t b.
 pub fn add_scaled(a: [f64; 3], t: f64, b: [f64; 3]) -> [f64; 3] {
     [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
 }
 
-/// a·b.
+/// Returns a·b.
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// a × b.
+/// Returns a × b.
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
@@ -24,27 +24,27 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// ‖a‖.
+/// Returns ‖a‖.
 pub fn norm(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// ‖a − b‖.
+/// Returns ‖a − b‖.
 pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     norm(sub(a, b))
 }
 
-/// The length of a line from point to point.
+/// Returns the length of a polyline.
 pub fn polyline_length(line: &[[f64; 3]]) -> f64 {
     line.windows(2).map(|of| distance(of[0], of[1])).sum()
 }
 
-/// (b − a) × (c − a): the triangle's normal, as long as twice its area.
+/// Returns (b − a) × (c − a): the triangle's normal, as long as twice its area.
 pub fn area_vector(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> [f64; 3] {
     cross(sub(b, a), sub(c, a))
 }
 
-/// a / ‖a‖, or the zero vector where a has no direction.
+/// Returns a / ‖a‖, or the zero vector if a is zero.
 pub fn unit(a: [f64; 3]) -> [f64; 3] {
     let length = norm(a);
     if length > 0.0 {
@@ -54,7 +54,7 @@ pub fn unit(a: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// A unit vector at right angles to a unit vector; along an axis where that is.
+/// Returns a unit vector at right angles to a unit vector; along an axis if `direction` is.
 pub fn perpendicular(direction: [f64; 3]) -> [f64; 3] {
     let axis = if direction[0].abs() < 0.7 {
         [1.0, 0.0, 0.0]

@@ -1,4 +1,4 @@
-//! Where to go: by Newton's method while far from a minimum, within a trust region when near.
+//! Choice of the descent direction: Newton's method far from a minimum, a trust region near one.
 
 use super::line_search::Step;
 use super::newton_direction::{newton_direction, once_definite};
@@ -7,32 +7,32 @@ use super::relaxation::{Relaxation, is_settling};
 use super::settings::Projection;
 use super::trust_region::{Descent, End, TrustRegion};
 
-/// Directions from one factorization, at most: after as many steps it belongs to another place.
+/// Most directions that one factorization serves; after that many steps it belongs to a distant point.
 const MOST_DIRECTIONS: usize = 6;
 
 /// Products with the Hessian after which a better factorization is cheaper than more of them.
 const ENOUGH_PRODUCTS: usize = 20;
 
-/// But so many directions each must serve: where the true Hessian is indefinite no factorization is better.
+/// Fewest directions that one factorization serves: where the true Hessian is indefinite no factorization is better.
 const LEAST_DIRECTIONS: usize = 3;
 
-/// Finds directions of descent and learns from the steps along them.
+/// Finds directions of descent and adapts to the steps taken along them.
 pub(super) struct Directions {
     pub direction: Vec<f64>,
-    /// None if all is left to Newton's method.
+    /// The trust region; `None` if every direction is Newton's.
     region: Option<TrustRegion>,
-    /// Does the region find the next one?
+    /// `true` if the next direction comes from the region.
     is_near: bool,
     served: usize,
     products: usize,
     met_negative: bool,
-    /// Of the last step.
+    /// Decrease of the energy in the last step, as a share of the energy.
     relative_decrease: f64,
     norm: f64,
 }
 
 impl Directions {
-    /// For `n` unknowns, of Newton's method until it is [prepared](Self::prepare).
+    /// Creates the state for `n` unknowns; directions are Newton's until it is [prepared](Self::prepare).
     pub fn new(n: usize) -> Self {
         Self {
             direction: vec![0.0; n],
@@ -46,15 +46,17 @@ impl Directions {
         }
     }
 
-    /// Allocates what the first direction would. An objective whose Hessian is too large to factor is left to Newton's method.
+    /// Allocates the trust region if the settings ask for one. An objective whose Hessian is too large to factor keeps
+    /// to Newton's method.
     pub fn prepare(&mut self, objective: &mut Objective, projection: Projection) {
         if objective.keeps_factor() && projection == Projection::TrustRegion {
             self.region = Some(TrustRegion::new(objective.n()));
         }
     }
 
-    /// Leaves the next one in `direction`, a change of less than `negligible` being the last; `None` if no matrix that could
-    /// be factored gives one. Newton's method takes over where the region's preconditioner turns out not to be positive definite.
+    /// Writes the next direction to `direction`. A predicted change below `negligible` counts as the last one. Returns
+    /// `None` if no matrix could be factored. Falls back to Newton's method if the region's preconditioner is not
+    /// positive definite.
     pub fn next(
         &mut self,
         objective: &mut Objective,
@@ -84,7 +86,7 @@ impl Directions {
         Some(descent)
     }
 
-    /// Newton's direction, from a factorization at this point.
+    /// Computes Newton's direction from a factorization at `x`.
     fn newton(
         &mut self,
         objective: &mut Objective,
@@ -98,7 +100,7 @@ impl Directions {
         Some(Descent::of_newton(decrement))
     }
 
-    /// After a step along a descent, from a point of this energy.
+    /// Adapts to a step along `descent` that started at energy `energy`.
     pub fn after_step(
         &mut self,
         relaxation: &mut Relaxation,
@@ -119,7 +121,7 @@ impl Directions {
         }
     }
 
-    /// After a direction along which no step helped: false if there is no safer one.
+    /// Adapts to a direction along which no step helped; returns `false` if there is no safer one.
     pub fn after_useless_direction(&mut self, relaxation: &mut Relaxation) -> bool {
         let was_near = std::mem::take(&mut self.is_near);
         relaxation.after_useless_direction() || was_near

@@ -1,4 +1,4 @@
-//! Handles that are being moved: [`follow()`](super::follow()) an iteration at a time.
+//! Interactive handles: [`follow()`](super::follow()) one iteration at a time.
 
 use super::handles::{Handles, HandlesError};
 use super::journey::{HARD, HARDENED, LEAST_PROGRESS, ROUNDING};
@@ -11,47 +11,48 @@ use super::travel::{PATIENCE, SOFT, Travel};
 use crate::energy::Positional;
 use crate::numerics::square::{Matrix, Square};
 
-/// The rest is settled when the decrease that the quadratic model promises is at most this share of the energy. Convergence is
-/// quadratic there, so what is left to gain is far less.
+/// The free vertices are settled when the decrease predicted by the quadratic model is at most this share of the
+/// energy. Convergence is quadratic there, so the remaining gain is far smaller.
 const TOLERANCE: f64 = 1e-9;
 
-/// A step of at least this length confirms what the model promised.
+/// Shortest step that confirms the prediction of the model.
 const CONFIRMING: f64 = 0.5;
 
-/// Where a drag stands.
+/// State of a drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// More iterations change the map.
     Moving,
-    /// The handles are at their targets and the rest at a minimum.
+    /// The handles are at their targets and the free vertices at a minimum.
     Settled,
-    /// The handles cannot come nearer to their targets this way; the rest is at a minimum.
+    /// The handles cannot come nearer to their targets along this path; the free vertices are at a minimum.
     Unreachable,
 }
 
-/// Handles on their way to targets that may change at any time, and what is known of the map meanwhile.
+/// Handles on their path to targets that may change at any time, with the solver's state between iterations.
 ///
-/// Each iteration is one of [`follow()`](super::follow())'s and leaves the map in the domain; left alone, the drag ends where
-/// `follow` does. The objective's analysis is kept: vertices are held by clearing rows and columns of one pattern, and points lie
-/// within elements, whose vertices meet in that pattern already.
+/// Each iteration is one of [`follow()`](super::follow())'s and leaves the map in the domain; without new targets the
+/// drag ends where `follow` does. The objective's analysis is kept: vertices are held by clearing rows and columns of
+/// one pattern, and points lie within elements, whose vertices meet in that pattern already.
 pub struct Drag<const D: usize> {
     travel: Travel<D>,
     vertices: Vec<u32>,
     phase: Phase,
-    /// The last factorization, if it is to be kept.
+    /// The last factorization, if it is worth keeping.
     kept: Option<Kept>,
 }
 
-/// What comes next.
+/// Next phase of a drag.
 #[derive(Clone, Copy, PartialEq)]
 enum Phase {
-    /// Advances of the handles. So many iterations before brought none; the round began at this share of the way.
+    /// Advances the handles. `stuck` iterations in a row brought no advance; the round began at the share `from` of the
+    /// path.
     Advance { stuck: usize, from: f64 },
-    /// The rest settles, between rounds or at the end.
+    /// Settles the free vertices, between rounds or at the end.
     Settle { from: f64 },
-    /// Points meet their targets, which they were so far from before: constraints of this strength.
+    /// Stiffens the point constraints tenfold per round; `before` is the largest distance at the start of hardening.
     Harden { strength: f64, before: f64 },
-    /// Nothing.
+    /// No iterations left.
     Done(Stage),
 }
 
@@ -59,7 +60,7 @@ impl<const D: usize> Drag<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// Nothing is pulled yet; the map `x` settles.
+    /// Starts a drag without handles; the map `x` settles.
     ///
     /// # Errors
     /// If `x` is no map of the plane or of space.
@@ -75,10 +76,10 @@ where
         })
     }
 
-    /// Takes these handles in place of those before, from wherever they are.
+    /// Replaces the handles by new ones, which start from their present positions.
     ///
     /// # Errors
-    /// If they do not fit each other or the map. Then all is as it was.
+    /// If the handles do not fit each other or the map. The drag is then unchanged.
     pub fn aim(
         &mut self,
         objective: &mut Objective,
@@ -120,10 +121,10 @@ where
         Ok(())
     }
 
-    /// One iteration, unless there is nothing left to do.
+    /// Runs one iteration, unless the drag is done.
     ///
-    /// Cost: one assembly, one factorization, two or more solves, one or two evaluations; where a factorization takes longer than the
-    /// rest, most advances take one gradient and one solve with that of an iteration before.
+    /// Cost: one assembly, one factorization, two or more solves, one or two evaluations; where a factorization takes
+    /// longer than everything else, most advances take one gradient and one solve with an earlier factorization.
     pub fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> Stage {
         if let Phase::Advance { from, .. } = self.phase
             && let Some(kept) = self.kept.take()
@@ -152,7 +153,7 @@ where
         self.stage()
     }
 
-    /// Where it stands.
+    /// Returns the state of the drag.
     pub fn stage(&self) -> Stage {
         match self.phase {
             Phase::Done(stage) => stage,
@@ -160,7 +161,7 @@ where
         }
     }
 
-    /// What was done since the beginning.
+    /// Returns the totals since the beginning.
     pub fn summary(&self) -> &Summary {
         &self.travel.summary
     }
@@ -183,7 +184,7 @@ where
         }
     }
 
-    /// A Newton step with the handles held where they are; true if it is settled.
+    /// Takes a Newton step with the handles fixed; returns whether the map is settled.
     fn settle(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
         let travel = &mut self.travel;
         let energy = travel.summary.energy_last;
@@ -204,7 +205,7 @@ where
         }
     }
 
-    /// The rest has settled: on, if the round before brought the handles nearer.
+    /// Chooses the next phase once the map has settled: another round if the last one brought the handles nearer.
     fn after_round(&mut self, objective: &mut Objective, x: &[f64], from: f64) -> Phase {
         let travel = &mut self.travel;
         if travel.s >= 1.0 {
@@ -222,7 +223,7 @@ where
         }
     }
 
-    /// The map has settled with points held this strongly.
+    /// Chooses the next phase once the map has settled with points of this strength.
     fn harden(
         &mut self,
         objective: &mut Objective,
@@ -247,7 +248,7 @@ where
     }
 }
 
-/// Are the vertices at their targets, and no points pulled?
+/// Returns whether the vertices are at their targets and no points are pulled.
 fn is_there(x: &[f64], handles: &Handles) -> bool {
     let dim = handles.targets.len() / handles.vertices.len().max(1);
     let place = |v: &u32| &x[dim * *v as usize..dim * (*v as usize + 1)];

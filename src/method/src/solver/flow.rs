@@ -7,23 +7,24 @@ use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
 use super::watch::{Control, Taken, Watch};
 
-/// The strength of the pull beside the energy's mean curvature: one that is blocked presses so much, and crushes nothing.
+/// Strength of the pull relative to the energy's mean curvature: enough to press against an obstacle, too little to
+/// crush it.
 const STRENGTH: f64 = 10.0;
 
-/// How far ahead of itself a point is pulled, at most and at least, in units of a mean element's edge.
+/// Longest and shortest distance at which a point is pulled ahead of itself, in edges of a mean element.
 const FARTHEST_PULL: f64 = 4.0;
 const NEAREST_PULL: f64 = 0.05;
 
-/// A step longer than this share of the direction says that points may be pulled farther.
+/// A step longer than this share of the direction lets points be pulled farther ahead.
 const LONG: f64 = 0.9;
 
-/// So many iterations must have brought
+/// Iterations between two checks of the progress.
 const WINDOW: usize = 20;
 
-/// this share of the distances.
+/// Least progress between two checks, as a share of the remaining distance.
 const LEAST_GAIN: f64 = 0.02;
 
-/// Where points flow.
+/// Targets of a flow.
 #[derive(Clone, Copy, Debug)]
 pub struct Flow<'a> {
     /// A target for each of the objective's constraints, coordinates one after another.
@@ -32,12 +33,12 @@ pub struct Flow<'a> {
     pub edge: f64,
 }
 
-/// Pulls the points that are the constraints of `objective` toward their targets, until they come no nearer; `x` stays in the domain.
+/// Pulls the constrained points of `objective` toward their targets until they come no nearer; `x` stays in the domain.
 ///
-/// Each is pulled to a place a few edges ahead of itself on the straight line to its target, wherever it is by now, and all with the
-/// same moderate strength: one that is blocked waits, or slides along what is in its way, and holds back no other. That is
-/// the substepping of Schüller et al. 2013, equation 11, with a step in units of length. The points end near to their targets, not
-/// on them.
+/// Each point is pulled toward a place a few edges ahead of its present position on the straight line to its target,
+/// all with the same moderate strength: a blocked point waits or slides along the obstacle and holds back no other.
+/// This is the substepping of Schüller et al. 2013, equation 11, with a step in units of length. The points end near
+/// their targets, not on them.
 ///
 /// Cost of an iteration: one factorization, one solve, one or two evaluations.
 pub fn flow(
@@ -71,10 +72,10 @@ pub fn flow(
     stream.summary.ended(Status::TargetsUnreachable)
 }
 
-/// What is known from one iteration to the next.
+/// State between iterations.
 struct Stream {
     alpha: f64,
-    /// How far ahead of themselves points are pulled, in units of an edge.
+    /// Distance at which points are pulled ahead of themselves, in edges.
     pull: f64,
     relaxation: Relaxation,
     summary: Summary,
@@ -95,7 +96,7 @@ impl Stream {
         }
     }
 
-    /// One iteration; `None` if none moves anything.
+    /// Runs one iteration; returns `None` if no direction and no shorter pull lowers the energy.
     fn step(&mut self, objective: &mut Objective, x: &mut [f64], flow: &Flow) -> Option<Taken> {
         let ahead = ahead(objective, x, flow.targets, self.pull * flow.edge);
         objective.set_constraints(self.alpha, &ahead);
@@ -137,13 +138,13 @@ impl Stream {
     }
 }
 
-/// Where the constraints are.
+/// Returns the positions of the constrained points.
 fn places(objective: &Objective, x: &[f64]) -> Vec<f64> {
     let constraints = objective.constraints();
     constraints.map_or(Vec::new(), |points| points.places(x).collect())
 }
 
-/// The sum of their distances from their targets.
+/// Returns the sum of the distances of the constrained points from their targets.
 fn distance(objective: &Objective, x: &[f64], targets: &[f64]) -> f64 {
     let dim = objective.dim();
     let places = places(objective, x);
@@ -156,7 +157,7 @@ fn gap(place: &[f64], target: &[f64]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// Their targets, or what lies so far ahead of them on the way there.
+/// Returns the targets, each cut off at the distance `most` from its point on the straight line.
 fn ahead(objective: &Objective, x: &[f64], targets: &[f64], most: f64) -> Vec<f64> {
     let dim = objective.dim();
     let places = places(objective, x);

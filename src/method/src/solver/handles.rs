@@ -1,4 +1,4 @@
-//! What is pulled, and to where.
+//! Handles: vertices and points that are pulled, and their targets.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -10,86 +10,86 @@ use crate::energy::Row;
 pub struct Handles {
     /// The vertices, each once.
     pub vertices: Vec<u32>,
-    /// Their targets, coordinates one after another.
+    /// Targets of the vertices, coordinates one after another.
     pub targets: Vec<f64>,
-    /// The number of the group of each vertex. A group, such as a disc of vertices or the end of a bar,
-    /// travels as a rigid body as far as its targets allow. No element between its vertices is then
-    /// crushed on the way. Without groups, each vertex travels alone.
+    /// The number of the group of each vertex. A group, such as a disc of vertices or the end of a bar, moves as a
+    /// rigid body as far as its targets allow, so that no element between its vertices is crushed along the path.
+    /// Without groups, each vertex moves alone.
     pub groups: Vec<u32>,
-    /// Points inside elements that must come to given positions too: held by soft constraints that harden in the end.
+    /// Points inside elements that are pulled to given positions too, by soft constraints that harden at the end.
     pub points: Vec<Row>,
-    /// Their targets, coordinates one after another.
+    /// Targets of the points, coordinates one after another.
     pub point_targets: Vec<f64>,
-    /// How each way bends, that of every group by its number and then that of every point; all are straight if there are none. A
-    /// bend is a direction, in the plane the first two numbers, as long as the way is bent in halves of its length. Two that change
-    /// places pass each other if both bend to their left.
+    /// Bend of each path: first those of the groups, by number, then those of the points; empty if all paths are
+    /// straight. A bend is a direction (in the plane its first two numbers); its length is the sagitta in halves of the
+    /// length of the path. Two handles that change places pass each other if both bend to their left.
     pub bends: Vec<[f64; 3]>,
 }
 
-/// Handles that do not fit each other or the map.
+/// Mismatch among the handles, or between the handles and the map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HandlesError {
-    /// Not every handle has one target of as many coordinates as the map.
+    /// The number of target coordinates is not `dim` per handle.
     #[error("{handles} handles have {found} coordinates of targets, not {dim} each")]
     Targets {
-        /// How many vertices or points are pulled.
+        /// Number of vertices or points that are pulled.
         handles: usize,
-        /// Numbers found.
+        /// Number of target coordinates.
         found: usize,
-        /// Coordinates of a position.
+        /// Coordinates per position.
         dim: usize,
     },
-    /// Not every handle has a group.
+    /// The number of groups is not that of the vertices.
     #[error("{vertices} vertices have {groups} groups")]
     Groups {
-        /// How many vertices.
+        /// Number of vertices.
         vertices: usize,
-        /// How many groups.
+        /// Number of groups.
         groups: usize,
     },
-    /// Not every way has a bend.
+    /// The number of bends is not that of the paths.
     #[error("{ways} ways have {bends} bends")]
     Bends {
-        /// How many groups and points.
+        /// Number of paths: groups and points.
         ways: usize,
-        /// How many bends.
+        /// Number of bends.
         bends: usize,
     },
-    /// A handle names a vertex that there is not.
+    /// A handle names a vertex that does not exist.
     #[error("a handle names vertex {vertex}, but there are only {n_vertices} vertices")]
     UnknownVertex {
-        /// The vertex.
+        /// Index of the vertex.
         vertex: u32,
-        /// How many there are.
+        /// Number of vertices of the map.
         n_vertices: usize,
     },
-    /// Two handles name one vertex.
+    /// Two handles name the same vertex.
     #[error("vertex {vertex} has two handles")]
     Twice {
-        /// The vertex.
+        /// Index of the vertex.
         vertex: u32,
     },
-    /// The objective has not as many soft constraints as there are points.
+    /// The number of points differs from the number of soft constraints of the objective.
     #[error("{points} points are pulled, but the objective has {constraints} soft constraints")]
     Points {
-        /// How many points.
+        /// Number of points.
         points: usize,
-        /// How many constraints.
+        /// Number of constraints.
         constraints: usize,
     },
     /// A target or a bend is infinite or not a number.
     #[error("a target or a bend is not finite")]
     NotFinite,
-    /// A target is so far that its distance is no number.
+    /// A target is so far away that squares of distances would overflow.
     #[error("a target has a coordinate larger than {LARGEST:e}")]
     TooFar,
 }
 
-/// The largest coordinate of a target: squares of distances stay finite.
+/// Largest coordinate of a target: squares of distances stay finite.
 const LARGEST: f64 = 1e150;
 
 impl HandlesError {
-    /// A word for programs; it does not change.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Targets { .. }
@@ -104,11 +104,12 @@ impl HandlesError {
 }
 
 impl Handles {
-    /// Checks that they fit each other and a map of so many coordinates, `dim` to a vertex.
+    /// Checks that the handles fit each other and a map of `n_coordinates` coordinates, `dim` per vertex.
     ///
     /// # Errors
-    /// The first misfit that is found.
+    /// The first mismatch found.
     pub fn check(&self, dim: usize, n_coordinates: usize) -> Result<(), HandlesError> {
+        // Numbers of coordinates, groups and bends.
         let pairs = [
             (self.vertices.len(), self.targets.len()),
             (self.points.len(), self.point_targets.len()),
@@ -130,6 +131,7 @@ impl Handles {
         if bends != 0 && bends != ways {
             return Err(HandlesError::Bends { ways, bends });
         }
+        // Vertices.
         let n_vertices = n_coordinates / dim;
         let of_points = self.points.iter().flatten().map(|(vertex, _)| vertex);
         let mut named = self.vertices.iter().chain(of_points);
@@ -140,6 +142,7 @@ impl Handles {
         if let Some(&vertex) = self.vertices.iter().find(|&vertex| !seen.insert(vertex)) {
             return Err(HandlesError::Twice { vertex });
         }
+        // Values.
         let targets = self.targets.iter().chain(&self.point_targets);
         let mut numbers = targets.chain(self.bends.as_flattened());
         if !numbers.all(|x| x.is_finite()) {
@@ -152,18 +155,18 @@ impl Handles {
         Ok(())
     }
 
-    /// How many groups there are, the largest number among theirs and one.
+    /// Returns the number of groups: the largest group number plus one.
     pub fn n_groups(&self) -> usize {
         let groups = self.groups();
         groups.iter().max().map_or(0, |&group| group as usize + 1)
     }
 
-    /// How many ways: one of each group, one of each point.
+    /// Returns the number of paths: one per group and one per point.
     pub fn n_ways(&self) -> usize {
         self.n_groups() + self.points.len()
     }
 
-    /// The group of each vertex.
+    /// Returns the group of each vertex; without groups, each vertex has its own.
     pub fn groups(&self) -> Cow<'_, [u32]> {
         if self.groups.is_empty() {
             (0..self.vertices.len() as u32).collect()

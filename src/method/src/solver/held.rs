@@ -1,8 +1,8 @@
-//! Vertices that are held: their rows and columns of a linear system, taken out and kept.
+//! Fixed vertices: their rows and columns of a linear system are taken out and kept.
 
 use crate::numerics::block::{BlockPattern, Entry};
 
-/// Which vertices are held, and what stood in their rows and columns before they were made those of the identity.
+/// The fixed unknowns, and the entries of their rows and columns before these were replaced by rows of the identity.
 #[derive(Default)]
 pub(super) struct Held {
     unknowns: Vec<usize>,
@@ -13,16 +13,16 @@ pub(super) struct Held {
     moves: Vec<f64>,
 }
 
-/// An entry that couples a held unknown with one that is not, all three by their numbers.
+/// An entry that couples a fixed unknown with a free one; all three are indices.
 struct Coupling {
     entry: u32,
-    /// Among those held.
+    /// Index among the fixed unknowns.
     held: u32,
     free: usize,
 }
 
 impl Held {
-    /// These vertices, and only these.
+    /// Fixes these vertices and no others.
     pub fn new(pattern: &BlockPattern, vertices: &[u32]) -> Self {
         let dim = pattern.dim();
         let mut chosen = vec![false; pattern.scalar().n / dim];
@@ -44,13 +44,13 @@ impl Held {
         }
     }
 
-    /// Which vertices, each with so many unknowns.
+    /// Returns the fixed vertices; each has `dim` unknowns.
     pub fn vertices(&self, dim: usize) -> Vec<u32> {
         let firsts = self.unknowns.iter().step_by(dim);
         firsts.map(|&i| (i / dim) as u32).collect()
     }
 
-    /// Clears rows and columns but for a diagonal of this size, and the gradient.
+    /// Clears the gradient, and the rows and columns except for a diagonal of this size.
     pub fn clear(
         &mut self,
         pattern: &BlockPattern,
@@ -68,15 +68,15 @@ impl Held {
         }
     }
 
-    /// Clears a gradient whose Hessian is not known.
+    /// Clears a gradient that is assembled without a Hessian.
     pub fn clear_gradient(&self, gradient: &mut [f64]) {
         for &i in &self.unknowns {
             gradient[i] = 0.0;
         }
     }
 
-    /// Takes the moves of the held unknowns out of `direction`, and leaves in it what these moves do to the others: a right
-    /// side to solve for.
+    /// Takes the moves of the fixed unknowns out of `direction` and leaves their effect on the free ones: a right-hand
+    /// side.
     pub fn take_moves(&mut self, direction: &mut [f64]) {
         self.moves.clear();
         self.moves
@@ -88,14 +88,15 @@ impl Held {
         }
     }
 
-    /// Puts the moves that were taken back.
+    /// Puts the moves that were taken out back into `direction`.
     pub fn put_moves(&self, direction: &mut [f64]) {
         for (&i, value) in self.unknowns.iter().zip(&self.moves) {
             direction[i] = *value;
         }
     }
 
-    /// What was cleared of g·d + ½d·Hd, less what now stands in its place.
+    /// Returns the change of g·d + ½d·Hd through clearing: the cleared terms minus those of the diagonal in their
+    /// place.
     pub fn model_change(&self, diagonal: f64, direction: &[f64]) -> f64 {
         let mut change = 0.0;
         for (&i, g) in self.unknowns.iter().zip(&self.gradient) {
@@ -108,7 +109,7 @@ impl Held {
     }
 }
 
-/// The entries of which one side only is held.
+/// Returns the entries that couple one fixed and one free unknown.
 fn couplings(entries: &[Entry], unknowns: &[usize], n: usize) -> Vec<Coupling> {
     let mut place = vec![None; n];
     for (k, &i) in unknowns.iter().enumerate() {
@@ -125,7 +126,7 @@ fn couplings(entries: &[Entry], unknowns: &[usize], n: usize) -> Vec<Coupling> {
     (0..).zip(entries).filter_map(coupling).collect()
 }
 
-/// What a stored entry of a symmetric matrix is multiplied with in d·Hd.
+/// Returns the factor of the stored entry (`row`, `column`) of a symmetric matrix in d·Hd.
 pub(super) fn form(direction: &[f64], row: usize, column: usize) -> f64 {
     let product = direction[row] * direction[column];
     if row == column {

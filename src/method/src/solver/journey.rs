@@ -1,4 +1,4 @@
-//! Handles on their way through their stations: a journey that may pause and go on.
+//! Continuation of handles through stations; it may pause and resume.
 
 use super::handles::{Handles, HandlesError};
 use super::newton::minimize_with;
@@ -11,32 +11,32 @@ use super::travel::{SOFT, Travel};
 use super::watch::{Continued, Control, Taken, Watch};
 use crate::numerics::square::{Matrix, Square};
 
-/// What a round of advances must gain for another to be worth while, as a share of the path.
+/// Least progress of a round of advances that makes another round worthwhile, as a share of the path.
 pub(super) const LEAST_PROGRESS: f64 = 1e-3;
 
-/// By how much hardening must bring points nearer to their targets: it pulls 10⁶ times as strongly at the end, so points that can
-/// arrive come nearer by about as much.
+/// Share of their distance that points may keep after hardening: the pull is 10⁶ times as strong at the end, so points
+/// that can arrive come nearer by about that factor.
 pub(super) const HARDENED: f64 = 1e-3;
 
-/// What rounding leaves of the distance of points from their targets, as a share of their coordinates.
+/// Rounding error of the distance of points from their targets, as a share of their coordinates.
 pub(super) const ROUNDING: f64 = 1e-12;
 
-/// The strength of the constraints at the end, beside the energy's mean curvature.
+/// Strength of the constraints at the end, relative to the energy's mean curvature.
 pub(super) const HARD: f64 = 1e9;
 
-/// How far the rest settles before handles that are stuck try again: see [`Settings::tolerance`].
+/// Tolerance to which the free vertices settle before stuck handles try again: see [`Settings::tolerance`].
 const SETTLED: f64 = 1e-6;
 
-/// Iterations of that at most: elements that are nearly crushed take thousands to settle, and give no room.
+/// Most iterations of such a settling: elements that are nearly crushed take thousands to settle, and give no room.
 const MOST_SETTLING: usize = 100;
 
-/// Handles that [`follow()`](super::follow()) moves, as far as they are.
+/// State of a [`follow()`](super::follow()) that may pause.
 pub struct Journey<const D: usize> {
     stations: Vec<Handles>,
-    /// The one they travel to.
+    /// Index of the station ahead.
     station: usize,
     travel: Travel<D>,
-    /// The work before that.
+    /// Totals of the stations passed.
     before: Summary,
     is_paused: bool,
 }
@@ -45,7 +45,7 @@ impl<const D: usize> Journey<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// To these stations, at least one, from the map `x`.
+    /// Starts from the map `x` through these stations, at least one.
     ///
     /// # Errors
     /// If handles do not fit each other, the map or the objective.
@@ -78,22 +78,23 @@ where
         })
     }
 
-    /// Did they pause because they were slow? Otherwise they have arrived, cannot go on or were stopped.
+    /// Returns whether the handles paused because they were slow. Otherwise they have arrived, are stuck or were
+    /// stopped.
     pub fn is_paused(&self) -> bool {
         self.is_paused
     }
 
-    /// How much of the way lies behind, from 0 to 1, all stations being as far from each other.
+    /// Returns the share of the path that is done, from 0 to 1; all stations count equally.
     pub fn share(&self) -> f64 {
         (self.station as f64 + self.travel.s) / self.stations.len().max(1) as f64
     }
 
-    /// All work so far, and how it ended.
+    /// Returns the totals so far and the status.
     pub fn summary(&self) -> Summary {
         self.before.followed_by(&self.travel.summary)
     }
 
-    /// Goes on from the map that the journey left in `x`, as long as it keeps the pace.
+    /// Continues from the map that the journey left in `x`, as long as it keeps the pace.
     ///
     /// # Errors
     /// If handles do not fit.
@@ -133,7 +134,8 @@ impl<const D: usize> Travel<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// Goes all the way, if that is possible at this pace; true if it would be at a slower one, perhaps.
+    /// Moves the handles to the end of the path if that is possible at this pace; returns `true` if a slower pace might
+    /// get them farther.
     fn arrive(
         &mut self,
         objective: &mut Objective,
@@ -170,7 +172,7 @@ where
         }
     }
 
-    /// Makes the points meet their targets; says so if they do not.
+    /// Hardens the constraints until the points meet their targets; sets the status if they do not.
     fn harden(
         &mut self,
         objective: &mut Objective,
@@ -194,7 +196,7 @@ where
         }
     }
 
-    /// Minimizes with the handles held where they are.
+    /// Minimizes with the handles held in place.
     fn settle(
         &mut self,
         objective: &mut Objective,

@@ -1,28 +1,28 @@
-//! A factorization that is kept for several advances of handles.
+//! A factorization that serves several advances of handles.
 
 use super::objective::Objective;
 use super::path::Rotation;
 use super::travel::Travel;
 use crate::numerics::square::{Matrix, Square};
 
-/// A factorization of more operations than this takes longer than all else in a frame, some 5 ms.
+/// Flops beyond which a factorization takes longer than everything else in a frame, about 5 ms.
 const COSTLY: f64 = 1e8;
 
-/// Advances with one factorization at most.
+/// Most advances per factorization.
 const MOST_ADVANCES: usize = 24;
 
-/// What an advance leaves of the right side of its system, at most: else the factorization has to be renewed.
+/// Largest gradient after an advance, as a share of its right-hand side; beyond it the factorization is renewed.
 const WORN: f64 = 0.5;
 
-/// How a factorization has served since it was made.
+/// Use of a factorization since it was made.
 pub(super) struct Kept {
     advances: usize,
-    /// The norm of the last right side.
+    /// Norm of the last right-hand side.
     norm: f64,
 }
 
 impl Kept {
-    /// The factorization that an objective has just made, if making it takes long.
+    /// Keeps the factorization that an objective has just made; returns `None` if making one is cheap.
     pub fn of(objective: &Objective) -> Option<Self> {
         let is_costly = objective.work().is_some_and(|work| work.flops > COSTLY);
         is_costly.then_some(Self {
@@ -31,11 +31,11 @@ impl Kept {
         })
     }
 
-    /// Brings the handles to their targets, the other vertices following; `None`, and nothing has moved, if another factorization is
-    /// wanted for that.
+    /// Moves the handles to their targets while the other vertices follow. Returns `None`, without moving anything, if
+    /// this needs a new factorization.
     ///
-    /// This is a step of the modified Newton method. It leaves little of the gradient while the matrix is good, which is looked at
-    /// before the next. Cost: one gradient, one solve, one largest step.
+    /// This is a step of the modified Newton method. It leaves little of the gradient while the matrix is a good
+    /// approximation, which is checked before the next step. Cost: one gradient, one solve, one largest step.
     pub fn advance<const D: usize>(
         self,
         travel: &mut Travel<D>,

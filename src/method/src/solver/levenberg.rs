@@ -4,27 +4,27 @@ use super::objective::Objective;
 use super::settings::{Status, Summary};
 use super::watch::{Control, Iterate, Taken, Watch};
 
-/// What the paper and its authors' code leave adjustable.
+/// Parameters that the paper and its authors' code leave adjustable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LevenbergSettings {
-    /// Steps at most.
+    /// Most steps.
     pub max_iterations: usize,
-    /// Ends when a step is shorter than this.
+    /// Ends at a step shorter than this.
     pub min_step: f64,
-    /// The largest ‖Cx − d‖² that counts as met.
+    /// Largest ‖Cx − d‖² at which the constraints count as met.
     pub tolerance: f64,
-    /// Targets retreat toward the present positions while the shift is large, equations 10 and 11.
+    /// Enables targets that retreat toward the present positions while the shift is large, equations 10 and 11.
     pub substepping: bool,
-    /// α grows so that the constraints keep up with the energy, equations 12 and 13.
+    /// Lets α grow so that the constraints keep up with the energy, equations 12 and 13.
     pub alpha_update: bool,
-    /// α at the start.
+    /// Initial α.
     pub alpha: f64,
-    /// r: how many times the energy the constraints should weigh.
+    /// r: wanted ratio of the constraints to the energy.
     pub alpha_ratio: f64,
 }
 
 impl Default for LevenbergSettings {
-    /// The values of the authors' code.
+    /// Returns the values of the authors' code.
     fn default() -> Self {
         Self {
             max_iterations: 5000,
@@ -38,26 +38,26 @@ impl Default for LevenbergSettings {
     }
 }
 
-/// t of the paper: the largest α.
+/// t of the paper: largest α.
 const LARGEST_ALPHA: f64 = 1e16;
-/// The smallest α that an update gives.
+/// Smallest α that an update gives.
 const LEAST_ALPHA: f64 = 1e3;
-/// The authors' smallest σ.
+/// Smallest σ of the authors' code.
 const LEAST_SIGMA: f64 = 1e-21;
-/// Shifts of the authors' code: where they begin, what a success leaves, where they give up.
+/// Shifts μ of the authors' code: the first, the least after a success, and the one at which they give up.
 const FIRST_MU: f64 = 0.1;
 const LEAST_MU: f64 = 1e-5;
 const LARGEST_MU: f64 = 1e17;
 
-/// Minimizes energy + α‖Cx − d‖² of an [`Objective::constrained`] as section 3.2 of the paper does, from an `x` inside the
-/// domain; d are the targets that it was made with.
+/// Minimizes energy + α‖Cx − d‖² of an [`Objective::constrained`] as in section 3.2 of the paper, from an `x` inside
+/// the domain; d are the targets with which it was made.
 ///
-/// The Hessian is not projected: μ is added to its diagonal once it fails to factor, ten times as much each time it fails
-/// again; a first try that succeeds leaves the least μ, a second a tenth. The step σ starts from the last one, doubles on success and halves until the function falls
-/// and the point is inside the domain. No step is so long that an element would invert on the way, which the paper allows. Every
-/// iterate is inside. [`Iterate::mu`] is μ as the step leaves it: by it the next targets retreat, and a factorization that fails
-/// tries it first. From: Schüller et al. 2013, section 3.2, with the constants of the authors' code; a shift replaces
-/// the one before instead of adding to it.
+/// The Hessian is not projected: once it fails to factor, μ is added to its diagonal, ten times as much at each further
+/// failure. A first try that succeeds resets μ to the least value, a second divides it by ten. The step σ starts from
+/// the last one, doubles on success, and halves until the function falls and the point is inside the domain. Unlike in
+/// the paper, no step is so long that an element would invert on the way. Every iterate is inside. [`Iterate::mu`] is μ
+/// after the step: the next targets retreat by it, and a factorization that fails tries it first. From: Schüller et al.
+/// 2013, section 3.2, with the constants of the authors' code; a shift replaces the one before instead of adding to it.
 pub fn levenberg(
     objective: &mut Objective,
     x: &mut [f64],
@@ -80,15 +80,18 @@ pub fn levenberg(
         return run.summary.ended(Status::Stopped);
     }
     while run.summary.iterations < settings.max_iterations {
+        // Let the targets retreat while the shift is large.
         let share = if settings.substepping {
             1.0 / (1.0 + run.mu * run.mu)
         } else {
             1.0
         };
         run.aim(objective, x, &destinations, share);
+        // Take a step.
         let Some(length) = run.step(objective, x) else {
             return run.summary.ended(Status::Stalled);
         };
+        // Report it, and keep the constraints as strong as the energy.
         let gap = residual(objective, x);
         let taken = Taken {
             mu: run.mu,
@@ -105,6 +108,7 @@ pub fn levenberg(
         if watch.iterate(&iterate) == Control::Finish {
             return run.summary.ended(Status::Stopped);
         }
+        // End when the steps become negligible.
         if length < settings.min_step {
             let is_met = gap <= settings.tolerance;
             return run.summary.ended(if is_met {
@@ -138,7 +142,7 @@ impl Run {
         }
     }
 
-    /// Sets the targets to a share of the way from where the constraints are to their destinations.
+    /// Sets the targets to this share of the straight path from the constrained points to their destinations.
     fn aim(&self, objective: &mut Objective, x: &[f64], destinations: &[f64], share: f64) {
         let targets: Option<Vec<f64>> = objective.constraints().map(|constraints| {
             let places = constraints.places(x).zip(destinations);
@@ -151,7 +155,7 @@ impl Run {
         }
     }
 
-    /// One step; its length, or `None` if no shift gives a direction.
+    /// Takes one step and returns its length; `None` if no shift gives a direction.
     fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> Option<f64> {
         objective.linearize(x, 1.0);
         let mut shifted = 0.0;
@@ -180,8 +184,8 @@ impl Run {
         Some(self.sigma * self.direction.iter().map(|d| d * d).sum::<f64>().sqrt())
     }
 
-    /// Halves or doubles σ; the point stays where no step of a length that matters helps. Steps that would pass out of the domain and
-    /// into it again are too long.
+    /// Halves or doubles σ until the function falls; leaves the point unchanged where no step of a relevant length
+    /// helps. Rejects steps that would leave the domain and enter it again.
     fn search(&mut self, objective: &Objective, x: &mut [f64]) {
         let before = objective.value(x);
         let largest = objective.largest_step(x, &self.direction);
@@ -206,7 +210,7 @@ impl Run {
     }
 }
 
-/// Equations 12 and 13: r·|E|/‖Cx − d‖², never falling.
+/// Returns r·|E|/‖Cx − d‖², clamped and never falling (equations 12 and 13).
 fn updated_alpha(alpha: f64, energy: f64, residual: f64, settings: &LevenbergSettings) -> f64 {
     let wanted = settings.alpha_ratio * energy.abs() / residual;
     alpha.max(wanted.clamp(LEAST_ALPHA, LARGEST_ALPHA))

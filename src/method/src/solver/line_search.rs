@@ -1,44 +1,44 @@
-//! How far to go along a direction.
+//! Line search.
 
 use super::objective::Objective;
 
 /// An accepted step.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
-    /// Its length as a share of the direction.
+    /// Length, as a share of the direction.
     pub length: f64,
-    /// The energy after it.
+    /// Energy after the step.
     pub energy: f64,
 }
 
-/// Where a search begins and where it leads.
+/// Start and direction of a line search.
 #[derive(Clone, Copy, Debug)]
 pub struct Search<'a> {
-    /// The point.
+    /// Start.
     pub x: &'a [f64],
-    /// The direction.
+    /// Direction.
     pub direction: &'a [f64],
-    /// The energy at the point.
+    /// Energy at the start.
     pub energy: f64,
-    /// The slope of the energy along the direction, negative.
+    /// Slope of the energy along the direction, negative.
     pub slope: f64,
 }
 
-/// Share of the way to the first inversion that a step may take: the triangle that limits it keeps a twentieth of its
-/// margin, so that the next direction is not stuck at the barrier.
+/// Share of the distance to the first inversion that a step may take: the triangle that limits it keeps a twentieth of
+/// its margin, so that the next direction is not stuck at the barrier.
 const SAFETY: f64 = 0.95;
 
-/// Armijo's share of the decrease that the slope promises.
+/// Armijo constant: share of the decrease predicted by the slope that a step must reach.
 const SUFFICIENT: f64 = 1e-4;
 
-/// Halvings before a direction is given up: a step below 2⁻⁴⁰ moves nothing that matters.
+/// Most halvings: a step below 2⁻⁴⁰ has no relevant effect.
 const MAX_HALVINGS: usize = 40;
 
-/// The longest of the steps t, t/2, t/4, … that lowers the energy enough, `trial` being where it leads; t is 1 or 0.95
-/// of the largest step inside the domain.
+/// Returns the longest of the steps t, t/2, t/4, … that lowers the energy sufficiently, with its end point in `trial`;
+/// t is the smaller of 1 and 0.95 times the largest step inside the domain.
 ///
-/// `None` if no step is good: the energy is at rounding, or the direction is useless. Usually one evaluation, because the
-/// search starts inside the domain.
+/// Returns `None` if no step lowers the energy: it is at rounding, or the direction is useless. Usually takes one
+/// evaluation, because the search starts inside the domain.
 pub fn line_search(objective: &Objective, search: &Search, trial: &mut [f64]) -> Option<Step> {
     let &Search {
         x,

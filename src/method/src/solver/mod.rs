@@ -1,22 +1,21 @@
 //! Projected Newton with an exact largest step.
 //!
-//! Minimizes a [`Term`](crate::energy::Term) from a feasible start over maps that all stay feasible. Far from a minimum each
-//! iteration solves one sparse linear system; its matrix is the Hessian with the negative curvature of each element removed,
-//! so the direction descends. Near one that matrix is too stiff: there it only preconditions, and the directions come from
-//! the true Hessian within a trust region, several from one factorization (`trust_region`, [`Settings::projection`]). The
-//! step is never longer than 0.95 of the way to the first element that would leave the domain, found exactly, then halved
-//! until the energy falls enough.
+//! Minimizes a [`Term`](crate::energy::Term) from a feasible start over maps that all stay feasible. Far from a minimum
+//! each iteration solves one sparse linear system; its matrix is the Hessian without the negative curvature of each
+//! element, so the direction descends. Near a minimum that matrix is too stiff: there it only preconditions, and the
+//! directions come from the true Hessian within a trust region, several from one factorization (`trust_region`,
+//! [`Settings::projection`]). The step is never longer than 0.95 of the exact distance to the first element that would
+//! leave the domain, then halved until the energy falls enough.
 //!
-//! [`follow()`] pulls handles to targets by Newton's method, the other vertices following each advance, and gives the
-//! removed curvature back little by little instead: between advances there are few steps. A [`Journey`] does so with pauses.
-//! [`flow()`] lets each go as fast as the others allow. [`Drag`] does the same an iteration
-//! at a time, while the handles are being moved. [`levenberg()`] is the
-//! iteration of the paper itself, kept for comparison: it shifts the Hessian until it factors instead of projecting it,
-//! and holds handles by soft constraints.
+//! [`follow()`] pulls handles to targets by Newton's method while the other vertices follow each advance. It restores
+//! the removed curvature gradually, as there are few steps between advances. A [`Journey`] is a `follow` that may
+//! pause, [`Drag`] one that runs an iteration at a time while the handles are being moved. [`flow()`] lets each point
+//! go as fast as the others allow. [`levenberg()`] is the iteration of the paper itself, kept for comparison: it shifts
+//! the Hessian until it factors instead of projecting it, and holds handles by soft constraints.
 //!
-//! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has
-//! det J > 0 in every element, and while nothing travels the energy falls from iterate to iterate. The solver knows no
-//! energy by name, has no clock and no randomness; who watches may end it early ([`Watch`]).
+//! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has det J
+//! > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy
+//! by name, has no clock and no randomness; a [`Watch`] may end it early.
 
 mod directions;
 mod drag;

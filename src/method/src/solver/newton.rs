@@ -1,4 +1,4 @@
-//! The loop.
+//! The main loop of the minimization.
 
 use super::directions::Directions;
 use super::line_search::{Search, line_search};
@@ -8,16 +8,18 @@ use super::settings::{Settings, Status, Summary};
 use super::trust_region::End;
 use super::watch::{Control, Taken, Watch};
 
-/// A step of at least this length confirms what the model promised of a full one: less than a quarter of that is left to gain.
+/// Shortest step that confirms the prediction for a full one: less than a quarter of the predicted decrease is left to
+/// gain.
 const CONFIRMING: f64 = 0.5;
 
-/// Moves `x` from a start inside the domain to a minimum of `objective` nearby.
+/// Moves `x` from a start inside the domain to a nearby minimum of `objective`.
 ///
-/// `x` is flat, the coordinates of a vertex one after another. A start outside the domain is left as it is and reported
-/// as [`Status::Stalled`]. Energy falls with every step. Costs per iteration, far from a minimum, one
-/// factorization, one solve, one assembly and about 1.2 evaluations; near one a fifth of a factorization, two to eleven solves and
-/// products with the Hessian, one assembly and one or two evaluations. After the first iteration no memory is allocated
-/// (`tests/allocations.rs` counts), except by terms that [renew](crate::energy::Term::renew) their stencils.
+/// `x` is flat, the coordinates of a vertex one after another. A start outside the domain is left unchanged and
+/// reported as [`Status::Stalled`]. The energy falls with every step. Cost per iteration: far from a minimum one
+/// factorization, one solve, one assembly and about 1.2 evaluations; near one a fifth of a factorization, two to eleven
+/// solves and products with the Hessian, one assembly and one or two evaluations. After the first iteration no memory
+/// is allocated (`tests/allocations.rs` counts), except by terms that [renew](crate::energy::Term::renew) their
+/// stencils.
 ///
 /// # Panics
 /// If `x` does not hold the coordinates of the objective's vertices.
@@ -31,7 +33,7 @@ pub fn minimize(
     minimize_with(&mut relaxation, objective, x, settings, watch)
 }
 
-/// The same with what is known already of how convex the objective is near `x`.
+/// Like [`minimize`], starting from a known relaxation of the Hessian.
 pub(super) fn minimize_with(
     relaxation: &mut Relaxation,
     objective: &mut Objective,

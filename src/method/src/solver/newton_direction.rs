@@ -4,7 +4,7 @@ use super::objective::Objective;
 use super::relaxation::Relaxation;
 use crate::numerics::cholesky::NotPositiveDefinite;
 
-/// Leaves −H⁻¹g in `direction` and returns the Newton decrement, as [`once_definite`] has it.
+/// Writes −H⁻¹g to `direction` and returns the Newton decrement; `None` as in [`once_definite`].
 pub(super) fn newton_direction(
     objective: &mut Objective,
     x: &[f64],
@@ -16,8 +16,8 @@ pub(super) fn newton_direction(
     once_definite(objective, x, relaxation, factorizations, solved)
 }
 
-/// What comes of factoring the Hessian at `x`, with more and more of its negative curvature removed until it is positive
-/// definite; `None` if it is not even with all of it removed, as happens only when derivatives overflow.
+/// Factors the Hessian at `x` by `factored`, removing more and more of its negative curvature until that succeeds.
+/// Returns `None` if it fails even with all of it removed, which happens only when derivatives overflow.
 pub(super) fn once_definite<T>(
     objective: &mut Objective,
     x: &[f64],

@@ -1,4 +1,4 @@
-//! The function to minimize, with the memory that minimizing it takes.
+//! The function to minimize, with the workspace of its minimization.
 
 mod linearized;
 
@@ -8,40 +8,40 @@ use super::watch::{Control, Iterate, Taken, Watch};
 use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
 
-/// A sum of [`Term`]s with its gradient, Hessian and factorization; the pattern is analyzed once, when a factorization is first
-/// wanted, and again only where a term [renews](Term::renew) its stencils.
+/// A sum of [`Term`]s with its gradient, Hessian and factorization. The pattern is analyzed before the first
+/// factorization, and again only where a term [renews](Term::renew) its stencils.
 pub struct Objective {
     terms: Vec<Box<dyn Term>>,
     constraints: Option<Positional>,
-    /// Of each term, and of the constraints last.
+    /// Slots of each term, those of the constraints last.
     slots: Vec<Slots>,
     model: QuadraticModel,
-    /// Energies far below the sum of the weights are rounding.
+    /// Sum of the weights: energies far below it are rounding.
     scale: f64,
 }
 
-/// An energy below this share of the sum of the weights counts as that much when convergence is judged, so that a
-/// surface that can be flattened exactly, whose energy tends to zero, converges too.
+/// Smallest reference energy, as a share of the sum of the weights, when convergence is judged: a surface that can be
+/// flattened exactly, whose energy tends to zero, converges too.
 const NEGLIGIBLE: f64 = 1e-7;
 
 impl Objective {
-    /// `term` as a function of the positions of `n_vertices` vertices.
+    /// Creates the objective `term` of the positions of `n_vertices` vertices.
     ///
     /// # Panics
-    /// If a stencil names a vertex that there is not.
+    /// If a stencil names a vertex that does not exist.
     pub fn new(n_vertices: usize, term: Box<dyn Term>) -> Self {
         Self::of_terms(n_vertices, vec![term])
     }
 
-    /// The sum of `terms`, at least one, of equal dimension.
+    /// Creates the sum of `terms`, at least one, of equal dimension.
     ///
     /// # Panics
-    /// If there is none, if their dimensions differ, or if a stencil names a vertex that there is not.
+    /// If there are no terms, if their dimensions differ, or if a stencil names a vertex that does not exist.
     pub fn of_terms(n_vertices: usize, terms: Vec<Box<dyn Term>>) -> Self {
         Self::assembled(n_vertices, terms, None)
     }
 
-    /// The sum of `terms` and of soft constraints, whose strength and targets may change.
+    /// Creates the sum of `terms` and of soft constraints, whose strength and targets may change.
     ///
     /// # Panics
     /// As [`of_terms`](Self::of_terms).
@@ -68,16 +68,16 @@ impl Objective {
         }
     }
 
-    /// Holds these vertices, and only these, where they are.
+    /// Fixes these vertices, and no others, in place.
     pub fn fix(&mut self, vertices: &[u32]) {
         self.model.hold(vertices);
     }
 
-    /// Pulls at these points, and only these. Where each lies within one element, their pairs of vertices are in the pattern
-    /// already, and the analysis stays.
+    /// Pulls at these points and no others. If each lies within one element, its pairs of vertices are in the pattern
+    /// already, and the analysis stays valid.
     ///
     /// # Panics
-    /// If a row names a vertex that there is not.
+    /// If a row names a vertex that does not exist.
     pub fn pull_at(&mut self, points: Positional) {
         let slots = self.model.pattern().slots(&points.stencils());
         self.constraints = Some(points);
@@ -89,7 +89,8 @@ impl Objective {
         }
     }
 
-    /// Exchanges the terms for others with the same stencils, as where a parameter of an energy changes; the analysis stays.
+    /// Exchanges the terms for others with the same stencils, as when a parameter of an energy changes; the analysis
+    /// stays valid.
     ///
     /// # Panics
     /// If a stencil differs.
@@ -105,12 +106,12 @@ impl Objective {
         self.terms = terms;
     }
 
-    /// Number of unknowns.
+    /// Returns the number of unknowns.
     pub fn n(&self) -> usize {
         self.model.gradient().len()
     }
 
-    /// Coordinates per vertex.
+    /// Returns the number of coordinates per vertex.
     pub fn dim(&self) -> usize {
         self.model.pattern().dim()
     }
@@ -119,12 +120,12 @@ impl Objective {
         all(&self.terms, self.constraints.as_ref())
     }
 
-    /// The soft constraints.
+    /// Returns the soft constraints.
     pub fn constraints(&self) -> Option<&Positional> {
         self.constraints.as_ref()
     }
 
-    /// Changes strength and targets of the soft constraints.
+    /// Sets strength and targets of the soft constraints.
     pub fn set_constraints(&mut self, alpha: f64, targets: &[f64]) {
         if let Some(constraints) = &mut self.constraints {
             constraints.alpha = alpha;
@@ -132,17 +133,17 @@ impl Objective {
         }
     }
 
-    /// Energy and constraints, +∞ outside the domain.
+    /// Returns energy plus constraints, +∞ outside the domain.
     pub fn value(&self, x: &[f64]) -> f64 {
         self.all().map(|term| term.value(x)).sum()
     }
 
-    /// The energy without the constraints.
+    /// Returns the energy without the constraints.
     pub fn energy(&self, x: &[f64]) -> f64 {
         self.terms.iter().map(|term| term.value(x)).sum()
     }
 
-    /// The smallest t > 0 at which `x + t·direction` leaves the domain, +∞ if it never does.
+    /// Returns the smallest t > 0 at which `x + t·direction` leaves the domain, +∞ if it never does.
     pub fn largest_step(&self, x: &[f64], direction: &[f64]) -> f64 {
         let steps = self
             .terms
@@ -151,18 +152,18 @@ impl Objective {
         steps.fold(f64::INFINITY, f64::min)
     }
 
-    /// The smallest size of an element over its rest size.
+    /// Returns the smallest ratio of an element's size to its rest size.
     pub fn smallest(&self, x: &[f64]) -> f64 {
         let sizes = self.terms.iter().map(|term| term.smallest(x));
         sizes.fold(f64::INFINITY, f64::min)
     }
 
-    /// Does the domain exclude every inverted element?
+    /// Returns whether the domain excludes every inverted element.
     pub fn forbids_flips(&self) -> bool {
         self.terms.iter().any(|term| term.forbids_flips())
     }
 
-    /// Where a minimization stands.
+    /// Returns the report of an iterate for watchers.
     pub(super) fn iterate(&self, x: &[f64], summary: &Summary, taken: Taken) -> Iterate {
         let constraints = self.constraints.as_ref();
         let iterate = Iterate {
@@ -180,7 +181,7 @@ impl Objective {
         iterate
     }
 
-    /// Shows an iterate to who watches.
+    /// Shows an iterate to the watcher and returns its decision.
     pub(super) fn show(
         &self,
         x: &[f64],
@@ -193,18 +194,18 @@ impl Objective {
         watch.iterate(&iterate)
     }
 
-    /// What a change of energy is compared with: the energy, unless that is negligible.
+    /// Returns the energy that a change is compared with: `energy`, unless that is negligible.
     pub fn reference(&self, energy: f64) -> f64 {
         energy.abs().max(NEGLIGIBLE * self.scale)
     }
 
-    /// The sum of the weights.
+    /// Returns the sum of the weights.
     pub fn scale(&self) -> f64 {
         self.scale
     }
 }
 
-/// The terms, the constraints last.
+/// Iterates over the terms, the constraints last.
 fn all<'a>(
     terms: &'a [Box<dyn Term>],
     constraints: Option<&'a Positional>,
@@ -213,7 +214,7 @@ fn all<'a>(
     terms.iter().map(AsRef::as_ref).chain(constraints)
 }
 
-/// The pattern of a sum of terms of one dimension, and the slots of each.
+/// Returns the pattern of a sum of terms of one dimension, and the slots of each.
 fn pattern<'a>(
     n_vertices: usize,
     terms: impl Iterator<Item = &'a dyn Term>,

@@ -1,35 +1,35 @@
-//! Whether handles get on.
+//! Pace: the least progress of handles.
 
-/// What handles on their way must bring of it, or else they pause.
+/// Least progress of handles along their path; slower ones pause.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
-    /// Looked at after so many iterations;
+    /// Iterations between two checks.
     pub window: usize,
-    /// the share of the way that they must have brought since.
+    /// Least progress between two checks, as a share of the path.
     pub gain: f64,
 }
 
 impl Pace {
-    /// Any pace will do.
+    /// No least progress.
     pub const ANY: Self = Self {
         window: usize::MAX,
         gain: 0.0,
     };
 
-    /// Handles that no others stand in the way of are never slower.
+    /// A pace that handles without obstacles always keep.
     pub const BRISK: Self = Self {
         window: 50,
         gain: 0.05,
     };
 
-    /// A way that would take more than 4000 iterations leads through elements that are crushed more and more, and hardly ever to
-    /// its end.
+    /// A pace of 4000 iterations for the whole path: slower handles crush elements more and more, and hardly ever
+    /// arrive.
     pub const PATIENT: Self = Self {
         window: 100,
         gain: 0.025,
     };
 
-    /// Do handles creep that went so far in so many iterations?
+    /// Returns whether progress of `gain` in this number of iterations is too slow.
     pub fn is_missed(&self, gain: f64, iterations: usize) -> bool {
         iterations >= self.window && gain < self.gain
     }

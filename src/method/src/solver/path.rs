@@ -1,17 +1,18 @@
-//! How handles travel to their targets.
+//! Paths of handles to their targets.
 
 use super::handles::{Handles, HandlesError};
 pub use crate::numerics::rotation::Rotation;
 use crate::numerics::rotation::{best_rotation, centroids};
 use crate::numerics::square::{Matrix, Square, apply};
 
-/// The way of handles from where they are to their targets, as a function of s from 0 to 1.
+/// Path of handles from their positions to their targets, as a function of s from 0 to 1.
 ///
 /// A group turns by the rotation that best takes it to its targets, at constant speed about its centroid, which moves
-/// straight or on a bend; what is left, because the targets are not a rigid copy, is added in proportion to s.
+/// on a straight or bent line. The remainder, if the targets are not a rigid copy, is added in proportion to s.
 pub struct Path<const D: usize> {
     groups: Vec<RigidMotion<D>>,
-    /// Of each handle its group, its place relative to the centroid, and what the rigid motion leaves of its way.
+    /// For each handle its group, its position relative to the centroid, and the part of its path that the rigid motion
+    /// leaves.
     handles: Vec<(usize, [f64; D], [f64; D])>,
 }
 
@@ -19,7 +20,7 @@ struct RigidMotion<const D: usize> {
     from: [f64; D],
     to: [f64; D],
     bend: [f64; 3],
-    /// The rotation is exp(s·log).
+    /// Logarithm of the rotation, which is exp(s·log) at s.
     log: Matrix<D>,
 }
 
@@ -27,7 +28,7 @@ impl<const D: usize> Path<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// From the positions in `x`.
+    /// Creates the paths from the positions in `x`.
     ///
     /// # Errors
     /// If the handles do not fit each other or `x`.
@@ -58,7 +59,7 @@ where
         })
     }
 
-    /// Where handle `i` is at `s`.
+    /// Returns the position of handle `i` at `s`.
     pub fn position(&self, i: usize, s: f64) -> [f64; D] {
         let (group, arm, rest) = self.handles[i];
         let place = self.groups[group].place(arm, s);
@@ -89,7 +90,7 @@ where
     }
 }
 
-/// How far from a straight way one with this bend, see [`Handles::bends`], is at `s`.
+/// Returns the offset at `s` of a path with this bend, see [`Handles::bends`], from a straight one.
 pub(super) fn aside<const D: usize>(way: [f64; D], bend: [f64; 3], s: f64) -> [f64; D] {
     let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
     std::array::from_fn(|k| 2.0 * s * (1.0 - s) * length * bend[k])

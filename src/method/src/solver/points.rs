@@ -1,23 +1,24 @@
-//! Points inside elements on their way to their targets: soft constraints of an objective.
+//! Points inside elements on their paths to targets: soft constraints of an objective.
 
 use super::handles::Handles;
 use super::objective::Objective;
 use super::path::aside;
 
-/// Points that travel straight or on a bend, held by a strength relative to the energy's curvature.
+/// Points on straight or bent paths, held with a strength relative to the energy's curvature.
 pub(super) struct Points {
     origins: Vec<f64>,
     ways: Vec<f64>,
-    /// One each, or none where they are straight.
+    /// Bend of each path; empty if all are straight.
     bends: Vec<[f64; 3]>,
-    /// Room for what is computed from them.
+    /// Workspace for positions and moves.
     room: Vec<f64>,
-    /// The energy's mean curvature at the start; 0 before it is known.
+    /// Mean curvature of the energy at the start; 0 before it is known.
     unit: f64,
 }
 
 impl Points {
-    /// The constraints of `objective`, from where they are in `x` to their targets; they have no strength yet.
+    /// Creates the paths of the constraints of `objective` from their positions in `x` to their targets; sets their
+    /// strength to 0.
     pub fn new(objective: &mut Objective, x: &[f64], handles: &Handles) -> Self {
         let origins: Vec<f64> = objective
             .constraints()
@@ -43,7 +44,7 @@ impl Points {
         self.ways.is_empty()
     }
 
-    /// The largest distance, in one coordinate, of a point from its target.
+    /// Returns the largest distance, in one coordinate, of a point from its target.
     pub fn farthest(&self, objective: &Objective, x: &[f64]) -> f64 {
         let Some(constraints) = objective.constraints() else {
             return 0.0;
@@ -56,7 +57,7 @@ impl Points {
         distances.fold(0.0, f64::max)
     }
 
-    /// How far the targets move between two shares of the way.
+    /// Returns the moves of the targets between two shares of the path.
     pub fn moves<const D: usize>(&mut self, from: f64, to: f64) -> &[f64] {
         for (room, way) in self.room.iter_mut().zip(&self.ways) {
             *room = (to - from) * way;
@@ -66,7 +67,7 @@ impl Points {
         &self.room
     }
 
-    /// Adds so many times to the room how far the points are from a straight way at `s`.
+    /// Adds `times` the offset of the bent paths from straight ones at `s` to the workspace.
     fn bend_room<const D: usize>(&mut self, s: f64, times: f64) {
         let rooms = self.room.as_chunks_mut::<D>().0.iter_mut();
         let ways = rooms.zip(self.ways.as_chunks::<D>().0);
@@ -77,8 +78,8 @@ impl Points {
         }
     }
 
-    /// Sets the targets to a share `s` of their way and their strength, in units of the energy's mean curvature, which is taken
-    /// at `x` the first time.
+    /// Moves the targets to the share `s` of their paths and sets the strength, in units of the energy's mean
+    /// curvature, which is measured at `x` the first time.
     pub fn pull<const D: usize>(
         &mut self,
         objective: &mut Objective,

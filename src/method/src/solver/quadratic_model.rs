@@ -6,31 +6,31 @@ use crate::numerics::block::{BlockPattern, Slots};
 use crate::numerics::cholesky::{NotPositiveDefinite, SymmetricPattern, Work};
 use crate::numerics::linear_solver::{LinearSolver, MOST_BYTES};
 
-/// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of held vertices are those of a multiple of the identity.
+/// E(x + d) ≈ E(x) + g·d + ½d·Hd; rows and columns of fixed vertices are those of a multiple of the identity.
 pub(super) struct QuadraticModel {
     pattern: BlockPattern,
-    /// None until it is needed.
+    /// The linear solver; `None` before its first use.
     system: Option<LinearSolver>,
-    /// Was the system analyzed for another pattern?
+    /// `true` if the system was analyzed for another pattern.
     is_stale: bool,
-    /// Does the system solve with a factorization for the vertices that are held?
+    /// `true` if the system has a factorization for the vertices that are fixed now.
     is_factored: bool,
     factorizations: usize,
-    /// How often a pattern was analyzed.
+    /// Number of symbolic analyses.
     analyses: usize,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
     held: Held,
-    /// Of the energy, without constraints.
+    /// Mean diagonal of the energy's Hessian, without constraints.
     mean_diagonal: f64,
     shift: f64,
 }
 
-/// Diagonal shift, as a share of the mean diagonal: makes the rigid motions, which nothing holds, regular.
+/// Diagonal shift, as a share of the mean diagonal: regularizes the rigid motions, which nothing else holds.
 const SHIFT: f64 = 1e-7;
 
 impl QuadraticModel {
-    /// With this pattern, of nothing yet.
+    /// Creates a model of zeros with this pattern.
     pub fn new(pattern: BlockPattern) -> Self {
         Self {
             system: None,
@@ -47,13 +47,14 @@ impl QuadraticModel {
         }
     }
 
-    /// Holds these vertices, and only these.
+    /// Fixes these vertices and no others.
     pub fn hold(&mut self, vertices: &[u32]) {
         self.held = Held::new(&self.pattern, vertices);
         self.is_factored = false;
     }
 
-    /// Takes another pattern of as many unknowns, of nothing yet. What was factored last still solves.
+    /// Replaces the pattern by another one with the same number of unknowns and zeros as values. The last factorization
+    /// still solves.
     pub fn exchange_pattern(&mut self, pattern: BlockPattern) {
         self.held = Held::new(&pattern, &self.held.vertices(pattern.dim()));
         self.hessian = vec![0.0; pattern.scalar().row_idx.len()];
@@ -62,7 +63,7 @@ impl QuadraticModel {
         self.is_factored = false;
     }
 
-    /// Begins a model: then the summands are added, measured, and with the constraints finished.
+    /// Clears the model. The caller then adds the summands, measures, adds the constraints and finishes.
     pub fn clear(&mut self) {
         self.gradient.fill(0.0);
         self.hessian.fill(0.0);
@@ -84,26 +85,26 @@ impl QuadraticModel {
         );
     }
 
-    /// Begins another gradient beside the Hessian that there is: summands are added by [`add_gradient`](Self::add_gradient).
+    /// Clears the gradient but not the Hessian; summands are added by [`add_gradient`](Self::add_gradient).
     pub fn clear_gradient(&mut self) {
         self.gradient.fill(0.0);
     }
 
-    /// Adds the gradient of a term, but for vertices that are held.
+    /// Adds the gradient of a term, except at fixed vertices.
     pub fn add_gradient(&mut self, term: &dyn Term, slots: &Slots, x: &[f64]) {
         let mut assembly = Assembly::of_gradient(&self.pattern, slots, &mut self.gradient);
         term.add_derivatives(x, 1.0, &mut assembly);
         self.held.clear_gradient(&mut self.gradient);
     }
 
-    /// Takes the mean diagonal of what was added so far for that of the energy.
+    /// Stores the mean diagonal of the sum so far as that of the energy.
     pub fn measure(&mut self) {
         let diagonal = self.pattern.diagonal();
         let sum: f64 = diagonal.iter().map(|&slot| self.hessian[slot]).sum();
         self.mean_diagonal = sum / diagonal.len().max(1) as f64;
     }
 
-    /// Makes it regular and takes the held vertices out.
+    /// Regularizes the Hessian and takes the fixed vertices out.
     pub fn finish(&mut self) {
         self.shift_diagonal(SHIFT * self.mean_diagonal + f64::MIN_POSITIVE);
         let diagonal = self.stand_in();
@@ -111,12 +112,12 @@ impl QuadraticModel {
         self.held.clear(&self.pattern, hessian, gradient, diagonal);
     }
 
-    /// What stands on the diagonal at held vertices.
+    /// Returns the diagonal entry of fixed vertices.
     fn stand_in(&self) -> f64 {
         self.mean_diagonal.max(f64::MIN_POSITIVE)
     }
 
-    /// Adds to every diagonal entry.
+    /// Adds `shift` to every diagonal entry.
     pub fn shift_diagonal(&mut self, shift: f64) {
         for &slot in self.pattern.diagonal() {
             self.hessian[slot] += shift;
@@ -124,7 +125,7 @@ impl QuadraticModel {
         self.shift += shift;
     }
 
-    /// Orders and analyzes the pattern and reserves the memory that solving takes, once. With it the pattern and H.
+    /// Orders and analyzes the pattern and allocates the solver's memory, once. Returns the solver, the pattern and H.
     pub fn prepare(&mut self) -> (&mut LinearSolver, &SymmetricPattern, &[f64]) {
         let Self {
             system,
@@ -141,12 +142,12 @@ impl QuadraticModel {
         (system.get_or_insert_with(analyze), scalar, hessian)
     }
 
-    /// Whether a factorization of H stays when H changes; false where none fits into memory.
+    /// Returns whether a factorization of H survives changes of H; `false` if none fits into memory.
     pub fn keeps_factor(&mut self) -> bool {
         matches!(self.prepare().0, LinearSolver::Direct(_))
     }
 
-    /// Takes H for solving: factors it, if that fits into memory.
+    /// Prepares solving with H: factors it, if that fits into memory.
     pub fn factor(&mut self) -> Result<(), NotPositiveDefinite> {
         if std::mem::take(&mut self.is_stale) {
             self.system = None;
@@ -158,12 +159,12 @@ impl QuadraticModel {
         factored
     }
 
-    /// Is there a factorization, perhaps of another point, for the vertices that are held?
+    /// Returns whether there is a factorization, perhaps of another point, for the vertices that are fixed now.
     pub fn is_factored(&mut self) -> bool {
         self.is_factored && self.keeps_factor()
     }
 
-    /// How many matrices were factored, failed attempts included.
+    /// Returns the number of factorizations, failed attempts included.
     pub fn factorizations(&self) -> usize {
         self.factorizations
     }
@@ -174,7 +175,7 @@ impl QuadraticModel {
         system.solve(pattern, hessian, x)
     }
 
-    /// Hv.
+    /// Computes Hv.
     pub fn apply(&self, vector: &[f64], product: &mut [f64]) {
         (self.pattern.scalar()).multiply(&self.hessian, vector, product);
     }
@@ -194,7 +195,8 @@ impl QuadraticModel {
         }
     }
 
-    /// How all vertices follow the moves of the held ones in `direction` and a pull that is added to the right side.
+    /// Computes the response of all vertices to the moves of the fixed ones in `direction` and to a pull that is added
+    /// to the right-hand side.
     pub fn follow(
         &mut self,
         direction: &mut [f64],
@@ -207,8 +209,8 @@ impl QuadraticModel {
         Ok(())
     }
 
-    /// The Newton step, and how all vertices follow the moves of the held ones in `direction`, in one solve; the norm of its right
-    /// side.
+    /// Computes the Newton step plus the response of all vertices to the moves of the fixed ones in `direction`, in one
+    /// solve. Returns the norm of its right-hand side.
     pub fn step_and_follow(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
         self.held.take_moves(direction);
         for (d, g) in direction.iter_mut().zip(&self.gradient) {
@@ -220,13 +222,13 @@ impl QuadraticModel {
         Ok(norm)
     }
 
-    /// g·d + ½d·Hd, held vertices included.
+    /// Returns g·d + ½d·Hd, fixed vertices included.
     pub fn change(&self, direction: &[f64]) -> f64 {
         let cleared = self.held.model_change(self.stand_in(), direction);
         dot(&self.gradient, direction) + 0.5 * self.curvature(direction) + cleared
     }
 
-    /// d·Hd.
+    /// Returns d·Hd.
     pub fn curvature(&self, direction: &[f64]) -> f64 {
         let pattern = self.pattern.scalar();
         let mut quadratic = 0.0;

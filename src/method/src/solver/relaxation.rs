@@ -1,4 +1,4 @@
-//! How much of the negative curvature is removed: a schedule.
+//! Schedule of the negative curvature that is removed from the Hessian.
 
 use super::settings::Projection;
 
@@ -14,34 +14,36 @@ pub struct Relaxation {
     patience: u32,
 }
 
-/// Steps to wait after a failure at most. Each failure doubles the wait: where the true Hessian stays indefinite, half of all
-/// factorizations would fail otherwise.
+/// Most steps to wait after a failure. Each failure doubles the wait: otherwise half of all factorizations would fail
+/// where the true Hessian stays indefinite.
 const MOST_PATIENCE: u32 = 16;
 
-/// What ω is multiplied by when it falls: five steps from 1 are enough for the true Hessian, and a step too far costs no more
-/// than a factorization.
+/// Factor by which ω falls: five steps lead from 1 to the true Hessian, and a step too far costs only one
+/// factorization.
 const LOWER: f64 = 0.25;
 
-/// An ω that would fall below a thousandth becomes 0: what is removed then no longer changes the step, but keeps convergence from
-/// being quadratic.
+/// Smallest ω that still falls by that factor; a smaller one becomes 0, since the removed curvature no longer changes
+/// the step but keeps convergence from being quadratic.
 const LEAST_LOWERED: f64 = 4e-3;
 
-/// After a short step ω is multiplied by this, which takes one fall back, and raised to the other at least, since 0 would stay 0.
+/// Factor by which ω rises after a short step, which takes back one fall, and its least value then, since 0 would stay
+/// 0.
 const RAISE_AFTER_SHORT: f64 = 4.0;
 const LEAST_AFTER_SHORT: f64 = 0.05;
 
-/// The same after a factorization that failed. It was wasted, so ω rises by more than one fall.
+/// Factor and least value after a factorization that failed. It was wasted, so ω rises by more than one fall.
 const RAISE_AFTER_INDEFINITE: f64 = 8.0;
 const LEAST_AFTER_INDEFINITE: f64 = 0.02;
 
-/// Steps longer than this share of the direction say that the model is good, those shorter than the other that it is bad.
+/// Steps longer than the first share of the direction show that the model is good, those shorter than the second that
+/// it is bad.
 const LONG: f64 = 0.9;
 const SHORT: f64 = 0.5;
 
-/// Gains below this share of the energy make the end slow.
+/// Relative decrease of the energy below which convergence is slow.
 const SLOW: f64 = 0.01;
 
-/// Is the model good and the end slow?
+/// Returns whether the model is good but convergence slow.
 pub fn is_settling(length: f64, relative_decrease: f64) -> bool {
     length > LONG && relative_decrease < SLOW
 }
@@ -56,13 +58,13 @@ impl Relaxation {
         }
     }
 
-    /// The factor of negative eigenvalues.
+    /// Returns the factor of negative eigenvalues.
     pub fn tau(&self) -> f64 {
         1.0 - self.omega
     }
 
-    /// After a step: nearly full ones that gain less than 1 % mean that the model is good and the end slow, so ω falls;
-    /// short ones that the model is bad.
+    /// Adapts ω to a step: nearly full ones that gain less than 1 % mean that the model is good and convergence slow,
+    /// so ω falls; after short ones it rises.
     pub fn after_step(&mut self, length: f64, relative_decrease: f64) {
         if self.projection == Projection::PositiveSemidefinite {
             return;
@@ -76,8 +78,8 @@ impl Relaxation {
         }
     }
 
-    /// After a factorization that several directions came from: ω falls if none of them met negative curvature of the true
-    /// Hessian and the last gained little.
+    /// Adapts ω after a factorization that served several directions: ω falls if they met no negative curvature of the
+    /// true Hessian and the last gained little.
     pub fn after_service(&mut self, met_negative: bool, relative_decrease: f64) {
         if self.wait > 0 {
             self.wait -= 1;
@@ -94,7 +96,7 @@ impl Relaxation {
         };
     }
 
-    /// After a factorization that failed: false if the matrix was already the most definite one.
+    /// Raises ω after a factorization that failed; returns `false` if the matrix was already the most definite one.
     pub fn after_indefinite(&mut self) -> bool {
         let exhausted = self.omega >= 1.0;
         self.wait = self.patience;
@@ -103,7 +105,7 @@ impl Relaxation {
         !exhausted
     }
 
-    /// After a direction along which no step helped: false if it came from the most definite matrix.
+    /// Sets ω to 1 after a direction along which no step helped; returns `false` if it was 1 already.
     pub fn after_useless_direction(&mut self) -> bool {
         let exhausted = self.omega >= 1.0;
         self.omega = 1.0;

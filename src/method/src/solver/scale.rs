@@ -1,14 +1,15 @@
-//! The best size of a map.
+//! The best uniform scale of a map.
 
-/// Half the width of the bracket, in octaves, whose parabola is the last: the minimum is then known to a fraction of a percent.
+/// Half the width of the bracket, in octaves, for the last parabola: the minimum is then known to a fraction of a
+/// percent.
 const NARROW: f64 = 0.25;
 
-/// The factor by which `x` should be scaled about the origin for the lowest energy `value`; 1 if none of 2⁻³⁰ to 2³⁰ gives a
-/// finite one.
+/// Returns the factor by which `x` should be scaled about the origin for the lowest energy `value`; 1 if no factor from
+/// 2⁻³⁰ to 2³⁰ gives a finite energy.
 ///
-/// A parameterization on a circle knows nothing of size, and a start far too small costs Newton many steps. Doubles or
-/// halves while that helps, then goes to the lowest point of a parabola through three sizes, once an octave apart and
-/// once a quarter: the energy has one minimum in scale for every density here. Some seven evaluations.
+/// A parameterization on a circle has an arbitrary size, and a start far too small costs Newton many steps. Doubles or
+/// halves while that helps, then goes to the lowest point of a parabola through three sizes, first an octave apart and
+/// then a quarter: the energy has one minimum in scale for every density here. Takes about seven evaluations.
 pub fn best_scale(value: &dyn Fn(&[f64]) -> f64, x: &[f64]) -> f64 {
     let mut scaled = vec![0.0; x.len()];
     let mut energy = |exponent: f64| {
@@ -41,7 +42,7 @@ pub fn best_scale(value: &dyn Fn(&[f64]) -> f64, x: &[f64]) -> f64 {
     exponent.exp2()
 }
 
-/// Where the parabola through the values at −1, 0 and 1 is lowest, in [−1, 1]; 0 if that is no minimum.
+/// Returns the lowest point in [−1, 1] of the parabola through the values at −1, 0 and 1; 0 if it has no minimum.
 fn lowest_of_parabola([left, middle, right]: [f64; 3]) -> f64 {
     let curvature = left - 2.0 * middle + right;
     let lowest = 0.5 * (left - right) / curvature;

@@ -1,21 +1,22 @@
-//! What the solver is told and what it tells.
+//! Settings and results of the solver.
 
 use serde::{Deserialize, Serialize};
 
-/// When to stop and how to regularize.
+/// Stopping criteria and regularization.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Steps at most.
+    /// Most steps.
     pub max_iterations: usize,
-    /// Converged when the decrease that the quadratic model promises at its minimum (for a Newton step the decrement −½g·d) is
-    /// at most this share of the energy, and at least half of the step could be taken.
+    /// Converged when the decrease predicted by the quadratic model at its minimum (for a Newton step the decrement
+    /// −½g·d) is at most this share of the energy, and at least half of the step could be taken.
     pub tolerance: f64,
-    /// What to do about negative curvature.
+    /// Treatment of negative curvature.
     pub projection: Projection,
 }
 
 impl Settings {
-    /// Tolerance 1e-4: enough for texture coordinates, and spares large meshes the tail.
+    /// Returns tolerance 1e-4 in at most 200 steps: enough for texture coordinates, and spares large meshes the slow
+    /// tail.
     pub fn draft() -> Self {
         Self {
             max_iterations: 200,
@@ -24,7 +25,7 @@ impl Settings {
         }
     }
 
-    /// Tolerance 1e-6.
+    /// Returns tolerance 1e-6 in at most 200 steps.
     pub fn normal() -> Self {
         Self {
             tolerance: 1e-6,
@@ -32,7 +33,7 @@ impl Settings {
         }
     }
 
-    /// Tolerance 1e-9, for comparisons; 1000 steps.
+    /// Returns tolerance 1e-9 in at most 1000 steps, for comparisons.
     pub fn exact() -> Self {
         Self {
             max_iterations: 1000,
@@ -41,7 +42,7 @@ impl Settings {
         }
     }
 
-    /// For handles: tolerance 1e-6, 5000 steps.
+    /// Returns tolerance 1e-6 in at most 5000 steps, for handles.
     pub fn follow() -> Self {
         Self {
             max_iterations: 5000,
@@ -57,17 +58,17 @@ impl Default for Settings {
     }
 }
 
-/// How negative curvature of a triangle enters the matrix.
+/// Treatment of the negative curvature of each triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Projection {
-    /// It is removed until full steps gain little. From then on the factored matrix serves several directions, each found on
-    /// the true Hessian within a trust region.
+    /// Removes it until full steps gain little. From then on the factored matrix serves several directions, each found
+    /// on the true Hessian within a trust region.
     #[default]
     TrustRegion,
-    /// Less and less of it is removed as full steps gain little: what handles are followed with, whose stations want few
-    /// steps each.
+    /// Removes less and less of it as full steps gain little: for following handles, whose stations take few steps
+    /// each.
     Relaxed,
-    /// It is always removed: best far from a minimum, slow near one.
+    /// Always removes it: best far from a minimum, slow near one.
     PositiveSemidefinite,
 }
 
@@ -105,7 +106,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Of a minimization that has not begun.
+    /// Returns the summary of a minimization that has not begun.
     pub fn at_start(energy: f64) -> Self {
         Self {
             status: Status::Stalled,
@@ -120,7 +121,7 @@ impl Summary {
         Self { status, ..self }
     }
 
-    /// Of both, the other after this one.
+    /// Returns the sum of both, with the status and last energy of `next`.
     #[must_use]
     pub fn followed_by(&self, next: &Self) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Handles on their way: advances along their path, each together with a Newton step of the rest.
+//! Continuation of handles: advances along their path, each together with a Newton step of the free vertices.
 
 use super::handles::{Handles, HandlesError};
 use super::line_search::{Search, line_search};
@@ -13,39 +13,41 @@ use super::watch::{Control, Taken, Watch};
 use crate::numerics::cholesky::NotPositiveDefinite;
 use crate::numerics::square::{Matrix, Square};
 
-/// A first advance along the path: all of it, since a small deformation needs no more.
+/// First advance: the whole path, since a small deformation needs no more.
 const FIRST_ADVANCE: f64 = 1.0;
 
-/// Advances shorter than this are not tried: the vertices in the way have to move first.
+/// Shortest advance that is tried; before a shorter one the vertices in the way have to move.
 const LEAST_ADVANCE: f64 = 1e-4;
 
-/// Share of the way to the first inversion that an advance may take. Less of it means more and shorter
+/// Share of the distance to the first inversion that an advance may take. A smaller share means more and shorter
 /// advances.
 const SAFETY: f64 = 0.9;
 
-/// How far the energy may rise above twice what the quadratic model promises, as a share of the energy.
+/// Largest rise of the energy above twice the predicted one, as a share of the energy.
 const SURPRISE: f64 = 2.0;
 
-/// Below this share of the sum of the weights an energy is that of a body at rest, where any advance is a surprise.
+/// Least reference energy for that comparison, as a share of the sum of the weights: at rest any advance would exceed
+/// it.
 const UNSTRAINED: f64 = 0.02;
 
-/// Steps without an advance after which the rest must settle first.
+/// Steps without an advance after which the free vertices must settle first.
 pub(super) const PATIENCE: usize = 20;
 
-/// The strength of soft constraints beside the energy's mean curvature, while they travel; it rises tenfold at a time at the end.
+/// Strength of soft constraints relative to the energy's mean curvature while they move; at the end it rises tenfold at
+/// a time.
 pub(super) const SOFT: f64 = 1e3;
 
-/// The handles and the map on the way.
+/// State of the handles along their path.
 pub(super) struct Travel<const D: usize> {
     vertices: Vec<u32>,
     path: Path<D>,
     pub points: Points,
-    /// How much of the path lies behind.
+    /// Share of the path that is done.
     pub s: f64,
-    /// The advance to try next.
+    /// Next advance to try.
     stride: f64,
     pub summary: Summary,
-    /// How convex the energy is near the map.
+    /// Relaxation of the Hessian near the map.
     pub relaxation: Relaxation,
     newton: Vec<f64>,
     direction: Vec<f64>,
@@ -56,7 +58,7 @@ impl<const D: usize> Travel<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// At the beginning of the way, the map being `x`.
+    /// Starts at the beginning of the path, from the map `x`.
     pub fn new(
         objective: &mut Objective,
         x: &[f64],
@@ -67,7 +69,7 @@ where
         Self::continued(objective, x, handles, (relaxation, start))
     }
 
-    /// The same after what was done before, the energy being known.
+    /// Like [`new`](Self::new), after earlier work and with a known energy.
     pub fn continued(
         objective: &mut Objective,
         x: &[f64],
@@ -88,10 +90,11 @@ where
         })
     }
 
-    /// All the rest of the way at once with the factorization of another point, together with the Newton step, in one solve; the norm of
-    /// its right side. `None`, and nothing is moved, if the whole step does not stay in the domain.
+    /// Takes the rest of the path at once, together with the Newton step, in one solve with the factorization of
+    /// another point. Returns the norm of its right-hand side; `None`, without moving anything, if the whole step would
+    /// leave the domain.
     ///
-    /// The energy is not looked at, and not known afterward.
+    /// Does not evaluate the energy, which is unknown afterward.
     pub fn step_with_kept(&mut self, objective: &mut Objective, x: &mut [f64]) -> Option<f64> {
         self.take_moves(x, 1.0);
         let norm = objective.step_and_follow(&mut self.direction).ok()?;
@@ -107,12 +110,12 @@ where
         Some(norm)
     }
 
-    /// Lets the next advance be long again, since the map has settled.
+    /// Resets the next advance to its full length once the map has settled.
     pub fn start_over(&mut self) {
         self.stride = FIRST_ADVANCE;
     }
 
-    /// Advances until the targets are reached or the handles are stuck, or miss the pace.
+    /// Advances until the targets are reached, or the handles are stuck or miss the pace.
     pub fn advance(
         &mut self,
         objective: &mut Objective,
@@ -146,8 +149,8 @@ where
         Control::Continue
     }
 
-    /// One iteration: an advance together with the Newton step or, if none is possible, the Newton step alone. The length of that
-    /// as a share of the direction; `None` if no matrix gives one.
+    /// Runs one iteration: an advance together with the Newton step or, if none is possible, the Newton step alone.
+    /// Returns the length of the step as a share of the direction; `None` if no matrix gives one.
     pub fn iterate(&mut self, objective: &mut Objective, x: &mut [f64]) -> Option<f64> {
         loop {
             let decrement = self.find_newton_step(objective, x)?;
@@ -164,7 +167,7 @@ where
         }
     }
 
-    /// Leaves the Newton step in `newton`; its decrement, `None` if no matrix gives one.
+    /// Writes the Newton step to `newton` and returns its decrement; `None` if no matrix gives one.
     pub fn find_newton_step(&mut self, objective: &mut Objective, x: &[f64]) -> Option<f64> {
         newton_direction(
             objective,
@@ -175,7 +178,7 @@ where
         )
     }
 
-    /// An advance together with the Newton step; false if none that is worth while stays in the domain.
+    /// Tries advances together with the Newton step; returns `false` if no advance of a relevant length is acceptable.
     fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
         while self.stride > LEAST_ADVANCE {
             let to = (self.s + self.stride).min(1.0);
@@ -197,7 +200,7 @@ where
         false
     }
 
-    /// Leaves in `direction` the Newton step and the advance to `to` together.
+    /// Writes the sum of the Newton step and the response to an advance to `to` into `direction`.
     fn aim(
         &mut self,
         objective: &mut Objective,
@@ -213,7 +216,7 @@ where
         Ok(())
     }
 
-    /// Leaves in `direction` the moves of the handles to `to`; elsewhere it has no meaning.
+    /// Writes the moves of the handles to `to` into `direction`; its other entries are meaningless.
     fn take_moves(&mut self, x: &[f64], to: f64) {
         for (i, &v) in self.vertices.iter().enumerate() {
             let place = self.path.position(i, to);
@@ -224,7 +227,7 @@ where
         }
     }
 
-    /// Is the energy after the direction about what the model promises? Leaves the point in `trial`.
+    /// Returns whether the energy after the direction is about as predicted by the model. Leaves the point in `trial`.
     fn is_acceptable(&mut self, objective: &Objective, x: &[f64]) -> bool {
         for ((trial, x), d) in self.trial.iter_mut().zip(x).zip(&self.direction) {
             *trial = x + d;
@@ -242,7 +245,7 @@ where
         is_acceptable
     }
 
-    /// The Newton step alone, with a line search; its length, 0 if none helps.
+    /// Takes the Newton step alone, with a line search; returns its length, 0 if no step helps.
     pub fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
         let search = Search {
             x,

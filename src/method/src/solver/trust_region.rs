@@ -1,36 +1,36 @@
 //! The true Hessian within a trust region, by conjugate gradients that an older factorization preconditions.
 //!
-//! Why: at the minimum of ARAP with a barrier four of five triangles are compressed a little, and each of those has a negative
-//! eigenvalue. None shows in the sum, which is positive definite there; but with all of them removed the matrix is far too
-//! stiff along the modes in which a surface buckles, and Newton's method converges linearly. The true Hessian is indefinite
-//! on most of the way, and so is every compromise that would be soft enough. But the eigenvalues of the true Hessian beside
-//! those of the projected one are 1 or less and mostly near 1, which is what conjugate gradients are good at: a few products
-//! find the modes that matter, negative curvature included, and one factorization serves several steps, because it need not
-//! be that of the present point. On ordinary disks ARAP with the barrier takes a fifth of the factorizations that
-//! [`Projection::Relaxed`](super::Projection::Relaxed) takes (`cargo bench --bench disks` counts them).
+//! Why: at the minimum of ARAP with a barrier four of five triangles are compressed a little, and each of those has a
+//! negative eigenvalue. The sum is positive definite there nevertheless; but with all of them removed the matrix is far
+//! too stiff along the modes in which a surface buckles, and Newton's method converges linearly. Away from the minimum
+//! the true Hessian is mostly indefinite, and so is every compromise that would be soft enough. But the eigenvalues of
+//! the true Hessian relative to the projected one are at most 1 and mostly near 1, which suits conjugate gradients: a
+//! few products find the modes that matter, negative curvature included. One factorization serves several steps,
+//! because it need not be that of the present point. On ordinary disks ARAP with the barrier takes a fifth of the
+//! factorizations of [`Projection::Relaxed`](super::Projection::Relaxed) (`cargo bench --bench disks` counts them).
 //!
 //! From: Steihaug 1983, The Conjugate Gradient Method and Trust Regions in Large Scale Optimization.
 
 use super::objective::Objective;
 use crate::numerics::cholesky::NotPositiveDefinite;
 
-/// Products with the Hessian for one direction, at most: more are better spent at another point.
+/// Most products with the Hessian per direction: more are better spent at another point.
 const MOST_PRODUCTS: usize = 10;
 
-/// The residual's norm as a share of the gradient's at which a direction is good enough.
+/// Norm of the residual, as a share of the gradient's, at which a direction is accurate enough.
 const FORCING: f64 = 0.3;
 
-/// The same for a direction that would be the last: slow modes hide in a residual.
+/// Required accuracy of a direction that would be the last: slow modes hide in a residual.
 const SURE: f64 = 0.03;
 
-/// The first radius as a multiple of the last Newton step, which was a good one.
+/// First radius as a multiple of the last Newton step, which was a good one.
 const FIRST_RADIUS: f64 = 3.0;
 
-/// Factors of the radius after a step that the model foretold badly, and well.
+/// Factors of the radius after a step that the model predicted badly, and well.
 const SHRINK: f64 = 0.25;
 const GROW: f64 = 4.0;
 
-/// The ball in which the quadratic model is believed, in the norm ‖d‖² = d·Pd of the factored matrix P.
+/// The ball in which the quadratic model is trusted, in the norm ‖d‖² = d·Pd of the factored matrix P.
 pub struct TrustRegion {
     radius: f64,
     residual: Vec<f64>,
@@ -39,23 +39,23 @@ pub struct TrustRegion {
     product: Vec<f64>,
 }
 
-/// What is known of a direction d.
+/// Properties of a direction d.
 #[derive(Clone, Copy, Debug)]
 pub struct Descent {
     /// g·d, negative.
     pub slope: f64,
     /// g·d + ½d·Hd, negative.
     pub change: f64,
-    /// The norm of d.
+    /// Norm of d.
     pub norm: f64,
-    /// Products with the Hessian that it took.
+    /// Number of products with the Hessian.
     pub products: usize,
-    /// Why it ends where it does.
+    /// Reason why conjugate gradients ended.
     pub end: End,
 }
 
 impl Descent {
-    /// Newton's own direction, which has this decrement, in the norm of its matrix.
+    /// Returns the properties of Newton's direction with this decrement, in the norm of its own matrix.
     pub fn of_newton(decrement: f64) -> Self {
         Self {
             slope: -2.0 * decrement,
@@ -67,21 +67,21 @@ impl Descent {
     }
 }
 
-/// Why conjugate gradients ended.
+/// Reason why conjugate gradients ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// At the model's minimum.
     Minimum,
-    /// At the radius, the model being convex on the way.
+    /// At the radius, with a convex model up to there.
     Radius,
     /// At the radius, along negative curvature.
     NegativeCurvature,
-    /// After as many products as are made for one direction.
+    /// At the limit on products per direction.
     Limit,
 }
 
 impl TrustRegion {
-    /// For `n` unknowns; [`begin`](Self::begin) gives it a size.
+    /// Allocates the workspace for `n` unknowns; [`begin`](Self::begin) sets the radius.
     pub fn new(n: usize) -> Self {
         let zeros = || vec![0.0; n];
         Self {
@@ -93,16 +93,17 @@ impl TrustRegion {
         }
     }
 
-    /// Begins after a good Newton step of this norm.
+    /// Sets the radius after a good Newton step of this norm.
     pub fn begin(&mut self, norm: f64) {
         self.radius = FIRST_RADIUS * norm;
     }
 
-    /// Leaves in `direction` about the lowest point of the model within the region.
+    /// Writes an approximate minimizer of the model within the region to `direction`.
     ///
     /// The objective must be linearized with its true Hessian and have a factorization, of any nearby positive definite
-    /// matrix. A change of less than `negligible` is looked at more closely, so that it is not taken for the end when the
-    /// factorization is a bad one. Cost: a solve and a product with the Hessian per step of conjugate gradients, and one solve.
+    /// matrix. A direction whose change is less than `negligible` is refined further, so that a poor factorization does
+    /// not look like convergence. Cost: a solve and a product with the Hessian per step of conjugate gradients, and one
+    /// solve.
     ///
     /// # Errors
     /// If the preconditioner is not positive definite.
@@ -112,6 +113,7 @@ impl TrustRegion {
         negligible: f64,
         direction: &mut [f64],
     ) -> Result<Descent, NotPositiveDefinite> {
+        // Start from d = 0, whose residual is the gradient.
         direction.fill(0.0);
         self.residual.copy_from_slice(objective.gradient());
         let first = self.precondition(objective)?;
@@ -121,6 +123,7 @@ impl TrustRegion {
         let mut change = 0.0;
         let mut products = 0;
         let end = loop {
+            // Go to the lowest point along the conjugate direction, or to the radius.
             let step = self.step(objective, &norms, rz);
             products += 1;
             add_scaled(direction, step.alpha, &self.conjugate);
@@ -129,6 +132,7 @@ impl TrustRegion {
             if let Some(end) = step.end {
                 break end;
             }
+            // Stop if the residual is small enough.
             add_scaled(&mut self.residual, step.alpha, &self.product);
             let next = self.precondition(objective)?;
             let share = if -change <= negligible { SURE } else { FORCING };
@@ -138,6 +142,7 @@ impl TrustRegion {
             if products == MOST_PRODUCTS {
                 break End::Limit;
             }
+            // Turn to the next conjugate direction.
             let beta = next / rz;
             self.turn(beta);
             norms.turn(beta, next);
@@ -152,7 +157,8 @@ impl TrustRegion {
         })
     }
 
-    /// The step along the conjugate direction: to the lowest point on it, or to the radius. Leaves its product with the Hessian.
+    /// Computes the step along the conjugate direction, to the lowest point on it or to the radius. Leaves the product
+    /// of the conjugate direction with the Hessian in `product`.
     fn step(&mut self, objective: &Objective, norms: &Norms, rz: f64) -> ConjugateStep {
         objective.apply_hessian(&self.conjugate, &mut self.product);
         let curvature = dot(&self.conjugate, &self.product);
@@ -171,21 +177,21 @@ impl TrustRegion {
         }
     }
 
-    /// The next conjugate direction, βp − z.
+    /// Replaces the conjugate direction by the next one, βp − z.
     fn turn(&mut self, beta: f64) {
         for (p, z) in self.conjugate.iter_mut().zip(&self.preconditioned) {
             *p = beta * *p - z;
         }
     }
 
-    /// Leaves P⁻¹r, and returns r·P⁻¹r.
+    /// Computes P⁻¹r and returns r·P⁻¹r.
     fn precondition(&mut self, objective: &mut Objective) -> Result<f64, NotPositiveDefinite> {
         self.preconditioned.copy_from_slice(&self.residual);
         objective.precondition(&mut self.preconditioned)?;
         Ok(dot(&self.residual, &self.preconditioned))
     }
 
-    /// Learns from a step of this length along a direction.
+    /// Adapts the radius to a step of this length along a direction.
     pub fn after_step(&mut self, descent: &Descent, length: f64, decrease: f64) {
         let Descent { slope, change, .. } = descent;
         let foretold = -length * (slope + length * (change - slope));
@@ -198,7 +204,7 @@ impl TrustRegion {
         }
     }
 
-    /// Takes over another norm, in which a direction that had the norm `from` has the norm `to`.
+    /// Changes to another norm, in which a direction of norm `from` has the norm `to`.
     pub fn rescale(&mut self, from: f64, to: f64) {
         self.radius *= to / from;
     }
@@ -209,11 +215,12 @@ struct ConjugateStep {
     alpha: f64,
     /// p·Hp.
     curvature: f64,
-    /// Why there is none after it.
+    /// Reason why conjugate gradients end after it; `None` if they continue.
     end: Option<End>,
 }
 
-/// Squared norms of the direction d so far and of the conjugate direction p, and their product, known without the matrix.
+/// Squared norms of the direction d so far and of the conjugate direction p, and their product, updated without the
+/// matrix.
 struct Norms {
     direction: f64,
     mixed: f64,
@@ -221,7 +228,7 @@ struct Norms {
 }
 
 impl Norms {
-    /// Of the first conjugate direction, which has this squared norm.
+    /// Returns the norms before the first conjugate direction, which has this squared norm.
     fn of_first(conjugate: f64) -> Self {
         Self {
             direction: 0.0,
@@ -230,20 +237,20 @@ impl Norms {
         }
     }
 
-    /// The t > 0 at which d + tp is as long as the radius.
+    /// Returns the t > 0 at which the norm of d + tp is the radius.
     fn step_to(&self, radius: f64) -> f64 {
         let missing = (radius * radius - self.direction).max(0.0);
         let root = (self.mixed * self.mixed + self.conjugate * missing).sqrt();
         (root - self.mixed) / self.conjugate
     }
 
-    /// d becomes d + tp.
+    /// Updates the norms for d ← d + tp.
     fn advance(&mut self, t: f64) {
         self.direction += t * (2.0 * self.mixed + t * self.conjugate);
         self.mixed += t * self.conjugate;
     }
 
-    /// p becomes βp − z, z being orthogonal to p and d and of this squared norm.
+    /// Updates the norms for p ← βp − z, where z is orthogonal to p and d and has the squared norm `z`.
     fn turn(&mut self, beta: f64, z: f64) {
         self.mixed *= beta;
         self.conjugate = z + beta * beta * self.conjugate;

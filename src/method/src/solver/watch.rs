@@ -1,29 +1,29 @@
-//! Progress out, "finish early" in.
+//! Reports of progress to a watcher, which may end the minimization early.
 
-/// Where the solver stands.
+/// State of the solver after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iterate {
     /// 0 for the start, then 1, 2, …
     pub iteration: usize,
-    /// The energy with the barrier, without soft constraints: lower each time while nothing travels.
+    /// Energy with the barrier, without soft constraints; falls each time while no handle moves.
     pub energy: f64,
-    /// The share of it that is there only to keep elements from inverting.
+    /// Share of the energy whose only purpose is to keep elements from inverting.
     pub barrier: f64,
-    /// What soft constraints add, α‖Cx − t‖².
+    /// Energy of the soft constraints, α‖Cx − d‖².
     pub constraint: f64,
-    /// The smallest size of an element over its rest size.
+    /// Smallest ratio of an element's size to its rest size.
     pub smallest: f64,
-    /// What was added to the Hessian's diagonal for the step that led here.
+    /// Shift of the Hessian's diagonal in the step that led here.
     pub mu: f64,
-    /// The length of that step as a share of the direction.
+    /// Length of that step as a share of the direction.
     pub sigma: f64,
-    /// The strength of the soft constraints in that step.
+    /// Strength of the soft constraints in that step.
     pub alpha: f64,
-    /// The squared distance of the soft constraints from their targets, ‖Cx − d‖².
+    /// Squared distance of the soft constraints from their targets, ‖Cx − d‖².
     pub residual: f64,
 }
 
-/// The step that leads to an iterate; none leads to the start.
+/// The step that leads to an iterate; zeros for the start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Taken {
     /// See [`Iterate::mu`].
@@ -32,21 +32,21 @@ pub(super) struct Taken {
     pub sigma: f64,
 }
 
-/// What to do next.
+/// Decision of a watcher.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
-    /// Go on.
+    /// Continue.
     Continue,
     /// End with the present map.
     Finish,
 }
 
-/// Sees every iterate and may end the minimization.
+/// Observer of iterates, which may end the minimization.
 pub trait Watch {
     /// Called with the start and after every step.
     fn iterate(&self, iterate: &Iterate) -> Control;
 
-    /// Called before it with the positions of the same iterate, coordinates one after another.
+    /// Called before [`iterate`](Self::iterate) with the positions of that iterate, coordinates one after another.
     fn positions(&self, _iterate: &Iterate, _x: &[f64]) {}
 }
 
@@ -56,11 +56,11 @@ impl<F: Fn(&Iterate) -> Control> Watch for F {
     }
 }
 
-/// A watch that has seen iterations before.
+/// A watch for a continued minimization, whose iterations are counted from `before`.
 pub struct Continued<'a> {
-    /// Who watches.
+    /// The watcher.
     pub watch: &'a dyn Watch,
-    /// How many.
+    /// Number of iterations before.
     pub before: usize,
 }
 

@@ -1,28 +1,28 @@
-//! Why a formula is not an energy.
+//! Reasons why a formula is not an energy.
 
-/// Why a formula is not an energy. Columns count characters, from 1.
+/// Reason why a formula is not an energy. Columns count characters, from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FormulaError {
     /// The text is too long.
     #[error("the formula is longer than {longest} bytes")]
     TooLong {
-        /// How long it may be.
+        /// Largest length, in bytes.
         longest: usize,
     },
     /// Brackets, signs and powers are nested too deep.
     #[error("the formula is nested more than {deepest} deep at column {column}")]
     TooDeep {
-        /// Where.
+        /// Column of the excess.
         column: usize,
-        /// How deep it may be.
+        /// Deepest nesting allowed.
         deepest: usize,
     },
-    /// Something else stands where the grammar wants one of these.
+    /// The formula contains something else where the grammar requires one of these.
     #[error("the formula needs {expected} at column {column}")]
     Unexpected {
-        /// Where.
+        /// Column of the unexpected text.
         column: usize,
-        /// What could stand there.
+        /// Tokens that are allowed there.
         expected: &'static str,
     },
     /// A name that is neither a singular value nor a function.
@@ -31,17 +31,17 @@ pub enum FormulaError {
          log and cosh"
     )]
     UnknownName {
-        /// Where.
+        /// Column of the name.
         column: usize,
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// How many singular values there are.
+        /// Number of singular values.
         last: usize,
     },
     /// ψ is not finite at the identity.
     #[error("the formula is not finite at the identity: it is {value}")]
     NotFinite {
-        /// What it is.
+        /// Value at the identity.
         value: f64,
     },
     /// ψ has no first or second derivatives at the identity.
@@ -50,22 +50,22 @@ pub enum FormulaError {
     /// ψ changes when singular values are exchanged.
     #[error("the formula is not symmetric: it changes when singular values are exchanged")]
     NotSymmetric,
-    /// ψ is less near the identity than there.
+    /// ψ is smaller at some singular values near the identity than at the identity.
     #[error("the formula is not minimal at the identity: it is less at singular values {at:?}")]
     NotMinimal {
-        /// Where it is less.
+        /// Singular values at which ψ is smaller.
         at: Vec<f64>,
     },
-    /// There is a closure for the other dimension only.
+    /// A closure was given for the other dimension only.
     #[error("there is no formula of {dim} singular values")]
     OtherDimension {
-        /// How many singular values there are.
+        /// Number of singular values.
         dim: usize,
     },
 }
 
 impl FormulaError {
-    /// The column that it names, if it names one.
+    /// Returns the column of the error, if it has one.
     pub fn column(&self) -> Option<usize> {
         match self {
             Self::TooDeep { column, .. }

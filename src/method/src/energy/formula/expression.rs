@@ -1,8 +1,8 @@
-//! What a formula says, as a tree.
+//! Formulas as expression trees.
 
 use super::Jet;
 
-/// A formula, or a part of one. Trees are as deep as the parser allows, so walking one cannot exhaust the stack.
+/// A formula, or a part of one. The parser bounds the depth of trees, so recursion cannot exhaust the stack.
 #[derive(Clone, Debug)]
 pub(super) enum Expression {
     Number(f64),
@@ -12,9 +12,9 @@ pub(super) enum Expression {
     Difference(Box<[Self; 2]>),
     Product(Box<[Self; 2]>),
     Quotient(Box<[Self; 2]>),
-    /// One to the power of a constant.
+    /// An expression raised to a constant power.
     Power(Box<Self>, f64),
-    /// One to the power of the other.
+    /// The first expression raised to the power of the second.
     Exponential(Box<[Self; 2]>),
     Negative(Box<Self>),
     Call(Function, Box<Self>),
@@ -51,7 +51,7 @@ impl Function {
 }
 
 impl Expression {
-    /// The value and its derivatives, given those of the singular values.
+    /// Returns the value and its derivatives, given those of the singular values.
     pub(super) fn at<const D: usize>(&self, sigma: &[Jet<D>; D]) -> Jet<D> {
         match self {
             Self::Number(number) => Jet::constant(*number),
@@ -73,7 +73,7 @@ impl Expression {
         }
     }
 
-    /// The number that the expression is if no singular value occurs in it.
+    /// Returns the number that the expression equals; `None` if a singular value occurs in it.
     pub(super) fn constant(&self) -> Option<f64> {
         let is_constant = match self {
             Self::Number(_) => true,

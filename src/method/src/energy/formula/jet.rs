@@ -1,28 +1,28 @@
-//! Second-order forward numbers.
+//! Second-order forward automatic differentiation.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::numerics::square::Matrix;
 
-/// The largest whole exponent that is multiplied out.
+/// Largest integer exponent that is computed by multiplication.
 const WHOLE: f64 = 1024.0;
 
 /// A number that depends on D variables, with its gradient and its Hessian.
 ///
-/// Sums, products and functions of such numbers carry both along by the chain rule, exact to rounding. Outside the domain
-/// of a function they are not finite, as those of [`f64`] are.
+/// Sums, products and functions of jets carry both along by the chain rule, exact to rounding. Outside the domain of a
+/// function they are not finite, like [`f64`] there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet<const D: usize> {
-    /// The number.
+    /// Value.
     pub value: f64,
-    /// Its first derivatives.
+    /// First derivatives.
     pub gradient: [f64; D],
-    /// Its second derivatives.
+    /// Second derivatives.
     pub hessian: Matrix<D>,
 }
 
 impl<const D: usize> Jet<D> {
-    /// A number that depends on nothing.
+    /// Creates a constant, whose derivatives are zero.
     pub fn constant(value: f64) -> Self {
         Self {
             value,
@@ -31,7 +31,7 @@ impl<const D: usize> Jet<D> {
         }
     }
 
-    /// The variables themselves.
+    /// Creates the variables themselves.
     pub fn variables(values: &[f64; D]) -> [Self; D] {
         std::array::from_fn(|i| {
             let mut variable = Self::constant(values[i]);
@@ -40,46 +40,46 @@ impl<const D: usize> Jet<D> {
         })
     }
 
-    /// Are the number and its derivatives finite?
+    /// Returns whether the value and its derivatives are finite.
     pub fn is_finite(&self) -> bool {
         self.value.is_finite() && self.is_smooth()
     }
 
-    /// Are its derivatives finite?
+    /// Returns whether the derivatives are finite.
     pub fn is_smooth(&self) -> bool {
         let mut derivatives = self.gradient.iter().chain(self.hessian.as_flattened());
         derivatives.all(|d| d.is_finite())
     }
 
-    /// √x.
+    /// Returns √x.
     #[must_use]
     pub fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, 0.5 / root, -0.25 / (root * self.value))
     }
 
-    /// eˣ.
+    /// Returns eˣ.
     #[must_use]
     pub fn exp(self) -> Self {
         let exp = self.value.exp();
         self.chain(exp, exp, exp)
     }
 
-    /// The natural logarithm.
+    /// Returns the natural logarithm.
     #[must_use]
     pub fn ln(self) -> Self {
         let inverse = 1.0 / self.value;
         self.chain(self.value.ln(), inverse, -inverse * inverse)
     }
 
-    /// The hyperbolic cosine.
+    /// Returns the hyperbolic cosine.
     #[must_use]
     pub fn cosh(self) -> Self {
         let (sinh, cosh) = (self.value.sinh(), self.value.cosh());
         self.chain(cosh, sinh, cosh)
     }
 
-    /// xᵖ; of a negative x only where p is whole.
+    /// Returns xᵖ; for negative x only finite if p is an integer.
     #[must_use]
     pub fn powf(self, p: f64) -> Self {
         let power = |factor: f64, p: f64| {
@@ -95,13 +95,13 @@ impl<const D: usize> Jet<D> {
         self.chain(power(1.0, p), power(p, p - 1.0), power(second, p - 2.0))
     }
 
-    /// xʸ = exp(y ln x).
+    /// Returns xʸ = exp(y ln x).
     #[must_use]
     pub fn pow(self, y: Self) -> Self {
         (self.ln() * y).exp()
     }
 
-    /// f(x), given f, f′ and f″ there.
+    /// Returns f(x), given f, f′ and f″ at x.
     fn chain(self, f: f64, first: f64, second: f64) -> Self {
         let g = self.gradient;
         Self {

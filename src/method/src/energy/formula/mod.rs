@@ -1,8 +1,8 @@
 //! Densities by formula.
 //!
-//! A researcher's own energy is typed as text, or is a closure on numbers that carry their derivatives ([`Jet`]). Both are
-//! a [`Density`], and all that follows from one is shared with the built-in energies: ψ, ∂ψ and ∂²ψ in σ are all that a
-//! formula adds. It is checked once, when it is made ([`FormulaError`]).
+//! A custom energy is typed as text, or is a closure on numbers that carry their derivatives ([`Jet`]). Both are a
+//! [`Density`] and share everything else with the built-in energies: a formula adds only ψ, ∂ψ and ∂²ψ in σ. It is
+//! checked once, when it is created ([`FormulaError`]).
 
 mod error;
 mod expression;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 use super::Density;
 use crate::numerics::square::Matrix;
 
-/// How far from the identity a formula is asked whether it is less there.
+/// Distance from the identity at which a formula is tested for smaller values.
 const NEAR: f64 = 1e-2;
 
 /// Singular values at which ψ must be symmetric and may be finite.
@@ -27,7 +27,7 @@ const FAR: [f64; 3] = [1.7, 0.9, 0.6];
 
 type Function<const D: usize> = dyn Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync;
 
-/// A density of one's own.
+/// A custom density.
 ///
 /// ```
 /// use unwrapd_method::energy::{Density, Formula};
@@ -38,9 +38,9 @@ type Function<const D: usize> = dyn Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync;
 /// assert_eq!(same.gradient(&[2.0, 1.0]), [1.0, 0.0]);
 /// # Ok::<(), unwrapd_method::energy::FormulaError>(())
 /// ```
-/// ψ is what the formula says of σ₁, …, σ_D, the last of them signed. Minimum at the identity, in its neighborhood.
-/// Domain: where the formula is finite, +∞ outside, and only det J > 0 where it or a derivative is not finite at σ_D = 0 or
-/// below. Clones share the function, and only they are equal. Tests: `formula::*`.
+/// ψ is the value of the formula at σ₁, …, σ_D, the last of them signed. Minimum at the identity, in its neighborhood.
+/// Domain: where the formula is finite, +∞ outside, and only det J > 0 where it or a derivative is not finite at σ_D =
+/// 0 or below. Clones share the function, and only clones are equal. Tests: `formula::*`.
 #[derive(Clone)]
 pub struct Formula<const D: usize> {
     function: Arc<Function<D>>,
@@ -54,14 +54,13 @@ impl<const D: usize> PartialEq for Formula<D> {
 }
 
 impl<const D: usize> Formula<D> {
-    /// The energy that `text` says: numbers, `s1` to `sD`, `+ - * / ^ **`, brackets, `sqrt`, `exp`, `log` (natural) and
-    /// `cosh`.
+    /// Parses an energy: numbers, `s1` to `sD`, `+ - * / ^ **`, brackets, `sqrt`, `exp`, `log` (natural) and `cosh`.
     pub fn parse(text: &str) -> Result<Self, FormulaError> {
         let expression = parser::parsed::<D>(text)?;
         Self::new(move |sigma| expression.at(sigma))
     }
 
-    /// The energy that a closure says.
+    /// Creates the energy that a closure computes.
     pub fn new(
         function: impl Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync + 'static,
     ) -> Result<Self, FormulaError> {
@@ -80,7 +79,7 @@ impl<const D: usize> Formula<D> {
         (self.function)(&Jet::variables(sigma))
     }
 
-    /// Is ψ an energy of deformation, as far as can be told from where it is asked?
+    /// Checks that ψ is a deformation energy, as far as sample points show.
     fn check(&self) -> Result<(), FormulaError> {
         let rest = self.at(&[1.0; D]);
         if !rest.value.is_finite() {
@@ -108,7 +107,8 @@ impl<const D: usize> Formula<D> {
         Ok(())
     }
 
-    /// Is ψ the same for every order of unequal singular values? Two exchanges make every other.
+    /// Returns whether ψ is the same for every order of unequal singular values. Exchanges with the first generate all
+    /// orders.
     fn is_symmetric(&self) -> bool {
         let sigma: [f64; D] = std::array::from_fn(|i| FAR[i]);
         let value = self.value(&sigma);
@@ -122,7 +122,7 @@ impl<const D: usize> Formula<D> {
         })
     }
 
-    /// Are ψ and its derivatives finite where an element is flat and where it is inverted?
+    /// Returns whether ψ and its derivatives are finite for flat and inverted elements.
     fn is_finite_inverted(&self) -> bool {
         [0.0, -0.3, -0.6].iter().all(|&last| {
             let mut sigma: [f64; D] = std::array::from_fn(|i| FAR[i]);

@@ -1,4 +1,4 @@
-//! A formula before the dimension of what it deforms is known.
+//! A formula before the dimension of the deformed elements is known.
 
 use std::sync::Arc;
 
@@ -8,36 +8,36 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::parser::LONGEST;
 use super::{Formula, FormulaError};
 
-/// An energy of one's own, for triangles, tetrahedra or both: a text, or a [`Formula`] of one dimension.
+/// A custom energy for triangles, tetrahedra or both: a text, or a [`Formula`] of one dimension.
 ///
-/// Any text can be one, so that reading it cannot fail; [`check`](Self::check) says whether it is an energy at all, and
-/// [`planar`](Self::planar) and [`spatial`](Self::spatial) whether it is one there.
+/// Any text can be one, so that reading it cannot fail. [`check`](Self::check) tests whether it is an energy at all;
+/// [`planar`](Self::planar) and [`spatial`](Self::spatial), whether it is one of triangles or of tetrahedra.
 #[derive(Clone, Debug)]
 pub struct OwnEnergy {
-    /// None of closures.
+    /// The text; `None` for closures.
     text: Option<Arc<str>>,
     planar: Result<Formula<2>, FormulaError>,
     spatial: Result<Formula<3>, FormulaError>,
 }
 
 impl OwnEnergy {
-    /// The longest text that is read, in bytes.
+    /// Longest accepted text, in bytes.
     pub const LONGEST: usize = LONGEST;
 
-    /// The energy of triangles.
+    /// Returns the energy of triangles.
     pub fn planar(&self) -> Result<Formula<2>, FormulaError> {
         self.planar.clone()
     }
 
-    /// The energy of tetrahedra.
+    /// Returns the energy of tetrahedra.
     pub fn spatial(&self) -> Result<Formula<3>, FormulaError> {
         self.spatial.clone()
     }
 
-    /// Is it an energy of triangles or of tetrahedra?
+    /// Checks that it is an energy of triangles or of tetrahedra.
     ///
     /// # Errors
-    /// What is wrong in the plane, or in space if it speaks of a third singular value.
+    /// The error for triangles, or that for tetrahedra if the formula uses a third singular value.
     pub fn check(&self) -> Result<(), FormulaError> {
         match (&self.planar, &self.spatial) {
             (Ok(_), _) | (_, Ok(_)) => Ok(()),
@@ -89,7 +89,7 @@ impl PartialEq for OwnEnergy {
     }
 }
 
-/// As its text; a closure has none.
+/// Serializes the text; a closure cannot be serialized.
 impl Serialize for OwnEnergy {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match &self.text {

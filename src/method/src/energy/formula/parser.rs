@@ -1,4 +1,4 @@
-//! Formulas as they are typed.
+//! The grammar of formulas.
 //!
 //! ```text
 //! sum     = product { ("+" | "-") product }
@@ -7,18 +7,18 @@
 //! power   = atom [ ("^" | "**") signed ]
 //! atom    = number | "s1" | … | "(" sum ")" | ("sqrt" | "exp" | "log" | "cosh") "(" sum ")"
 //! ```
-//! So −s1^2 is −(s1²), and powers of powers are taken from the right, as in Python.
+//! So −s1^2 is −(s1²), and powers of powers associate to the right, as in Python.
 
 use super::FormulaError;
 use super::expression::{Expression, Function};
 
-/// The longest text, in bytes; the energies of the field have some 100.
+/// Longest text, in bytes; the energies of the literature have about 100.
 pub(super) const LONGEST: usize = 1000;
 
-/// How deep brackets, signs and powers may be nested.
+/// Deepest nesting of brackets, signs and powers.
 const DEEPEST: usize = 50;
 
-/// The expression that `text` is, of `D` singular values.
+/// Parses `text` as an expression of `D` singular values.
 pub(super) fn parsed<const D: usize>(text: &str) -> Result<Expression, FormulaError> {
     if text.len() > LONGEST {
         return Err(FormulaError::TooLong { longest: LONGEST });
@@ -38,7 +38,7 @@ pub(super) fn parsed<const D: usize>(text: &str) -> Result<Expression, FormulaEr
 
 struct Parser<'a> {
     text: &'a str,
-    /// Where the next character stands, in bytes.
+    /// Position of the next character, in bytes.
     at: usize,
     depth: usize,
     n_sigma: usize,
@@ -73,7 +73,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Every way into a deeper level leads through here.
+    /// Parses a signed expression. Every nested level passes through here, so this function counts the depth.
     fn signed(&mut self) -> Parsed {
         if self.depth == DEEPEST {
             return Err(FormulaError::TooDeep {
@@ -114,7 +114,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What stands between brackets, behind the first.
+    /// Parses the contents of brackets after the opening one, up to the closing one.
     fn closed(&mut self) -> Parsed {
         let inside = self.sum()?;
         if self.takes(")") {
@@ -178,7 +178,7 @@ impl<'a> Parser<'a> {
         rest.chars().next()
     }
 
-    /// Passes the sign if it comes next.
+    /// Skips the sign and returns `true` if it comes next.
     fn takes(&mut self, sign: &str) -> bool {
         self.peek();
         let rest = &self.text[self.at..];

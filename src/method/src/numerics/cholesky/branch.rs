@@ -1,4 +1,4 @@
-//! A part of the forest of fronts that one task factors, with the memory that takes.
+//! A part of the forest of fronts that one task factors, with its memory.
 
 use super::NotPositiveDefinite;
 use super::dense::{factor_panel, write_update};
@@ -9,8 +9,8 @@ use super::vectors::Vectors;
 
 /// Fronts, children before parents, their panels, and two stacks for their updates.
 ///
-/// The updates of fronts of even depth lie on one stack, those of odd depth on the other: when a front is formed those of its
-/// children are on top of the one that it does not write to. Where exactly was found when the plan was made.
+/// The updates of fronts of even depth lie on one stack, those of odd depth on the other: when a front is formed, its
+/// children's updates are on top of the stack that it does not write to. The plan knows the exact places.
 pub(super) struct Branch {
     pub fronts: Vec<u32>,
     pub panels: Vec<f64>,
@@ -30,7 +30,7 @@ impl From<Extent> for Branch {
 }
 
 impl Branch {
-    /// Factors its fronts; `others` are the branches that grow on it, in order.
+    /// Factors the fronts of this branch; `others` are the branches that grow on it, in order.
     pub fn factor(
         &mut self,
         plan: &Plan,
@@ -60,6 +60,7 @@ impl Branch {
                     (child, &stack[at.update..at.update + child.update_len()])
                 })
             };
+            // Assemble the panel: entries of the matrix, then the updates of the children.
             let panel = &mut panels[place.panel..place.panel + front.panel_len()];
             panel.fill(0.0);
             plan.scatter.add(k as usize, values, panel, front.stride());
@@ -75,7 +76,9 @@ impl Branch {
                     &plan.fronts.runs[child.runs.clone()],
                 );
             }
+            // Eliminate the pivots.
             factor_panel(front, panel)?;
+            // Form the update for the parent; what the children add to it comes last.
             if front.below > 0 {
                 let own = &mut mine[place.update..place.update + front.update_len()];
                 write_update(front, panel, own);
@@ -102,11 +105,11 @@ impl Branch {
     }
 }
 
-/// Columns of a front that the updates of its children are added to.
+/// Columns of a front to which the updates of its children are added.
 struct Target<'a> {
-    /// Which, in rows of the panel.
+    /// The columns, as rows of the panel.
     columns: std::ops::Range<usize>,
-    /// From the row and column `columns.start` or, for the panel, from row 0 on.
+    /// Values, starting at row and column `columns.start` or, for the panel, at row 0.
     values: &'a mut [f64],
     stride: usize,
 }
@@ -120,7 +123,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Adds a child's update, its lower triangle.
+    /// Adds the lower triangle of a child's update.
     fn add(&mut self, update: &[f64], stride: usize, runs: &[Run]) {
         let from = self.columns.start;
         for (i, run) in runs.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! One front: its panel factored, its update formed.
+//! One front: factors its panel and forms its update.
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
@@ -9,13 +9,13 @@ use super::NotPositiveDefinite;
 use super::fronts::Front;
 use super::kernels::{FactorColumns, WriteUpdate};
 
-/// Columns that are factored before all to their right is updated with a matrix product.
+/// Columns that are factored before everything to their right is updated with a matrix product.
 const BLOCK: usize = 96;
 
-/// Panels with fewer rows stay in the cache next to the processor: there the kernels of this module are the faster ones.
+/// Height from which a panel no longer stays in the innermost cache; below it the kernels of this module are faster.
 const LARGE: usize = 320;
 
-/// Rows of a product that one task forms.
+/// Rows of a product per task.
 const TASK_ROWS: usize = 256;
 
 /// Factors the panel of a front, which holds the assembled matrix.
@@ -53,7 +53,7 @@ pub(super) fn factor_panel(front: &Front, panel: &mut [f64]) -> Result<(), NotPo
     Ok(())
 }
 
-/// Writes −LLᵀ of the rows below the pivots, its lower triangle.
+/// Writes the lower triangle of −LLᵀ for the rows below the pivots.
 pub(super) fn write_update(front: &Front, panel: &[f64], update: &mut [f64]) {
     let (first, stride, size) = (front.padded(), front.stride(), front.below);
     if front.height() < LARGE {
@@ -73,8 +73,8 @@ pub(super) fn write_update(front: &Front, panel: &[f64], update: &mut [f64]) {
     write_triangle(update, below);
 }
 
-/// C −= A Bᵀ, or C = −A Bᵀ. Rows are split into tasks by their number alone, so that the sums do not depend on the number of
-/// threads.
+/// Computes C −= A Bᵀ, or C = −A Bᵀ. Rows are split into tasks by their number alone, so that the sums do not depend on
+/// the number of threads.
 fn product(c: MatMut<'_, f64>, accumulate: Accum, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
     let rows = c.nrows();
     if rows <= TASK_ROWS {
@@ -90,7 +90,7 @@ fn product(c: MatMut<'_, f64>, accumulate: Accum, a: MatRef<'_, f64>, b: MatRef<
     );
 }
 
-/// The lower triangle of C = −A Aᵀ, in tasks as above.
+/// Computes the lower triangle of C = −A Aᵀ, split into tasks like [`product`].
 fn write_triangle(c: MatMut<'_, f64>, a: MatRef<'_, f64>) {
     let rows = c.nrows();
     if rows <= TASK_ROWS {

@@ -1,12 +1,12 @@
-//! The memory of a branch, known from the plan.
+//! Memory of a branch, known from the plan.
 
-/// How much memory a branch takes, in numbers.
+/// Sizes of the arrays of a branch, in numbers.
 #[derive(Default)]
 pub(super) struct Extent {
     pub fronts: Vec<u32>,
     pub panels: usize,
     pub updates: [usize; 2],
-    /// Of all its fronts.
+    /// Pivots of all its fronts.
     pub pivots: usize,
     pub below: usize,
     /// Rows of the highest panel.

@@ -1,4 +1,4 @@
-//! The dense matrices that the factorization consists of, and how they fit into each other.
+//! The dense matrices of the factorization, and how they fit into each other.
 
 use std::ops::Range;
 
@@ -7,34 +7,34 @@ use super::kernels::LANES;
 use super::supernodes::Supernodes;
 use super::tree::NONE;
 
-/// A dense symmetric matrix whose first columns are eliminated and whose rest, the update, is added to its parent.
+/// A dense symmetric matrix whose first columns are eliminated and whose remainder, the update, is added to its parent.
 ///
-/// Its panel holds the pivot columns: rows `0..pivots` are those of the pivots, rows from `padded` on the others, zeros between.
-/// Every column starts a multiple of [`LANES`] after the first.
+/// Its panel holds the pivot columns: rows `0..pivots` are those of the pivots, rows from `padded` on the others, with
+/// zeros in between. Columns are a multiple of [`LANES`] apart.
 #[derive(Clone, Debug)]
 pub(super) struct Front {
-    /// The first unknown that is eliminated here, in the new numbering.
+    /// First unknown that is eliminated here, in the new numbering.
     pub first: usize,
-    /// Unknowns that are eliminated here.
+    /// Number of unknowns that are eliminated here.
     pub pivots: usize,
-    /// Unknowns that are only changed.
+    /// Number of unknowns that are only updated.
     pub below: usize,
-    /// The vertices of those, increasing: a range of [`Fronts::rows`].
+    /// Vertices of the updated unknowns, increasing: a range of [`Fronts::rows`].
     pub rows: Range<usize>,
-    /// Where they are in the parent: a range of [`Fronts::runs`].
+    /// Their places in the parent: a range of [`Fronts::runs`].
     pub runs: Range<usize>,
     pub parent: u32,
-    /// Its children are a range of [`Fronts::children`].
+    /// Children: a range of [`Fronts::children`].
     pub children: Range<usize>,
-    /// Even or odd.
+    /// Depth, modulo 2.
     pub depth: usize,
 }
 
-/// Successive unknowns of a child's update that are successive in its parent too.
+/// Successive unknowns of a child's update that are also successive in its parent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
     pub child: u32,
-    /// In rows of the parent's panel.
+    /// Place in the rows of the parent's panel.
     pub parent: u32,
     pub length: u32,
 }
@@ -48,22 +48,23 @@ pub(super) struct Fronts {
 }
 
 impl Front {
-    /// The first row of the panel that is not a pivot's.
+    /// Returns the first row of the panel after those of the pivots and their padding.
     pub fn padded(&self) -> usize {
         self.pivots.next_multiple_of(LANES)
     }
 
-    /// Rows of the panel.
+    /// Returns the number of rows of the panel.
     pub fn height(&self) -> usize {
         self.padded() + self.update_stride()
     }
 
-    /// From column to column of the panel: an odd multiple of [`LANES`], so that a row does not fall into one set of the cache.
+    /// Returns the distance between columns of the panel: an odd multiple of [`LANES`], so that a row does not fall
+    /// into one cache set.
     pub fn stride(&self) -> usize {
         LANES * ((self.height() / LANES) | 1)
     }
 
-    /// From column to column of the update.
+    /// Returns the distance between columns of the update.
     pub fn update_stride(&self) -> usize {
         self.below.next_multiple_of(LANES)
     }
@@ -76,7 +77,7 @@ impl Front {
         self.update_stride() * self.below
     }
 
-    /// Multiplications and additions of its elimination.
+    /// Returns the number of multiply–adds of the elimination.
     pub fn flops(&self) -> f64 {
         let (k, m) = (self.pivots as f64, (self.pivots + self.below) as f64);
         k * m * m - k * k * m + k * k * k / 3.0
@@ -84,7 +85,7 @@ impl Front {
 }
 
 impl Fronts {
-    /// From the graph in its new numbering.
+    /// Creates the fronts from the graph in its new numbering.
     pub fn new(graph: &Graph, supernodes: &Supernodes, block: usize) -> Self {
         let n = supernodes.parent.len();
         let mut fronts = Self {
@@ -141,7 +142,8 @@ impl Fronts {
         ends.windows(2).map(|w| w[0]..w[1]).collect()
     }
 
-    /// What the pivots and the updates of the children reach beyond the pivots.
+    /// Appends the vertices that the pivots and the updates of the children reach beyond the pivots; returns their
+    /// range.
     fn gather_rows(
         &mut self,
         graph: &Graph,
@@ -171,7 +173,7 @@ impl Fronts {
         start..self.rows.len()
     }
 
-    /// Where the rows of a front are in its parent.
+    /// Appends the places of the rows of a front in its parent.
     fn gather_runs(&mut self, k: usize, block: usize) {
         let front = &self.list[k];
         let parent = &self.list[front.parent as usize];

@@ -1,17 +1,18 @@
-//! Who is coupled with whom.
+//! The graph of couplings between vertices.
 
 use super::SymmetricPattern;
 
-/// The graph of a symmetric matrix made of square blocks: vertices, and for each all its neighbors, sorted.
+/// Graph of a symmetric matrix of square blocks: for each vertex its neighbors, sorted.
 pub(super) struct Graph {
     starts: Vec<u32>,
     neighbors: Vec<u32>,
 }
 
 impl Graph {
-    /// Of a pattern in which `block` consecutive unknowns belong to a vertex.
+    /// Creates the graph of a pattern in which `block` consecutive unknowns belong to a vertex.
     ///
-    /// The first column of a vertex tells all: the rows of its own block come first, then those of its larger neighbors.
+    /// The first column of a vertex is sufficient: the rows of its own block come first, then those of its larger
+    /// neighbors.
     pub fn new(pattern: &SymmetricPattern, block: usize) -> Self {
         let n = pattern.n / block;
         let larger = |v: usize| {
@@ -43,28 +44,28 @@ impl Graph {
         Self { starts, neighbors }
     }
 
-    /// Number of vertices.
+    /// Returns the number of vertices.
     pub fn n(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The neighbors of a vertex.
+    /// Returns the neighbors of a vertex.
     pub fn of(&self, vertex: u32) -> &[u32] {
         let v = vertex as usize;
         &self.neighbors[self.starts[v] as usize..self.starts[v + 1] as usize]
     }
 
-    /// Where each vertex's neighbors start in [`neighbors`](Self::neighbors).
+    /// Returns the start of each vertex's neighbors in [`neighbors`](Self::neighbors).
     pub fn starts(&self) -> &[u32] {
         &self.starts
     }
 
-    /// All lists, one after another.
+    /// Returns all lists, one after another.
     pub fn neighbors(&self) -> &[u32] {
         &self.neighbors
     }
 
-    /// The same graph with its vertices renumbered: `order[new] = old`.
+    /// Renumbers the vertices by `order[new] = old`.
     pub fn reordered(&self, order: &[u32]) -> Self {
         let place = inverse(order);
         let mut starts = Vec::with_capacity(self.starts.len());
@@ -80,7 +81,7 @@ impl Graph {
     }
 }
 
-/// The inverse of a permutation.
+/// Returns the inverse of a permutation.
 pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
     let mut place = vec![0; order.len()];
     for (new, &old) in order.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Dense kernels on column-major panels whose height is a multiple of [`LANES`].
 //!
-//! Written with vectors of whatever width the processor has (pulp chooses at run time). A tile of eight columns is held in
-//! registers while all columns to its left are subtracted from it, so that the panel is written once.
+//! Written for vectors of any width (pulp chooses at run time). A tile of eight columns is held in registers while all
+//! columns to its left are subtracted from it, so that the panel is written once.
 
 // What is not inlined into the function that pulp compiles for the processor at hand is compiled for the oldest one.
 #![expect(clippy::inline_always)]
@@ -11,11 +11,11 @@ use faer::traits::pulp::{Simd, WithSimd};
 /// Columns of a tile, and rows of the smallest strip.
 pub(super) const LANES: usize = 8;
 
-/// Eight columns of a factor's diagonal block; on the diagonal the reciprocals.
+/// Eight columns of a factor's diagonal block, with reciprocals on the diagonal.
 type Tile = [[f64; LANES]; LANES];
 
-/// Factors the columns `from..to` of a panel whose columns before `from` have been subtracted already; false if a pivot is not
-/// positive. The diagonal then holds reciprocals.
+/// Factors the columns `from..to` of a panel whose columns before `from` have been subtracted already; returns `false`
+/// if a pivot is not positive. The diagonal then holds reciprocals.
 pub(super) struct FactorColumns<'a> {
     pub panel: &'a mut [f64],
     pub stride: usize,
@@ -61,8 +61,8 @@ trait Strips {
     fn strip<S: Simd, const R: usize>(&mut self, simd: S, row: usize);
 }
 
-/// Cuts rows into strips as high as registers hold next to eight columns: processors with vectors of eight numbers have
-/// thirty-two of them, enough for three by eight.
+/// Cuts rows into strips as high as the registers hold next to eight columns: processors with vectors of eight numbers
+/// have thirty-two of them, enough for three by eight.
 #[inline(always)]
 fn for_strips<S: Simd>(simd: S, from: usize, to: usize, work: &mut impl Strips) {
     let mut row = from;
@@ -83,9 +83,9 @@ struct Columns<'a> {
     left: &'a [f64],
     right: &'a mut [f64],
     stride: usize,
-    /// Columns, eight at most.
+    /// Number of columns, at most eight.
     width: usize,
-    /// The row of the first one's pivot.
+    /// Row of the first column's pivot.
     pivot: usize,
 }
 
@@ -103,7 +103,7 @@ fn store<S: Simd, const R: usize>(column: &mut [f64], row: usize, values: [S::f6
     vectors.copy_from_slice(&values);
 }
 
-/// Σ over columns of (rows from `row`) × (eight rows from `across`).
+/// Computes Σ over columns of (rows from `row`) × (eight rows from `across`).
 #[inline(always)]
 fn products<S: Simd, const R: usize>(
     simd: S,
@@ -127,7 +127,7 @@ fn products<S: Simd, const R: usize>(
 }
 
 impl Columns<'_> {
-    /// Eight columns of a strip with everything to their left subtracted; zeros beyond `width`.
+    /// Returns eight columns of a strip minus all products with columns to their left; zeros beyond `width`.
     #[inline(always)]
     fn reduced<S: Simd, const R: usize>(&self, simd: S, row: usize) -> [[S::f64s; R]; LANES] {
         let mut values = products::<S, R>(simd, self.left, self.stride, row, self.pivot);
@@ -142,7 +142,7 @@ impl Columns<'_> {
         values
     }
 
-    /// Factors the square at the pivots; `None` if a pivot is not positive.
+    /// Factors the square at the pivots; returns `None` if a pivot is not positive.
     #[inline(always)]
     fn factor_tile<S: Simd>(&mut self, simd: S) -> Option<Tile> {
         let mut tile = Tile::default();
@@ -175,7 +175,7 @@ impl Columns<'_> {
     }
 }
 
-/// Solving for the rows below a factored tile.
+/// Solves for the rows below a factored tile.
 struct SolveStrips<'a> {
     columns: Columns<'a>,
     tile: Tile,
@@ -204,12 +204,12 @@ impl Strips for SolveStrips<'_> {
     }
 }
 
-/// Writes −LLᵀ, its lower triangle, for the rows of a panel from `first` on.
+/// Writes the lower triangle of −LLᵀ for the rows of a panel from `first` on.
 pub(super) struct WriteUpdate<'a> {
     pub panel: &'a [f64],
     pub stride: usize,
     pub first: usize,
-    /// Column-major, its columns as long as the rows are many.
+    /// Column-major square matrix.
     pub update: &'a mut [f64],
     pub size: usize,
 }
@@ -231,7 +231,7 @@ impl WithSimd for WriteUpdate<'_> {
     }
 }
 
-/// Eight columns of an update.
+/// Computes eight columns of an update.
 struct UpdateStrips<'a> {
     update: WriteUpdate<'a>,
     column: usize,

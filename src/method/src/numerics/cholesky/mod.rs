@@ -1,17 +1,19 @@
 //! Sparse Cholesky A = LLᵀ: analyzed once per pattern, factored anew for each set of values.
 //!
-//! Multifrontal. Columns of the factor that reach the same rows form a front, a dense matrix: it is assembled from entries of A
-//! and from the updates that earlier fronts left behind, its own columns are eliminated, and what that does to the other
-//! rows is its update for a later front, its parent. All indices are found once; the numbers then flow through dense kernels.
+//! Multifrontal. Columns of the factor that reach the same rows form a front, a dense matrix. It is assembled from
+//! entries of A and from the updates of earlier fronts; its own columns are eliminated, and their effect on the other
+//! rows is its update for a later front, its parent. All indices are found once; the numbers then pass through dense
+//! kernels.
 //!
-//! What decides where to go is done on vertices, each of up to three unknowns, not on unknowns: the order of elimination
-//! (`order`), the elimination tree and the sizes of the factor's columns (`tree`), which columns are worked on together
-//! (`supernodes`), which rows a front has and where they are in its parent (`fronts`), where the entries of A go
-//! (`scatter`). The numbers are `branch`, `dense`, `kernels` and `solve`.
+//! The symbolic part works on vertices, each of up to three unknowns: the order of elimination (`order`), the
+//! elimination tree and the sizes of the factor's columns (`tree`), columns that are worked on together (`supernodes`),
+//! the rows of each front and their places in its parent (`fronts`), and the places of the entries of A (`scatter`).
+//! The numeric part is `branch`, `dense`, `kernels` and `solve`.
 //!
-//! Subtrees are factored, and solved with, in parallel. Every sum is ordered by the tree, so the result does not depend on the number of threads.
-//! Nothing is allocated after the analysis. On one thread it takes 0.7 to 0.8 of the processor time of faer's supernodal
-//! factorization, which is the reference of its tests, up to 100,000 unknowns, and 0.43 at 363,000, where the order is another.
+//! Subtrees are factored, and solved with, in parallel. Every sum is ordered by the tree, so the result does not depend
+//! on the number of threads. Nothing is allocated after the analysis. On one thread it takes 0.7 to 0.8 of the
+//! processor time of faer's supernodal factorization, which is the reference of its tests, up to 100,000 unknowns, and
+//! 0.43 at 363,000, where the orderings differ.
 //!
 //! From: Duff and Reid 1983, The Multifrontal Solution of Indefinite Sparse Symmetric Linear Equations; Liu 1992, The
 //! Multifrontal Method for Sparse Matrix Solution.
@@ -39,7 +41,7 @@ use fronts::Front;
 use plan::Plan;
 use solve::{Backward, Forward};
 
-/// Where a symmetric matrix may be nonzero: its lower triangle in compressed columns.
+/// Nonzero pattern of a symmetric matrix: its lower triangle in compressed columns.
 ///
 /// Column `j` holds the rows `row_idx[col_ptr[j]..col_ptr[j + 1]]`, sorted, the first of them `j` itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -53,8 +55,8 @@ pub struct SymmetricPattern {
 }
 
 impl SymmetricPattern {
-    /// The pattern of entries `(column, row, value)` of the lower triangle, and a value for each
-    /// stored entry: the sum of those with its place. Every diagonal entry must be among them.
+    /// Builds the pattern of entries `(column, row, value)` of the lower triangle, and the value of each stored entry:
+    /// the sum of those at its place. Every diagonal entry must be among them.
     pub fn from_entries(n: usize, mut entries: Vec<(u32, u32, f64)>) -> (Self, Vec<f64>) {
         entries.sort_by_key(|&(column, row, _)| (column, row));
         let mut pattern = Self {
@@ -75,7 +77,7 @@ impl SymmetricPattern {
         (pattern, values)
     }
 
-    /// The product of the matrix whose stored entries are `values` with a vector.
+    /// Multiplies a vector by the matrix whose stored entries are `values`.
     pub fn multiply(&self, values: &[f64], vector: &[f64], product: &mut [f64]) {
         product.fill(0.0);
         for j in 0..self.n {
@@ -91,7 +93,7 @@ impl SymmetricPattern {
     }
 }
 
-/// The matrix has a pivot that is not positive (or not a number): a normal outcome for an indefinite Hessian.
+/// The matrix has a pivot that is not positive (or NaN): a normal outcome for an indefinite Hessian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is not positive definite")]
 pub struct NotPositiveDefinite;
@@ -102,19 +104,19 @@ pub struct Cholesky {
     branches: Vec<Branch>,
 }
 
-/// The size of a factorization.
+/// Size of a factorization.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
     /// Numbers stored in the factor, zeros of the padding included.
     pub stored: usize,
-    /// Multiplications with an addition each.
+    /// Multiply–adds.
     pub flops: f64,
-    /// Dense matrices that it consists of.
+    /// Number of dense matrices.
     pub fronts: usize,
 }
 
 impl Cholesky {
-    /// Orders the pattern to reduce fill and reserves all memory that factoring and solving will need.
+    /// Orders the pattern to reduce fill and allocates all memory for factoring and solving.
     ///
     /// `block` consecutive unknowns, 1 to 3, belong to a vertex: the pattern consists of full blocks of that size.
     ///
@@ -125,7 +127,8 @@ impl Cholesky {
         Self::planned(plan, extents)
     }
 
-    /// The same if that is at most so many bytes, the analysis itself left out of account.
+    /// Like [`analyze`](Self::analyze); returns `None` if the factorization would exceed `most_bytes`, the analysis
+    /// itself not counted.
     ///
     /// # Panics
     /// As [`analyze`](Self::analyze).
@@ -204,12 +207,12 @@ impl Cholesky {
         }
     }
 
-    /// Number of rows of the matrix.
+    /// Returns the number of rows of the matrix.
     pub fn n(&self) -> usize {
         self.plan.block * self.plan.order.len()
     }
 
-    /// What one factorization takes.
+    /// Returns the cost of one factorization.
     pub fn work(&self) -> Work {
         let fronts = &self.plan.fronts.list;
         Work {

@@ -1,4 +1,4 @@
-//! In which order to eliminate.
+//! Orders of elimination that reduce fill.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -7,16 +7,16 @@ use feral_metis::{CscPattern, metis_order};
 
 use super::graph::Graph;
 
-/// From this many vertices of the plane on nested dissection, below minimum degree.
+/// Number of vertices in the plane from which nested dissection replaces minimum degree.
 ///
-/// Finding it takes 20 times as long. On surfaces it saves half of a factorization at 180,000 vertices, and with two of them has
-/// paid for itself; at a million it is the difference between 55 and 250 billion multiplications.
+/// It takes 20 times as long to find. On surfaces it halves a factorization at 180,000 vertices, and pays off after two
+/// of them; at a million vertices it is the difference between 55 and 250 billion multiplications.
 const DISSECTED_FROM: usize = 100_000;
 
-/// The same in space, where separators are larger and a bad order costs more.
+/// Number of vertices in space, where separators are larger and a bad order costs more.
 const SOLIDS_DISSECTED_FROM: usize = 2_000;
 
-/// An order of the vertices, of `block` unknowns each, that keeps the factor sparse, `order[new] = old`.
+/// Returns an order of the vertices, of `block` unknowns each, that keeps the factor sparse: `order[new] = old`.
 pub(super) fn fill_reducing_order(graph: &Graph, block: usize) -> Vec<u32> {
     let dissected_from = if block == 3 {
         SOLIDS_DISSECTED_FROM
@@ -29,7 +29,7 @@ pub(super) fn fill_reducing_order(graph: &Graph, block: usize) -> Vec<u32> {
     nested_dissection(graph).unwrap_or_else(|| minimum_degree(graph))
 }
 
-/// Approximate minimum degree (Amestoy, Davis, Duff 1996).
+/// Computes an approximate minimum degree order (Amestoy, Davis, Duff 1996).
 fn minimum_degree(graph: &Graph) -> Vec<u32> {
     let n = graph.n();
     let starts: Vec<usize> = graph.starts().iter().map(|&s| s as usize).collect();
@@ -48,7 +48,7 @@ fn minimum_degree(graph: &Graph) -> Vec<u32> {
     order.into_iter().map(|v| v as u32).collect()
 }
 
-/// Multilevel nested dissection (Karypis and Kumar 1998); `None` if what comes back is no permutation.
+/// Computes a multilevel nested dissection order (Karypis and Kumar 1998); `None` if the result is not a permutation.
 fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     let n = graph.n();
     let signed = |values: &[u32]| values.iter().map(|&v| v as i32).collect::<Vec<_>>();

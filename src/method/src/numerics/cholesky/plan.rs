@@ -1,4 +1,4 @@
-//! What is known of the factorization before the values are.
+//! The symbolic factorization, which does not depend on the values.
 
 use super::SymmetricPattern;
 use super::extent::Extent;
@@ -9,11 +9,11 @@ use super::scatter::Scatter;
 use super::supernodes::supernodes;
 use super::tree::{self, NONE};
 
-/// From this many multiplications on the subtrees of the forest are factored in parallel: a few milliseconds.
+/// Number of multiplications from which the subtrees of the forest are factored in parallel: a few milliseconds.
 const PARALLEL_FROM: f64 = 3e7;
 
-/// A subtree with at most this share of the work is one task: small enough that tasks balance, large enough that most of the
-/// tree is in one.
+/// Largest share of the work of a subtree that is one task: small enough that tasks balance, large enough that most of
+/// the tree is in some task.
 const TASK_SHARE: f64 = 1.0 / 24.0;
 
 /// The symbolic factorization.
@@ -27,7 +27,7 @@ pub(super) struct Plan {
     pub scatter: Scatter,
 }
 
-/// Where a front's numbers are in its branch.
+/// Place of a front's numbers in its branch.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Place {
     pub branch: u32,
@@ -65,27 +65,27 @@ impl Plan {
         (&self.fronts.list[k as usize], &self.places[k as usize])
     }
 
-    /// The fronts whose updates it takes.
+    /// Returns the children of a front, whose updates it receives.
     pub fn children(&self, front: &Front) -> impl Iterator<Item = (&Front, &Place)> {
         let children = &self.fronts.children[front.children.clone()];
         children.iter().map(|&child| self.front(child))
     }
 
-    /// The first unknown of each of its pivots' vertices in the matrix.
+    /// Returns the first unknown, in the matrix, of each vertex among a front's pivots.
     fn vertices(&self, front: &Front) -> impl Iterator<Item = usize> {
         let vertices = front.first / self.block..(front.first + front.pivots) / self.block;
         let old = &self.order[vertices];
         old.iter().map(|&old| self.block * old as usize)
     }
 
-    /// Takes the values at its pivots from a vector in the order of the matrix.
+    /// Copies the values at a front's pivots from a vector in the order of the matrix.
     pub fn gather(&self, front: &Front, from: &[f64], pivots: &mut [f64]) {
         for (own, old) in (pivots.chunks_exact_mut(self.block)).zip(self.vertices(front)) {
             own.copy_from_slice(&from[old..][..self.block]);
         }
     }
 
-    /// Puts them there.
+    /// Copies the values at a front's pivots back to a vector in the order of the matrix.
     pub fn scatter_back(&self, front: &Front, pivots: &[f64], to: &mut [f64]) {
         for (own, old) in pivots.chunks_exact(self.block).zip(self.vertices(front)) {
             to[old..][..self.block].copy_from_slice(own);
@@ -93,7 +93,7 @@ impl Plan {
     }
 }
 
-/// The order changed to a postorder of its elimination tree, which costs and fills the same, and that tree.
+/// Changes the order to a postorder of its elimination tree, with equal cost and fill; returns it with that tree.
 fn in_postorder(graph: &Graph, order: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let parent = tree::elimination_tree(&graph.reordered(order));
     let postorder = tree::postorder(&parent);
@@ -103,12 +103,12 @@ fn in_postorder(graph: &Graph, order: &[u32]) -> (Vec<u32>, Vec<u32>) {
     )
 }
 
-/// The first renumbering, then the second.
+/// Composes two renumberings, `first` before `second`.
 fn composed(first: &[u32], second: &[u32]) -> Vec<u32> {
     second.iter().map(|&v| first[v as usize]).collect()
 }
 
-/// Gives each front its place in memory. The last branch is the trunk, on which the others grow.
+/// Assigns each front its place in memory. The last branch is the trunk, on which the others grow.
 fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Extent>) {
     let branch_of = branches(fronts);
     let n_branches = branch_of.iter().max().map_or(1, |&b| b as usize + 1);
@@ -144,7 +144,8 @@ fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Extent>) {
     (places, extents)
 }
 
-/// The branch of each front: the largest subtrees that are small enough are one each, the rest is the trunk, the last.
+/// Returns the branch of each front: each of the largest subtrees that are small enough is a branch, the rest is the
+/// trunk, the last.
 fn branches(fronts: &Fronts) -> Vec<u32> {
     let n = fronts.list.len();
     let mut work: Vec<f64> = fronts.list.iter().map(Front::flops).collect();

@@ -1,4 +1,4 @@
-//! Where the entries of the matrix go.
+//! Places of the matrix entries in the fronts.
 
 use super::SymmetricPattern;
 use super::fronts::{Front, Fronts};
@@ -7,11 +7,11 @@ use super::graph::Graph;
 /// The stored block of two coupled vertices, or of one, and its place in a panel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Block {
-    /// Of its first entry, in the values.
+    /// First entry in the values.
     from: u32,
-    /// How far the columns of its first vertex are apart there, beyond what they lose at the diagonal.
+    /// Distance between the columns of its first vertex there, plus the entries lost at the diagonal.
     stride: u32,
-    /// Of its first entry, in the panel.
+    /// First entry in the panel.
     to: u32,
     kind: Kind,
 }
@@ -20,11 +20,11 @@ pub(super) struct Block {
 enum Kind {
     Diagonal,
     Straight,
-    /// The later vertex is eliminated first.
+    /// Block of two vertices, where the larger one is eliminated first.
     Transposed,
 }
 
-/// The blocks of every front's panel; those of the k-th are `blocks[starts[k]..starts[k + 1]]`.
+/// Blocks of every front's panel; those of the k-th are `blocks[starts[k]..starts[k + 1]]`.
 pub(super) struct Scatter {
     starts: Vec<usize>,
     blocks: Vec<Block>,
@@ -32,7 +32,8 @@ pub(super) struct Scatter {
 }
 
 impl Scatter {
-    /// `graph` and `reordered` are the pattern's in its own numbering and in that of the elimination.
+    /// Creates the places; `graph` and `reordered` are the pattern's graph in its own numbering and in that of the
+    /// elimination.
     pub fn new(
         pattern: &SymmetricPattern,
         size: usize,
@@ -85,14 +86,14 @@ impl Scatter {
     }
 }
 
-/// Entries of a vertex's first column below its own block.
+/// Returns the number of entries of a vertex's first column below its own block.
 fn stride(graph: &Graph, vertex: u32, size: usize) -> u32 {
     let list = graph.of(vertex);
     (size * (list.len() - list.partition_point(|&w| w < vertex))) as u32
 }
 
 impl Block {
-    /// Of the vertex that is eliminated and one that is eliminated later.
+    /// Creates the block of a vertex that is eliminated and one that is eliminated later.
     fn of_pair(
         pattern: &SymmetricPattern,
         size: usize,
@@ -117,7 +118,7 @@ impl Block {
 }
 
 impl Front {
-    /// The row of a vertex in the panel.
+    /// Returns the row of a vertex in the panel.
     fn row(&self, vertex: u32, size: usize, rows: &[u32]) -> usize {
         let unknown = size * vertex as usize;
         if unknown < self.first + self.pivots {

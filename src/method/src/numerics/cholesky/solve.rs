@@ -1,4 +1,4 @@
-//! Solving with the factor.
+//! Forward and backward substitution with the factor.
 
 // What is not inlined into the function that pulp compiles for the processor at hand is compiled for the oldest one.
 #![expect(clippy::inline_always)]
@@ -15,7 +15,7 @@ pub(super) struct Forward<'a> {
     pub plan: &'a Plan,
     pub branch: &'a mut Branch,
     pub others: &'a [Branch],
-    /// In the order of the matrix.
+    /// Right-hand side in the order of the matrix.
     pub b: &'a [f64],
 }
 
@@ -58,7 +58,8 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// Solves Lᵀx = y for the pivots of a branch, what is below them being known, and tells it to those that grow on them.
+/// Solves Lᵀx = y for the pivots of a branch, given the solution below them, and passes it on to the branches that grow
+/// on it.
 pub(super) struct Backward<'a> {
     pub plan: &'a Plan,
     pub branch: &'a mut Branch,
@@ -108,7 +109,7 @@ struct Tile<'a> {
     columns: &'a [f64],
     stride: usize,
     width: usize,
-    /// The row of its first pivot.
+    /// Row of the first pivot.
     first: usize,
 }
 
@@ -123,13 +124,13 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// The rows of a column from the first pivot's on.
+    /// Returns the rows of a column from the first pivot's on.
     #[inline(always)]
     fn column(&self, c: usize, height: usize) -> &'a [f64] {
         &self.columns[c * self.stride..][self.first..height]
     }
 
-    /// Solves for its pivots and subtracts them from all rows below.
+    /// Solves for the pivots of the tile and subtracts their contribution from all rows below.
     #[inline(always)]
     fn forward<S: Simd>(&self, simd: S, local: &mut [f64]) {
         let height = local.len();
@@ -156,7 +157,7 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Subtracts all rows below from its pivots and solves for them.
+    /// Subtracts the contribution of all rows below from the pivots of the tile and solves for them.
     #[inline(always)]
     fn backward<S: Simd>(&self, simd: S, local: &mut [f64]) {
         let height = local.len();

@@ -1,4 +1,4 @@
-//! Columns of the factor that are worked on together.
+//! Supernodes: columns of the factor that are worked on together.
 
 use super::tree::{self, NONE};
 
@@ -9,14 +9,14 @@ pub(super) struct Supernodes {
     pub parent: Vec<u32>,
 }
 
-/// A group while others join it: how many columns, and how many rows they reach together, its own included.
+/// Size of a group while others join it: its columns, and the rows that they reach together, its own included.
 #[derive(Clone, Copy)]
 struct Size {
     pivots: u32,
     rows: u32,
 }
 
-/// The supernodes of columns numbered in postorder; then those joined that are faster together.
+/// Finds the supernodes of columns numbered in postorder, then joins those that are faster together.
 pub(super) fn supernodes(parent: &[u32], counts: &[u32], block: usize) -> Supernodes {
     let n = parent.len();
     let starts = fundamental(parent, counts);
@@ -40,7 +40,8 @@ pub(super) fn supernodes(parent: &[u32], counts: &[u32], block: usize) -> Supern
     renumber(&starts, &group_parent, &joined)
 }
 
-/// Where a new group starts: a column joins the one before if that is its only child and their rows are the same.
+/// Returns the starts of the groups: a column joins the one before if that is its only child and their rows are the
+/// same.
 fn fundamental(parent: &[u32], counts: &[u32]) -> Vec<u32> {
     let n = parent.len();
     let mut n_children = vec![0_u32; n];
@@ -58,8 +59,8 @@ fn fundamental(parent: &[u32], counts: &[u32]) -> Vec<u32> {
     starts
 }
 
-/// Nanoseconds that a front takes, from its size in unknowns: a start, flops, adding its update to its parent, reading and
-/// writing its panel. Fitted on one core at some 25 Gflop/s; only the ratios matter.
+/// Estimates the time of a front in nanoseconds, from its size in unknowns: a constant, flops, adding its update to its
+/// parent, reading and writing its panel. Fitted on one core at about 25 Gflop/s; only the ratios matter.
 fn nanoseconds(size: Size, block: usize) -> f64 {
     let k = (block * size.pivots as usize) as f64;
     let m = (block * size.rows as usize) as f64;
@@ -67,8 +68,8 @@ fn nanoseconds(size: Size, block: usize) -> f64 {
     400.0 + flops / 25.0 + 0.3 * (m - k) * (m - k) + 0.3 * m * k
 }
 
-/// For each group the group it has become a part of, itself if none: from the leaves up, children join their parent as long as
-/// that saves time.
+/// Returns for each group the group that it has joined, or itself: from the leaves up, children join their parent as
+/// long as that saves time.
 fn amalgamate(parent: &[u32], sizes: &mut [Size], block: usize) -> Vec<u32> {
     let n = parent.len();
     let mut joined: Vec<u32> = (0..n as u32).collect();
@@ -84,6 +85,7 @@ fn amalgamate(parent: &[u32], sizes: &mut [Size], block: usize) -> Vec<u32> {
             both,
         )
     };
+    // From the leaves up: try the children of each group, those that save most time first.
     for p in 0..n {
         let mut candidates = std::mem::take(&mut children[p]);
         let mut savings: Vec<(f64, u32)> = candidates
@@ -100,6 +102,7 @@ fn amalgamate(parent: &[u32], sizes: &mut [Size], block: usize) -> Vec<u32> {
             if saved > 0.0 {
                 sizes[p] = both;
                 joined[child as usize] = p as u32;
+                // The children of a child that has joined become candidates.
                 candidates.append(&mut children[child as usize]);
             } else {
                 children[p].push(child);
@@ -109,13 +112,15 @@ fn amalgamate(parent: &[u32], sizes: &mut [Size], block: usize) -> Vec<u32> {
             children[parent[p] as usize].push(p as u32);
         }
     }
+    // Follow chains of joins to their last group.
     for k in (0..n).rev() {
         joined[k] = joined[joined[k] as usize];
     }
     joined
 }
 
-/// Numbers joined groups and their columns in postorder. Columns of a group that joined another come before that one's own.
+/// Numbers joined groups and their columns in postorder. Columns of a group that joined another come before the
+/// latter's own.
 fn renumber(starts: &[u32], parent: &[u32], joined: &[u32]) -> Supernodes {
     let n = parent.len();
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); n];

@@ -1,11 +1,11 @@
-//! The elimination tree: which column of the factor needs which others first.
+//! The elimination tree: which columns of the factor depend on which others.
 
 use super::graph::Graph;
 
-/// Marks a root's parent.
+/// Parent of a root.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The parent of each column: the row of the first entry below its diagonal in the factor.
+/// Computes the parent of each column: the row of the first entry below its diagonal in the factor.
 ///
 /// From: Liu 1986, A Compact Row Storage Scheme for Cholesky Factors Using Elimination Trees.
 pub(super) fn elimination_tree(graph: &Graph) -> Vec<u32> {
@@ -29,7 +29,7 @@ pub(super) fn elimination_tree(graph: &Graph) -> Vec<u32> {
     parent
 }
 
-/// Every tree of a forest numbered from its leaves up, subtree by subtree: `order[new] = old`.
+/// Numbers every tree of a forest from its leaves up, subtree by subtree: `order[new] = old`.
 pub(super) fn postorder(parent: &[u32]) -> Vec<u32> {
     let n = parent.len();
     let (mut first_child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
@@ -61,17 +61,17 @@ pub(super) fn postorder(parent: &[u32]) -> Vec<u32> {
     order
 }
 
-/// The parents after a renumbering `order[new] = old`.
+/// Returns the parents after a renumbering `order[new] = old`.
 pub(super) fn reordered(parent: &[u32], order: &[u32]) -> Vec<u32> {
     let place = super::graph::inverse(order);
     let new = |p: u32| if p == NONE { NONE } else { place[p as usize] };
     order.iter().map(|&old| new(parent[old as usize])).collect()
 }
 
-/// Entries of each column of the factor, the diagonal included, for a graph numbered in postorder.
+/// Counts the entries of each column of the factor, including the diagonal, for a graph numbered in postorder.
 ///
-/// In nearly linear time: a column's count is the number of row subtrees it is in, and those are found from their leaves.
-/// From: Gilbert, Ng, Peyton 1994, An Efficient Algorithm to Compute Row and Column Counts.
+/// Takes nearly linear time: a column's count is the number of row subtrees that contain it, and those are found from
+/// their leaves. From: Gilbert, Ng, Peyton 1994, An Efficient Algorithm to Compute Row and Column Counts.
 pub(super) fn column_counts(graph: &Graph, parent: &[u32]) -> Vec<u32> {
     let n = parent.len();
     let mut first_descendant: Vec<u32> = (0..n as u32).collect();

@@ -1,12 +1,12 @@
-//! What solving with a branch keeps.
+//! Workspace of a solve in a branch.
 
-/// A right-hand side on its way through the fronts of a branch, and back as the solution.
+/// A right-hand side on its way through the fronts of a branch, which becomes the solution on the way back.
 pub(super) struct Vectors {
-    /// Of front after front, the values at its pivots.
+    /// Values at the pivots, front after front.
     pub pivots: Vec<f64>,
-    /// Of front after front, what it adds below its pivots; on the way back the solution there.
+    /// Contributions below the pivots, front after front; on the way back the solution there.
     pub below: Vec<f64>,
-    /// A front's unknowns as its panel has them: as long as the highest panel.
+    /// Unknowns of a front in the order of its panel: as long as the highest panel.
     pub local: Vec<f64>,
 }
 

@@ -1,11 +1,12 @@
-//! The function as it looks from a point: its gradient, its Hessian and what is solved with that.
+//! The quadratic model of the function at a point: gradient, Hessian and solutions of systems with it.
 
 use super::{Objective, all, pattern};
 use crate::numerics::block::BlockPattern;
 use crate::numerics::cholesky::{NotPositiveDefinite, Work};
 
 impl Objective {
-    /// Evaluates gradient and Hessian at `x`, negative eigenvalues of each summand's share times `tau`.
+    /// Evaluates gradient and Hessian at `x`; the negative eigenvalues of each summand's Hessian are multiplied by
+    /// `tau`.
     pub fn linearize(&mut self, x: &[f64], tau: f64) {
         let renewed = self.terms.iter_mut().map(|term| term.renew(x));
         if renewed.fold(false, |any, is_renewed| any | is_renewed) {
@@ -23,8 +24,9 @@ impl Objective {
         self.model.finish();
     }
 
-    /// Evaluates the gradient alone at `x`; Hessian and factorization stay those of another point. False if there is no
-    /// factorization to go with it, as after vertices were fixed, or where a term [renews](crate::energy::Term::renew) its stencils.
+    /// Evaluates only the gradient at `x`; Hessian and factorization stay those of another point. Returns `false` if
+    /// there is no matching factorization, as after vertices were fixed, or where a term
+    /// [renews](crate::energy::Term::renew) its stencils.
     ///
     /// Cost: a third of a [`linearize`](Self::linearize).
     pub fn renew_gradient(&mut self, x: &[f64]) -> bool {
@@ -43,47 +45,47 @@ impl Objective {
         true
     }
 
-    /// The Newton step of the last gradient, and how all vertices follow the moves of the fixed ones in `direction`, both with the last
-    /// factorization; the norm of the right side.
+    /// Computes the Newton step of the last gradient plus the response of all vertices to the moves of the fixed ones
+    /// in `direction`, both with the last factorization. Returns the norm of the right-hand side.
     ///
     /// Cost: one solve.
     pub fn step_and_follow(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
         self.model.step_and_follow(direction)
     }
 
-    /// How many matrices were factored, failed attempts included.
+    /// Returns the number of factorizations, failed attempts included.
     pub fn factorizations(&self) -> usize {
         self.model.factorizations()
     }
 
-    /// Takes the pattern from the terms' stencils anew.
+    /// Rebuilds the pattern from the terms' stencils.
     pub(super) fn renew_pattern(&mut self) {
         let (pattern, slots) = pattern(self.n() / self.dim(), self.all());
         self.model.exchange_pattern(pattern);
         self.slots = slots;
     }
 
-    /// Adds to every diagonal entry of the last [`linearize`](Self::linearize).
+    /// Adds `shift` to every diagonal entry of the last [`linearize`](Self::linearize).
     pub fn shift_diagonal(&mut self, shift: f64) {
         self.model.shift_diagonal(shift);
     }
 
-    /// What was added to every diagonal entry since.
+    /// Returns the sum of the shifts since the last [`linearize`](Self::linearize), its own regularization included.
     pub fn shift(&self) -> f64 {
         self.model.shift()
     }
 
-    /// ∂E/∂x at the last [`linearize`](Self::linearize); 0 at fixed vertices.
+    /// Returns ∂E/∂x at the last [`linearize`](Self::linearize); 0 at fixed vertices.
     pub fn gradient(&self) -> &[f64] {
         self.model.gradient()
     }
 
-    /// The Hessian's lower triangle at the last [`linearize`](Self::linearize), shifted, and its pattern.
+    /// Returns the pattern and the lower triangle of the Hessian at the last [`linearize`](Self::linearize), shifted.
     pub fn hessian(&self) -> (&BlockPattern, &[f64]) {
         (self.model.pattern(), self.model.hessian())
     }
 
-    /// Does the analysis that the first factorization would do, and allocates all that factoring and solving will need.
+    /// Analyzes the pattern and allocates all memory for factoring and solving ahead of the first factorization.
     pub fn prepare(&mut self) {
         self.model.prepare();
     }
@@ -93,23 +95,23 @@ impl Objective {
         self.model.factor()
     }
 
-    /// Whether a factorization of one linearization stays while there are others; false where none fits into memory.
+    /// Returns whether a factorization outlives later linearizations; `false` if none fits into memory.
     pub fn keeps_factor(&mut self) -> bool {
         self.model.keeps_factor()
     }
 
-    /// Replaces a vector by its product with the inverse of the matrix that was factored last; where none fits into memory, of the
-    /// present Hessian, unless that is not positive definite.
+    /// Multiplies a vector by the inverse of the matrix that was factored last. If no factor fits into memory, solves
+    /// with the present Hessian instead, which fails if that is not positive definite.
     pub fn precondition(&mut self, vector: &mut [f64]) -> Result<(), NotPositiveDefinite> {
         self.model.solve(vector)
     }
 
-    /// The product of the Hessian of the last [`linearize`](Self::linearize) with `vector`.
+    /// Computes the product of the Hessian of the last [`linearize`](Self::linearize) with `vector`.
     pub fn apply_hessian(&self, vector: &[f64], product: &mut [f64]) {
         self.model.apply(vector, product);
     }
 
-    /// d·Hd of the last [`linearize`](Self::linearize).
+    /// Returns d·Hd of the last [`linearize`](Self::linearize).
     pub fn curvature(&self, direction: &[f64]) -> f64 {
         self.model.curvature(direction)
     }
@@ -121,9 +123,9 @@ impl Objective {
         self.model.newton_direction(direction)
     }
 
-    /// How all vertices follow when the fixed ones and the constraints' targets move, to first order: given the move at the
-    /// fixed vertices and that of the targets, solves for the others. Uses the factorization of the last
-    /// [`newton_direction`](Self::newton_direction).
+    /// Computes the first-order response of all vertices to moves of the fixed ones and of the constraints' targets.
+    /// `direction` holds the moves of the fixed vertices and receives the moves of all. Uses the factorization of the
+    /// last [`newton_direction`](Self::newton_direction).
     ///
     /// Cost: one solve.
     pub fn follow(
@@ -139,25 +141,27 @@ impl Objective {
         })
     }
 
-    /// What the quadratic model of the last [`linearize`](Self::linearize) says of the change of the energy along a
-    /// direction that may move the fixed vertices too: g·d + ½d·Hd.
+    /// Returns the change of the energy along a direction predicted by the quadratic model of the last
+    /// [`linearize`](Self::linearize): g·d + ½d·Hd. The direction may move the fixed vertices too.
     pub fn model_change(&self, direction: &[f64]) -> f64 {
         self.model.change(direction)
     }
 
-    /// The mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), the constraints left out.
+    /// Returns the mean diagonal of the energy's Hessian at the last [`linearize`](Self::linearize), without the
+    /// constraints.
     pub fn mean_diagonal(&self) -> f64 {
         self.model.mean_diagonal()
     }
 
-    /// What one factorization takes; `None` where that is more memory than [`MOST_BYTES`], and conjugate gradients take its place.
+    /// Returns the cost of one factorization; `None` if it needs more memory than [`MOST_BYTES`] and conjugate
+    /// gradients take its place.
     ///
     /// [`MOST_BYTES`]: crate::numerics::linear_solver::MOST_BYTES
     pub fn work(&self) -> Option<Work> {
         self.model.work()
     }
 
-    /// How often a pattern was ordered and analyzed: once, unless a term [renews](crate::energy::Term::renew) its stencils.
+    /// Returns the number of symbolic analyses: one, unless a term [renews](crate::energy::Term::renew) its stencils.
     pub fn analyses(&self) -> usize {
         self.model.analyses()
     }
