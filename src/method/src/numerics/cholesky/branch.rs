@@ -1,9 +1,9 @@
 //! A part of the forest of fronts that one task factors, with its memory.
 
-use super::NotPositiveDefinite;
 use super::dense::{factor_panel, write_update};
 use super::extent::Extent;
 use super::fronts::{Front, Run};
+use super::pattern::NotPositiveDefinite;
 use super::plan::Plan;
 use super::vectors::Vectors;
 

@@ -5,9 +5,9 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::traits::pulp::Arch;
 use faer::{Accum, MatMut, MatRef, Par};
 
-use super::NotPositiveDefinite;
 use super::fronts::Front;
 use super::kernels::{FactorColumns, WriteUpdate};
+use super::pattern::NotPositiveDefinite;
 
 /// Columns that are factored before everything to their right is updated with a matrix product.
 const BLOCK: usize = 96;

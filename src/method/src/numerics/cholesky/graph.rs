@@ -1,6 +1,6 @@
 //! The graph of couplings between vertices.
 
-use super::SymmetricPattern;
+use super::pattern::SymmetricPattern;
 
 /// Graph of a symmetric matrix of square blocks: for each vertex its neighbors, sorted.
 pub(super) struct Graph {

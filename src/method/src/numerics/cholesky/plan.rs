@@ -1,10 +1,10 @@
 //! The symbolic factorization, which does not depend on the values.
 
-use super::SymmetricPattern;
 use super::extent::Extent;
 use super::fronts::{Front, Fronts};
 use super::graph::Graph;
 use super::order::fill_reducing_order;
+use super::pattern::SymmetricPattern;
 use super::scatter::Scatter;
 use super::supernodes::supernodes;
 use super::tree::{self, NONE};

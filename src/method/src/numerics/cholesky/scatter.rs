@@ -1,8 +1,8 @@
 //! Places of the matrix entries in the fronts.
 
-use super::SymmetricPattern;
 use super::fronts::{Front, Fronts};
 use super::graph::Graph;
+use super::pattern::SymmetricPattern;
 
 /// The stored block of two coupled vertices, or of one, and its place in a panel.
 #[derive(Clone, Copy, Debug)]
