@@ -26,7 +26,6 @@ mod neo_hookean;
 mod positional;
 mod quadratic;
 mod rest;
-mod simplex;
 mod simplices;
 mod symmetric_dirichlet;
 mod term;

@@ -13,18 +13,16 @@
 //! go as fast as the others allow. [`levenberg()`] is the iteration of the paper itself, kept for comparison: it shifts
 //! the Hessian until it factors instead of projecting it, and holds handles by soft constraints.
 //!
-//! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has det J
-//! > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy
-//! by name, has no clock and no randomness; a [`Watch`] may end it early.
+//! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has
+//! det J > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no
+//! energy by name, has no clock and no randomness; a [`Watch`] may end it early.
 
-mod directions;
 mod drag;
 mod flow;
 mod follow;
 mod handles;
 mod held;
 mod journey;
-mod kept;
 mod levenberg;
 mod line_search;
 mod newton;
@@ -32,7 +30,6 @@ mod newton_direction;
 mod objective;
 mod pace;
 mod path;
-mod points;
 mod quadratic_model;
 mod relaxation;
 mod scale;

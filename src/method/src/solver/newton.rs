@@ -1,11 +1,11 @@
 //! The main loop of the minimization.
 
-use super::directions::Directions;
-use super::line_search::{Search, line_search};
+use super::line_search::{Search, Step, line_search};
+use super::newton_direction::{newton_direction, once_definite};
 use super::objective::Objective;
-use super::relaxation::Relaxation;
-use super::settings::{Settings, Status, Summary};
-use super::trust_region::End;
+use super::relaxation::{Relaxation, is_settling};
+use super::settings::{Projection, Settings, Status, Summary};
+use super::trust_region::{Descent, End, TrustRegion};
 use super::watch::{Control, Taken, Watch};
 
 /// Shortest step that confirms the prediction for a full one: less than a quarter of the predicted decrease is left to
@@ -93,4 +93,127 @@ pub(super) fn minimize_with(
         }
     }
     summary.ended(Status::IterationLimit)
+}
+
+// Choice of the descent direction: Newton's method far from a minimum, a trust region near one.
+
+/// Most directions that one factorization serves; after that many steps it belongs to a distant point.
+const MOST_DIRECTIONS: usize = 6;
+
+/// Products with the Hessian after which a better factorization is cheaper than more of them.
+const ENOUGH_PRODUCTS: usize = 20;
+
+/// Fewest directions that one factorization serves: where the true Hessian is indefinite no factorization is better.
+const LEAST_DIRECTIONS: usize = 3;
+
+/// Finds directions of descent and adapts to the steps taken along them.
+struct Directions {
+    pub direction: Vec<f64>,
+    /// The trust region; `None` if every direction is Newton's.
+    region: Option<TrustRegion>,
+    /// `true` if the next direction comes from the region.
+    is_near: bool,
+    served: usize,
+    products: usize,
+    met_negative: bool,
+    /// Decrease of the energy in the last step, as a share of the energy.
+    relative_decrease: f64,
+    norm: f64,
+}
+
+impl Directions {
+    /// Creates the state for `n` unknowns; directions are Newton's until it is [prepared](Self::prepare).
+    pub fn new(n: usize) -> Self {
+        Self {
+            direction: vec![0.0; n],
+            region: None,
+            is_near: false,
+            served: 0,
+            products: 0,
+            met_negative: false,
+            relative_decrease: 1.0,
+            norm: 0.0,
+        }
+    }
+
+    /// Allocates the trust region if the settings ask for one. An objective whose Hessian is too large to factor keeps
+    /// to Newton's method.
+    pub fn prepare(&mut self, objective: &mut Objective, projection: Projection) {
+        if objective.keeps_factor() && projection == Projection::TrustRegion {
+            self.region = Some(TrustRegion::new(objective.n()));
+        }
+    }
+
+    /// Writes the next direction to `direction`. A predicted change below `negligible` counts as the last one. Returns
+    /// `None` if no matrix could be factored. Falls back to Newton's method if the region's preconditioner is not
+    /// positive definite.
+    pub fn next(
+        &mut self,
+        objective: &mut Objective,
+        x: &[f64],
+        negligible: f64,
+        relaxation: &mut Relaxation,
+        factorizations: &mut usize,
+    ) -> Option<Descent> {
+        let Some(region) = self.region.as_mut().filter(|_| self.is_near) else {
+            return self.newton(objective, x, relaxation, factorizations);
+        };
+        let is_spent = self.products >= ENOUGH_PRODUCTS && self.served >= LEAST_DIRECTIONS;
+        if is_spent || self.served >= MOST_DIRECTIONS {
+            relaxation.after_service(self.met_negative, self.relative_decrease);
+            once_definite(objective, x, relaxation, factorizations, Objective::factor)?;
+            region.rescale(self.norm, objective.curvature(&self.direction).sqrt());
+            (self.served, self.products, self.met_negative) = (0, 0, false);
+        }
+        objective.linearize(x, 1.0);
+        let Ok(descent) = region.direction(objective, negligible, &mut self.direction) else {
+            self.is_near = false;
+            return self.newton(objective, x, relaxation, factorizations);
+        };
+        self.served += 1;
+        self.products += descent.products;
+        self.met_negative |= descent.end == End::NegativeCurvature;
+        Some(descent)
+    }
+
+    /// Computes Newton's direction from a factorization at `x`.
+    fn newton(
+        &mut self,
+        objective: &mut Objective,
+        x: &[f64],
+        relaxation: &mut Relaxation,
+        factorizations: &mut usize,
+    ) -> Option<Descent> {
+        let direction = &mut self.direction;
+        let decrement = newton_direction(objective, x, relaxation, direction, factorizations)?;
+        (self.served, self.products, self.met_negative) = (0, 0, false);
+        Some(Descent::of_newton(decrement))
+    }
+
+    /// Adapts to a step along `descent` that started at energy `energy`.
+    pub fn after_step(
+        &mut self,
+        relaxation: &mut Relaxation,
+        descent: &Descent,
+        energy: f64,
+        step: Step,
+    ) {
+        let (length, decrease) = (step.length, energy - step.energy);
+        self.norm = descent.norm;
+        self.relative_decrease = decrease / energy.abs();
+        match &mut self.region {
+            None => relaxation.after_step(length, self.relative_decrease),
+            Some(region) if self.is_near => region.after_step(descent, length, decrease),
+            Some(region) => {
+                self.is_near = is_settling(length, self.relative_decrease);
+                region.begin(descent.norm);
+            }
+        }
+    }
+
+    /// Adapts to a direction along which no step helped; returns `false` if there is no safer one.
+    pub fn after_useless_direction(&mut self, relaxation: &mut Relaxation) -> bool {
+        let was_near = std::mem::take(&mut self.is_near);
+        relaxation.after_useless_direction() || was_near
+    }
 }

@@ -5,7 +5,6 @@
 //! checked once, when it is created ([`FormulaError`]).
 
 mod error;
-mod expression;
 mod jet;
 mod own;
 mod parser;

@@ -19,19 +19,15 @@
 //! Multifrontal Method for Sparse Matrix Solution.
 
 mod branch;
-mod dense;
 mod extent;
 mod fronts;
 mod graph;
 mod kernels;
-mod order;
 mod pattern;
 mod plan;
-mod scatter;
 mod solve;
 mod supernodes;
 mod tree;
-mod vectors;
 
 use faer::traits::pulp::Arch;
 use rayon::prelude::*;
