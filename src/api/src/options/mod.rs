@@ -1,17 +1,17 @@
-//! Options, each written once.
+//! Options, each declared once.
 //!
-//! An option has a name, a type, a default, a range and a text. They stand in one line of an
-//! `options!` block, with the text above it, and all that users meet follows from that: the field
+//! An option has a name, a type, a default, a range and a text. They are declared in one line of an
+//! `options!` block, with the text above it, and everything else follows from that: the field
 //! of a struct and its default, the member of a JSON object and of a query, the schema in the
 //! OpenAPI document and with it the form of the page, the option of the command line and its help,
-//! and the check of the range. Options that several commands have are a group, a struct of its own;
-//! a command's options consist of groups and of what it alone has.
+//! and the check of the range. Options that several commands share are a group, a struct of its own;
+//! a command's options consist of groups and of its own ones.
 //!
-//! A text names other options in backticks and in snake case, as in `seam_weight`; the command line
-//! shows these as they are typed there. Its first paragraph is what `-h` says. Words of an option
+//! A text refers to other options in backticks and in snake case, as in `seam_weight`; the command line
+//! shows them as they are typed there. Its first paragraph is the help of `-h`. The words of an option
 //! are the variants of an enum in kebab case, for the command line and for JSON.
 //!
-//! What is not said here is how options depend on each other: that their owners check.
+//! Dependencies between options are not declared here: their owners check them.
 
 mod declare;
 mod range;
@@ -20,18 +20,18 @@ pub use crate::options;
 pub use range::Ranged;
 pub use range::within;
 
-/// Options that are set together, with the groups that they consist of.
+/// A set of options, with the groups that it consists of.
 pub trait OptionSet: Sized {
-    /// Checks every number against its range; the text names the option.
+    /// Checks every number against its range. The error names the option.
     fn check_ranges(&self) -> Result<(), String>;
 
-    /// The names of all options, those of groups included.
+    /// Returns the names of all options, including those of groups.
     fn names() -> Vec<&'static str>;
 
-    /// What is said of an option of this set, apart from those of its groups.
+    /// Returns the text of an option of this set, not of its groups.
     fn about(name: &str) -> Option<&'static str>;
 
-    /// Takes the options out of a JSON object; what is absent has its default.
+    /// Removes the options from a JSON object; absent options have their defaults.
     fn taken_from(given: &mut Object) -> Result<Self, String>;
 }
 
