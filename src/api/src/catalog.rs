@@ -1,4 +1,4 @@
-//! What a server must know of computations without doing any.
+//! The server's knowledge of computations that it does not contain.
 
 use std::collections::BTreeSet;
 use std::fmt::Debug;
@@ -9,26 +9,27 @@ use utoipa::openapi::{RefOr, Schema};
 
 use crate::{Content, Failure, Format, Kind, Upload};
 
-/// Options that are refused.
+/// Rejection of options.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RefusedOptions {
-    /// The code and the sentence.
+    /// Code and message.
     pub failure: Failure,
-    /// The column of a formula that is wrong, from 1.
+    /// Column of the error in a formula, from 1.
     pub column: Option<usize>,
 }
 
-/// The kinds of computations: their options, their reports, the files that they read. A server asks this instead of the code that
-/// computes, and so does not contain it.
+/// Catalog of computations: their options, their reports, the files that they read. A server asks it instead
+/// of
+/// linking the code that computes.
 pub trait Catalog: Debug + Send + Sync {
-    /// Checks the options of a kind, as far as that is possible without the file, and completes them with defaults.
+    /// Checks the options of a kind, as far as possible without the file, and completes them with defaults.
     ///
     /// # Errors
-    /// If an option is unknown, of a wrong type or out of its range.
+    /// Fails if an option is unknown, has a wrong type or is out of range.
     fn complete(&self, kind: Kind, options: Value) -> Result<Value, RefusedOptions>;
 
-    /// Returns the format of a file of `size` bytes that is read for `content`, by its first bytes, of which
-    /// [`SEARCHED_BYTES`](crate::SEARCHED_BYTES) suffice.
+    /// Returns the format of a file of `size` bytes that is read for `content`, from its first bytes `head`;
+    /// [`SEARCHED_BYTES`](crate::SEARCHED_BYTES) of them suffice.
     fn format(&self, head: &[u8], size: u64, content: Content) -> Option<Format>;
 
     /// Returns the paths that the main file, and the material files beside it, refer to.

@@ -1,20 +1,21 @@
-//! Why a computation failed.
+//! Failures of computations.
 
 use std::io::ErrorKind;
 
 use serde::{Deserialize, Serialize};
 
-/// Why a job failed: a stable code and one sentence for people.
+/// Cause of a failed job: a stable code and one sentence for people.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
-    /// Stable snake_case word: a code of the pipeline, or `worker_lost`, `crashed`, `out_of_memory`, `timed_out`.
+    /// Stable code in snake_case: one of the pipeline's, or `worker_lost`, `crashed`, `out_of_memory`,
+    /// `timed_out`.
     pub code: String,
-    /// One line.
+    /// Description in one line.
     pub detail: String,
 }
 
 impl Failure {
-    /// A failure with its code and its sentence.
+    /// Creates a failure from its code and its description.
     pub fn new(code: &str, detail: impl Into<String>) -> Self {
         Self {
             code: code.to_owned(),

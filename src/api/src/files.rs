@@ -3,36 +3,39 @@
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// One file of the input: the name it is referenced by and its size.
+/// An input file: its name in the references of the mesh, its size and its checksum.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InputFile {
-    /// File name of the mesh, or the relative path by which the mesh names a buffer or an image.
+    /// File name of the mesh, or the relative path by which the mesh refers to a buffer or an image.
     pub name: String,
     /// Size in bytes.
     pub bytes: u64,
-    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read. Files of earlier
-    /// versions of the program have none.
+    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read; `None` for files of earlier
+    /// versions of
+    /// the program.
     #[serde(default)]
     pub sha256: Option<String>,
 }
 
-/// One file that a job made.
+/// An output file of a job.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OutputFile {
-    /// Where it is found: `result`, `report`, `uvs.bin`, `files/NAME` for what belongs to the result, or the role of a
-    /// [`Picture`](crate::Picture).
+    /// Role, which is also its path: `result`, `report`, `uvs.bin`, `files/NAME` for files that belong to the
+    /// result, or
+    /// the role of a [`Picture`](crate::Picture).
     pub role: String,
-    /// Name under which it should be saved.
+    /// File name for saving it.
     pub name: String,
     /// Size in bytes.
     pub bytes: u64,
-    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read. Files of earlier
-    /// versions of the program have none.
+    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read; `None` for files of earlier
+    /// versions of
+    /// the program.
     #[serde(default)]
     pub sha256: Option<String>,
 }
 
-/// Returns the checksum of some bytes, as records have it: SHA-256 in hexadecimal digits.
+/// Returns the SHA-256 of some bytes in hexadecimal digits, as records store it.
 pub fn sha256(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }

@@ -1,9 +1,9 @@
-//! The table of file formats: their names, and what they hold. How their content is known is decided where they are read.
+//! The table of file formats: their names and contents. Detection by content lives with the readers.
 
-/// How much of a file is searched for the words of its format, in bytes.
+/// Number of bytes of a file that are searched to detect its format.
 pub const SEARCHED_BYTES: usize = 1 << 20;
 
-/// The formats of files that are read or written.
+/// A file format that is read or written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// Binary glTF.
@@ -22,7 +22,7 @@ pub enum Format {
     Msh,
     /// Medit.
     Mesh,
-    /// Counts, positions, corners of tetrahedra.
+    /// Plain text: counts, positions, corners of tetrahedra.
     Tet,
     /// VTK XML: written, not read.
     Vtu,
@@ -30,7 +30,7 @@ pub enum Format {
     Png,
     /// JPEG pictures.
     Jpeg,
-    /// Drawings.
+    /// SVG drawings.
     Svg,
     /// `WebP` pictures.
     Webp,
@@ -42,13 +42,13 @@ pub enum Format {
     Dds,
     /// Problem files and reports.
     Json,
-    /// Positions, one per line.
+    /// Plain text: positions, one per line.
     Txt,
-    /// Tables.
+    /// Tables as CSV.
     Csv,
 }
 
-/// What a file is read for.
+/// Purpose for which a file is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Content {
     /// A surface, with or without a document around it.
@@ -59,12 +59,12 @@ pub enum Content {
     Picture,
     /// A problem to solve.
     Problem,
-    /// An image that a glTF document names; most are passed on unread.
+    /// An image that a glTF document refers to; most are passed on unread.
     Texture,
 }
 
 impl Format {
-    /// The format that the extension of a file's name stands for.
+    /// Returns the format for the extension of a file name.
     pub fn of_name(name: &str) -> Option<Self> {
         let extension = extension(name);
         let mut rows = ROWS.iter();
@@ -72,32 +72,32 @@ impl Format {
         row.map(|row| row.format)
     }
 
-    /// All formats.
+    /// Iterates over all formats.
     pub fn all() -> impl Iterator<Item = Self> {
         ROWS.iter().map(|row| row.format)
     }
 
-    /// The formats that are read for `content`.
+    /// Iterates over the formats that are read for `content`.
     pub fn that_hold(content: Content) -> impl Iterator<Item = Self> {
         Self::all().filter(move |format| format.holds(content))
     }
 
-    /// Whether files of this format are read for `content`.
+    /// Returns whether files of this format are read for `content`.
     pub fn holds(self, content: Content) -> bool {
         self.row().contents.contains(&content)
     }
 
-    /// The extension that files of this format are written with.
+    /// Returns the extension with which files of this format are written.
     pub fn extension(self) -> &'static str {
         self.extensions()[0]
     }
 
-    /// All its extensions, in lower case and without the dot.
+    /// Returns all its extensions, in lower case and without the dot.
     pub fn extensions(self) -> &'static [&'static str] {
         self.row().extensions
     }
 
-    /// Its media types, the usual one first; none where it has none.
+    /// Returns its media types, the usual one first; empty if it has none.
     pub fn media_types(self) -> &'static [&'static str] {
         self.row().media_types
     }
@@ -107,24 +107,24 @@ impl Format {
     }
 }
 
-/// The extension of a file's name or path in lower case, without the dot; empty where there is none.
+/// Returns the extension of a file name or path in lower case, without the dot; empty if there is none.
 pub fn extension(path: &str) -> String {
     let name = path.rsplit(['/', '\\']).next().unwrap_or_default();
     let extension = name.rsplit_once('.').map(|(_, extension)| extension);
     extension.unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Text without the byte order mark that some editors put before it.
+/// Returns a text without the byte order mark that some editors prepend.
 pub fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
 }
 
-/// What is known of a format.
+/// Properties of a format.
 struct Row {
     format: Format,
-    /// Without the dot, the one that is written first.
+    /// Extensions without the dot, the one for writing first.
     extensions: &'static [&'static str],
-    /// The one that is sent first.
+    /// Media types, the one for sending first.
     media_types: &'static [&'static str],
     contents: &'static [Content],
 }
@@ -143,10 +143,10 @@ const fn row(
     }
 }
 
-/// Media types that STL files have had.
+/// Media types in use for STL files.
 const STL_TYPES: &[&str] = &["model/stl", "application/sla", "application/vnd.ms-pki.stl"];
 
-/// In the order of [`Format`], in which messages list them too.
+/// Formats in the order of [`Format`], which is also the order in messages.
 #[rustfmt::skip]
 const ROWS: [Row; 20] = [
     row(Format::Glb, &["glb"], &["model/gltf-binary"], &[Content::Surface, Content::Body]),

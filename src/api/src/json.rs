@@ -1,6 +1,6 @@
-//! JSON in which numbers that are not finite have words.
+//! JSON with words for numbers that are not finite.
 
-/// Parses JSON, in which `NaN`, `Infinity` and `-Infinity` may stand for `null`.
+/// Parses JSON in which `NaN`, `Infinity` and `-Infinity` may stand for `null`.
 pub fn from_json<T: serde::de::DeserializeOwned>(json: &[u8]) -> serde_json::Result<T> {
     match serde_json::from_slice(json) {
         Err(error) if error.is_syntax() => match without_words(json) {
@@ -11,7 +11,7 @@ pub fn from_json<T: serde::de::DeserializeOwned>(json: &[u8]) -> serde_json::Res
     }
 }
 
-/// The text with `null` in place of the words, none where it has no such word.
+/// Replaces these words by `null`; returns `None` for a text without such words.
 fn without_words(json: &[u8]) -> Option<Vec<u8>> {
     const WORDS: [&[u8]; 3] = [b"NaN", b"Infinity", b"-Infinity"];
     let mut text = Vec::with_capacity(json.len());

@@ -1,4 +1,4 @@
-//! What jobs do.
+//! Kinds of jobs.
 
 use serde::{Deserialize, Serialize};
 
@@ -44,7 +44,7 @@ impl Kind {
         Self::Repack,
     ];
 
-    /// What jobs of this kind read.
+    /// Returns the content that jobs of this kind read.
     pub fn reads(self) -> Content {
         match self {
             Self::Unwrap
@@ -59,17 +59,17 @@ impl Kind {
         }
     }
 
-    /// Whether jobs of this kind say what is proven of their result.
+    /// Returns whether jobs of this kind report what is proven of their result.
     pub fn proves(self) -> bool {
         !matches!(self, Self::Measure | Self::Solve | Self::Deform)
     }
 
-    /// Whether jobs of this kind measure atlases.
+    /// Returns whether jobs of this kind measure atlases.
     pub fn measures(self) -> bool {
         matches!(self, Self::Unwrap | Self::Repack | Self::Measure)
     }
 
-    /// The word used in JSON and in the store.
+    /// Returns the name used in JSON and in the store.
     pub fn word(self) -> &'static str {
         match self {
             Self::Unwrap => "unwrap",

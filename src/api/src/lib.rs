@@ -1,13 +1,15 @@
-//! What the library, the command line, the server and its child processes agree on: plain data, and no computation.
+//! The interface between the library, the command line, the server and its child processes: plain data, no
+//! computation.
 //!
 //! | module | contents |
 //! |---|---|
 //! | [`mod@options`] | options declared once, for code, JSON, schemas and the command line |
 //! | [`pipe`] | records between a server and the child of a live session |
 //!
-//! The other items are what a server tells a child ([`Task`], [`Drawing`]) and what it hears ([`Message`], [`Outcome`],
-//! [`Failure`]), the files and formats that both name ([`Upload`], [`Format`]), and what a server knows of computations without
-//! doing any ([`Catalog`]).
+//! The other items are the tasks of a child ([`Task`], [`Drawing`]), its answers ([`Message`], [`Outcome`],
+//! [`Failure`]), the files and formats that both sides name ([`Upload`], [`Format`]), and the server's view
+//! of the
+//! computations that it does not contain ([`Catalog`]).
 
 mod catalog;
 mod failure;

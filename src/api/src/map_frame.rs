@@ -1,23 +1,24 @@
-//! The header of frames with maps under way, which the server numbers. `unwrapd-worker` has the rest of the format.
+//! The header of frames with maps under way, which the server numbers. `unwrapd-worker` defines the rest of
+//! the format.
 
-/// The file of the latest frame in the folder of an attempt.
+/// Name of the file with the latest frame in the folder of an attempt.
 pub const MAPS: &str = "maps";
 
-/// Bytes before the maps of a frame.
+/// Length of the header of a frame in bytes.
 const HEADER: usize = 16;
-/// The first byte of a frame.
+/// First byte of a frame.
 const FRAME: u8 = 3;
-/// Where its number is.
+/// Byte range of the frame's number.
 const NUMBER: std::ops::Range<usize> = 8..HEADER;
 
-/// The header of a frame that has no number yet.
+/// Returns the header of a frame without a number.
 pub fn frame_header() -> Vec<u8> {
     let mut bytes = vec![0; HEADER];
     bytes[0] = FRAME;
     bytes
 }
 
-/// Numbers a frame. Whether it is one.
+/// Sets the number of a frame. Returns `false` if the bytes are not a frame.
 pub fn number_frame(frame: &mut [u8], number: u64) -> bool {
     let is_frame = HEADER <= frame.len() && frame[0] == FRAME;
     if is_frame {

@@ -1,15 +1,15 @@
-//! Pictures of results, and what a child is told to draw one.
+//! Pictures of results, and the task of drawing one.
 
 use serde::{Deserialize, Serialize};
 
 use crate::OutputFile;
 
-/// The file of a [`Drawing`] in the folder of a child.
+/// Name of the file with a [`Drawing`] in the folder of a child.
 pub const DRAWING: &str = "drawing.json";
-/// The file of what was drawn.
+/// Name of the file with the picture.
 pub const PICTURE: &str = "picture.png";
 
-/// A picture that can be had of a result.
+/// A picture that a result can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Picture {
     /// The UV layout.
@@ -21,10 +21,10 @@ pub enum Picture {
 }
 
 impl Picture {
-    /// All of them.
+    /// All pictures.
     pub const ALL: [Self; 3] = [Self::Layout, Self::Heatmap, Self::Thumbnail];
 
-    /// Where it is found among the files of a job, and the name under which it is saved.
+    /// Returns its role among the files of a job, which is also its file name.
     pub fn role(self) -> &'static str {
         match self {
             Self::Layout => "layout.png",
@@ -34,15 +34,15 @@ impl Picture {
     }
 }
 
-/// What a child draws. The files that it needs lie under the names that those of an attempt have.
+/// Task of a drawing child. Its files have the same names as those of an attempt.
 #[derive(Serialize, Deserialize)]
 pub struct Drawing {
-    /// Which picture.
+    /// Picture to draw.
     pub picture: Picture,
-    /// Names of the input files; empty where the result says all.
+    /// Names of the input files; empty if the result suffices.
     pub input: Vec<String>,
-    /// Files of the job.
+    /// Output files of the job.
     pub output: Vec<OutputFile>,
-    /// Bytes.
+    /// Memory limit in bytes.
     pub memory: u64,
 }

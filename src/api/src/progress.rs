@@ -1,4 +1,4 @@
-//! Stages of a computation, and how far it is.
+//! Stages and progress of a computation.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// The word used in JSON.
+    /// Returns the name used in JSON.
     pub fn word(self) -> &'static str {
         match self {
             Self::Read => "read",
@@ -40,7 +40,7 @@ impl Stage {
         }
     }
 
-    /// Whether an early end shortens it.
+    /// Returns whether an early end shortens the stage.
     pub fn can_end_early(self) -> bool {
         matches!(self, Self::Cut | Self::Map | Self::Deform | Self::Pack)
     }
@@ -69,7 +69,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Takes over a newer report; the fraction keeps its highest value, also over a repeated attempt.
+    /// Replaces this by a newer report, but never lowers the fraction, even over a retry.
     pub fn advance(&mut self, newer: Self) {
         let fraction = self.fraction.max(newer.fraction.clamp(0.0, 1.0));
         *self = Self { fraction, ..newer };

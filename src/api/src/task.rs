@@ -1,7 +1,9 @@
-//! What the server and its child write for each other.
+//! Messages between the server and its child.
 //!
-//! The server writes `job.json` ([`Task`]) and the input files into the attempt's folder. The child answers with one
-//! JSON line per [`Message`] on standard output, and leaves either `outcome.json` ([`Outcome`]), written last and
+//! The server writes `job.json` ([`Task`]) and the input files into the attempt's folder. The child answers
+//! with one
+//! JSON line per [`Message`] on standard output, and leaves either `outcome.json` ([`Outcome`]), written last
+//! and
 //! renamed into place, with the files that it lists, or `error.json` ([`crate::Failure`]).
 
 use std::collections::BTreeMap;
@@ -12,49 +14,51 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::{Kind, Limits, OutputFile, Progress, Upload, Verdict};
 
-/// The file of a [`Task`].
+/// Name of the file with a [`Task`].
 pub const TASK: &str = "job.json";
-/// The file of an [`Outcome`].
+/// Name of the file with an [`Outcome`].
 pub const OUTCOME: &str = "outcome.json";
-/// The file of a [`Failure`](crate::Failure).
+/// Name of the file with a [`Failure`](crate::Failure).
 pub const ERROR: &str = "error.json";
 
-/// Exit code of a child that has no space to write what it made. It may not even be able to say so in a file.
+/// Exit code of a child without space for its output. It may not even be able to write that to a file.
 pub const NO_SPACE: i32 = 75;
 
-/// Name of the n-th input file in the folder of an attempt.
+/// Returns the name of the n-th input file in the folder of an attempt.
 pub fn input_file(index: usize) -> String {
     format!("input-{index}")
 }
 
-/// Name of the n-th output file in the folder of an attempt.
+/// Returns the name of the n-th output file in the folder of an attempt.
 pub fn output_file(index: usize) -> String {
     format!("output-{index}")
 }
 
-/// What a child has to do and what it may use.
+/// Task of a child and its limits.
 #[derive(Serialize, Deserialize)]
 pub struct Task {
-    /// What.
+    /// Kind of the computation.
     pub kind: Kind,
     /// Names of the input files, the mesh first; the n-th lies in [`input_file`]`(n)`.
     pub input: Vec<String>,
-    /// Its options, complete.
+    /// Options of its kind, complete with defaults.
     pub options: serde_json::Value,
-    /// What it may use.
+    /// Limits of the computation.
     pub limits: Limits,
-    /// Bytes.
+    /// Memory limit in bytes.
     pub memory: u64,
     /// When an atlas is drawn.
     pub pictures: Pictures,
 }
 
-/// When the layout and the distortion of an atlas are drawn. For a small mesh that takes longer than unwrapping it.
+/// Time at which the layout and the distortion of an atlas are drawn. For a small mesh, drawing takes longer
+/// than
+/// unwrapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pictures {
     /// With the atlas.
     Drawn,
-    /// When somebody asks for them, which may also ask for the UVs as arrays: these are made with the atlas.
+    /// On request. The UVs as arrays, which may be requested too, are made with the atlas.
     OnRequest,
     /// Never.
     LeftOut,
@@ -64,18 +68,18 @@ pub enum Pictures {
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Message {
-    /// Signals are understood from now on.
+    /// The child handles signals from now on.
     Ready,
-    /// How far it is.
+    /// Progress of the computation.
     Progress(Progress),
-    /// Milliseconds of processor time that it took in all.
+    /// Total processor time used, in milliseconds.
     Cpu(u64),
-    /// A frame of maps that was asked for is in the folder, see `map_frame.rs`.
+    /// A requested frame of maps is in the folder; see `map_frame.rs`.
     Maps,
 }
 
 impl Message {
-    /// Writes one line to the server. Nobody listens any more if this fails: there is no reason to go on.
+    /// Writes the message as one line to the server. Exits if that fails, because nobody listens any more.
     pub fn tell(&self) {
         let mut line = serde_json::to_vec(self).unwrap_or_default();
         line.push(b'\n');
@@ -86,16 +90,16 @@ impl Message {
     }
 }
 
-/// What a child made; the n-th file lies in [`output_file`]`(n)`.
+/// Result of a child; the n-th file lies in [`output_file`]`(n)`.
 #[derive(Serialize, Deserialize)]
 pub struct Outcome {
-    /// The files.
+    /// Output files.
     pub output: Vec<OutputFile>,
-    /// What is known of them.
+    /// Verdict on the files.
     pub verdict: Verdict,
 }
 
-/// Writes JSON so that a reader sees all of it or nothing.
+/// Writes JSON atomically: a reader sees all of it or nothing.
 pub fn write_json<T: Serialize>(folder: &Path, name: &str, value: &T) -> std::io::Result<()> {
     let partial = folder.join(format!("{name}.partial"));
     std::fs::write(&partial, serde_json::to_vec(value)?)?;
@@ -117,7 +121,7 @@ pub fn read_upload(folder: &Path, names: &[String]) -> std::io::Result<Upload> {
     })
 }
 
-/// Reads what [`write_json`] wrote.
+/// Reads JSON that [`write_json`] wrote.
 pub fn read_json<T: DeserializeOwned>(folder: &Path, name: &str) -> std::io::Result<T> {
     Ok(serde_json::from_slice(&std::fs::read(folder.join(name))?)?)
 }

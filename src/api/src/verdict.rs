@@ -1,31 +1,31 @@
-//! What is known of a result beside its files.
+//! Verdicts on results.
 
 use serde::{Deserialize, Serialize};
 
 use crate::Warning;
 
-/// What is known of a result beside its files.
+/// Verdict on a result.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Verdict {
-    /// What it is worth; `certified` is whether everything that was asked for is proven on the bytes written.
+    /// Quality figures; `certified` states whether everything requested is proven on the bytes written.
     #[serde(flatten)]
     pub worth: Worth,
-    /// Whether the distortion keeps the bound that was asked for; none where there is no bound.
+    /// Outcome of the requested bound on distortion: true if it is kept, `None` without a bound.
     pub within_bound: Option<bool>,
-    /// What users should know of the input, of the work and of the result.
+    /// Warnings about the input, the work and the result.
     pub warnings: Vec<Warning>,
-    /// What computed it; empty in records of earlier versions of the program.
+    /// Checksum of the program that computed it; empty in records of earlier versions of the program.
     pub engine: String,
 }
 
-/// What a result is worth, as far as its kind says.
+/// Quality figures of a result, as far as its kind reports them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Worth {
-    /// Whether everything requested is proven.
+    /// True if everything requested is proven; `None` for kinds that prove nothing.
     pub certified: Option<bool>,
-    /// Charts of all atlases.
+    /// Number of charts of all atlases.
     pub charts: Option<u64>,
     /// Mean symmetric Dirichlet energy of the worst atlas; an isometry has 4.
     pub distortion: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Worth {
 }
 
 impl Worth {
-    /// That of a result of which nothing is known but whether it is proven.
+    /// Returns the figures of a result for which only this is known.
     pub fn proven(certified: bool) -> Self {
         Self {
             certified: Some(certified),

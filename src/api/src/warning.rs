@@ -1,4 +1,4 @@
-//! Warnings of files and of results.
+//! Warnings about files and results.
 
 use std::borrow::Cow;
 
@@ -15,7 +15,7 @@ pub struct Warning {
 }
 
 impl Warning {
-    /// A warning with its code and its sentences.
+    /// Creates a warning from its code and its message.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
         Self {
             code: Cow::Borrowed(code),

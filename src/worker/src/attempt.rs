@@ -1,8 +1,12 @@
-//! The compute child: one attempt at one job, in its own process.
+//! The compute child: one attempt at a job, in a process of its own.
 //!
-//! It reads the attempt's folder, limits its own memory, tells its progress on standard output and leaves its results
-//! in the folder. SIGTERM ends it as it ends any process; SIGINT has it finish early with the present valid map; a
-//! byte on its standard input asks for the maps under way; when that closes, the server is gone, and so is it.
+//! It reads the attempt's folder, limits its own memory, reports progress on standard output and leaves its
+//! results
+//! in the folder. SIGTERM ends it like any process; SIGINT makes it finish early with its current valid map;
+//! a
+//! byte on its standard input requests the maps under way; and when standard input closes, the server is gone
+//! and
+//! the child exits.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -23,12 +27,13 @@ use unwrapd_api::{
 };
 use unwrapd_pipeline::PipelineError;
 
-/// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
+/// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of
+/// the error.
 pub fn run(folder: &Path) -> u8 {
     reported(attempt(folder), folder)
 }
 
-/// Draws the picture of a result in `folder`, and returns the exit code of the process in the same way.
+/// Draws the picture of a result in `folder`, and returns the exit code of the process as [`run`] does.
 pub fn draw(folder: &Path) -> u8 {
     reported(drawn(folder), folder)
 }
@@ -96,8 +101,9 @@ pub fn contain(memory: u64) -> std::io::Result<()> {
     Ok(setrlimit(Resource::RLIMIT_CORE, 0, 0)?)
 }
 
-/// Starts the threads that hear standard input, where a byte asks for maps, its end, and SIGINT. Called before any other thread exists, since a
-/// thread inherits which signals are blocked.
+/// Starts the threads that listen to standard input, where a byte requests maps, to its end, and to SIGINT.
+/// Must be
+/// called before any other thread exists, since threads inherit the set of blocked signals.
 fn listen(finish: &Arc<AtomicBool>, maps: &Arc<Maps>) -> std::io::Result<()> {
     let mut signals = SigSet::empty();
     signals.add(Signal::SIGINT);
@@ -112,7 +118,8 @@ fn listen(finish: &Arc<AtomicBool>, maps: &Arc<Maps>) -> std::io::Result<()> {
     end_with_server(move || maps.ask())
 }
 
-/// Starts the thread that ends this process when its standard input closes. `hear` is called for every byte before that.
+/// Starts the thread that ends this process when its standard input closes. Calls `hear` for every byte
+/// before that.
 fn end_with_server(hear: impl Fn() + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new().spawn(move || {
         let mut byte = [0];
@@ -131,7 +138,7 @@ fn refusal(error: &PipelineError) -> (u8, Failure) {
     )
 }
 
-/// A file could not be written.
+/// Returns exit code and failure for a file that could not be written.
 fn unwritten(error: std::io::Error) -> (u8, Failure) {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {

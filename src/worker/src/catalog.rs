@@ -1,4 +1,4 @@
-//! The catalog of what this crate computes.
+//! The catalog of this crate's computations.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use utoipa::openapi::{RefOr, Schema};
 
 use crate::work::Work;
 
-/// Everything that jobs and sessions can do.
+/// Catalog of everything that jobs and sessions can compute.
 #[derive(Debug)]
 pub struct Computations;
 

@@ -8,24 +8,24 @@ use unwrapd_api::{
 use unwrapd_files::picture::thumbnail_png;
 use unwrapd_pipeline::{AtlasPicture, Pictures, PipelineError};
 
-/// Threads of a child that draws: each has one of the cores on which children may draw.
+/// Threads of a drawing child, one of the cores set aside for drawing.
 const THREADS: usize = 1;
 
-/// What a child is told; its memory is limited from then on.
+/// Task of a drawing child, with a memory limit.
 pub(crate) struct DrawingTask(Drawing);
 
 impl DrawingTask {
-    /// Reads the task of the child in a folder.
+    /// Reads the task in the folder of a child.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
         read_json(folder, DRAWING).map(Self)
     }
 
-    /// Bytes that the child may use.
+    /// Returns the memory limit in bytes.
     pub fn memory(&self) -> u64 {
         self.0.memory
     }
 
-    /// Draws the picture.
+    /// Draws the picture as PNG.
     pub fn png(&self, folder: &Path) -> Result<Vec<u8>, DrawingError> {
         match self.0.picture {
             Picture::Layout => self.atlas(folder, AtlasPicture::Layout),
@@ -40,7 +40,7 @@ impl DrawingTask {
         }
     }
 
-    /// Writes the picture where the service looks for it.
+    /// Writes the picture to the file where the service expects it.
     pub fn write(folder: &Path, png: &[u8]) -> std::io::Result<()> {
         std::fs::write(folder.join(PICTURE), png)
     }
@@ -67,11 +67,11 @@ impl DrawingTask {
     }
 }
 
-/// Why a child draws nothing.
+/// Reason why nothing was drawn.
 pub(crate) enum DrawingError {
-    /// The files cannot be drawn.
+    /// The result cannot be drawn.
     Pipeline(PipelineError),
-    /// They cannot be read.
+    /// A file cannot be read.
     Io(std::io::Error),
 }
 

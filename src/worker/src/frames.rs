@@ -1,4 +1,4 @@
-//! Maps of single iterations, written as they come.
+//! Maps of single iterations, written as files while the solver runs.
 
 use std::fs;
 use std::io;
@@ -6,19 +6,19 @@ use std::path::{Path, PathBuf};
 
 use unwrapd_api::{OutputFile, output_file, sha256};
 
-/// Bytes of all frames of a job together; there are as many as fit.
+/// Maximum bytes of a job's frames. No frame is written once this is reached.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// The frames of an attempt.
+/// Frames of an attempt.
 pub(crate) struct Frames {
     folder: PathBuf,
-    /// Number, size and checksum of each.
+    /// Iteration, size in bytes and checksum of each frame.
     written: Vec<(usize, u64, String)>,
     failure: Option<io::Error>,
 }
 
 impl Frames {
-    /// None yet.
+    /// Starts without frames.
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_path_buf(),
@@ -27,7 +27,7 @@ impl Frames {
         }
     }
 
-    /// Writes one, as long as there is room.
+    /// Writes a frame unless the limit is reached.
     pub fn add(&mut self, number: usize, file: &dyn Fn() -> Vec<u8>) {
         let bytes: u64 = self.written.iter().map(|(_, bytes, _)| bytes).sum();
         if self.failure.is_some() || MOST_BYTES <= bytes {
@@ -43,7 +43,7 @@ impl Frames {
         }
     }
 
-    /// Appends them to what a job made, the first of which is the result.
+    /// Appends the frames to the output files, the first of them being the result.
     pub fn into_output(mut self, output: &mut Vec<OutputFile>) -> io::Result<()> {
         if let Some(error) = self.failure.take() {
             return Err(error);

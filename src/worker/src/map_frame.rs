@@ -1,4 +1,4 @@
-//! Maps of charts under way as bytes, little-endian: what whoever watches a job sees of them.
+//! Binary format of maps under way, as watchers of a job receive them; little-endian.
 //!
 //! ```text
 //! frame   0  u8   3                          map   0  u32  surface          28  u32  0; 1 for a plan
@@ -11,26 +11,29 @@
 //!                                                 56  faces u32; u and v of three corners each, f32 or f64
 //! ```
 //!
-//! Faces are those of the welded surface in the order in which it is cut. Where there are too many to be drawn, every 2ⁿ-th follows. Seams of large charts are
-//! planned on a simplification: each face of a plan stands for one near it.
+//! Faces are those of the welded surface in cutting order. If there are too many to draw, only every 2ⁿ-th
+//! one
+//! follows. Seams of large charts are planned on a simplified mesh, and each face of a plan stands for one
+//! near it.
 
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// Faces of a map that are drawn at most.
+/// Maximum number of faces drawn of a map.
 const MOST_FACES: usize = 100_000;
 
-/// Which chart a map is one of: the surface, and the first face. Later maps of the chart have the same.
+/// Identity of a chart: its surface and its first face. Later maps of the chart have the same key.
 pub(crate) type ChartKey = [u32; 2];
 
-/// The chart of a map.
+/// Returns the key of the chart that a map belongs to.
 pub(crate) fn key(surface: usize, map: &MapUnderway) -> ChartKey {
     [surface as u32, map.faces().next().unwrap_or(0)]
 }
 
-/// A map. Coordinates are rounded to f32 unless that would flip a face; flips are those of the
-/// numbers in it.
+/// Encodes a map. Rounds coordinates to f32 unless that would flip a face; `flips` counts the encoded
+/// numbers.
 pub(crate) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> {
+    // Choose the precision.
     let points: &[[f64; 2]] = map.x.as_chunks().0;
     let rounded: Vec<[f64; 2]> = points
         .iter()
@@ -43,11 +46,13 @@ pub(crate) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> 
     } else {
         (&*rounded, 4)
     };
+    // Choose the faces to draw.
     let step = triangles.len().div_ceil(MOST_FACES).next_power_of_two() as u32;
     let drawn: Vec<(u32, &[u32; 3])> = (map.faces().zip(triangles))
         .filter(|(face, _)| face % step == 0)
         .collect();
 
+    // Write the header, then faces and coordinates.
     let mut bytes = Vec::with_capacity(56 + drawn.len() * (4 + 6 * width));
     let counts = [
         surface,
@@ -73,7 +78,7 @@ pub(crate) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> 
     bytes
 }
 
-/// How many triangles are not positive, exactly.
+/// Counts the triangles that are not positively oriented, exactly.
 fn flips(triangles: &[[u32; 3]], points: &[[f64; 2]]) -> u32 {
     let is_flipped = |t: &&[u32; 3]| {
         let [a, b, c] = t.map(|v| points[v as usize]);

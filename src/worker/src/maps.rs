@@ -1,4 +1,4 @@
-//! Maps of charts under way, in the compute child: kept and told only while somebody asks.
+//! Maps under way in the compute child, kept and sent only while somebody watches.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,22 +10,22 @@ use crate::map_frame::{self, ChartKey};
 use unwrapd_api::{MAPS, Message, frame_header};
 use unwrapd_layout::charts::MapUnderway;
 
-/// Least time from frame to frame.
+/// Minimum time between frames.
 const INTERVAL: Duration = Duration::from_millis(100);
-/// Bytes of frames per second, on average.
+/// Average rate limit of frames in bytes per second.
 const RATE: f64 = 8e6;
-/// Bytes of a frame at most: what more there is is left out.
+/// Maximum size of a frame in bytes; further maps are left out.
 const MOST_BYTES: usize = 32 << 20;
-/// How long after a request somebody is taken to be watching: the next one is on its way.
+/// Time after a request for which somebody is taken to be watching, because the next request is on its way.
 const WATCHED: Duration = Duration::from_secs(3);
 
-/// The newest maps that were not told yet.
+/// The newest maps not yet sent.
 pub(crate) struct Maps {
     folder: PathBuf,
     start: Instant,
-    /// Whether somebody waits for a frame.
+    /// Set while somebody waits for a frame.
     is_asked: AtomicBool,
-    /// Until when somebody watches, in milliseconds since the start.
+    /// End of watching, in milliseconds since the start.
     watched: AtomicU64,
     kept: Mutex<Kept>,
 }
@@ -34,12 +34,12 @@ pub(crate) struct Maps {
 struct Kept {
     maps: BTreeMap<ChartKey, Vec<u8>>,
     bytes: usize,
-    /// When the next frame may be told.
+    /// Earliest time of the next frame.
     next: Duration,
 }
 
 impl Maps {
-    /// Nobody has asked yet.
+    /// Starts without watchers.
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_path_buf(),
@@ -50,14 +50,15 @@ impl Maps {
         }
     }
 
-    /// Somebody waits for a frame.
+    /// Requests the next frame.
     pub fn ask(&self) {
         let until = (self.start.elapsed() + WATCHED).as_millis() as u64;
         self.watched.store(until, Ordering::Relaxed);
         self.is_asked.store(true, Ordering::Release);
     }
 
-    /// Takes a map, if somebody watches. Without that it costs two loads.
+    /// Keeps a map if somebody watches, and sends a frame if one is due. Without watchers this costs two
+    /// loads.
     pub fn take(&self, surface: usize, map: &MapUnderway) {
         let until = self.watched.load(Ordering::Relaxed);
         let is_watched = || (self.start.elapsed().as_millis() as u64) < until;
@@ -71,7 +72,7 @@ impl Maps {
         self.tell(&mut kept);
     }
 
-    /// Tells what is there, if somebody waits for it.
+    /// Sends the kept maps if a frame is requested and due.
     pub fn flush(&self) {
         self.tell(&mut self.kept());
     }

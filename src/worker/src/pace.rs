@@ -1,22 +1,24 @@
-//! How far work is between two reports.
+//! Estimated progress between two reports.
 
 use std::time::Duration;
 
-/// Between reports the share goes on at this part of the pace so far, so that a report seldom finds
-/// it ahead.
+/// Fraction of the speed so far at which the estimate advances between reports, so that a report rarely finds
+/// it
+/// ahead.
 const OF_PACE: f64 = 0.5;
 
-/// How far the estimate may run ahead of the last report.
+/// Maximum lead of the estimate over the last report.
 const MOST_AHEAD: f64 = 0.05;
 
-/// The highest share that pace alone leads to.
+/// Highest share that the estimate reaches by speed alone.
 const MOST: f64 = 0.99;
 
-/// What it gains in any case, as a share of what is left.
+/// Minimum gain of every estimate, as a fraction of the remaining work.
 const LEAST_GAIN: f64 = 1e-3;
 
-/// The share of the work that is done: reported, or else estimated from the pace so far. It never
-/// falls, and every estimate exceeds what was shown before.
+/// Share of the work that is done: reported, or estimated from the speed so far. It never falls, and every
+/// estimate
+/// exceeds the previous one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pace {
     reported: f64,
@@ -25,8 +27,9 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// The share after a report, at a time since the work began. One that repeats what was reported
-    /// counts as silence.
+    /// Returns the share after a report, at a time since the work began. A report that repeats the last one
+    /// counts as
+    /// silence.
     pub fn reported(&mut self, share: f64, now: Duration) -> f64 {
         if self.reported < share {
             (self.reported, self.at) = (share, now);
@@ -35,7 +38,7 @@ impl Pace {
         self.shown
     }
 
-    /// The share without one.
+    /// Returns the estimated share without a new report.
     pub fn estimated(&mut self, now: Duration) -> f64 {
         let pace = self.reported / self.at.as_secs_f64().max(f64::MIN_POSITIVE);
         let silence = now.saturating_sub(self.at).as_secs_f64();

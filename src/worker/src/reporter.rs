@@ -1,4 +1,4 @@
-//! What the compute child tells the server.
+//! Messages of the compute child to the server.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -15,13 +15,13 @@ use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{self as pipeline, Observer};
 
-/// Least time between two reports of one stage.
+/// Minimum time between two reports of one stage.
 const TELL_INTERVAL: Duration = Duration::from_millis(25);
 
-/// Silence after which an estimate is told: clients see the share move at least once a second.
+/// Silence after which an estimate is sent, so that clients see progress at least once a second.
 const SILENCE: Duration = Duration::from_millis(500);
 
-/// Tells the server how far the work is, and the pipeline how long it has taken.
+/// Reports progress to the server, and the elapsed time to the pipeline.
 pub(crate) struct Reporter {
     start: Instant,
     finish: Arc<AtomicBool>,
@@ -30,7 +30,7 @@ pub(crate) struct Reporter {
     maps: Arc<Maps>,
 }
 
-/// What was told last, and when the share moved.
+/// Last progress sent, and the time at which it moved.
 #[derive(Default)]
 struct Told {
     progress: Progress,
@@ -39,7 +39,7 @@ struct Told {
 }
 
 impl Reporter {
-    /// Says that the child is ready, and starts the thread that tells estimates.
+    /// Reports that the child is ready, and starts the thread that sends estimates.
     pub(crate) fn start(
         finish: Arc<AtomicBool>,
         frames: Frames,
@@ -65,7 +65,7 @@ impl Reporter {
         Ok(reporter)
     }
 
-    /// Tells how much processor time was used.
+    /// Reports the processor time used so far.
     pub(crate) fn tell_cpu() {
         if let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) {
             let times = [usage.user_time(), usage.system_time()];
@@ -74,7 +74,7 @@ impl Reporter {
         }
     }
 
-    /// The frames that were shown.
+    /// Returns the frames that were written.
     pub(crate) fn into_frames(self) -> Frames {
         let frames = self.frames.into_inner();
         frames.unwrap_or_else(PoisonError::into_inner)
@@ -82,8 +82,9 @@ impl Reporter {
 }
 
 impl Told {
-    /// Tells a report, unless one of its stage was told just now. One in which the share stays where
-    /// it is waits for the next that is told.
+    /// Sends a report, unless one of its stage was just sent. A report without progress is replaced by an
+    /// estimate if one
+    /// is due.
     fn report(&mut self, progress: Progress, now: Duration) {
         let begins = self.progress.stage != progress.stage;
         if !begins && now < self.at + TELL_INTERVAL {
@@ -100,7 +101,7 @@ impl Told {
         }
     }
 
-    /// Tells an estimate, if the share has not moved for a while.
+    /// Sends an estimate if there was no progress for a while.
     fn estimate(&mut self, now: Duration) {
         if self.progress.stage.is_some() && self.at + SILENCE <= now {
             let fraction = self.pace.estimated(now);

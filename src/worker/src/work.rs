@@ -1,4 +1,4 @@
-//! What each kind of job does: its options, its function of the pipeline, the files it leaves.
+//! Kinds of jobs: their options, their pipeline functions, their output files.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -12,17 +12,17 @@ use unwrapd_pipeline::{
     WarpOptions,
 };
 
-/// What a job leaves.
+/// Result of a job.
 pub(crate) struct Made {
     /// Role, name and content of each file.
     pub files: Vec<(String, String, Vec<u8>)>,
-    /// What an atlas can be drawn from, and its UVs.
+    /// Source of the pictures of an atlas, and its UVs.
     atlas: Option<(pipeline::Pictures, pipeline::UvArrays)>,
-    /// What is known of them.
+    /// Verdict on the files.
     pub verdict: Verdict,
 }
 
-/// A kind of job with its options, checked as far as that is possible without the file.
+/// A kind of job with its options, checked as far as possible without the file.
 pub struct Work {
     options: Value,
     run: Box<Run>,
@@ -32,7 +32,7 @@ type Run = dyn FnOnce(&Upload, Limits, &dyn Observer) -> Ended + Send;
 type Ended = Result<Made, PipelineError>;
 
 impl Work {
-    /// Reads and checks the options of a kind; what is absent has its default.
+    /// Parses and checks the options of a kind; absent options have their defaults.
     pub fn new(kind: Kind, options: Value) -> Result<Self, PipelineError> {
         match kind {
             Kind::Unwrap => Self::of(options, unwrap),
@@ -66,12 +66,12 @@ impl Work {
         })
     }
 
-    /// The options, complete.
+    /// Returns the options, complete with defaults.
     pub fn into_options(self) -> Value {
         self.options
     }
 
-    /// Does it.
+    /// Runs the job.
     pub(crate) fn run(self, upload: &Upload, limits: Limits, observer: &dyn Observer) -> Ended {
         (self.run)(upload, limits, observer)
     }
@@ -85,7 +85,7 @@ fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> 
     pipeline::repack_document(upload, options, observer).map(atlas)
 }
 
-/// An atlas with its report.
+/// Returns the result for an atlas with its report.
 fn atlas(outcome: pipeline::Outcome) -> Made {
     let report = &outcome.report;
     let made = Made::new(outcome.files);
@@ -158,7 +158,7 @@ fn edit(
 }
 
 impl Made {
-    /// The main file, and what belongs to it.
+    /// Creates a result from the main file and the files that belong to it.
     fn new(files: Vec<(String, Vec<u8>)>) -> Self {
         let with_role = |(index, (name, bytes)): (usize, (String, Vec<u8>))| {
             let role = match index {
@@ -174,7 +174,7 @@ impl Made {
         }
     }
 
-    /// Adds what comes with an atlas, before the report: its pictures, or its UVs as arrays.
+    /// Adds the files that come with an atlas before the report: its pictures, or its UVs as arrays.
     pub fn complete(&mut self, wanted: Pictures) -> Result<(), PipelineError> {
         let Some((drawn, uvs)) = self.atlas.take() else {
             return Ok(());
@@ -199,7 +199,7 @@ impl Made {
         self.files.push((role.to_owned(), name.to_owned(), bytes));
     }
 
-    /// With the report, and with what of it stands in the job.
+    /// Adds the report, and derives the verdict of the job from it.
     fn reported(mut self, report: &impl Serialize, worth: Worth, warnings: &[Warning]) -> Self {
         // Reports are plain data, which serialization cannot refuse.
         let bytes = serde_json::to_vec_pretty(report).unwrap_or_default();

@@ -1,9 +1,9 @@
-//! What an atlas is worth, by its report.
+//! Quality figures of an atlas.
 
 use unwrapd_api::Worth;
 use unwrapd_pipeline::Report;
 
-/// Returns what an atlas is worth by its report.
+/// Returns the quality figures of an atlas from its report.
 pub fn worth_of(report: &Report) -> Worth {
     let measures = || report.groups.iter().map(|group| &group.measures);
     let worst = |figures: Vec<Option<f64>>| figures.into_iter().flatten().reduce(f64::max);

@@ -1,4 +1,4 @@
-//! The macro that options are written with.
+//! The macro that declares options.
 
 /// Declares a struct of options and all that follows from them.
 ///

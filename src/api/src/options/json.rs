@@ -9,7 +9,7 @@ use super::option_set::OptionSet;
 /// A JSON object of options.
 pub type Object = Map<String, Value>;
 
-/// The options of an object that has no others.
+/// Deserializes the options of an object that has no other members.
 pub fn deserialized<'de, O, D>(deserializer: D) -> Result<O, D::Error>
 where
     O: OptionSet,
@@ -30,8 +30,8 @@ where
     }
 }
 
-/// Takes an option out of an object, by its name or another that is known; if it is absent, the
-/// default.
+/// Removes an option from an object by one of its names and returns its value, or the default if it is
+/// absent.
 pub fn taken<T: DeserializeOwned>(
     given: &mut Object,
     names: &[&str],

@@ -1,17 +1,17 @@
-//! Options, each written once.
+//! Options, each declared once.
 //!
-//! An option has a name, a type, a default, a range and a text. They stand in one line of an
-//! `options!` block, with the text above it, and all that users meet follows from that: the field
+//! An option has a name, a type, a default, a range and a text. They are declared in one line of an
+//! `options!` block, with the text above it, and everything else follows from that: the field
 //! of a struct and its default, the member of a JSON object and of a query, the schema in the
 //! OpenAPI document and with it the form of the page, the option of the command line and its help,
-//! and the check of the range. Options that several commands have are a group, a struct of its own;
-//! a command's options consist of groups and of what it alone has.
+//! and the check of the range. Options that several commands share are a group, a struct of its own;
+//! a command's options consist of groups and of its own ones.
 //!
-//! A text names other options in backticks and in snake case, as in `seam_weight`; the command line
-//! shows these as they are typed there. Its first paragraph is what `-h` says. Words of an option
+//! A text refers to other options in backticks and in snake case, as in `seam_weight`; the command line
+//! shows them as they are typed there. Its first paragraph is the help of `-h`. The words of an option
 //! are the variants of an enum in kebab case, for the command line and for JSON.
 //!
-//! What is not said here is how options depend on each other: that their owners check.
+//! Dependencies between options are not declared here: their owners check them.
 
 mod declare;
 mod json;
@@ -19,12 +19,9 @@ mod option_set;
 mod range;
 
 pub use crate::options;
+pub use json::{Object, deserialized, taken};
 pub use option_set::OptionSet;
-pub use range::Ranged;
-pub use range::within;
-
-pub use json::Object;
-pub use json::{deserialized, taken};
+pub use range::{Ranged, within};
 
 #[cfg(feature = "schema")]
 mod typed;

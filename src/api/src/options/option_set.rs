@@ -2,17 +2,17 @@
 
 use super::json::Object;
 
-/// Options that are set together, with the groups that they consist of.
+/// A set of options, with the groups that it consists of.
 pub trait OptionSet: Sized {
-    /// Checks every number against its range; the text names the option.
+    /// Checks every number against its range. The error names the option.
     fn check_ranges(&self) -> Result<(), String>;
 
-    /// The names of all options, those of groups included.
+    /// Returns the names of all options, including those of groups.
     fn names() -> Vec<&'static str>;
 
-    /// What is said of an option of this set, apart from those of its groups.
+    /// Returns the text of an option of this set, not of its groups.
     fn about(name: &str) -> Option<&'static str>;
 
-    /// Takes the options out of a JSON object; what is absent has its default.
+    /// Removes the options from a JSON object; absent options have their defaults.
     fn taken_from(given: &mut Object) -> Result<Self, String>;
 }

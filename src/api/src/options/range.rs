@@ -1,8 +1,8 @@
 //! Numbers and their ranges.
 
-/// What a range can be checked of.
+/// A value that can be checked against a range.
 pub trait Ranged {
-    /// Checks this against a range; the text names the option.
+    /// Checks the value against a range. The error names the option.
     fn check(&self, name: &str, low: f64, high: f64) -> Result<(), String>;
 }
 
@@ -24,7 +24,7 @@ impl Ranged for usize {
     }
 }
 
-/// What is absent is in every range.
+/// An absent value is in every range.
 impl<T: Ranged> Ranged for Option<T> {
     fn check(&self, name: &str, low: f64, high: f64) -> Result<(), String> {
         self.as_ref()
@@ -32,8 +32,7 @@ impl<T: Ranged> Ranged for Option<T> {
     }
 }
 
-/// Checks a number against its range. The text names the option as all texts about options do, in
-/// backticks.
+/// Checks a number against its range. The error names the option in backticks, like all texts about options.
 pub fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
     if (low..=high).contains(&value) {
         Ok(())

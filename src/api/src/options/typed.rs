@@ -1,11 +1,11 @@
-//! Options as they are typed in the command line.
+//! Options as they are typed on the command line.
 
 use serde::Serialize;
 use serde_json::Value;
 
 use super::option_set::OptionSet;
 
-/// A value as it is typed: what JSON has for it, without quotes.
+/// Returns a value as it is typed: its JSON form without quotes.
 pub fn typed<T: Serialize>(value: &T) -> String {
     match serde_json::to_value(value) {
         Ok(Value::String(word)) => word,
@@ -18,16 +18,18 @@ pub fn typed<T: Serialize>(value: &T) -> String {
     }
 }
 
-/// What is said of an option, for an argument that the command line declares itself. A name that is
-/// none has no help, which a test finds.
+/// Returns the help of an option for an argument that the command line declares itself. It is empty for an
+/// unknown
+/// name, which a test detects.
 pub fn help_of<O: OptionSet>(name: &str) -> String {
     let lines = O::about(name).unwrap_or_default().lines();
     let text = lines.map(str::trim).collect::<Vec<_>>().join(" ");
     text.trim_end_matches('.').to_owned()
 }
 
-/// A text about options with their names as they are typed: what stands in backticks and
-/// `is_option` becomes `--seam-weight`.
+/// Returns a text about options with their names as they are typed: names in backticks that satisfy
+/// `is_option` become
+/// options such as `--seam-weight`.
 pub fn as_typed(text: &str, is_option: impl Fn(&str) -> bool) -> String {
     let parts = text.split('`').enumerate();
     let typed = parts.map(|(i, part)| match i % 2 {

@@ -1,4 +1,4 @@
-//! Options that are a word or a text, in the command line.
+//! Command line options whose value is a word or another text.
 
 use std::ffi::OsStr;
 use std::fmt::Display;
@@ -9,12 +9,13 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Arg, Command, Error, ValueEnum};
 
-/// Parses an option whose words are the variants of an enum, which can be a text of another kind too: help and
-/// completions know the words, its `FromStr` knows both.
+/// Parser of options whose words are the variants of an enum, but which also accept other texts: help and
+/// completions
+/// list the words, and its `FromStr` accepts both.
 pub struct WordOrText<T>(PhantomData<fn() -> T>);
 
 impl<T> WordOrText<T> {
-    /// The parser of options of type `T`.
+    /// Creates the parser of options of type `T`.
     pub fn new() -> Self {
         Self(PhantomData)
     }

@@ -1,4 +1,4 @@
-//! Who calls: the key that a request carries, in a header or in the cookie of a page that signed in.
+//! Authentication of requests by a key, in a header or in the cookie of a signed-in page.
 
 use std::net::IpAddr;
 use std::sync::Arc;
@@ -16,15 +16,15 @@ use super::upload::drain_refused;
 use super::windows::Standing;
 use crate::jobs::access::{Caller, Denied, Scope};
 
-/// The cookie of pages that signed in.
+/// Name of the cookie of signed-in pages.
 pub(super) const COOKIE: &str = "unwrapd-key";
 
-/// The address that a request comes from; that of a proxy, if there is one.
+/// Address that a request comes from: that of the last proxy, if there is one.
 #[derive(Clone, Copy)]
 pub(super) struct Peer(pub IpAddr);
 
-/// Lets a request pass if its key is good for it and its owner has not sent too many, and says who
-/// calls.
+/// Lets a request pass if its key has the needed scopes and its owner is within the rate limit. Attaches the
+/// [`Caller`] to the request.
 pub(super) async fn admit(
     State(app): Shared,
     path: MatchedPath,
@@ -62,13 +62,13 @@ pub(super) async fn admit(
     Ok(response)
 }
 
-/// Returns true if the body has a content coding, such as gzip.
+/// Returns whether the body has a content coding, such as gzip.
 fn is_encoded(headers: &HeaderMap) -> bool {
     let mut codings = headers.get_all(header::CONTENT_ENCODING).iter();
     codings.any(|coding| !coding.as_bytes().eq_ignore_ascii_case(b"identity"))
 }
 
-/// Refuses a coding, and says which one is read (RFC 9110, 15.5.16).
+/// Rejects a content coding, and says which one is accepted (RFC 9110, 15.5.16).
 fn encoded() -> Response {
     let detail = "a body is read as it is: send it without Content-Encoding";
     let refused = Problem::new(Code::UnsupportedMediaType, detail);
@@ -79,7 +79,7 @@ fn too_many(standing: Standing, detail: &str) -> Problem {
     Problem::new(Code::RateLimited, detail).retried_after(standing.reset)
 }
 
-/// Who calls, if they may do what needs these scopes.
+/// Authenticates the caller and checks the scopes.
 async fn caller(
     app: &App,
     headers: &HeaderMap,
@@ -99,7 +99,9 @@ async fn caller(
     }
 }
 
-/// How a wrong key is refused. Good keys from the same address are not: it may be that of a proxy.
+/// Returns the rejection of a wrong key, which counts against the address. Good keys from the same address
+/// are still
+/// accepted, because it may be that of a proxy.
 fn wrong_key(app: &App, peer: Option<Peer>) -> Problem {
     match peer.map(|Peer(address)| app.wrong_keys.take(address)) {
         Some(Err(standing)) => too_many(standing, "too many wrong keys came from this address"),
@@ -107,7 +109,7 @@ fn wrong_key(app: &App, peer: Option<Peer>) -> Problem {
     }
 }
 
-/// The key of a request: what says `Bearer`, or else the cookie.
+/// Returns the key of a request: the bearer token, or else the cookie.
 fn key(headers: &HeaderMap) -> Option<&str> {
     let scheme = |text: &'_ str| text.get(..7).map(str::to_ascii_lowercase);
     let given = headers.get(header::AUTHORIZATION);
@@ -137,7 +139,7 @@ impl From<Denied> for Problem {
     }
 }
 
-/// Whoever was let in.
+/// Extracts the caller that [`admit`] let in.
 impl FromRequestParts<Arc<App>> for Caller {
     type Rejection = Problem;
 

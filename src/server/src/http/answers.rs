@@ -1,4 +1,4 @@
-//! Answers that several operations have in common, for the OpenAPI document.
+//! Responses shared by several operations, for the OpenAPI document.
 
 use std::collections::BTreeMap;
 
@@ -7,22 +7,22 @@ use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
 
 use super::problem::Code;
 
-/// By status.
+/// Responses by status.
 type Responses = BTreeMap<String, RefOr<Response>>;
 
-/// What asking for a file that a job made is answered, apart from the file.
+/// Responses to a request for a file of a job, other than the file itself.
 pub(super) struct FileAnswers;
 
 /// Responses to a request for a picture, other than the picture itself.
 pub(super) struct PictureAnswers;
 
-/// What asking for all files of a job is answered, apart from these.
+/// Responses to a request for all files of a job, other than the archive itself.
 pub(super) struct ArchiveProblems;
 
-/// What a synchronous call is answered, apart from its result.
+/// Responses to a synchronous request, other than its result.
 pub(super) struct CallProblems;
 
-/// Why there may be no file.
+/// Problems of requests for files.
 const OF_FILES: [Code; 9] = [
     Code::JobNotFound,
     Code::JobExpired,
@@ -35,7 +35,7 @@ const OF_FILES: [Code; 9] = [
     Code::StoreUnavailable,
 ];
 
-/// Why a picture may not be drawn.
+/// Problems of drawing pictures.
 const OF_DRAWING: [Code; 6] = [
     Code::OutOfMemory,
     Code::InternalError,
@@ -115,7 +115,7 @@ impl IntoResponses for CallProblems {
     }
 }
 
-/// The codes by their statuses.
+/// Groups codes by status.
 pub(super) fn problems(codes: &[Code]) -> Responses {
     let mut descriptions: BTreeMap<u16, Vec<String>> = BTreeMap::new();
     for code in codes {

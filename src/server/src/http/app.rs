@@ -17,27 +17,27 @@ use crate::jobs::Jobs;
 use crate::jobs::access::{KeyRing, Owner};
 use crate::sessions::Sessions;
 
-/// State that every handler may use.
+/// State shared by all handlers.
 pub(super) struct App {
     pub jobs: Arc<Jobs>,
     pub sessions: Arc<Sessions>,
     pub keys: Arc<KeyRing>,
     pub exposition: Exposition,
-    /// Requests of each owner.
+    /// Rate limit per owner; `None` without a limit.
     pub requests: Option<Windows<Owner>>,
-    /// Archives of each owner that are made or sent.
+    /// Archives of each owner that are being built or sent.
     pub archives: Arc<Crowds<Owner>>,
-    /// Wrong keys from each address.
+    /// Rate limit of wrong keys per address.
     pub wrong_keys: Windows<IpAddr>,
     pub settings: Settings,
     pub stop: CancellationToken,
     pub sockets: TaskTracker,
 }
 
-/// Extracts the state in a handler.
+/// Extractor of the shared state.
 pub(super) type Shared = axum::extract::State<Arc<App>>;
 
-/// Returns an answer with a JSON body.
+/// Returns a response with a JSON body.
 pub(super) fn json<T: serde::Serialize>(status: StatusCode, body: &T) -> Response {
     match serde_json::to_vec(body) {
         Ok(bytes) => (status, [(header::CONTENT_TYPE, "application/json")], bytes).into_response(),

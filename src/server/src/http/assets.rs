@@ -1,4 +1,4 @@
-//! What the same binary always answers: compressed, and kept by clients as long as it is the same.
+//! Static files of the binary: compressed, and cached by clients until they change.
 
 use std::io::Write as _;
 use std::sync::OnceLock;
@@ -11,21 +11,21 @@ use sha2::{Digest, Sha256};
 
 use super::download::names;
 
-/// What a client may keep without asking again: its name has the version in it.
+/// Caching of versioned addresses: for good.
 const FOR_GOOD: &str = "public, max-age=31536000, immutable";
-/// What a client asks about each time.
+/// Caching of other addresses: clients revalidate each time.
 const ASK: &str = "no-cache";
 
-/// A file of the binary, or what is made of it.
+/// A file of the binary with its derived data.
 pub(super) struct Asset {
     content_type: &'static str,
     content: &'static [u8],
     made: OnceLock<Made>,
 }
 
-/// What is made of a file when it is first asked for.
+/// Data derived from a file on its first request.
 struct Made {
-    /// The first 16 hexadecimal digits of its SHA-256, as the pages name it.
+    /// First 16 hexadecimal digits of its SHA-256, which pages use as its version.
     version: String,
     gzip: Vec<u8>,
 }
@@ -53,7 +53,8 @@ impl Asset {
     }
 }
 
-/// The file, or that it is unchanged. A query `v=` with its version says that the address changes with the content.
+/// Responds with the file, or that it is unchanged. A query `v=` with the present version allows caching for
+/// good.
 pub(super) fn answer(asset: &'static Asset, query: Option<&str>, headers: &HeaderMap) -> Response {
     let made = asset.made();
     let is_compressed = !made.gzip.is_empty() && accepts_gzip(headers);
@@ -83,7 +84,7 @@ pub(super) fn answer(asset: &'static Asset, query: Option<&str>, headers: &Heade
     response
 }
 
-/// Whether a client takes gzip: it is named, and not with a weight of zero.
+/// Returns whether a client accepts gzip with a nonzero weight.
 fn accepts_gzip(headers: &HeaderMap) -> bool {
     headers
         .get_all(header::ACCEPT_ENCODING)

@@ -1,6 +1,7 @@
-//! Codes of inputs that cannot be used. They come from the pipeline, mean the same on the command line, and have status 422.
+//! Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status
+//! 422.
 
-/// Code and meaning.
+/// Codes with their meanings.
 pub(super) const CAUSES: [(&str, &str); 63] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
@@ -181,7 +182,7 @@ pub(super) const CAUSES: [(&str, &str); 63] = [
     ("no_valid_result", "No valid result was found"),
 ];
 
-/// What a code of an input means.
+/// Returns the meaning of a code; `None` if it is not about the input.
 pub(super) fn meaning(code: &str) -> Option<&'static str> {
     let mut all = CAUSES.iter();
     all.find_map(|(word, meaning)| (*word == code).then_some(*meaning))

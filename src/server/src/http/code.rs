@@ -1,6 +1,6 @@
-//! Codes of what goes wrong in the service itself.
+//! Codes of problems of the service itself.
 
-/// Declares the codes, each once: its name here, its word, its status, and what it says.
+/// Declares the codes, each once: variant, code, status, title.
 macro_rules! codes {
     ($($name:ident => ($word:literal, $status:literal, $title:literal $(,)?),)*) => {
         /// Codes of the service itself. Those of inputs that cannot be used are [`super::causes`],

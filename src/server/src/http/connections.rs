@@ -1,8 +1,9 @@
-//! Connections: how many there are, how long they may be silent, and how they end.
+//! Connections: their number, timeouts and shutdown.
 //!
-//! Whoever is silent loses the connection: without headers, between two requests, within a body that
-//! comes or goes. Until then it has a place, for which others wait when all are taken; that one
-//! address takes them all is for a limit of each address to prevent (`gate.rs`).
+//! A silent peer loses its connection: without headers, between two requests, or within a body in either
+//! direction.
+//! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single
+//! address from taking all of them (`gate.rs`).
 
 use std::pin::pin;
 
@@ -23,7 +24,7 @@ use super::gate::Gate;
 use super::held::Held;
 use super::settings::Connections;
 
-/// Serves until told to stop, then answers what is under way.
+/// Serves connections until told to stop, then completes the requests under way.
 pub(super) async fn serve(
     listener: TcpListener,
     router: Router,
@@ -37,6 +38,7 @@ pub(super) async fn serve(
             () = stop.cancelled() => break,
             passed = gate.next() => passed,
         };
+        // Build the service of this connection, which knows its peer.
         let mut http1 = Builder::new();
         http1.timer(TokioTimer::new());
         http1.header_read_timeout(limits.header_time);
@@ -46,6 +48,7 @@ pub(super) async fn serve(
             request.extensions_mut().insert(Peer(peer));
             service.call(request)
         });
+        // Serve it, and let it finish its requests when the service stops.
         let connection = http1.serve_connection(TokioIo::new(stream), service);
         let stop = stop.clone();
         open.spawn(async move {

@@ -1,19 +1,19 @@
-//! How many connections there are, and how many were refused.
+//! Metrics of connections.
 
 use metrics::{counter, describe_counter, gauge};
 
-/// Connections now.
+/// Gauge of open connections.
 pub(super) const OPEN: &str = "unwrapd_connections";
 const REFUSED: &str = "unwrapd_connections_refused_total";
 
-/// Says what is counted here, and starts at zero.
+/// Describes the metrics and starts the counter at zero.
 pub(super) fn describe() {
     let meaning = "Connections refused because their address had too many";
     describe_counter!(REFUSED, meaning);
     counter!(REFUSED).absolute(0);
 }
 
-/// One more connection, until it is dropped.
+/// Counts an open connection until it is dropped.
 pub(super) struct Counted;
 
 impl Counted {
@@ -22,7 +22,7 @@ impl Counted {
         Self
     }
 
-    /// One that is refused.
+    /// Counts a refused connection.
     pub fn refused() -> Self {
         counter!(REFUSED).increment(1);
         Self::new()

@@ -1,4 +1,4 @@
-//! Jobs: made, from an upload to the answer.
+//! Job creation, from the upload to the response.
 
 use std::time::Duration;
 
@@ -100,7 +100,7 @@ pub(super) async fn create_job(
     Ok(response)
 }
 
-/// Refuses what will not be delivered.
+/// Rejects webhooks that would not be delivered.
 fn check_webhook(app: &App, webhook: &Webhook) -> Result<(), Problem> {
     let refused = |why: String| Problem::new(Code::InvalidRequest, format!("`webhook`: {why}"));
     let no_secret = || refused("this service sends none: it has no --webhook-secret".to_owned());

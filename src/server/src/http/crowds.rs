@@ -1,10 +1,10 @@
-//! How many things each of many has under way.
+//! Counts of concurrent items per key.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// How many each has.
+/// Number of items of each key.
 pub(super) struct Crowds<K: Eq + Hash>(Mutex<HashMap<K, usize>>);
 
 impl<K: Eq + Hash> Default for Crowds<K> {
@@ -14,7 +14,7 @@ impl<K: Eq + Hash> Default for Crowds<K> {
 }
 
 impl<K: Clone + Eq + Hash> Crowds<K> {
-    /// A seat for one more of whoever has less than the most, if there is a most.
+    /// Adds an item of `who` and returns its seat; `None` if it already has `most`.
     pub fn enter(crowds: &Arc<Self>, who: K, most: Option<usize>) -> Option<Seat<K>> {
         let mut counts = crowds.0.lock().unwrap_or_else(PoisonError::into_inner);
         let count = counts.entry(who.clone()).or_default();
@@ -29,7 +29,7 @@ impl<K: Clone + Eq + Hash> Crowds<K> {
     }
 }
 
-/// One of them, until it is dropped.
+/// An item, counted until it is dropped.
 pub(super) struct Seat<K: Eq + Hash> {
     crowds: Arc<Crowds<K>>,
     who: K,

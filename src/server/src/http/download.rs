@@ -1,4 +1,4 @@
-//! A stored file as an answer: whole, a range of it, or unchanged (RFC 9110).
+//! Stored files as responses: whole, a range, or unchanged (RFC 9110).
 
 use std::ops::Range;
 
@@ -12,7 +12,8 @@ use super::problem::{Code, Problem};
 use crate::jobs::{Job, Undrawn};
 use unwrapd_api::{Format, InputFile, OutputFile, Picture};
 
-/// Formats whose media types are answered with, as the `OpenAPI` document says; files of others are bytes.
+/// Formats with a media type in responses, as in the OpenAPI document. Files of other formats are plain
+/// bytes.
 const TYPED: [Format; 7] = [
     Format::Glb,
     Format::Gltf,
@@ -26,11 +27,11 @@ const TYPED: [Format; 7] = [
 /// A file of a job.
 #[derive(Clone, Copy)]
 pub(super) enum File<'a> {
-    /// One that it made.
+    /// An output file.
     Output(&'a OutputFile),
-    /// A picture of its result, which it has.
+    /// A picture of its result, which the job can have.
     Picture(Picture),
-    /// One that it was made of, with its number.
+    /// An input file with its index.
     Input(usize, &'a InputFile),
 }
 
@@ -43,7 +44,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The name of its version: job and number, and for what was made the token and the role. Files never change.
+    /// Returns the entity tag: job and index for an input, job, token and role otherwise. Files never change.
     fn tag(&self, job: &Job) -> String {
         match self {
             Self::Output(file) => {
@@ -55,7 +56,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Opens it; a picture is drawn if it is not kept.
+    /// Opens the file; draws a picture that is not stored.
     async fn open(self, app: &App, job: &Job) -> Result<Opened<'a>, Problem> {
         Ok(match self {
             Self::Output(file) => Opened::Output(file),
@@ -65,7 +66,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// A file whose size is known.
+/// A file of known size.
 enum Opened<'a> {
     Output(&'a OutputFile),
     Input(&'a InputFile),
@@ -92,7 +93,7 @@ impl Opened<'_> {
     }
 }
 
-/// A picture that a job has, or why there is none.
+/// Returns a picture of a job.
 pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Vec<u8>, Problem> {
     match app.jobs.picture(job, picture).await {
         Ok(content) => Ok(content),
@@ -102,7 +103,7 @@ pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Ve
     }
 }
 
-/// A file of a job, or what of it was asked for.
+/// Responds with a file of a job, or with the requested range of it.
 pub(super) async fn answer(
     app: &App,
     job: &Job,
@@ -110,6 +111,7 @@ pub(super) async fn answer(
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
     let tag = file.tag(job);
+    // Validate what the client has.
     if names(headers, header::IF_NONE_MATCH, &tag) {
         return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
     }
@@ -117,6 +119,7 @@ pub(super) async fn answer(
     let bytes = opened.bytes();
     let is_same =
         (headers.get(header::IF_RANGE)).is_none_or(|given| given.as_bytes() == tag.as_bytes());
+    // Find the requested range.
     let range = match headers.get(header::RANGE).filter(|_| is_same) {
         Some(value) => range(value, bytes),
         None => Ok(None),
@@ -127,6 +130,7 @@ pub(super) async fn answer(
         let size = [(header::CONTENT_RANGE, format!("bytes */{bytes}"))];
         return Ok((size, problem).into_response());
     };
+    // Send the content with its headers.
     let part = range.clone().unwrap_or(0..bytes);
     let content = opened.read(app, job, part.clone()).await?;
     let length = part.end - part.start;
@@ -151,7 +155,7 @@ pub(super) async fn answer(
     Ok(response)
 }
 
-/// Whether a header names this version, strongly or weakly: a proxy that compresses weakens tags.
+/// Returns whether a header lists this tag, strong or weak: proxies that compress weaken tags.
 pub(super) fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) -> bool {
     headers
         .get_all(name)
@@ -162,8 +166,9 @@ pub(super) fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) ->
         .any(|given| given == "*" || given.strip_prefix("W/").unwrap_or(given) == tag)
 }
 
-/// The one range of a Range header. What is no single range of bytes is ignored, as RFC 9110 asks; `Err` has no byte
-/// of the file in it.
+/// Parses a Range header with a single range. Ignores anything else, as RFC 9110 asks. Returns `Err` if the
+/// range
+/// contains no byte of the file.
 fn range(value: &HeaderValue, size: u64) -> Result<Option<Range<u64>>, ()> {
     let spec = value
         .to_str()
@@ -194,7 +199,9 @@ fn content_type(name: &str) -> String {
     }
 }
 
-/// Pictures and reports are shown, everything else is saved. The name is given in ASCII, and in UTF-8 if it needs it.
+/// Returns the Content-Disposition: pictures and reports are shown, other files are saved. The name is given
+/// in
+/// ASCII, and also in UTF-8 if it has other characters.
 fn disposition(name: &str) -> String {
     let kind = match Format::of_name(name) {
         Some(Format::Png | Format::Json) => "inline",

@@ -1,4 +1,4 @@
-//! A process that is emptied before it is stopped.
+//! Draining of a process before it is stopped.
 
 use axum::Json;
 use axum::extract::State;

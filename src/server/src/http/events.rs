@@ -1,4 +1,4 @@
-//! Progress, as it happens.
+//! Live progress events.
 
 use std::convert::Infallible;
 use std::pin::pin;
@@ -21,7 +21,7 @@ use super::socket::{KEEP_ALIVE, MOST_MESSAGE_BYTES, goodbye, refusal};
 use crate::jobs::Subscription;
 use crate::jobs::access::Caller;
 
-/// The largest integer that every JSON reader has exactly.
+/// Largest integer that every JSON parser represents exactly.
 const MAX_SEQ: u64 = (1 << 53) - 1;
 
 /// Where to begin.
@@ -69,6 +69,7 @@ pub(super) async fn watch_job(
         let detail = format!("`after` must be at most {MAX_SEQ}");
         return Err(Problem::new(Code::InvalidRequest, detail));
     }
+    // Find the last event that the client has.
     let resumed = headers
         .get("last-event-id")
         .and_then(|id| id.to_str().ok()?.parse().ok());
@@ -77,6 +78,7 @@ pub(super) async fn watch_job(
         return Err(missing(&app, &reach, id).await);
     };
     let events = events.after(query.after.or(resumed));
+    // Send the rest over the protocol that it asks for.
     if let Ok(upgrade) = upgrade {
         let sockets = app.sockets.clone();
         let relayed = move |socket| sockets.track_future(relay(socket, events, app, caller));
@@ -114,7 +116,7 @@ fn server_sent(events: Subscription, app: Arc<App>, caller: Caller) -> Response 
     ([("x-accel-buffering", "no")], events).into_response()
 }
 
-/// Sends events until the last one, the client's goodbye, the end of its key, or the stop of the
+/// Sends events until the last one, the close message of the client, the end of its key, or the stop of the
 /// service.
 async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>, caller: Caller) {
     let mut lapsed = pin!(app.keys.lapsed(&caller));

@@ -1,8 +1,10 @@
-//! What is measured, in the text format of Prometheus.
+//! Metrics in the text format of Prometheus.
 //!
-//! It is asked for, not pushed. The `prometheus` receiver of an OpenTelemetry collector asks as Prometheus does, and pushes over
-//! OTLP. Pushing from here would take a dozen crates and a second registry. Gauges such as the depth of the queue are looked up
-//! when somebody asks.
+//! Metrics are pulled, not pushed. The `prometheus` receiver of an OpenTelemetry collector pulls like
+//! Prometheus, and
+//! pushes over OTLP. Pushing from here would take a dozen crates and a second registry. Gauges such as the
+//! depth of
+//! the queue are read on each request.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -20,14 +22,14 @@ use super::{connections, counted, observation};
 use crate::jobs::{Jobs, StoreResult, meters};
 use crate::sessions::Sessions;
 
-/// Upper ends of what histograms tell apart, in seconds: from an answer to a job of ten minutes.
+/// Upper bounds of histogram buckets in seconds: from a response to a job of ten minutes.
 const SECONDS: [f64; 13] = [
     0.005, 0.025, 0.1, 0.25, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0,
 ];
-/// Between two times that what histograms collected is added up.
+/// Interval at which pending samples of histograms are merged.
 const UPKEEP: Duration = Duration::from_secs(5);
 
-/// Gauges with their meanings.
+/// Gauges with their descriptions.
 const GAUGES: [(&str, &str); 19] = [
     (BUILD_INFO, "Always 1; the version of the program"),
     (JOBS, "Jobs in the store by state"),
@@ -80,19 +82,19 @@ const DRAINING: &str = "unwrapd_draining";
 const SESSIONS: &str = "unwrapd_sessions";
 const SESSIONS_LIMIT: &str = "unwrapd_sessions_limit";
 
-/// What a process measures of itself.
+/// Source of the metrics of a process.
 #[derive(Clone)]
 pub struct Exposition {
     jobs: Arc<Jobs>,
-    /// A worker has none.
+    /// Sessions; `None` in a worker.
     sessions: Option<Arc<Sessions>>,
     measured: Measured,
 }
 
-/// Measurements since [`measure`] was called.
+/// Handle to the metrics recorded since [`measure`] was called.
 pub type Measured = PrometheusHandle;
 
-/// Measures from now on, once in a process.
+/// Installs the recorder of metrics. Call it once per process.
 pub fn measure() -> Result<Measured, BuildError> {
     let measured = PrometheusBuilder::new()
         .set_buckets(&SECONDS)?
@@ -109,7 +111,7 @@ pub fn measure() -> Result<Measured, BuildError> {
 }
 
 impl Exposition {
-    /// What was measured, and the present state of these.
+    /// Creates a source of recorded metrics and of the present state of these.
     pub fn new(measured: Measured, jobs: Arc<Jobs>, sessions: Option<Arc<Sessions>>) -> Self {
         Self {
             jobs,
@@ -118,7 +120,7 @@ impl Exposition {
         }
     }
 
-    /// The text.
+    /// Returns the metrics as text.
     pub(super) async fn text(&self) -> String {
         let (store, blobs) = tokio::join!(self.look_at_store(), self.jobs.check_blobs());
         let is_up = store.is_ok();
@@ -168,20 +170,20 @@ impl Exposition {
         }
     }
 
-    /// The answer to whoever collects it.
+    /// Responds to a collector.
     pub(super) async fn answer(&self) -> Response {
         let content_type = [(header::CONTENT_TYPE, "text/plain; version=0.0.4")];
         (content_type, self.text().await).into_response()
     }
 
-    /// Adds up what histograms collected, also when nobody asks for it, until told to stop.
+    /// Merges pending samples of histograms until told to stop, even if nobody collects them.
     pub async fn keep_until(&self, stop: CancellationToken) {
         while let Err(_elapsed) = tokio::time::timeout(UPKEEP, stop.cancelled()).await {
             self.measured.run_upkeep();
         }
     }
 
-    /// Answers `/metrics` at an address of its own, to anybody, until told to stop.
+    /// Serves `/metrics` at a separate address, without keys, until told to stop.
     pub async fn serve(self, listener: TcpListener, stop: CancellationToken) {
         let router = Router::new().route("/metrics", get(async move || self.answer().await));
         connections::serve(listener, router, &Connections::OF_COLLECTORS, stop).await;

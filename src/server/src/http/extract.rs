@@ -11,10 +11,10 @@ use super::missing::job_not_found;
 use super::problem::{Code, Problem};
 use crate::jobs::JobId;
 
-/// Longest time a request may wait for a job.
+/// Maximum time for which a request may wait for a job, in seconds.
 pub(super) const MAX_WAIT_SECONDS: u64 = 60;
 
-/// The `{id}` of the path. What is no id is the id of no job.
+/// The `{id}` of the path. A malformed id is treated as unknown.
 pub(super) struct PathId(pub JobId);
 
 impl<S: Send + Sync> FromRequestParts<S> for PathId {
@@ -32,7 +32,7 @@ impl<S: Send + Sync> FromRequestParts<S> for PathId {
     }
 }
 
-/// The `{name}` of the path. What is no text names nothing.
+/// The `{name}` of the path, which must be UTF-8.
 pub(super) struct PathName(pub String);
 
 impl<S: Send + Sync> FromRequestParts<S> for PathName {
@@ -50,7 +50,7 @@ impl<S: Send + Sync> FromRequestParts<S> for PathName {
     }
 }
 
-/// Query parameters; unknown ones are refused where `T` does so.
+/// Query parameters. Unknown ones are rejected if `T` does so.
 pub(super) struct Parameters<T>(pub T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Parameters<T> {
@@ -64,7 +64,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Parameters<T> 
     }
 }
 
-/// The seconds of `Prefer: wait=N`, as many as are granted.
+/// Returns the wait of `Prefer: wait=N`, limited to the maximum.
 pub(super) fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
     let preferences = headers.get_all("prefer").iter();
     let seconds = preferences

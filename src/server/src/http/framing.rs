@@ -1,7 +1,8 @@
-//! Whether a received file is one that a kind of job works on at all: looked at before a job is accepted.
+//! Check of received files before a job is accepted.
 //!
-//! This knows the outermost layer of each format and nothing of what is inside; a file that passes may still turn out
-//! to be unusable, which then is the job's failure.
+//! It looks only at the outermost layer of each format. A file that passes may still turn out to be unusable,
+//! which
+//! then fails the job.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -13,12 +14,12 @@ use serde::de::IgnoredAny;
 use super::problem::{Code, Problem};
 use unwrapd_api::{Catalog, Failure, Format, Kind, SEARCHED_BYTES, without_mark};
 
-/// Whether a name ends like those of a kind's files.
+/// Returns whether a name has an extension of the formats that the kind reads.
 pub(super) fn is_named(name: &str, kind: Kind) -> bool {
     Format::of_name(name).is_some_and(|format| format.holds(kind.reads()))
 }
 
-/// The format that the file is in, one of those that the kind reads.
+/// Detects the format of a file, among those that the kind reads.
 pub(super) fn format(catalog: &dyn Catalog, path: &Path, kind: Kind) -> Result<Format, Problem> {
     let mut file = File::open(path)?;
     let size = file.metadata()?.len();
@@ -48,7 +49,7 @@ fn invalid(detail: impl Into<String>) -> Problem {
     Problem::new(Code::InvalidGltf, detail)
 }
 
-/// Header of twelve bytes, then a JSON chunk that lies within the file.
+/// Checks a GLB: a header of twelve bytes, then a JSON chunk that lies within the file.
 fn glb(file: &mut File, size: u64) -> Result<(), Problem> {
     let mut header = [0; 20];
     file.seek(SeekFrom::Start(0))?;
@@ -69,7 +70,7 @@ fn glb(file: &mut File, size: u64) -> Result<(), Problem> {
     json(BufReader::new(file.take(length)))
 }
 
-/// One JSON value. It is parsed without being kept; padding of any kind may follow.
+/// Checks that there is one JSON value, without keeping it. Any padding may follow.
 fn json(reader: impl Read) -> Result<(), Problem> {
     IgnoredAny::deserialize(&mut serde_json::Deserializer::from_reader(reader))
         .map(|_| ())

@@ -1,4 +1,4 @@
-//! Who gets a connection: whoever has fewer than an address may have, once there is a place.
+//! Connection limits, global and per address.
 
 use std::io::{Error, ErrorKind};
 use std::net::{IpAddr, SocketAddr};
@@ -12,10 +12,10 @@ use super::crowds::{Crowds, Seat};
 use super::refused::Refused;
 use super::settings::Connections;
 
-/// After an error that may pass, such as too many open files.
+/// Delay after a temporary error, such as too many open files.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// What connections come through.
+/// Accepts connections within the limits.
 pub(super) struct Gate {
     listener: TcpListener,
     places: Arc<Semaphore>,
@@ -24,11 +24,11 @@ pub(super) struct Gate {
     refused: Refused,
 }
 
-/// What a connection has of the places of all and of those of its address, until it is dropped.
+/// Slots of a connection, global and of its address, until it is dropped.
 pub(super) type Place = (Option<OwnedSemaphorePermit>, Seat<IpAddr>);
 
 impl Gate {
-    /// A gate that lets so many in.
+    /// Creates a gate with these limits.
     pub fn new(listener: TcpListener, limits: &Connections) -> Self {
         Self {
             listener,
@@ -39,8 +39,9 @@ impl Gate {
         }
     }
 
-    /// The next connection that may stay. Those of addresses that have too many are refused on the
-    /// way and take no place.
+    /// Waits for the next connection that may stay. Connections of addresses that have too many are refused
+    /// meanwhile
+    /// and take no slot.
     pub async fn next(&mut self) -> (TcpStream, IpAddr, Place) {
         // The semaphore is never closed.
         let place = Arc::clone(&self.places).acquire_owned().await.ok();
@@ -54,7 +55,7 @@ impl Gate {
     }
 }
 
-/// The next connection of anybody.
+/// Accepts the next connection from any address.
 async fn accepted(listener: &TcpListener) -> (TcpStream, SocketAddr) {
     loop {
         match listener.accept().await {

@@ -1,4 +1,4 @@
-//! What an upload says of its job beside kind, options and files, in the query or in parts of a form.
+//! Handling settings of an upload, from the query or from form parts.
 
 use std::ops::RangeInclusive;
 
@@ -6,10 +6,10 @@ use super::problem::{Code, Problem};
 use crate::jobs::{GateError, Gates, Handling, Metadata, Webhook};
 use unwrapd_api::Kind;
 
-/// Priorities that a client may ask for.
+/// Permitted priorities.
 const PRIORITIES: RangeInclusive<i32> = -100..=100;
 
-/// What was said so far.
+/// Settings received so far.
 #[derive(Default)]
 pub(super) struct Said {
     priority: Option<i32>,
@@ -19,10 +19,10 @@ pub(super) struct Said {
 }
 
 impl Said {
-    /// The names of what can be said.
+    /// Names of the settings.
     pub const NAMES: [&str; 4] = ["priority", "metadata", "accept", "webhook"];
 
-    /// Takes what is said under one of these names.
+    /// Records the setting with one of these names.
     pub fn take(&mut self, name: &str, text: &str) -> Result<(), Problem> {
         let is_new = match name {
             "priority" => self.priority.replace(priority(text)?).is_none(),
@@ -33,7 +33,7 @@ impl Said {
         once(name, is_new)
     }
 
-    /// All of it, for a job of this kind.
+    /// Returns the handling for a job of this kind.
     pub fn into_handling(self, kind: Kind) -> Result<Handling, Problem> {
         if let Some(gates) = &self.accept {
             gates.check(kind).map_err(|error| refused(&error))?;
@@ -46,7 +46,7 @@ impl Said {
         })
     }
 
-    /// Refuses what only a job that is kept can have.
+    /// Rejects settings that require a stored job.
     pub fn check_unkept(&self) -> Result<(), Problem> {
         let name = match self {
             Self {
@@ -88,13 +88,13 @@ fn webhook(text: &str) -> Result<Webhook, Problem> {
     webhook.map_err(|error| Problem::new(Code::InvalidRequest, format!("`webhook`: {error}")))
 }
 
-/// Metadata from its JSON text.
+/// Parses metadata from its JSON text.
 pub(super) fn metadata(text: &str) -> Result<Metadata, Problem> {
     let metadata = text.parse::<Metadata>();
     metadata.map_err(|error| Problem::new(Code::InvalidRequest, error.to_string()))
 }
 
-/// Refuses what is given more than once: one of two would be lost.
+/// Rejects a repeated setting, because one of the two would be lost.
 pub(super) fn once(name: &str, is_first: bool) -> Result<(), Problem> {
     if is_first {
         return Ok(());

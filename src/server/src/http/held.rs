@@ -1,4 +1,4 @@
-//! A connection that keeps its place until it is closed, also after an upgrade to a WebSocket.
+//! Connections that keep their slot until they are closed, even after an upgrade to a WebSocket.
 
 use std::io;
 use std::pin::Pin;
@@ -9,14 +9,14 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::TcpStream;
 use tokio_io_timeout::TimeoutStream;
 
-/// A connection and what goes when it does.
+/// A connection together with its slot.
 pub(super) struct Held<P> {
     stream: Pin<Box<TimeoutStream<TcpStream>>>,
     _place: P,
 }
 
 impl<P> Held<P> {
-    /// A connection that fails when nothing can be written for so long.
+    /// Creates a connection that fails if nothing can be written for the time `silence`.
     pub fn new(stream: TcpStream, silence: Duration, place: P) -> Self {
         let mut stream = TimeoutStream::new(stream);
         stream.set_write_timeout(Some(silence));

@@ -1,4 +1,4 @@
-//! What a job was made of.
+//! Input files of jobs.
 
 use axum::extract::{FromRequestParts, Path, State};
 use axum::http::HeaderMap;
@@ -13,7 +13,7 @@ use super::missing::existing;
 use super::problem::{Code, Problem};
 use crate::jobs::access::Caller;
 
-/// The `{index}` of the path. What is no number is the number of no file.
+/// The `{index}` of the path. A malformed number is treated as the index of no file.
 pub(super) struct PathIndex(usize);
 
 impl<S: Send + Sync> FromRequestParts<S> for PathIndex {

@@ -1,4 +1,4 @@
-//! Jobs: looked at, ended.
+//! Routes for reading and ending jobs.
 
 use std::time::Duration;
 
@@ -139,7 +139,7 @@ pub(super) async fn retry_job(
     Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
 }
 
-/// The job after a wish, and why the wish was refused.
+/// Applies a command to a job. Returns the job and the reason if the command was rejected.
 async fn wished(
     app: &App,
     reach: &Reach,
@@ -153,7 +153,7 @@ async fn wished(
     }
 }
 
-/// A job as clients of this service see it.
+/// Returns the public view of a job.
 pub(super) fn view(app: &App, job: &Job) -> JobView {
     JobView::new(job, app.jobs.settings(), &app.settings.base_path)
 }

@@ -85,7 +85,7 @@ pub(super) struct RetriedJobs {
 }
 
 impl ListQuery {
-    /// What is asked for, with one job more than a page has.
+    /// Returns the listing for the query, with one job more than a page has.
     fn listing(self, limit: u32) -> Result<Listing, Problem> {
         if !(1..=MAX_PAGE).contains(&limit) {
             return Err(invalid(format!("`limit` must be between 1 and {MAX_PAGE}")));
@@ -116,7 +116,7 @@ fn invalid(detail: impl Into<String>) -> Problem {
     Problem::new(Code::InvalidRequest, detail)
 }
 
-/// A time as RFC 3339 has it.
+/// Parses a time in RFC 3339.
 fn time(name: &str, text: Option<String>) -> Result<Option<Timestamp>, Problem> {
     let parsed = text
         .map(|text| humantime::parse_rfc3339_weak(&text))

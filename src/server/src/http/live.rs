@@ -49,7 +49,7 @@ pub(super) async fn pull_session(
     Ok(upgrade.on_upgrade(relayed))
 }
 
-/// Relays until the session, the connection or the key of the client ends.
+/// Relays until the session, the connection or the client's key ends.
 async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: Caller) {
     let (mut sink, mut stream) = socket.split();
     let code = tokio::select! {
@@ -67,7 +67,8 @@ async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: 
     }
 }
 
-/// Passes messages on until one cannot be read; then how to close. `None` if the client is gone.
+/// Passes messages to the session until one cannot be read. Returns the close code; `None` if the client is
+/// gone.
 async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<u16> {
     loop {
         let said = match stream.next().await? {
@@ -83,7 +84,9 @@ async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<
     }
 }
 
-/// Sends the mesh, frames and replies until the session ends; then how to close. `None` if the client is gone.
+/// Sends the mesh, frames and replies until the session ends. Returns the close code and reason; `None` if
+/// the
+/// client is gone.
 async fn tell(
     sink: &mut SplitSink<WebSocket, Message>,
     session: &Session,

@@ -1,4 +1,4 @@
-//! Maps of charts, while they relax.
+//! Maps of charts while they relax.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use super::problem::{Code, Problem};
 use crate::jobs::access::Caller;
 use crate::jobs::{NextMaps, State, Subscription};
 
-/// How long a frame is waited for.
+/// Maximum wait for a frame.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Which frame.
@@ -81,7 +81,7 @@ pub(super) async fn watch_maps(
     }
 }
 
-/// Waits until a job runs; false if it has ended.
+/// Waits until a job runs. Returns `false` if it has ended.
 async fn is_running(mut events: Subscription) -> bool {
     while let Some(event) = events.next().await {
         match event.state {

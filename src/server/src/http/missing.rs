@@ -1,11 +1,11 @@
-//! Jobs that are not there, or not any more, or not for whoever asks: that is all the same to them.
+//! Jobs that do not exist, no longer exist or belong to another owner; callers cannot tell which.
 
 use super::app::App;
 use super::problem::{Code, Problem};
 use crate::jobs::access::Reach;
 use crate::jobs::{Job, JobId};
 
-/// The job, or why there is none.
+/// Returns a job, or the problem of a missing one.
 pub(super) async fn existing(app: &App, reach: &Reach, id: JobId) -> Result<Job, Problem> {
     match app.jobs.get(reach, id).await? {
         Some(job) => Ok(job),
@@ -13,7 +13,7 @@ pub(super) async fn existing(app: &App, reach: &Reach, id: JobId) -> Result<Job,
     }
 }
 
-/// Why there is no such job.
+/// Returns the problem of a missing job.
 pub(super) async fn missing(app: &App, reach: &Reach, id: JobId) -> Problem {
     match app.jobs.has_expired(reach, id).await {
         Ok(true) => Problem::new(Code::JobExpired, "it was removed when its time was over"),
@@ -22,7 +22,7 @@ pub(super) async fn missing(app: &App, reach: &Reach, id: JobId) -> Problem {
     }
 }
 
-/// The answer to an id that is not known.
+/// Returns the problem of an unknown id.
 pub(super) fn job_not_found() -> Problem {
     Problem::new(
         Code::JobNotFound,

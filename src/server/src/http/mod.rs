@@ -1,8 +1,10 @@
 //! The HTTP interface: routes, problems, OpenAPI, progress, the page.
 //!
-//! It accepts, records and relays; it computes nothing, and has pictures drawn. Every handler is a few lines around one call of
-//! [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI document. Whatever goes wrong is
-//! answered with an RFC 9457 problem that carries a stable code (`code.rs` has the table).
+//! It accepts, records and relays; it computes nothing, and delegates the drawing of pictures. Every handler
+//! is a few
+//! lines around one call of [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI
+//! document.
+//! Every error is an RFC 9457 problem with a stable code (`code.rs` has the table).
 
 mod admission;
 mod answers;
@@ -80,8 +82,7 @@ use crate::jobs::access::KeyRing;
 use crate::sessions::Sessions;
 use unwrapd_api::Catalog;
 
-/// The table of contents. What is here, and what is open, is in the OpenAPI document. Calls of these
-/// need a key, once there is one.
+/// Routes that need a key once one exists. The OpenAPI document lists these and the open routes.
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(openapi::preamble())
         .routes(routes!(create::create_job, list::list_jobs))
@@ -124,7 +125,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(probes::metrics))
 }
 
-/// What anybody may ask.
+/// Routes that need no key.
 fn open_routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::new()
         .routes(routes!(probes::healthz))
@@ -132,7 +133,7 @@ fn open_routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(probes::openapi_document))
 }
 
-/// The pages for people, and what they load.
+/// Pages for people, with their assets.
 fn pages() -> Router<Arc<App>> {
     Router::new()
         .route("/", get(page::index))
@@ -140,14 +141,14 @@ fn pages() -> Router<Arc<App>> {
         .route("/assets/{name}", get(page::asset))
 }
 
-/// The OpenAPI document of the service, as JSON.
+/// Returns the OpenAPI document of the service as JSON.
 pub fn openapi(catalog: &dyn Catalog) -> String {
     let open = open_routes().into_openapi().paths.paths;
     let open: Vec<String> = open.into_keys().collect();
     openapi::document(routes().merge(open_routes()).into_openapi(), catalog, &open)
 }
 
-/// Serves until told to stop; then answers what is under way, closes WebSockets with 1001 and returns.
+/// Serves until told to stop; then completes the requests under way, closes WebSockets with 1001 and returns.
 pub async fn serve(
     listener: TcpListener,
     (jobs, sessions, keys): (Arc<Jobs>, Arc<Sessions>, Arc<KeyRing>),

@@ -1,4 +1,4 @@
-//! Every request gets an id, has its name and its caller's trace in the log, and is counted.
+//! Request ids, logging and metrics of requests.
 
 use axum::extract::{MatchedPath, Request};
 use axum::http::{HeaderMap, HeaderName, HeaderValue};
@@ -10,24 +10,24 @@ use tracing::Instrument;
 
 use crate::jobs::JobId;
 
-/// Names a request, in both directions.
+/// Header with the id of a request, in both directions.
 pub(super) const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
-/// Characters of a client's name for a request at most.
+/// Maximum length of a client's request id in characters.
 const LONGEST_ID: usize = 64;
-/// The trace that a request is a part of (W3C Trace Context).
+/// Header with the trace that a request is part of (W3C Trace Context).
 const TRACE: &str = "traceparent";
 
 const REQUESTS: &str = "unwrapd_http_requests_total";
 const SECONDS: &str = "unwrapd_http_request_seconds";
 
-/// Says what is counted here.
+/// Describes the metrics.
 pub(super) fn describe() {
     describe_counter!(REQUESTS, "Requests answered");
     let meaning = "Until the head of the answer was there";
     describe_histogram!(SECONDS, Unit::Seconds, meaning);
 }
 
-/// Answers a request under its id.
+/// Runs a request under its id, and logs and counts it.
 pub(super) async fn observe(request: Request, next: Next) -> Response {
     let id = request_id(request.headers());
     let route = request.extensions().get::<MatchedPath>();
@@ -55,14 +55,14 @@ pub(super) async fn observe(request: Request, next: Next) -> Response {
     response
 }
 
-/// The method, if it is one that clients do not make up.
+/// Returns a known method, or "other" to keep the number of metrics bounded.
 fn word(method: &str) -> &'static str {
     let known = ["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"];
     let mut known = known.into_iter();
     known.find(|it| *it == method).unwrap_or("other")
 }
 
-/// The client's name for a request, if it is a plain one, or a fresh one.
+/// Returns the client's id of a request if it is well-formed, otherwise a fresh one.
 fn request_id(headers: &HeaderMap) -> String {
     let given = headers.get(REQUEST_ID).and_then(|id| id.to_str().ok());
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
@@ -70,7 +70,7 @@ fn request_id(headers: &HeaderMap) -> String {
     given.map_or_else(|| JobId::fresh().to_string(), str::to_owned)
 }
 
-/// The trace that a client says it is a part of, if it is well-formed.
+/// Returns the client's trace if it is well-formed.
 pub(super) fn traceparent(headers: &HeaderMap) -> Option<String> {
     let text = headers.get(TRACE)?.to_str().ok()?;
     let parts: Vec<&str> = text.split('-').collect();

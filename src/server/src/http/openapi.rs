@@ -1,4 +1,4 @@
-//! The OpenAPI document: what the handlers say, and what several of them have in common.
+//! The OpenAPI document: the docs of the handlers, and what several of them share.
 
 use std::collections::BTreeSet;
 
@@ -28,7 +28,7 @@ const WEBHOOK: &str = "Posted to the `webhook` of a job when the job ends, as [S
     timestamp that is more than five minutes off. Any answer but 2xx and 410 is repeated after 5 s, 5 and 30 minutes, 2, 5, 10 and 14 \
     hours. A notice may come twice.";
 
-/// What operations are about, in the order in which they are shown.
+/// Tags of operations with their descriptions, in display order.
 const TAGS: [(&str, &str); 6] = [
     ("synchronous", "Small meshes, answered at once"),
     ("jobs", "Submit, list, watch and end jobs"),
@@ -38,10 +38,10 @@ const TAGS: [(&str, &str); 6] = [
     ("service", "Health, metrics, and operating it"),
 ];
 
-/// The paths of uploads whose kind the upload says.
+/// Paths of uploads that state their kind themselves.
 const OF_ANY_KIND: [&str; 2] = ["/v1/jobs", "/v1/sessions"];
 
-/// What stands above the paths.
+/// Returns the document without paths.
 pub(super) fn preamble() -> OpenApi {
     let license = LicenseBuilder::new()
         .name("MIT OR Apache-2.0")
@@ -65,7 +65,7 @@ pub(super) fn preamble() -> OpenApi {
         .build()
 }
 
-/// The document as text. At open paths nobody needs a key.
+/// Returns the complete document as text. Operations at `open` paths need no key.
 pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String]) -> String {
     api.components
         .get_or_insert_default()
@@ -103,13 +103,14 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     serde_json::to_string_pretty(&document).unwrap_or_default()
 }
 
-/// The values of an object.
+/// Iterates over the values of an object.
 fn members(value: &mut Value) -> impl Iterator<Item = &mut Value> {
     value.as_object_mut().into_iter().flat_map(Map::values_mut)
 }
 
-/// What holds for every operation: it may end with a problem, parameters are absent rather than null, files are bytes,
-/// and so are parts of them.
+/// Completes an operation: adds a default problem, makes absent parameters absent rather than null, and
+/// describes
+/// files and ranges of files as bytes.
 fn complete(operation: &mut Value) {
     if !operation["responses"]["206"].is_null() {
         let mut content = operation["responses"]["200"]["content"].clone();
@@ -158,7 +159,7 @@ fn is_list_of_bytes(schema: &Value) -> bool {
     schema["type"] == "array" && item["type"] == "integer" && item["minimum"] == 0
 }
 
-/// Where a job leads.
+/// Returns the links from a job to operations on it.
 fn links() -> Value {
     let operations = [
         "getJob",
@@ -241,7 +242,7 @@ fn webhooks() -> Value {
     } } })
 }
 
-/// The table of codes.
+/// Returns the table of codes.
 fn problems() -> Value {
     let row = |code: &Code| {
         let (word, status, title) = code.row();
@@ -253,7 +254,7 @@ fn problems() -> Value {
     own.chain(CAUSES.iter().map(cause)).collect()
 }
 
-/// What the uploads share: the body as a form or raw, options in the form or the query.
+/// Describes the request body of an upload: a form or raw bytes, with options in the form or the query.
 fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
     let is_job = OF_ANY_KIND.contains(&path);
     let parameters = schemas::parameters(&document["components"]["schemas"], options);
@@ -262,6 +263,7 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
     if let Some(known) = operation["parameters"].as_array_mut() {
         known.extend(parameters);
     }
+    // Describe the parts of the form.
     let input = json!({ "type": "string", "format": "binary", "description": "The input, with its file name" });
     let mut schema = json!({
         "type": "object",
@@ -298,6 +300,7 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
     } else {
         schema["required"] = json!(["mesh"]);
     }
+    // Add raw bodies of every media type.
     let mut content = Map::new();
     let mut encoding = json!({ "options": { "contentType": "application/json" } });
     if is_job {

@@ -1,4 +1,4 @@
-//! Options of a job, from a JSON part and query parameters, which mean the same.
+//! Options of a job from a JSON part and query parameters, which are equivalent.
 
 use axum::extract::Query;
 use axum::http::Uri;
@@ -8,21 +8,21 @@ use super::handling::{Said, once};
 use super::problem::{Code, Problem};
 use unwrapd_api::{Catalog, Kind, from_json};
 
-/// What the query of an upload says.
+/// Parsed query of an upload.
 #[derive(Default)]
 pub(super) struct UploadQuery {
-    /// Which job to make.
+    /// Kind of the job.
     pub kind: Option<Kind>,
     /// Name of the file in a raw body.
     pub filename: Option<String>,
-    /// How the job is to be handled.
+    /// Handling settings of the job.
     pub said: Said,
-    /// Everything else.
+    /// All other parameters.
     pub options: Map<String, Value>,
 }
 
 impl UploadQuery {
-    /// Reads the query.
+    /// Parses the query.
     pub fn read(uri: &Uri) -> Result<Self, Problem> {
         let Query(pairs) = Query::<Vec<(String, String)>>::try_from_uri(uri)
             .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
@@ -43,7 +43,7 @@ impl UploadQuery {
     }
 }
 
-/// The kind of job that a word names.
+/// Parses a kind of job.
 pub(super) fn kind(text: &str) -> Result<Kind, Problem> {
     serde_json::from_value(text.into()).map_err(|_| {
         let words = Kind::ALL.map(Kind::word).join(", ");
@@ -52,7 +52,7 @@ pub(super) fn kind(text: &str) -> Result<Kind, Problem> {
     })
 }
 
-/// Numbers, truth values and lists as JSON, everything else as text.
+/// Parses numbers, booleans and lists as JSON, and anything else as text.
 fn value(text: String) -> Value {
     match from_json(text.as_bytes()) {
         Ok(value @ (Value::Number(_) | Value::Bool(_) | Value::Array(_))) => value,
@@ -60,7 +60,7 @@ fn value(text: String) -> Value {
     }
 }
 
-/// Checks options, and completes them with defaults.
+/// Validates options and completes them with defaults.
 pub(super) fn complete(
     catalog: &dyn Catalog,
     kind: Kind,

@@ -1,9 +1,10 @@
-//! Which pages, and which names of the service, a request may come with.
+//! Checks of the origin of requests and of the host name that they use.
 //!
-//! A page of another site can make a browser send requests to a service that only this machine
-//! reaches. Browsers tell where a request comes from: `Sec-Fetch-Site` and `Origin` for what changes
-//! something ([`CsrfLayer`]) and for WebSockets (here). A name that an attacker points at this
-//! machine (DNS rebinding) shows in `Host`.
+//! A page of another site can make a browser send requests to a service that only this machine reaches.
+//! Browsers
+//! state the origin of a request in `Sec-Fetch-Site` and `Origin`; these are checked for requests that change
+//! something ([`CsrfLayer`]) and for WebSockets (here). A name that an attacker points at this machine (DNS
+//! rebinding) shows in `Host`.
 
 use std::sync::Arc;
 
@@ -21,7 +22,7 @@ use super::problem::{Code, Problem};
 use super::settings::Settings;
 use super::windows;
 
-/// What scripts of other origins may read of an answer.
+/// Response headers that scripts of other origins may read.
 const EXPOSED: [HeaderName; 7] = [
     header::CONTENT_DISPOSITION,
     header::ETAG,
@@ -32,7 +33,7 @@ const EXPOSED: [HeaderName; 7] = [
     windows::POLICY,
 ];
 
-/// A router that answers only what may be asked, as the settings say.
+/// Wraps a router in the checks of the settings.
 pub(super) fn guarded(router: Router, settings: &Settings) -> Result<Router, ConfigError> {
     let mut csrf = CsrfLayer::new();
     for origin in &settings.origins {
@@ -56,13 +57,13 @@ pub(super) fn guarded(router: Router, settings: &Settings) -> Result<Router, Con
     Ok(router.layer(cors))
 }
 
-/// An origin as browsers send it, such as `https://example.org`.
+/// Validates an origin as browsers send it, such as `https://example.org`.
 pub fn origin(text: &str) -> Result<String, ConfigError> {
     let _ = CsrfLayer::new().add_trusted_origin(text)?;
     Ok(text.to_owned())
 }
 
-/// Where requests may come from, and under which names.
+/// Permitted origins and host names.
 struct Allowed {
     origins: Vec<String>,
     hosts: Option<Vec<String>>,
@@ -102,14 +103,15 @@ fn is_host(value: &HeaderValue) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest == ":" || authority.port_u16().is_some())
 }
 
-/// The name and port under which a request reaches the service.
+/// Returns the host name and port that a request uses for the service.
 fn host(headers: &HeaderMap, uri: &Uri) -> Option<Authority> {
     let given = || headers.get(header::HOST)?.to_str().ok()?.parse().ok();
     uri.authority().cloned().or_else(given)
 }
 
 impl Allowed {
-    /// Addresses and `localhost` belong to nobody else; other names have to be known.
+    /// Returns whether a host is permitted: addresses and `localhost` always are, other names if they are
+    /// listed.
     fn knows(&self, host: Option<&Authority>) -> bool {
         let Some(known) = &self.hosts else {
             return true;
@@ -123,8 +125,8 @@ impl Allowed {
             || known.iter().any(|known| known.eq_ignore_ascii_case(name))
     }
 
-    /// Whether a WebSocket may be opened: by what is no browser, by our own page, or by one that is
-    /// allowed.
+    /// Returns whether a WebSocket may be opened: by anything but a browser, by our own page, or by a
+    /// permitted origin.
     fn may_connect(&self, headers: &HeaderMap, host: Option<&Authority>) -> bool {
         let Some(origin) = headers.get(header::ORIGIN) else {
             return true;

@@ -27,12 +27,12 @@ use super::results::check_succeeded;
 use crate::jobs::access::Caller;
 use crate::jobs::{Job, JobId, Scratch};
 
-/// Files from this size on need the larger records of ZIP64.
+/// Size in bytes from which files need the larger records of ZIP64.
 const LARGE: u64 = u32::MAX as u64;
 
-/// Archives that one owner may have made at a time: each is a copy on the disk until it is sent.
+/// Maximum number of archives that one owner receives at a time: each is a copy on the disk until it is sent.
 const MOST_OF_OWNER: usize = 16;
-/// When to ask again, in seconds.
+/// Retry delay for an owner at that limit, in seconds.
 const LATER: u64 = 5;
 
 /// Get all files that a job produced as one ZIP.
@@ -79,7 +79,7 @@ pub(super) async fn get_files(
     Ok(response)
 }
 
-/// The archive in a folder of its own, and its size.
+/// Builds the archive in a folder of its own. Returns the folder, the open file and its size in bytes.
 fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64), Problem> {
     app.jobs.has_room()?;
     let folder = app

@@ -1,4 +1,4 @@
-//! The pages for people. `page/build.mjs` makes them of the sources beside it; the binary has all of them.
+//! The pages for people. `page/build.mjs` builds them from the sources beside it, and the binary embeds them.
 
 use axum::extract::RawQuery;
 use axum::http::HeaderMap;
@@ -21,7 +21,7 @@ const SCRIPT: &str = "text/javascript; charset=utf-8";
 const STYLE: &str = "text/css; charset=utf-8";
 const TEXT: &str = "text/plain; charset=utf-8";
 
-/// What the pages load, by name.
+/// Assets of the pages by name.
 static ASSETS: [(&str, Asset); 7] = [
     (
         "page.js",
@@ -56,7 +56,7 @@ static ASSETS: [(&str, Asset); 7] = [
     ),
 ];
 
-/// `/`: unwrap meshes, look into what came of them.
+/// `/`: the page for unwrapping meshes and viewing results.
 pub(super) async fn index(headers: HeaderMap) -> Response {
     assets::answer(&INDEX, None, &headers)
 }
@@ -66,7 +66,7 @@ pub(super) async fn docs(headers: HeaderMap) -> Response {
     assets::answer(&DOCS, None, &headers)
 }
 
-/// What the pages load.
+/// `/assets/{name}`: an asset of the pages.
 pub(super) async fn asset(
     PathName(name): PathName,
     RawQuery(query): RawQuery,

@@ -1,4 +1,4 @@
-//! Parts of a form: their texts, and what is wrong with them.
+//! Form parts: their texts and their errors.
 
 use axum::extract::multipart::{Field, MultipartError};
 
@@ -7,14 +7,14 @@ use super::problem::{Code, Problem};
 
 /// Names of the part that holds the input.
 pub(super) const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
-/// Files of an upload.
+/// Maximum number of files of an upload.
 pub(super) const MAX_FILES: usize = 4096;
-/// Bytes of the path of a resource.
+/// Maximum length of a resource path in bytes.
 const MAX_NAME: usize = 1024;
-/// Bytes of a text part: options with some thousand handles.
+/// Maximum length of a text part in bytes: enough for options with some thousand handles.
 const MAX_TEXT_BYTES: u64 = 256 << 10;
 
-/// The text of a part.
+/// Reads the text of a part.
 pub(super) async fn text(mut field: Field<'_>) -> Result<String, Problem> {
     let mut bytes = Vec::new();
     while let Some(chunk) = field.chunk().await.map_err(|e| malformed(&e))? {
@@ -28,12 +28,12 @@ pub(super) async fn text(mut field: Field<'_>) -> Result<String, Problem> {
         .map_err(|_| Problem::new(Code::InvalidRequest, "a text part is not UTF-8"))
 }
 
-/// Refuses the path of a file that is too long.
+/// Rejects file paths that are too long.
 pub(super) fn at_most_name(name: &str) -> Result<(), Problem> {
     at_most(name, MAX_NAME)
 }
 
-/// Refuses a file name that is too long.
+/// Rejects file names of more than `bytes` bytes.
 pub(super) fn at_most(name: &str, bytes: usize) -> Result<(), Problem> {
     if name.len() <= bytes {
         return Ok(());
@@ -42,7 +42,7 @@ pub(super) fn at_most(name: &str, bytes: usize) -> Result<(), Problem> {
     Err(Problem::new(Code::InvalidRequest, detail))
 }
 
-/// What is said of a part that nobody reads.
+/// Returns the problem of an unknown part.
 pub(super) fn unexpected(part: &str) -> Problem {
     let part: String = part.chars().take(100).collect();
     let detail = format!(
@@ -52,7 +52,7 @@ pub(super) fn unexpected(part: &str) -> Problem {
     Problem::new(Code::InvalidRequest, detail)
 }
 
-/// What is said of a form that is none.
+/// Returns the problem of a malformed form.
 pub(super) fn malformed(error: &MultipartError) -> Problem {
     Problem::new(Code::InvalidRequest, error.body_text())
 }

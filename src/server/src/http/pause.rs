@@ -1,4 +1,4 @@
-//! A queue that is held for a while.
+//! Pausing the queue.
 
 use axum::Json;
 use axum::extract::State;

@@ -1,4 +1,4 @@
-//! For those who run the service.
+//! Operational routes: health, readiness, metrics, the OpenAPI document.
 
 use std::sync::OnceLock;
 

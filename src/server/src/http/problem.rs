@@ -11,7 +11,7 @@ pub(super) use super::code::Code;
 use crate::jobs::{StoreError, meters};
 use unwrapd_api::Failure;
 
-/// How to ask again where a key is needed (RFC 6750).
+/// Challenge of responses that need a key (RFC 6750).
 const CHALLENGE: &str = "Bearer realm=\"unwrapd\"";
 
 /// What went wrong (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
@@ -41,11 +41,11 @@ pub(super) struct Problem {
     retry_after: u32,
 }
 
-/// Seconds after which something that is busy may be tried again.
+/// Default retry delay in seconds.
 const USUAL_PAUSE: u32 = 5;
 
 impl Problem {
-    /// A problem of the service.
+    /// Creates a problem of the service itself.
     pub fn new(code: Code, detail: impl Into<String>) -> Self {
         let (word, status, title) = code.row();
         Self {
@@ -60,33 +60,33 @@ impl Problem {
         }
     }
 
-    /// Names the limit that was exceeded.
+    /// Sets the limit that was exceeded.
     pub fn with_limit(mut self, limit: u64) -> Self {
         self.limit = Some(limit);
         self
     }
 
-    /// Names the column of a formula, if it is known.
+    /// Sets the column of the error in a formula, if known.
     pub fn with_column(self, column: Option<usize>) -> Self {
         let column = column.and_then(|column| u16::try_from(column).ok());
         let column = column.and_then(NonZeroU16::new);
         Self { column, ..self }
     }
 
-    /// Says after how many seconds it may be tried again.
+    /// Sets the retry delay in seconds.
     pub fn retried_after(mut self, seconds: u64) -> Self {
         self.retry_after = seconds as u32;
         self
     }
 
-    /// Something that should not happen: clients get no details, the log does.
+    /// Logs an unexpected error and returns a problem without its details.
     pub fn internal(error: &dyn std::fmt::Display) -> Self {
         tracing::error!(%error, "internal error");
         let detail = "the log of the service says why, under the X-Request-Id of this answer";
         Self::new(Code::InternalError, detail)
     }
 
-    /// Why a job failed. A code that is not in the table belongs to the input.
+    /// Returns the problem of a failed job. A code that is not in the table is about the input.
     pub fn of_failure(failure: &Failure) -> Self {
         let known = Code::ALL.iter().find(|c| c.row().0 == failure.code);
         let (status, title) = known.map_or_else(
@@ -124,7 +124,7 @@ impl From<StoreError> for Problem {
             }
             StoreError::Damaged(what) => Self::new(Code::DamagedFile, what),
             StoreError::Missing(what) => Self::new(Code::MissingFile, what),
-            // Where it is concerns nobody but whoever runs the service.
+            // Its path concerns only the operator.
             StoreError::File { why, .. } => {
                 let detail = format!("a file of the service cannot be used: {why}");
                 Self::new(Code::InternalError, detail)

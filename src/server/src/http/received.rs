@@ -9,18 +9,18 @@ use crate::jobs::access::Owner;
 use crate::jobs::{Digest, Handling, Scratch, Submission};
 use unwrapd_api::{InputFile, Kind};
 
-/// A received upload. Its folder goes when it is dropped.
+/// A received upload. Its folder is removed on drop.
 pub(super) struct Received {
     pub folder: Scratch,
     pub kind: Kind,
-    /// The options, complete.
+    /// Options, complete with defaults.
     pub options: Value,
     pub files: Vec<(InputFile, PathBuf)>,
     pub handling: Handling,
 }
 
 impl Received {
-    /// What is to be submitted for an owner; the folder has to be kept until that is done.
+    /// Returns the submission for an owner, and the folder, which must be kept until the submission is done.
     pub fn into_submission(
         self,
         owner: &Owner,

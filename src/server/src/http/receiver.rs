@@ -1,4 +1,4 @@
-//! The files, options and kind of one upload, as they come in.
+//! Receiver of the files, options and kind of one upload.
 
 use std::path::PathBuf;
 
@@ -20,10 +20,10 @@ use super::unpack::{self, Files};
 use crate::jobs::Scratch;
 use unwrapd_api::{Catalog, InputFile, Kind, from_json};
 
-/// Bytes of the name of the input: answers name their files after it, in a header.
+/// Maximum length of the input's name in bytes: responses name their files after it in a header.
 const MAX_INPUT_NAME: usize = 255;
 
-/// Takes in the parts of one upload.
+/// Collects the parts of one upload.
 pub(super) struct Receiver {
     catalog: &'static dyn Catalog,
     folder: Scratch,
@@ -38,7 +38,7 @@ pub(super) struct Receiver {
 }
 
 impl Receiver {
-    /// An upload into a fresh folder, of at most `limit` bytes, of which something was said already.
+    /// Starts an upload of at most `limit` bytes into a new folder; `said` comes from the query.
     pub fn new(
         catalog: &'static dyn Catalog,
         folder: PathBuf,
@@ -59,14 +59,14 @@ impl Receiver {
         })
     }
 
-    /// Takes a body that is the input.
+    /// Receives a body that is the input itself.
     pub async fn body(&mut self, name: String, body: Body) -> Result<(), Problem> {
         let stream = body.into_data_stream();
         self.input = Some(self.store(name, stream, |e| broken(&e)).await?);
         Ok(())
     }
 
-    /// Takes a form.
+    /// Receives a form.
     pub async fn form(&mut self, mut form: Multipart) -> Result<(), Problem> {
         while let Some(field) = form.next_field().await.map_err(|e| malformed(&e))? {
             match field.name().unwrap_or_default() {
@@ -117,7 +117,7 @@ impl Receiver {
         Ok(())
     }
 
-    /// Writes a stream to a fresh file, counting and hashing its bytes.
+    /// Writes a stream to a new file while counting and hashing its bytes.
     async fn store<B: AsRef<[u8]>, E>(
         &mut self,
         name: String,
@@ -152,7 +152,7 @@ impl Receiver {
         Ok((file, path))
     }
 
-    /// Checks what came.
+    /// Validates what was received.
     pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
         let Some((input, path)) = self.input else {
             let detail = "send it as part `mesh`, `image` or `problem`";
@@ -186,7 +186,9 @@ impl Receiver {
     }
 }
 
-/// The files of an upload, those of an archive unpacked, of which the first is what the kind reads.
+/// Prepares the files of an upload: unpacks an archive, drops unreferenced resources, detects the format of
+/// the
+/// input and names it. The input comes first.
 fn looked_at(
     catalog: &dyn Catalog,
     mut files: Files,
@@ -214,7 +216,7 @@ fn looked_at(
     Ok(files)
 }
 
-/// Drops the resources of a form that its input does not refer to.
+/// Drops the resources of a form that its input does not reference.
 fn retain_referenced(catalog: &dyn Catalog, files: &mut Files, kind: Kind) -> Result<(), Problem> {
     let resources = &files[1..];
     let known = resources.iter().map(|(file, _)| file.name.clone());
@@ -235,8 +237,9 @@ fn retain_referenced(catalog: &dyn Catalog, files: &mut Files, kind: Kind) -> Re
     Ok(())
 }
 
-/// A name for the input: what the client calls it, without folders and control characters, with an extension that is one of
-/// the kind's.
+/// Returns a name for the input: the client's name without folders and control characters, with an extension
+/// of
+/// the kind's formats.
 fn file_name(given: &str, kind: Kind, extension: &str) -> String {
     let name = given.rsplit(['/', '\\']).next().unwrap_or_default();
     let name: String = name.chars().filter(|c| !c.is_control()).collect();

@@ -1,5 +1,6 @@
-//! Which files beside an input are kept: those that it can refer to. A job has its files for weeks, and what nobody reads is not
-//! worth the space.
+//! Selection of the files that an input references. A job keeps its files for weeks, and unused ones would
+//! waste
+//! space.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
@@ -9,11 +10,12 @@ use serde_json::Value;
 use super::problem::Problem;
 use unwrapd_api::{Catalog, Content, Format, Kind, START, Upload};
 
-/// Held while an input is in memory to look for what it refers to: it may be as large as an upload.
+/// Held while an input is in memory to find its references: it may be as large as an upload.
 static LOOKING: Mutex<()> = Mutex::new(());
 
-/// Returns those of the `known` names that an input of a kind refers to. `input` reads the input, and `material` a material file
-/// of this name. An input that stands alone is not read.
+/// Returns the names among `known` that an input of a kind references. `input` reads the input, and
+/// `material` a
+/// material file by name. An input without other files is not read.
 pub(super) fn referenced(
     catalog: &dyn Catalog,
     kind: Kind,
@@ -35,7 +37,7 @@ pub(super) fn referenced(
     Ok(names.intersection(known).cloned().collect())
 }
 
-/// What a mesh refers to, and what its material files do. Inputs of other formats refer to nothing.
+/// Returns the references of a mesh and of its material files. Only OBJ has material files.
 fn of_surface(
     catalog: &dyn Catalog,
     mut upload: Upload,
@@ -53,7 +55,9 @@ fn of_surface(
     Ok(catalog.references(&upload))
 }
 
-/// What the words of a problem file name: by path, or by name alone. One that is not JSON may mean any of them: it is refused later.
+/// Returns the files named by the strings of a problem file, by path or by name alone. If it is not JSON,
+/// returns
+/// all files; it is rejected later.
 fn of_problem(bytes: &[u8], known: &BTreeSet<String>) -> BTreeSet<String> {
     let Ok(problem) = serde_json::from_slice::<Value>(bytes) else {
         return known.clone();

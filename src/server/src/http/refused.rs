@@ -1,5 +1,5 @@
-//! Connections that are refused because their address has too many. They have a few places of their
-//! own, so that they keep nobody else waiting.
+//! Refusal of connections whose address has too many. They have a few slots of their own, so that they delay
+//! nobody else.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -14,19 +14,21 @@ use tokio_util::task::AbortOnDropHandle;
 use super::counted::Counted;
 use super::problem::{Code, Problem};
 
-/// For the request of a client that gets no connection.
+/// Time for the request of a refused client.
 const TIME: Duration = Duration::from_secs(1);
-/// Who asks at once is answered before so many others come; each takes an open file.
+/// Maximum number of refusals under way. Clients that send at once are answered before they are pushed out;
+/// each
+/// connection takes an open file.
 const MOST: usize = 32;
 
-/// Connections that wait for their refusal, the oldest first.
+/// Connections waiting for their refusal, oldest first.
 pub(super) struct Refused {
     answer: Router,
     waiting: VecDeque<AbortOnDropHandle<()>>,
 }
 
 impl Refused {
-    /// None yet. Those that come will hear how many an address may have.
+    /// Creates an empty set. The refusal states the limit per address, `most`.
     pub fn of_more_than(most: usize) -> Self {
         let answer = Router::new().fallback(async move || {
             let detail = format!("an address may have {most} connections at a time");
@@ -38,8 +40,9 @@ impl Refused {
         }
     }
 
-    /// Refuses what a connection asks for, then closes it; without an answer if it asks for nothing
-    /// within a second, or is the oldest of too many. Never waits.
+    /// Answers the request of a connection with a refusal, then closes it. Closes it without an answer if no
+    /// request
+    /// comes within a second, or if it is the oldest of too many. Never waits.
     pub fn add(&mut self, stream: TcpStream) {
         self.waiting.retain(|one| !one.is_finished());
         if self.waiting.len() == MOST {

@@ -1,4 +1,4 @@
-//! What a job made.
+//! Results of jobs.
 
 use axum::extract::State;
 use axum::http::HeaderMap;
@@ -176,7 +176,7 @@ pub(super) async fn get_file(
     file(&app, &caller, id, &format!("files/{name}"), &headers).await
 }
 
-/// Whether a job has made files.
+/// Checks that a job has succeeded, so that it has files.
 pub(super) fn check_succeeded(job: &Job) -> Result<(), Problem> {
     match job.state {
         JobState::Succeeded => Ok(()),

@@ -1,4 +1,4 @@
-//! What stands around the routes: who is let in, what every answer says, what answers where no route does.
+//! The router: admission, common response headers and fallbacks around the routes.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -15,15 +15,17 @@ use tower_http::set_header::SetResponseHeaderLayer;
 use super::problem::{Code, Problem};
 use super::{App, admission, observation, open_routes, origins, pages, routes};
 
-/// Scripts, workers, styles and connections of this host only; no frames, no forms elsewhere. `blob:` is what the page
-/// itself made: pictures inside meshes.
+/// Allows scripts, workers, styles and connections of this host only; no frames, and no forms elsewhere.
+/// `blob:` is
+/// for data that the page creates: pictures inside meshes.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; \
     img-src 'self' blob: data:; connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// What answers to callers say to caches: others must not get them, and nor must whoever signed out.
+/// Cache-Control of private responses: shared caches must not keep them, and they must not be shown after a
+/// sign-out.
 const NOT_SHARED: &str = "private, no-cache";
 
-/// All routes, with what stands around them.
+/// Returns all routes with their layers.
 pub(super) fn router(app: Arc<App>) -> Result<Router, ConfigError> {
     let header =
         |name, value| SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value));

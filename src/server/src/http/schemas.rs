@@ -1,4 +1,4 @@
-//! Schemas of options and reports, as the OpenAPI document has them.
+//! Schemas of options and reports in the OpenAPI document.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use super::session_input::JobFile;
 use crate::jobs::{Event, Order};
 use unwrapd_api::{Catalog, Kind};
 
-/// Schemas that no handler names, with those that they refer to.
+/// Returns the schemas that no handler refers to, with their dependencies.
 pub(super) fn schemas(catalog: &dyn Catalog) -> Vec<(String, RefOr<Schema>)> {
     let mut schemas = catalog.schemas();
     add::<Event>(&mut schemas);
@@ -24,7 +24,7 @@ fn add<T: ToSchema>(schemas: &mut Vec<(String, RefOr<Schema>)>) {
     T::schemas(schemas);
 }
 
-/// The schema of a kind's options.
+/// Returns the name of the schema for a kind's options.
 pub(super) fn options(kind: Kind) -> &'static str {
     match kind {
         Kind::Unwrap => "Options",
@@ -38,7 +38,7 @@ pub(super) fn options(kind: Kind) -> &'static str {
     }
 }
 
-/// What a report may be.
+/// Returns the schema of any report.
 pub(super) fn any_report() -> Value {
     let reports = [
         "Report",
@@ -50,18 +50,19 @@ pub(super) fn any_report() -> Value {
     json!({ "anyOf": reports.map(reference) })
 }
 
-/// A schema of the document.
+/// Returns a reference to a schema of the document.
 pub(super) fn reference(schema: &str) -> Value {
     json!({ "$ref": format!("#/components/schemas/{schema}") })
 }
 
-/// A file.
+/// Returns the schema of a file.
 pub(super) fn bytes() -> Value {
     json!({ "type": "string", "format": "binary" })
 }
 
-/// Options become one object each, and their groups are no schemas: of parts that each refuse what
-/// they do not know, none knows all.
+/// Merges the groups of options into one object each and removes the groups' schemas: if each part rejects
+/// unknown
+/// members, no part accepts the members of all.
 pub(super) fn merge_groups(schemas: &mut Value) {
     let mut groups = BTreeSet::new();
     for name in Kind::ALL.map(options) {
@@ -79,7 +80,7 @@ pub(super) fn merge_groups(schemas: &mut Value) {
     }
 }
 
-/// The members of a schema and of the groups that it consists of, whose names are collected.
+/// Returns the members of a schema and of its groups, and collects the names of the groups.
 fn merged(schema: &Value, schemas: &Value, groups: &mut BTreeSet<String>) -> Map<String, Value> {
     let mut members = schema["properties"]
         .as_object()
@@ -96,7 +97,7 @@ fn merged(schema: &Value, schemas: &Value, groups: &mut BTreeSet<String>) -> Map
     members
 }
 
-/// The members of options as query parameters. Kinds may mean different things by one name.
+/// Returns the members of options as query parameters. Kinds may use one name with different meanings.
 pub(super) fn parameters(schemas: &Value, options: &[&str]) -> Vec<Value> {
     let mut parameters: Map<String, Value> = Map::new();
     for name in options {
@@ -118,7 +119,7 @@ pub(super) fn parameters(schemas: &Value, options: &[&str]) -> Vec<Value> {
         .collect()
 }
 
-/// A list in the query is its JSON text.
+/// Returns the query parameter of an option. A list is given as its JSON text.
 fn parameter(name: &str, mut schema: Value) -> Value {
     let mut parameter = json!({ "name": name, "in": "query", "required": false });
     if let Some(description) = take_description(&mut schema) {
@@ -132,7 +133,7 @@ fn parameter(name: &str, mut schema: Value) -> Value {
     parameter
 }
 
-/// The description of a member; that of one that may be absent stands in its first choice.
+/// Removes and returns the description of a member. For an optional member it is in the first choice.
 fn take_description(schema: &mut Value) -> Option<Value> {
     let from = |schema: &mut Value| schema.as_object_mut()?.remove("description");
     from(schema).or_else(|| from(schema.get_mut("oneOf")?.get_mut(0)?))
@@ -152,7 +153,7 @@ fn without_default(parameter: &Value) -> Value {
     schema
 }
 
-/// Has a parameter accept what another does, too.
+/// Makes a parameter also accept the values of another one.
 fn join(parameter: &mut Value, other: &Value) {
     let other = without_default(other);
     let schema = schema_of(parameter);

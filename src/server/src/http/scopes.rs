@@ -1,17 +1,17 @@
-//! Which scopes an operation takes: whoever looks reads, and everything else writes.
+//! Scopes required by operations: reading needs `read`, anything else `write`.
 
 use axum::http::Method;
 
 use crate::jobs::access::Scope;
 
-/// Operations that any key may use: it tells of itself.
+/// Operations for any key: they concern the key itself.
 const OF_ANY_KEY: &str = "/v1/sign-in";
-/// Operations that look like looking, and change something.
+/// Operations that change something although their method is GET.
 const WRITTEN: &str = "/v1/sessions/{id}/live";
-/// Operations on what belongs to no owner.
+/// Operations on things that belong to no owner, which need `admin`.
 const OF_ALL: [&str; 3] = ["/v1/drain", "/v1/pause", "/metrics"];
 
-/// What a key must be good for.
+/// Returns the scopes that an operation requires.
 pub(super) fn needed(method: &Method, path: &str) -> Vec<Scope> {
     if path == OF_ANY_KEY {
         return Vec::new();

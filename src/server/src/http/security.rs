@@ -1,4 +1,4 @@
-//! Keys in the OpenAPI document: how they are sent, and what each operation asks of them.
+//! Keys in the OpenAPI document: how they are sent, and which scopes each operation requires.
 
 use axum::http::Method;
 use serde_json::{Map, Value, json};
@@ -9,11 +9,11 @@ use super::code::Code;
 use super::scopes::needed;
 use crate::jobs::access::Scope;
 
-/// What says how keys are sent.
+/// Names of the security schemes.
 const BEARER: &str = "key";
 const OF_PAGE: &str = "page";
 
-/// Says of all operations what they ask of a key, but for those at open paths.
+/// Adds the security requirements of all operations; those at `open` paths have none.
 pub(super) fn describe(document: &mut Value, open: &[String]) {
     document["components"]["securitySchemes"] = json!({
         BEARER: {

@@ -1,4 +1,4 @@
-//! What a session is made of: an upload, or files of a job.
+//! Input of a session: an upload, or files of a job.
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ pub(super) enum JobFile {
     Input,
 }
 
-/// A job that is named instead of an upload.
+/// Query that names a job instead of an upload.
 #[derive(Deserialize)]
 struct Named {
     job: Option<String>,
@@ -36,7 +36,7 @@ struct Named {
     file: JobFile,
 }
 
-/// The input and the options of a session.
+/// Receives the input and the options of a session.
 pub(super) async fn received(
     app: &Arc<App>,
     caller: &Caller,
@@ -47,12 +47,14 @@ pub(super) async fn received(
     let Some(job) = named.job else {
         return upload::receive(app, None, request).await;
     };
+    // Read the options from the query.
     accepts(app)?;
     let mut query = UploadQuery::read(request.uri())?;
     query.options.shift_remove("job");
     query.options.shift_remove("file");
     let kind = query.kind.unwrap_or(Kind::EditUv);
     let options = complete(app.jobs.settings().catalog, kind, query.options)?;
+    // Copy the files of the job into a new folder.
     let id = job.parse().map_err(|_| job_not_found())?;
     let job = existing(app, &caller.reach(), id).await?;
     let path = (app.jobs.settings().scratch).join(format!("upload-{}", JobId::fresh()));
@@ -99,7 +101,7 @@ impl Wanted<'_> {
     }
 }
 
-/// The files of a job that a session takes, the mesh first.
+/// Returns the files of a job that a session takes, the mesh first.
 fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
     if file == JobFile::Input {
         return Ok(job.input.iter().map(Wanted::Input).collect());

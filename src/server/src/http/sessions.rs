@@ -1,4 +1,4 @@
-//! Live sessions: opened, listed, looked at, ended, baked.
+//! Routes of live sessions: open, list, get, close, bake.
 
 use std::sync::Arc;
 
@@ -89,7 +89,7 @@ fn view(app: &App, session: &Session) -> SessionView {
     }
 }
 
-/// The session of the path, if it is within the caller's reach.
+/// The session of the path, if it is visible to the caller.
 pub(super) struct PathSession(pub Arc<Session>);
 
 impl FromRequestParts<Arc<App>> for PathSession {

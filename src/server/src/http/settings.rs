@@ -1,38 +1,38 @@
-//! Limits of the HTTP interface, and who may use it.
+//! Limits of the HTTP interface, and its permitted users.
 
 use std::time::Duration;
 
 use crate::webhooks::Reachable;
 
-/// What one request may ask for, and where it may come from.
+/// Limits of requests and permitted origins.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Bytes of an upload, all its files together.
+    /// Maximum bytes of an upload, all files together.
     pub upload_bytes: u64,
-    /// How long a synchronous call may compute.
+    /// Time limit of a synchronous request.
     pub synchronous_time: Duration,
-    /// How many connections there may be, and how long they may be silent.
+    /// Limits of connections.
     pub connections: Connections,
-    /// How long an upload may take in all.
+    /// Time limit of an upload.
     pub upload_time: Duration,
-    /// Bytes in a second that a body has to bring, on average over each time of `connections.silence`.
+    /// Minimum rate of a body in bytes per second, on average over each period of `connections.silence`.
     pub upload_rate: u64,
-    /// Requests that each owner may send in a minute.
+    /// Maximum number of requests per owner and minute; `None` without a limit.
     pub owner_requests: Option<u32>,
-    /// Wrong keys that an address may send in a minute before it is told to wait.
+    /// Maximum number of wrong keys per address and minute.
     pub wrong_keys: u32,
     /// Origins, such as `https://example.org`, whose pages may use the service.
     pub origins: Vec<String>,
-    /// Names under which the service is reached, beside addresses and `localhost`; none: any name.
+    /// Permitted host names beside addresses and `localhost`; `None` if any name is permitted.
     pub hosts: Option<Vec<String>>,
-    /// Where webhooks may go; none if there are no webhooks.
+    /// Addresses that webhooks may use; `None` if there are no webhooks.
     pub webhooks: Option<Reachable>,
-    /// What a proxy puts in front of all paths; empty without one.
+    /// Path that a proxy puts in front of all paths; empty without one.
     pub base_path: String,
 }
 
 impl Connections {
-    /// Of what collects measurements.
+    /// Limits for collectors of metrics.
     pub(super) const OF_COLLECTORS: Self = Self {
         most: 16,
         most_of_address: None,
@@ -41,15 +41,15 @@ impl Connections {
     };
 }
 
-/// How many connections there may be, and how long they may be silent.
+/// Limits of connections.
 #[derive(Clone, Debug)]
 pub struct Connections {
-    /// Connections in all. Others wait until one of them ends.
+    /// Maximum number of connections. Others wait until one of them ends.
     pub most: usize,
-    /// Connections of one address. Others are refused.
+    /// Maximum number of connections per address. Others are refused.
     pub most_of_address: Option<usize>,
-    /// For the headers of a request, and between two requests.
+    /// Timeout for the headers of a request, and between two requests.
     pub header_time: Duration,
-    /// Between two pieces of a body, in either direction.
+    /// Timeout between two chunks of a body, in either direction.
     pub silence: Duration,
 }

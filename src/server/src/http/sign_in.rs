@@ -1,4 +1,4 @@
-//! Pages that sign in: browsers send no header with a WebSocket or a picture, but they send cookies.
+//! Sign-in of pages: browsers send no header with a WebSocket or an image, but they send cookies.
 
 use axum::Json;
 use axum::extract::State;
@@ -82,8 +82,8 @@ pub(super) async fn sign_out(
     answer("", 0, &headers)
 }
 
-/// Sets the cookie. Without a path, browsers send it to what lies beside this one, whatever a proxy
-/// puts in front.
+/// Sets the cookie. It has no path, so browsers send it to all paths beside this one, whatever prefix a proxy
+/// adds.
 fn answer(value: &str, seconds: u64, headers: &HeaderMap) -> Result<Response, Problem> {
     let secure = if is_encrypted(headers) {
         "; Secure"
@@ -96,7 +96,7 @@ fn answer(value: &str, seconds: u64, headers: &HeaderMap) -> Result<Response, Pr
     Ok((StatusCode::NO_CONTENT, [(header::SET_COOKIE, cookie)]).into_response())
 }
 
-/// Whether the browser reaches the service over TLS, which a proxy ends: it says so itself.
+/// Returns whether the browser reaches the service over TLS, as the headers of browser or proxy tell.
 fn is_encrypted(headers: &HeaderMap) -> bool {
     let begins = |name, start: &str| {
         let value = headers.get(name).and_then(|value| value.to_str().ok());

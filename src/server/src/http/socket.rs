@@ -1,4 +1,4 @@
-//! What all WebSockets have in common.
+//! Common parts of all WebSockets.
 
 use std::future::pending;
 use std::time::Duration;
@@ -7,14 +7,14 @@ use axum::extract::ws::{Message, close_code};
 use futures_util::{Stream, StreamExt};
 use tungstenite::Error;
 
-/// Between signs of life on a quiet connection.
+/// Interval of pings on a quiet connection.
 pub(super) const KEEP_ALIVE: Duration = Duration::from_secs(15);
-/// Bytes of a message at most: a handle, or settings.
+/// Maximum size of a message in bytes: a handle, or settings.
 pub(super) const MOST_MESSAGE_BYTES: usize = 64 << 10;
-/// For a client to answer a close frame.
+/// Time for a client to answer a close frame.
 const CLOSE_TIME: Duration = Duration::from_secs(1);
 
-/// The close code for a message that could not be read; `None` if the client is gone.
+/// Returns the close code for a message that could not be read; `None` if the client is gone.
 pub(super) fn refusal(error: axum::Error) -> Option<u16> {
     match error.into_inner().downcast_ref()? {
         Error::Capacity(_) => Some(close_code::SIZE),
@@ -24,7 +24,8 @@ pub(super) fn refusal(error: axum::Error) -> Option<u16> {
     }
 }
 
-/// Waits a moment for the answer to a close frame. To end a connection of which something is unread is to reset it, and its
+/// Waits a moment for the answer to a close frame. Closing a connection with unread data would reset it, and
+/// the
 /// client would not see the frame.
 pub(super) async fn goodbye<E>(socket: &mut (impl Stream<Item = Result<Message, E>> + Unpin)) {
     let answer = async {

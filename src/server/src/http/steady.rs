@@ -1,4 +1,4 @@
-//! Bodies that keep coming.
+//! Bodies with a minimum speed.
 
 use std::pin::Pin;
 use std::sync::{Arc, OnceLock};
@@ -10,40 +10,42 @@ use axum::body::{BodyDataStream, Bytes};
 use futures_util::{Stream, StreamExt};
 use tokio::time::{Instant, Sleep, sleep};
 
-/// Why a body was given up.
+/// Reason for giving up a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tardy {
-    /// There was no piece of it for too long.
+    /// No chunk arrived within the timeout.
     Silent,
-    /// Its pieces are too small.
+    /// The chunks are too small.
     Slow,
 }
 
-/// How fast a body has to come.
+/// Minimum speed of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tempo {
-    /// Between two pieces.
+    /// Timeout between two chunks.
     pub silence: Duration,
-    /// Bytes in a second, on average over each time of `silence` that this process waits for pieces. The first such time is the
-    /// grace of a body that begins slowly.
+    /// Minimum rate in bytes per second, on average over each period of `silence` spent waiting for chunks.
+    /// The first
+    /// period is the grace of a body that starts slowly.
     pub rate: u64,
 }
 
-/// A body that fails when it is silent for too long, or too slow.
+/// A body that fails when it pauses for too long, or is too slow.
 pub(super) struct Steady {
     body: BodyDataStream,
     tempo: Tempo,
     alarm: Pin<Box<Sleep>>,
-    /// Since when the next piece is waited for. While this process is busy with the last one, its client is not slow.
+    /// Start of waiting for the next chunk. While this process is busy with the last one, the client is not
+    /// slow.
     waits: Option<Instant>,
     waited: Duration,
-    /// Bytes that came in the time waited.
+    /// Bytes received in the time waited.
     came: u64,
     tardy: Arc<OnceLock<Tardy>>,
 }
 
 impl Steady {
-    /// A body of this tempo; `tardy` says afterward in which way it did not keep it.
+    /// Creates a body with this minimum speed; `tardy` is set if it fails.
     pub fn new(body: BodyDataStream, tempo: Tempo, tardy: Arc<OnceLock<Tardy>>) -> Self {
         Self {
             body,
@@ -56,7 +58,7 @@ impl Steady {
         }
     }
 
-    /// Counts a piece. Returns whether the body has come too slowly for a whole time.
+    /// Counts a chunk. Returns whether the body was too slow for a whole period.
     fn is_slow_with(&mut self, piece: &Bytes) -> bool {
         self.waited += self
             .waits

@@ -1,4 +1,4 @@
-//! Small meshes in one call.
+//! Synchronous requests for small meshes.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -78,6 +78,7 @@ async fn run(
         key: None,
         ..Wishes::read(request.headers())?
     };
+    // Receive the upload and refuse results with several files.
     let received = upload::receive(app, Some(kind), request).await?;
     if received
         .options
@@ -87,6 +88,7 @@ async fn run(
         let detail = "a gltf has files beside it: POST /v1/jobs, or ask for glb";
         return Err(Problem::new(Code::NeedsJob, detail));
     }
+    // Queue a job that is removed when the request ends, and wait for it.
     let (submission, _folder) = received.into_submission(caller.owner(), wishes, true);
     let (Submitted::New(job) | Submitted::Replay(job)) = app.jobs.submit(submission).await?;
     let _guest = Guest {
@@ -126,7 +128,7 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
     }
 }
 
-/// What stands in a job, as headers: nothing else of it is left.
+/// Sets headers from the verdict of a job, which is not kept.
 fn tell_verdict(verdict: &Verdict, headers: &mut HeaderMap) {
     for (name, verdict) in [
         (CERTIFIED, verdict.worth.certified),
@@ -148,7 +150,7 @@ fn tell_verdict(verdict: &Verdict, headers: &mut HeaderMap) {
     }
 }
 
-/// A job that goes with its caller, answered or not.
+/// A job that is dismissed when its request ends, answered or not.
 struct Guest<'a> {
     jobs: &'a Arc<Jobs>,
     id: JobId,

@@ -1,8 +1,8 @@
-//! Uploads as one ZIP: an input with the files that it references. Others stay packed.
+//! Uploads as one ZIP: an input with the files that it references. Other files stay packed.
 //!
-//! What an archive says of the sizes of its files is checked first, and what comes out of it is
-//! counted. Files get names of this program's own; those of the archive are only what the input
-//! calls them.
+//! The declared sizes of an archive are checked first, and the unpacked bytes are counted. Files on disk get
+//! names
+//! chosen by this program; the names in the archive are only the paths that the input uses.
 
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -18,15 +18,15 @@ use super::problem::{Code, Problem};
 use super::references::referenced;
 use unwrapd_api::{Catalog, InputFile, Kind};
 
-/// What archives begin with, also those without files.
+/// First bytes of archives, with and without files.
 const SIGNATURES: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
-/// Bytes that are read at once.
+/// Bytes per read.
 const BLOCK: usize = 64 << 10;
 
-/// Files with the places where they lie, the input first.
+/// Files with their current paths, the input first.
 pub(super) type Files = Vec<(InputFile, PathBuf)>;
 
-/// Whether a file is an archive.
+/// Returns whether a file is an archive.
 pub(super) fn is_archive(path: &Path) -> io::Result<bool> {
     let mut head = Vec::new();
     File::open(path)?.take(4).read_to_end(&mut head)?;
@@ -35,17 +35,19 @@ pub(super) fn is_archive(path: &Path) -> io::Result<bool> {
         .any(|signature| head.starts_with(signature)))
 }
 
-/// An entry of an archive: its number, and what the input calls it.
+/// An entry of an archive: its index and its name for the input.
 type Entry = (usize, String);
 
-/// Unpacks an archive of at most so many bytes into its folder: the input of a kind first, then what it refers to, under the paths by
-/// which it does. Nothing else is unpacked.
+/// Unpacks an archive of at most `limit` bytes into its folder: first the input of a kind, then the files
+/// that it
+/// references, named by the paths that it uses. Nothing else is unpacked.
 pub(super) fn unpacked(
     catalog: &dyn Catalog,
     path: &Path,
     kind: Kind,
     limit: u64,
 ) -> Result<Files, Problem> {
+    // Check the number and the declared size of the entries.
     let mut archive = ZipArchive::new(File::open(path)?).map_err(|e| invalid(&e))?;
     if MAX_FILES < archive.len() {
         let detail = format!("an upload can have at most {MAX_FILES} files");
@@ -54,6 +56,7 @@ pub(super) fn unpacked(
     if (archive.decompressed_size()).is_some_and(|declared| u128::from(limit) < declared) {
         return Err(too_large(limit));
     }
+    // Find the input, and name the other entries from its folder.
     let mut entries = Vec::new();
     for index in 0..archive.len() {
         let entry = archive.by_index(index).map_err(|e| invalid(&e))?;
@@ -72,6 +75,7 @@ pub(super) fn unpacked(
     let input = entries.next().ok_or_else(|| invalid(&"it is empty"))?;
     let mut files = vec![unpacker.unpack(&input)?];
 
+    // Unpack what the input references. Material files are unpacked early to read their own references.
     let others: Vec<Entry> = entries.collect();
     let known = others.iter().map(|(_, name)| name.clone()).collect();
     let mut materials = Vec::new();
@@ -99,7 +103,7 @@ pub(super) fn unpacked(
     Ok(files)
 }
 
-/// Takes files out of an archive, as many bytes as are left.
+/// Unpacks entries of an archive until the limit is reached.
 struct Unpacker {
     archive: ZipArchive<File>,
     folder: PathBuf,
@@ -128,7 +132,7 @@ fn too_large(limit: u64) -> Problem {
     Problem::new(Code::UploadTooLarge, detail).with_limit(limit)
 }
 
-/// Copies an entry and returns its size and its digest; none if it has more bytes than are left.
+/// Copies an entry and returns its size and its SHA-256; `None` if it has more than `left` bytes.
 fn unpack(entry: impl Read, place: &Path, left: u64) -> Result<Option<(u64, String)>, Problem> {
     let mut file = File::create(place)?;
     let mut entry = entry.take(left.saturating_add(1));
@@ -146,7 +150,7 @@ fn unpack(entry: impl Read, place: &Path, left: u64) -> Result<Option<(u64, Stri
     }
 }
 
-/// The path of an entry within the archive.
+/// Returns the path of an entry within the archive.
 fn name<R: Read>(entry: &ZipFile<'_, R>) -> Result<String, Problem> {
     let inside = entry.enclosed_name();
     let inside = inside.as_deref().and_then(Path::to_str);
@@ -155,13 +159,15 @@ fn name<R: Read>(entry: &ZipFile<'_, R>) -> Result<String, Problem> {
     Ok(name.replace('\\', "/"))
 }
 
-/// What operating systems put into archives beside what was meant.
+/// Returns whether an entry was added by an operating system.
 fn is_of_a_system(name: &str) -> bool {
     let last = name.rsplit('/').next().unwrap_or(name);
     name.starts_with("__MACOSX/") || last == ".DS_Store" || last == "Thumbs.db"
 }
 
-/// The only file that the kind reads first; the others below its folder are named from there.
+/// Moves the only file of a format that the kind reads to the front, and renames the others in its folder
+/// relative
+/// to it.
 fn with_input_first(mut entries: Vec<Entry>, kind: Kind) -> Result<Vec<Entry>, Problem> {
     let names = entries.iter().map(|(_, name)| name.as_str());
     let inputs: Vec<&str> = names.filter(|name| framing::is_named(name, kind)).collect();

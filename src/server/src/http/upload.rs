@@ -1,4 +1,4 @@
-//! From a request to a received upload.
+//! Reception of uploads.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
@@ -18,40 +18,42 @@ use super::steady::{Steady, Tardy, Tempo};
 use crate::jobs::JobId;
 use unwrapd_api::{Content, Format, Kind};
 
-/// How long the rest of a refused body is waited for. What comes later finds the connection closed.
+/// Time for which the rest of a rejected body is read. What comes later finds the connection closed.
 const DRAIN_TIME: Duration = Duration::from_secs(1);
 
-/// What the parts of a form may have around their files.
+/// Maximum bytes of a form around its files.
 const FRAMING_BYTES: u64 = 8 << 20;
 
 /// Media types of raw bodies that leave the format to the content.
 const UNTOLD: [&str; 3] = ["text/plain", "application/zip", BYTES];
 const BYTES: &str = "application/octet-stream";
-/// What `curl --data-binary` says of every body if it is not told otherwise.
+/// Content type of `curl --data-binary` unless another one is given.
 const CURL: &str = "application/x-www-form-urlencoded";
 
-/// Those of surfaces.
+/// Media types of surfaces.
 pub(super) fn surface_types() -> impl Iterator<Item = &'static str> {
     let named = Format::that_hold(Content::Surface).flat_map(Format::media_types);
     named.chain(&UNTOLD).copied()
 }
 
-/// Those of pictures, drawings and problem files.
+/// Media types of pictures, drawings and problem files.
 pub(super) fn other_types() -> impl Iterator<Item = &'static str> {
     let others = formats().filter(|format| !format.holds(Content::Surface));
     others.flat_map(Format::media_types).copied()
 }
 
-/// The formats that jobs of some kind read.
+/// Formats that jobs of some kind read.
 fn formats() -> impl Iterator<Item = Format> {
     Format::all().filter(|format| Kind::ALL.iter().any(|kind| format.holds(kind.reads())))
 }
 
-/// Receives an upload to disk and checks what can be checked without computing: size, framing, options. `kind` is
-/// given where the path already says it.
+/// Receives an upload to disk and checks what can be checked without computing: size, framing, options.
+/// `kind` is
+/// given if the path determines it.
 ///
-/// What is left of the body of a refused upload is read and forgotten, for a while: a client that is still sending
-/// when the connection closes may never see the answer. One that asks before it sends is answered at once.
+/// The rest of a rejected body is read and discarded for a while: a client that is still sending when the
+/// connection
+/// closes may never see the response. A client that asks before it sends is answered at once.
 pub(super) async fn receive(
     app: &Arc<App>,
     kind: Option<Kind>,
@@ -61,6 +63,7 @@ pub(super) async fn receive(
     let asks_first = head.headers.contains_key(header::EXPECT);
     let may_come = accepts(app).and_then(|()| may_fit(app, &head.headers));
     let tardy = Arc::new(OnceLock::new());
+    // Limit the speed of the body, and keep a second handle to its rest.
     let tempo = Tempo {
         silence: app.settings.connections.silence,
         rate: app.settings.upload_rate,
@@ -78,6 +81,7 @@ pub(super) async fn receive(
                 .unwrap_or_else(|_| Err(late("the upload", app.settings.upload_time)))
         }
     };
+    // A slow body is the cause of whatever went wrong.
     match tardy.get() {
         Some(Tardy::Silent) => return Err(late("the next piece of the body", tempo.silence)),
         Some(Tardy::Slow) => return Err(slow(tempo)),
@@ -89,20 +93,20 @@ pub(super) async fn receive(
     received
 }
 
-/// Reads what is left of the body of a refused request, for a while.
+/// Reads the rest of the body of a rejected request, for a while.
 async fn drain<E>(rest: &mut (impl Stream<Item = Result<Bytes, E>> + Unpin)) {
     let drained = async { while let Some(Ok(_)) = rest.next().await {} };
     let _ = tokio::time::timeout(DRAIN_TIME, drained).await;
 }
 
-/// Does so for a request of which nothing was read, unless its client asks before it sends.
+/// Reads the unread body of a rejected request, for a while, unless its client asks before it sends.
 pub(super) async fn drain_refused(request: Request) {
     if !request.headers().contains_key(header::EXPECT) {
         drain(&mut request.into_body().into_data_stream()).await;
     }
 }
 
-/// A body of which others read too.
+/// Returns a stream of a body that has other readers.
 fn shared(body: Arc<Mutex<Steady>>) -> impl Stream<Item = Result<Bytes, BoxError>> + Unpin + Send {
     stream::poll_fn(move |context| {
         let mut body = body.lock().unwrap_or_else(PoisonError::into_inner);
@@ -122,7 +126,7 @@ fn slow(Tempo { silence, rate }: Tempo) -> Problem {
     Problem::new(Code::RequestTimeout, detail).with_limit(rate)
 }
 
-/// Whether the length that is announced can be that of an upload.
+/// Checks that the announced length is not too large for an upload.
 fn may_fit(app: &App, headers: &HeaderMap) -> Result<(), Problem> {
     let length = headers.get(header::CONTENT_LENGTH);
     let length = length.and_then(|length| length.to_str().ok()?.parse::<u64>().ok());
@@ -134,7 +138,7 @@ fn may_fit(app: &App, headers: &HeaderMap) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Whether this process takes in jobs now.
+/// Checks that this process accepts jobs now.
 pub(super) fn accepts(app: &App) -> Result<(), Problem> {
     if app.jobs.is_draining() {
         return Err(Problem::new(Code::Draining, "try again elsewhere"));
@@ -159,6 +163,7 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
         limit,
         std::mem::take(&mut query.said),
     )?;
+    // Read a form or a raw body.
     let media_type = media_type(request.headers());
     if media_type == "multipart/form-data" {
         let form = Multipart::from_request(request, &())
@@ -182,8 +187,7 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
     receiver.finish(kind, query).await
 }
 
-/// The media type without parameters, in lower case. A missing one is that of bytes, and so is the
-/// one that says nothing.
+/// Returns the media type without parameters, in lower case. A missing or meaningless one stands for bytes.
 fn media_type(headers: &HeaderMap) -> String {
     let value = headers.get(header::CONTENT_TYPE);
     let value = value.map_or(BYTES, |value| value.to_str().unwrap_or_default());
@@ -194,7 +198,7 @@ fn media_type(headers: &HeaderMap) -> String {
     }
 }
 
-/// `filename="…"` of a Content-Disposition header.
+/// Parses `filename="…"` of a Content-Disposition header.
 fn disposition_name(headers: &HeaderMap) -> Option<String> {
     let value = headers.get(header::CONTENT_DISPOSITION)?.to_str().ok()?;
     let (_, name) = value.split_once("filename=")?;

@@ -1,4 +1,4 @@
-//! A job as clients see it.
+//! Public view of jobs.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -96,15 +96,16 @@ struct FileLink {
     bytes: Option<u64>,
 }
 
-/// The path of a job, behind what a proxy puts in front.
+/// Returns the path of a job, with the prefix of a proxy.
 pub(super) fn job_path(base: &str, job: &Job) -> String {
     format!("{base}/v1/jobs/{}", job.id)
 }
 
 impl JobView {
-    /// A job as clients of a service with these settings see it.
+    /// Returns the view of a job for clients of a service with these settings.
     pub fn new(job: &Job, settings: &Settings, base: &str) -> Self {
         let path = job_path(base, job);
+        // List the results, with pictures before reports.
         let files = job.results().map(|file| FileLink {
             href: format!("{path}/{}", file.role),
             name: file.name.clone(),

@@ -1,7 +1,7 @@
-//! How often each of many does something, counted in windows of time.
+//! Rate limits per key in fixed windows of time.
 //!
-//! A window is the same for all, so that nothing is kept of those before it. Each process counts
-//! what reaches itself.
+//! The windows are the same for all keys, so nothing is kept of past ones. Each process counts its own
+//! requests.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -10,14 +10,14 @@ use std::time::{Duration, Instant};
 
 use axum::http::{HeaderMap, HeaderName, HeaderValue};
 
-/// How long a window is.
+/// Length of a window.
 const LENGTH: Duration = Duration::from_mins(1);
 
-/// What a client may do, and what is left of that (draft-ietf-httpapi-ratelimit-headers-10).
+/// Headers with the limit and the rest of it (draft-ietf-httpapi-ratelimit-headers-10).
 pub(super) const POLICY: HeaderName = HeaderName::from_static("ratelimit-policy");
 pub(super) const LEFT: HeaderName = HeaderName::from_static("ratelimit");
 
-/// Counts for each key what it does.
+/// Counts of each key in the current window.
 pub(super) struct Windows<K> {
     most: u32,
     began: Instant,
@@ -29,7 +29,7 @@ struct Present<K> {
     counts: HashMap<K, u32>,
 }
 
-/// Where one of them stands.
+/// State of a key in the current window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Standing {
     most: u32,
@@ -39,7 +39,7 @@ pub(super) struct Standing {
 }
 
 impl<K: Eq + Hash> Windows<K> {
-    /// Allows each so much in a window.
+    /// Allows each key `most` requests per window.
     pub fn of(most: u32) -> Self {
         let (window, counts) = (0, HashMap::new());
         Self {
@@ -49,7 +49,7 @@ impl<K: Eq + Hash> Windows<K> {
         }
     }
 
-    /// Counts once more; an error if that is more than allowed.
+    /// Counts a request. Returns an error if it exceeds the limit.
     pub fn take(&self, key: K) -> Result<Standing, Standing> {
         let elapsed = self.began.elapsed();
         let mut present = (self.present.lock()).unwrap_or_else(PoisonError::into_inner);
@@ -75,7 +75,7 @@ impl<K: Eq + Hash> Windows<K> {
 }
 
 impl Standing {
-    /// Tells a client.
+    /// Sets the headers for the client.
     pub fn tell(self, headers: &mut HeaderMap) {
         let Self { most, left, reset } = self;
         let window = LENGTH.as_secs();

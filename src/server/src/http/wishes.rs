@@ -1,25 +1,25 @@
-//! What the headers of a submission wish.
+//! Request headers of a submission.
 
 use axum::http::{HeaderMap, header};
 
 use super::observation::traceparent;
 use super::problem::{Code, Problem};
 
-/// Longest Idempotency-Key.
+/// Maximum length of an Idempotency-Key.
 const MAX_KEY: usize = 255;
 
-/// How a submission is to be taken.
+/// Settings of a submission from its headers.
 pub(super) struct Wishes {
-    /// The client's own name for it.
+    /// Idempotency key.
     pub key: Option<String>,
-    /// Whether the result of an equal job will do.
+    /// Set unless the client refuses the result of an equal job.
     pub reuse: bool,
-    /// The trace that the client says it is a part of.
+    /// Trace that the client is part of.
     pub trace: Option<String>,
 }
 
 impl Wishes {
-    /// Reads `Idempotency-Key`, `Cache-Control` and `traceparent`.
+    /// Parses `Idempotency-Key`, `Cache-Control` and `traceparent`.
     pub fn read(headers: &HeaderMap) -> Result<Self, Problem> {
         let directives = headers.get_all(header::CACHE_CONTROL).iter();
         let mut directives = directives

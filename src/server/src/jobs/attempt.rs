@@ -1,4 +1,4 @@
-//! One attempt at one job, seen from the worker.
+//! One attempt at a job, from the worker's side.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -25,12 +25,12 @@ use unwrapd_api::{
     output_file, read_json, write_json,
 };
 
-/// After which a job is tried again that could not be computed for want of space or of files.
+/// Delay before a retry of a job that could not run because space or files were unavailable.
 const PAUSE: Duration = Duration::from_secs(1);
-/// After which a job of a newer program is offered again.
+/// Delay before a job that needs a newer program is offered again.
 const PAUSE_FOR_NEWER: Duration = Duration::from_secs(3);
 
-/// Runs a claimed job, as [`run`] says, with its name in all lines of the log.
+/// Runs a claimed job with [`run`], with its id in every log line.
 pub(super) async fn run_logged(
     jobs: &Jobs,
     job: Job,
@@ -42,9 +42,9 @@ pub(super) async fn run_logged(
     run(jobs, job, attempt, leave).instrument(span).await
 }
 
-/// Runs a claimed job to its end and records it. `leave` asks to hand it back. Returns how long this
-/// worker should rest: where files or space are wanting, the next job would fare no better, and
-/// another worker may.
+/// Runs a claimed job to its end and records the outcome. `leave` asks to hand the job back. Returns the time
+/// for which this worker should pause: if files or space are unavailable, its next job would fare no better,
+/// but another worker may succeed.
 async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) -> Duration {
     let name = format!("attempt-{}-{}", job.id, job.token);
     let folder = jobs.settings.scratch.join(name);
@@ -120,7 +120,8 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
     Ok(write_json(folder, TASK, &task)?)
 }
 
-/// How the attempt ended; `None` if the job is somebody else's by now.
+/// Runs the compute child and returns how the attempt ended; `None` if the job belongs to another worker by
+/// now.
 async fn compute(
     jobs: &Jobs,
     job: &Job,
@@ -128,6 +129,7 @@ async fn compute(
     folder: &Path,
     leave: &CancellationToken,
 ) -> StoreResult<Option<Ending>> {
+    // Start the child and follow it until it ends or has to be ended.
     let kills = Kills::so_far();
     let mut child = Child::start(&jobs.settings.program, "compute", folder)?;
     let watched = watch(jobs, job, attempt, (&mut child, folder), leave).await;
@@ -140,6 +142,7 @@ async fn compute(
         Watched::Silent => {}
     }
     let exit = child.wait().await?;
+    // Success: store the output files.
     if matches!(exit, Exit::Code(0)) {
         let mut outcome: Outcome = read_json(folder, OUTCOME)?;
         jobs.engine().await?.clone_into(&mut outcome.verdict.engine);
@@ -150,6 +153,7 @@ async fn compute(
         }
         return Ok(Some(Ending::Succeeded(outcome.output, outcome.verdict)));
     }
+    // Any other exit: retry if the cause lies outside the job, otherwise fail.
     if matches!(exit, Exit::Code(NO_SPACE)) {
         return Err(StoreError::Full("an attempt's folder".to_owned()));
     }
@@ -174,7 +178,8 @@ async fn compute(
     })))
 }
 
-/// An attempt at a job that was just claimed; its lease counts from before the claim was sent.
+/// Registers an attempt at a job that was just claimed. Its lease counts from `sent`, before the claim was
+/// sent.
 pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
     jobs.running.start(job, sent + jobs.settings.rules.lease)
 }

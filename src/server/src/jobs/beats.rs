@@ -1,4 +1,4 @@
-//! Signs of life, and what clients want of attempts.
+//! Heartbeats, which also carry client commands back to the attempts.
 
 use std::time::Duration;
 
@@ -8,8 +8,8 @@ use super::meters;
 use super::queue::Jobs;
 
 impl Jobs {
-    /// Gives signs of life for the attempts of this process, and hears what clients want of them,
-    /// for ever.
+    /// Sends heartbeats for all attempts of this process every `interval`, and passes the answers on to them.
+    /// Never returns.
     pub(super) async fn beat(&self, interval: Duration) {
         let mut interval = tokio::time::interval(interval);
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);

@@ -1,4 +1,4 @@
-//! What the queue needs from a place for files.
+//! The storage interface for job files.
 
 use std::ops::Range;
 use std::path::Path;
@@ -10,42 +10,43 @@ use super::job::JobId;
 use super::store_error::StoreResult;
 use super::store_id::StoreId;
 
-/// The content of a file as it is read.
+/// Content of a file as a stream of blocks.
 pub type Content = BoxStream<'static, StoreResult<Vec<u8>>>;
 
-/// Files of jobs, under keys such as `ID/input/0`. A file is there completely or not at all, and
-/// nobody writes to one.
+/// Files of jobs, under keys such as `ID/input/0`. A file exists completely or not at all, and is never
+/// modified.
 pub trait Blobs: Send + Sync {
-    /// Stores a local file under a key, durably. The file may be moved away.
+    /// Stores a local file under a key, durably. The local file may be moved away.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// Stores the content of a key under another one as well, as durably as [`Blobs::put`].
+    /// Copies the content of one key to another, as durably as [`Blobs::put`].
     fn copy<'a>(&'a self, from: &'a str, to: &'a str) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// Brings a file to a local path.
+    /// Copies a file to a local path.
     fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// Reads these bytes of a file.
+    /// Reads this byte range of a file.
     fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>>;
 
-    /// The jobs that have files.
+    /// Returns the ids of the jobs that have files.
     fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
-    /// The files whose keys begin with this folder, with their sizes.
+    /// Returns the keys in this folder, with file sizes in bytes.
     fn list<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<Vec<(String, u64)>>>;
 
-    /// Which store the files are of; `None` in a new place, and in one of version 0.1.0.
+    /// Returns the id of the store that the files belong to; `None` for new storage and for that of version
+    /// 0.1.0.
     fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>>;
 
-    /// Notes which store the files are of.
+    /// Records the id of the store that the files belong to.
     fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<()>>;
 
-    /// Bytes that may still be written; `None` where nobody counts.
+    /// Returns the number of free bytes; `None` if the storage does not count them.
     fn free_bytes(&self) -> StoreResult<Option<u64>>;
 
-    /// Whether files can be stored now. Writes something from time to time.
+    /// Checks that files can be stored now, by writing a probe from time to time.
     fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
 
-    /// Removes all files whose keys begin with this folder. It is no error if there are none.
+    /// Removes all files in this folder. Succeeds if there are none.
     fn remove<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<()>>;
 }

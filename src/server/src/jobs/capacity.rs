@@ -1,4 +1,4 @@
-//! Whether there is room for more jobs.
+//! Storage use, and admission of new jobs.
 
 use std::time::Duration;
 
@@ -7,33 +7,33 @@ use super::quotas::Capacity;
 use super::space::free_bytes;
 use super::store_error::{StoreError, StoreResult};
 
-/// Over which the pace of the queue is taken.
+/// Period over which the throughput of the queue is measured.
 const PACE_TIME: Duration = Duration::from_mins(5);
-/// For a place in a queue that has no pace.
+/// Estimated wait for a place in the queue when no job has ended lately.
 const WITHOUT_PACE: Duration = Duration::from_mins(1);
 
-/// For the place for files to answer.
+/// Timeout for file storage to respond.
 const BLOBS_PATIENCE: Duration = Duration::from_secs(5);
 
-/// How much is stored, and how much more may be.
+/// Storage in use and available.
 #[derive(Clone, Copy, Debug)]
 pub struct Usage {
-    /// Bytes of the files of all jobs, and of those in quarantine.
+    /// Bytes of the files of all jobs, including quarantined files.
     pub stored: u64,
-    /// Jobs without a record whose files are in quarantine.
+    /// Number of jobs without a record whose files are quarantined.
     pub quarantined: usize,
-    /// Bytes of these files.
+    /// Bytes of quarantined files.
     pub quarantined_bytes: u64,
-    /// Bytes that they may take together; `None` for as much as there is.
+    /// Maximum for `stored`; `None` if there is no quota.
     pub quota: Option<u64>,
-    /// Free bytes where they lie; `None` where nobody counts.
+    /// Free bytes in file storage; `None` if it does not count them.
     pub free: Option<u64>,
-    /// Free bytes where uploads and attempts lie.
+    /// Free bytes on the disk of uploads and attempts.
     pub scratch_free: u64,
 }
 
 impl Jobs {
-    /// How much may be stored.
+    /// Returns the limits on what may be stored.
     pub(super) fn capacity(&self) -> Capacity {
         Capacity {
             depth: self.settings.queue_depth,
@@ -42,7 +42,7 @@ impl Jobs {
         }
     }
 
-    /// After which time a place in the queue will be free, at its pace of the last minutes.
+    /// Estimates when a place in the queue will be free, from the throughput of the last minutes.
     pub(super) async fn next_place(&self) -> Duration {
         match self.store.ended_within(PACE_TIME).await {
             Ok(ended @ 1..) => (PACE_TIME / ended.min(1000) as u32).max(Duration::from_secs(1)),
@@ -50,7 +50,7 @@ impl Jobs {
         }
     }
 
-    /// What is stored, and what is free.
+    /// Returns what is stored and what is free.
     pub async fn usage(&self) -> StoreResult<Usage> {
         let quarantined = self.store.quarantined().await?;
         Ok(Usage {
@@ -63,7 +63,8 @@ impl Jobs {
         })
     }
 
-    /// Whether the disks have room for what a job needs. Refusing early leaves room for the ends of those that run.
+    /// Checks that the disks have room for what a job needs. Refusing early leaves room for running jobs to
+    /// end.
     pub fn has_room(&self) -> StoreResult<()> {
         let scratch = free_bytes(&self.settings.scratch)?;
         let free = self.blobs.free_bytes()?.unwrap_or(scratch).min(scratch);
@@ -75,7 +76,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// Whether the files are those of this store, and more can be stored.
+    /// Checks that the files belong to this store and that more can be stored.
     pub async fn check_blobs(&self) -> StoreResult<()> {
         let check = async {
             if let Some(own) = self.identity.get() {
@@ -98,8 +99,9 @@ impl Jobs {
         answer.unwrap_or_else(|_| Err(late()))
     }
 
-    /// Whether a job would be accepted now: records and files can be written,
-    /// disks have room, and the quota is not used up.
+    /// Checks that a job would be accepted now: records and files can be written, disks have room, and the
+    /// quota
+    /// is not used up.
     pub async fn check(&self) -> StoreResult<()> {
         self.store.check().await?;
         self.has_room()?;

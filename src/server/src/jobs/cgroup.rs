@@ -1,20 +1,21 @@
-//! Whether the system ended a process of this container for want of memory.
+//! Detection of out-of-memory kills in this container.
 
 use std::path::PathBuf;
 
-/// Where a version of control groups counts, in which file.
+/// Counter of each cgroup version: marker in `/proc/self/cgroup`, mount point, file name.
 const COUNTERS: [(&str, &str, &str); 2] = [
     ("0::", "/sys/fs/cgroup", "memory.events"),
     ("memory", "/sys/fs/cgroup/memory", "memory.oom_control"),
 ];
 
-/// How many processes of the control groups of this process were ended for want of memory; its
-/// compute children are in the same groups.
+/// Number of processes that the system killed for lack of memory in the cgroups of this process, which
+/// include
+/// its compute children.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Kills(u64);
 
 impl Kills {
-    /// Those until now; 0 where nobody counts.
+    /// Returns the count so far; 0 if the system does not count.
     pub fn so_far() -> Self {
         let groups = std::fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
         let counters = counters(&groups).into_iter();
@@ -22,15 +23,15 @@ impl Kills {
         Self(texts.filter_map(|text| count(&text)).sum())
     }
 
-    /// Whether there is at least one more by now.
+    /// Returns whether the count has grown since.
     pub fn is_one_more(&self) -> bool {
         self.0 < Self::so_far().0
     }
 }
 
-/// The files that count, by what `/proc/self/cgroup` says: version 2 has one line `0::PATH`,
-/// version 1 one `N:CONTROLLERS:PATH` per controller. Within a container, the path may be that of
-/// the host, and the files lie at the top.
+/// Returns the counter files listed by the text of `/proc/self/cgroup`: version 2 has one line `0::PATH`,
+/// version 1 one line `N:CONTROLLERS:PATH` per controller. Within a container, the path may be that of the
+/// host, and the files lie at the top.
 fn counters(groups: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for line in groups.lines() {
@@ -50,7 +51,7 @@ fn counters(groups: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The line `oom_kill N`, which both versions have.
+/// Returns the count in the line `oom_kill N`, which both versions have.
 fn count(text: &str) -> Option<u64> {
     let mut lines = text.lines();
     lines.find_map(|line| line.strip_prefix("oom_kill ")?.trim().parse().ok())

@@ -1,4 +1,4 @@
-//! Whether a file is what was stored.
+//! Checksums of stored files.
 
 use std::fs::File;
 use std::io::Read;
@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 use super::blobs::Content;
 use super::store_error::{StoreError, StoreResult};
 
-/// Bytes that are read at once.
+/// Bytes per read.
 const BLOCK: usize = 1 << 16;
 
 fn compared(sha256: &str, expected: &str) -> StoreResult<()> {
@@ -21,7 +21,7 @@ fn compared(sha256: &str, expected: &str) -> StoreResult<()> {
     Err(StoreError::Damaged(detail.to_owned()))
 }
 
-/// Reads a local file and compares its checksum, if that is known.
+/// Reads a local file and compares its checksum, if one is known.
 pub(super) async fn check(path: &Path, expected: Option<&str>) -> StoreResult<()> {
     match expected {
         Some(expected) => compared(&of(path).await?, expected),
@@ -29,7 +29,7 @@ pub(super) async fn check(path: &Path, expected: Option<&str>) -> StoreResult<()
     }
 }
 
-/// The checksum of a local file.
+/// Returns the SHA-256 of a local file, in hexadecimal digits.
 pub(super) async fn of(path: &Path) -> StoreResult<String> {
     let path = path.to_owned();
     let read = tokio::task::spawn_blocking(move || of_file(&path)).await;
@@ -47,8 +47,8 @@ fn of_file(path: &Path) -> std::io::Result<String> {
     }
 }
 
-/// Passes a whole file on. If its checksum is not the expected one, it ends with an error instead
-/// of its last block, so that no reader takes it for whole.
+/// Passes a stream through and checks its checksum. On a mismatch it ends with an error in place of the last
+/// block, so no reader takes it for complete.
 pub(super) fn checked(content: Content, expected: String) -> Content {
     let state = (content, Sha256::new(), None::<Vec<u8>>, Some(expected));
     let blocks = stream::unfold(state, async |(mut content, mut hash, mut held, mut end)| {

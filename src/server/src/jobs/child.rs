@@ -1,4 +1,4 @@
-//! The compute child as a process: how it is started, told and ended.
+//! The compute child as a process: starting, signaling and ending it.
 
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
@@ -14,13 +14,13 @@ use tokio::task::JoinHandle;
 use super::program::Program;
 use unwrapd_api::{Failure, Message};
 
-/// Between a request to end and the end by force.
+/// Time between SIGTERM and SIGKILL.
 const GRACE: Duration = Duration::from_millis(100);
-/// For a child that has said all to be gone.
+/// Time for a child to exit after its last message.
 const LAST_WORDS: Duration = Duration::from_secs(5);
-/// Unit of processor times in `/proc`, the same on all of Linux.
+/// Milliseconds per clock tick in `/proc`, the same on all of Linux.
 const TICK_MS: u64 = 10;
-/// How much of a child's standard error is kept.
+/// Maximum number of bytes kept of a child's standard error.
 const STDERR_BYTES: u64 = 64 << 10;
 
 /// A running compute child. Dropping it kills the process.
@@ -28,19 +28,21 @@ pub(super) struct Child {
     process: tokio::process::Child,
     messages: Lines<BufReader<ChildStdout>>,
     stderr: JoinHandle<String>,
-    /// Kept open: the child ends when it closes, that is also when this process is lost.
+    /// Kept open: the child exits when this pipe closes, which also happens when this process dies.
     stdin: Option<ChildStdin>,
 }
 
-/// How a child ended by itself.
+/// Exit of a child that ended by itself.
 pub(super) enum Exit {
     Code(i32),
     Signal(i32),
     OutOfMemory,
 }
 
-/// Starts the program with `WORD FOLDER` in a process group of its own, with pipes, and with the allocator's setting in its
-/// environment: address space that was freed must not count against the memory limit. Dropping it kills the process.
+/// Starts the program with `WORD FOLDER` in its own process group, with pipes. Sets the allocator in its
+/// environment to return freed address space, which must not count against the memory limit. Dropping it
+/// kills
+/// the process.
 pub fn spawn(
     program: &Program,
     word: &str,
@@ -72,7 +74,7 @@ impl Child {
         })
     }
 
-    /// The next message; `None` when the child will say no more. Lines that are no message are ignored.
+    /// Returns the next message; `None` at the end of the output. Skips lines that are not messages.
     pub async fn next_message(&mut self) -> Option<Message> {
         loop {
             let line = self.messages.next_line().await.ok()??;
@@ -82,12 +84,12 @@ impl Child {
         }
     }
 
-    /// Asks to finish early with the present valid map.
+    /// Asks the child to finish early with its current valid map.
     pub fn interrupt(&self) {
         self.signal(Signal::SIGINT);
     }
 
-    /// Asks for the maps under way.
+    /// Asks the child for its current maps.
     pub async fn ask_for_maps(&mut self) {
         if let Some(stdin) = &mut self.stdin {
             // It may be gone already: then there are none.
@@ -95,7 +97,7 @@ impl Child {
         }
     }
 
-    /// Ends it: by request, then by force.
+    /// Ends the child with SIGTERM, then with SIGKILL after a grace period.
     pub async fn terminate(&mut self) -> std::io::Result<()> {
         self.signal(Signal::SIGTERM);
         if tokio::time::timeout(GRACE, self.process.wait())
@@ -107,7 +109,7 @@ impl Child {
         Ok(())
     }
 
-    /// How it ended, once it has said all.
+    /// Waits for the child to exit after its last message, and kills it if it does not.
     pub async fn wait(mut self) -> std::io::Result<Exit> {
         let status = if let Ok(status) = tokio::time::timeout(LAST_WORDS, self.process.wait()).await
         {
@@ -123,7 +125,7 @@ impl Child {
         Ok(exit(status, &stderr))
     }
 
-    /// Memory that it holds in RAM.
+    /// Returns the resident memory of the child in bytes; 0 if unknown.
     pub fn resident_bytes(&self) -> u64 {
         let Some(pid) = self.process.id() else {
             return 0;
@@ -134,7 +136,7 @@ impl Child {
         kib.unwrap_or(0) << 10
     }
 
-    /// Milliseconds of processor time that it has used.
+    /// Returns the processor time that the child has used, in milliseconds.
     pub fn cpu_ms(&self) -> u64 {
         let Some(pid) = self.process.id() else {
             return 0;
@@ -154,7 +156,7 @@ impl Child {
     }
 }
 
-/// What a process says on its standard error, up to 64 KiB of it.
+/// Reads the standard error of a process to its end and keeps the first 64 KiB.
 pub async fn read_stderr(stderr: tokio::process::ChildStderr) -> String {
     let mut kept = Vec::new();
     let mut limited = stderr.take(STDERR_BYTES);
@@ -175,18 +177,18 @@ fn exit(status: ExitStatus, stderr: &str) -> Exit {
 }
 
 impl Exit {
-    /// Whether somebody ended it who was not this program and not the child itself.
+    /// Returns whether the child was ended by a signal that neither this program nor the child itself sends.
     pub fn is_from_outside(&self) -> bool {
         let outside = [Signal::SIGKILL, Signal::SIGTERM, Signal::SIGINT];
         matches!(self, Self::Signal(number) if outside.iter().any(|it| *it as i32 == *number))
     }
 
-    /// Whether it was ended by force, as the system does for want of memory.
+    /// Returns whether it was killed by SIGKILL, as the system does for lack of memory.
     pub fn is_kill(&self) -> bool {
         matches!(self, Self::Signal(number) if *number == Signal::SIGKILL as i32)
     }
 
-    /// Why a child ended that could not say so itself.
+    /// Returns the failure of a child that ended without reporting one.
     pub fn cause(&self) -> Failure {
         match *self {
             Self::OutOfMemory => {

@@ -1,4 +1,4 @@
-//! Whether the clock of the store can be trusted with what expires.
+//! Detection of jumps of the store's clock, on which expiry depends.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -7,37 +7,37 @@ use tokio::time::Instant;
 
 use super::timestamp::Timestamp;
 
-/// How far the clock of the store may stray from the monotonic clock of this process between two
-/// looks. Clocks that are steered stray by two seconds in an hour.
+/// Maximum drift of the store's clock against the monotonic clock of this process between two readings.
+/// Disciplined clocks drift by two seconds per hour.
 const TOLERANCE: Duration = Duration::from_mins(1);
 
-/// Compares the clock of the store, which can be set, with the monotonic clock of this process,
-/// which cannot. After a start and after every jump, it says for how long both have advanced alike.
+/// Compares the clock of the store, which can be set, with the monotonic clock of this process, which cannot.
+/// Reports how long both have advanced alike since the start or the last jump.
 #[derive(Debug, Default)]
 pub struct SteadyClock {
     last: Mutex<Option<Look>>,
 }
 
-/// The clocks at one moment.
+/// Both clocks at one moment.
 #[derive(Clone, Copy, Debug)]
 struct Look {
-    /// Since when they have advanced alike.
+    /// Start of the period in which both have advanced alike.
     steady_since: Instant,
     at: Instant,
     time: Timestamp,
 }
 
-/// What a look at the clock tells.
+/// Result of a reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Steadiness {
-    /// For how long the clock has advanced normally.
+    /// Time for which the store's clock has advanced normally.
     pub steady: Duration,
-    /// How far it has jumped since the last look, in milliseconds, if it has.
+    /// Jump since the last reading, in milliseconds; `None` if there was none.
     pub jump_ms: Option<i64>,
 }
 
 impl SteadyClock {
-    /// Notes that the clock of the store showed `time` at `at`.
+    /// Records that the store's clock showed `time` at `at`.
     pub fn look(&self, time: Timestamp, at: Instant) -> Steadiness {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         let jump_ms = last.and_then(|last| {

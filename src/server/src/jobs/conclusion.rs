@@ -12,12 +12,12 @@ use super::running::Attempt;
 use super::storage::Changed;
 use super::transition::{Ending, Happening};
 
-/// Between two tries of a store that does not answer.
+/// Delay between two tries to record an end.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Records how an attempt ended, however long that takes: what it made is not thrown away because
-/// the store is away for a while. If the job went to another worker meanwhile, the store says so.
-/// A worker that has to leave does not wait: once the lease is over, another one takes the job.
+/// Records how an attempt ended, and retries until the store answers: an outage of the store must not discard
+/// the result. If the job has gone to another worker meanwhile, the store rejects the outcome. A worker that
+/// has to leave does not wait: another one takes the job when the lease expires.
 pub(super) async fn conclude(
     jobs: &Jobs,
     job: &Job,
@@ -50,7 +50,7 @@ pub(super) async fn conclude(
     }
 }
 
-/// Removes what an outdated attempt made.
+/// Removes the files of an outdated attempt.
 pub(super) async fn disown(jobs: &Jobs, job: &Job) {
     tracing::warn!(job = %job.id, attempt = job.attempt, "outdated attempt");
     let folder = output_folder(job.id, job.token);

@@ -1,4 +1,4 @@
-//! One computation in a child process of its own, without a queue: for commands that have many to do.
+//! A single computation in a child process, without a queue, for commands that run many.
 
 use std::path::Path;
 use std::time::Duration;
@@ -11,28 +11,29 @@ use unwrapd_api::{
     Upload, input_file, read_json, write_json,
 };
 
-/// What contains a computation: a process that ends with its own failure, and limits.
+/// Settings of a contained computation, whose crash ends only its child process.
 #[derive(Clone, Debug)]
 pub struct Contained {
-    /// What is started as compute child.
+    /// Program started as the compute child.
     pub program: Program,
-    /// Threads at most.
+    /// Maximum number of threads.
     pub threads: usize,
-    /// Wall-clock time, after which the present valid map becomes the result.
+    /// Wall-clock time limit, after which the current valid map becomes the result.
     pub time: Duration,
-    /// Memory, in bytes.
+    /// Memory limit in bytes.
     pub memory: u64,
-    /// When an atlas is drawn.
+    /// When atlas pictures are drawn.
     pub pictures: Pictures,
 }
 
 impl Contained {
-    /// Does what a job of this kind does. The n-th file that it makes is left in `folder`, which
-    /// exists and is empty, as [`output_file`](unwrapd_api::output_file)`(n)`. Dropped before its end, it
+    /// Runs a job of this kind. Leaves the n-th output file as
+    /// [`output_file`](unwrapd_api::output_file)`(n)` in `folder`, which must exist and be empty. Dropping
+    /// the future
     /// kills the child.
     ///
     /// # Errors
-    /// What the computation says of the input and the options, or why it could not say anything.
+    /// Returns the failure that the computation reports, or the reason why it could not report one.
     pub async fn run(
         &self,
         kind: Kind,
@@ -61,7 +62,7 @@ impl Contained {
     }
 }
 
-/// Waits until a child that works in `folder` has done its work. After a time it is ended, and the failure is `late`.
+/// Waits until a child that works in `folder` has finished. Ends it after `at_most` and returns `late`.
 pub(super) async fn finished(
     mut child: Child,
     folder: &Path,
@@ -84,7 +85,7 @@ pub(super) async fn finished(
     }
 }
 
-/// The mesh first, then what it refers to.
+/// Returns the name of the mesh, then the names of the files it refers to.
 fn names(upload: &Upload) -> impl Iterator<Item = &str> {
     let resources = upload.resources.keys().map(String::as_str);
     std::iter::once(upload.name.as_str()).chain(resources)

@@ -1,20 +1,20 @@
-//! What a piece of work follows from, as one digest.
+//! Digests of work requests.
 
 use sha2::{Digest as _, Sha256};
 use unwrapd_api::{InputFile, Kind};
 
-/// A digest of several texts: no two sequences of texts have the same.
+/// SHA-256 of a sequence of texts. Lengths are hashed too, so different sequences never hash the same bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Digest(Sha256);
 
 impl Digest {
-    /// Adds a text, with its length.
+    /// Adds a text with its length.
     pub fn add(&mut self, text: &[u8]) {
         self.0.update((text.len() as u64).to_le_bytes());
         self.0.update(text);
     }
 
-    /// That of a job of this kind with these options and input files.
+    /// Returns the digest of a job of this kind with these options and input files.
     pub fn of_job<'a>(
         kind: Kind,
         options: &serde_json::Value,
@@ -30,7 +30,7 @@ impl Digest {
         digest.finish()
     }
 
-    /// The digest in hexadecimal digits.
+    /// Returns the digest in hexadecimal digits.
     pub fn finish(self) -> String {
         format!("{:x}", self.0.finalize())
     }

@@ -1,4 +1,4 @@
-//! A process that takes in no more work, but ends what it has; and a queue that waits.
+//! Draining a process, and pausing the queue.
 
 use std::sync::atomic::Ordering;
 
@@ -6,19 +6,20 @@ use super::queue::Jobs;
 use super::store_error::StoreResult;
 
 impl Jobs {
-    /// Takes in and starts no more jobs from now on, or does so again.
+    /// Starts or stops draining: a draining process neither accepts nor starts jobs, but finishes those it
+    /// has.
     pub fn set_draining(&self, draining: bool) {
         self.draining.store(draining, Ordering::Relaxed);
         tracing::info!(draining, "drain");
         self.look();
     }
 
-    /// Whether it takes in no more jobs.
+    /// Returns whether the process is draining.
     pub fn is_draining(&self) -> bool {
         self.draining.load(Ordering::Relaxed)
     }
 
-    /// Has no job started from now on, by any process, or again. Jobs are accepted all the same.
+    /// Pauses or resumes the queue: while it is paused, no process starts jobs, but all still accept them.
     pub async fn set_paused(&self, paused: bool) -> StoreResult<()> {
         self.store.set_paused(paused).await?;
         tracing::info!(paused, "pause");
@@ -26,12 +27,12 @@ impl Jobs {
         Ok(())
     }
 
-    /// Whether no job is started.
+    /// Returns whether the queue is paused.
     pub async fn is_paused(&self) -> StoreResult<bool> {
         self.store.is_paused().await
     }
 
-    /// Jobs that this process computes now.
+    /// Returns the number of jobs that this process is computing.
     pub fn running(&self) -> usize {
         self.running.beats().len()
     }

@@ -1,4 +1,4 @@
-//! Turns and places of the pictures that are drawn in this process.
+//! Scheduling of picture drawing in this process.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -8,11 +8,11 @@ use tokio::sync::{OwnedMutexGuard, OwnedSemaphorePermit, Semaphore};
 use super::job::JobId;
 use super::settings::Settings;
 
-/// What is drawn in this process.
+/// Limits drawing to one picture per job, and to a number of children at a time.
 pub(super) struct DrawingQueue {
-    /// Jobs of which a picture is drawn, or waits to be. Others wait for their turn, and find it drawn.
+    /// Locks of jobs with a picture being drawn or waiting. Later requests wait, then find it drawn.
     turns: Mutex<HashMap<JobId, Weak<tokio::sync::Mutex<()>>>>,
-    /// Children that draw at the same time: on half of the cores, so that jobs keep the others.
+    /// Slots for drawing children: half of the cores, so that jobs keep the rest.
     places: Arc<Semaphore>,
 }
 
@@ -24,7 +24,7 @@ impl DrawingQueue {
         }
     }
 
-    /// Waits until no picture of a job is drawn.
+    /// Waits until no picture of the job is being drawn.
     pub async fn turn(&self, id: JobId) -> OwnedMutexGuard<()> {
         let turn = {
             let mut turns = self.turns.lock().unwrap_or_else(PoisonError::into_inner);
@@ -39,7 +39,7 @@ impl DrawingQueue {
         turn.lock_owned().await
     }
 
-    /// Waits for one of the places in which children may draw.
+    /// Waits for a drawing slot.
     pub async fn place(&self) -> Option<OwnedSemaphorePermit> {
         Arc::clone(&self.places).acquire_owned().await.ok()
     }

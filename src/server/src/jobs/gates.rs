@@ -1,56 +1,57 @@
-//! What a result has to be to be accepted.
+//! Acceptance gates of results.
 
 use std::fmt;
 use std::str::FromStr;
 use unwrapd_api::{Kind, Worth};
 
-/// One condition.
+/// One gate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gate {
     /// There is a result.
     Written,
-    /// Everything requested is proven of it.
+    /// Every requested property is proven.
     Certified,
-    /// It has so many charts at most.
+    /// It has at most this many charts.
     MaxCharts(u64),
-    /// The mean symmetric Dirichlet energy of its worst atlas is so large at most. It has the name of the option that
-    /// bounds the same; `max_symmetric_dirichlet` is read as well.
+    /// The mean symmetric Dirichlet energy of its worst atlas is at most this. The name is that of the option
+    /// with
+    /// the same bound; `max_symmetric_dirichlet` is accepted, too.
     MaxDistortion(f64),
-    /// The 99th percentile of the stretch of its worst atlas is so large at most.
+    /// The 99th percentile of the stretch of its worst atlas is at most this.
     MaxStretch(f64),
-    /// It took so many seconds at most.
+    /// It took at most this many seconds.
     MaxSeconds(f64),
 }
 
-/// Conditions, all of which a result has to meet; written `max_charts=12,certified`.
+/// Gates that a result has to pass, all of them; written `max_charts=12,certified`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gates(Vec<Gate>);
 
-/// Why conditions cannot be read, or cannot be judged. Each names the part that is wrong.
+/// Reason why gates cannot be parsed or judged. Each names the offending part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GateError {
-    /// There is no such condition.
+    /// There is no such gate.
     #[error("{0:?} is not a gate: expected {WORDS}")]
     Unknown(String),
-    /// A number is missing or cannot be read.
+    /// A number is missing or cannot be parsed.
     #[error("{part:?} needs {expected}")]
     Value {
-        /// The part.
+        /// Offending part.
         part: String,
-        /// What it needs.
+        /// Value that it needs.
         expected: &'static str,
     },
-    /// A condition that has no number has one.
+    /// A gate that takes no value has one.
     #[error("{0:?} takes no value")]
     NoValue(String),
-    /// Nothing of the kind is known of results of a job of this kind.
+    /// Jobs of this kind do not determine the quantity.
     #[error("{gate:?} cannot be judged: a {kind} job {lacks}")]
     Unjudged {
-        /// The condition.
+        /// The gate.
         gate: String,
-        /// The kind of the job.
+        /// Kind of the job.
         kind: &'static str,
-        /// What jobs of this kind do not do.
+        /// Reason, in words such as "proves nothing".
         lacks: &'static str,
     },
 }
@@ -59,25 +60,25 @@ const WORDS: &str = "written, certified, max_charts=N, max_distortion=E, max_str
                      max_seconds=T";
 
 impl Default for Gates {
-    /// Certified, as with the exit status of `unwrap`.
+    /// Returns the `certified` gate, like the exit status of `unwrap`.
     fn default() -> Self {
         Self(vec![Gate::Certified])
     }
 }
 
 impl Gates {
-    /// Whether a result that took so many seconds meets all conditions.
+    /// Returns whether a result that took this many seconds passes all gates.
     pub fn accept(&self, worth: &Worth, seconds: f64) -> bool {
         self.missed(worth, seconds).next().is_none()
     }
 
-    /// The conditions that it does not meet.
+    /// Returns the gates that the result misses.
     pub fn missed(&self, worth: &Worth, seconds: f64) -> impl Iterator<Item = &Gate> {
         let is_missed = move |gate: &&Gate| !gate.accepts(worth, seconds);
         self.0.iter().filter(is_missed)
     }
 
-    /// Whether all conditions can be judged of jobs of a kind.
+    /// Checks that all gates can be judged for jobs of a kind.
     pub fn check(&self, kind: Kind) -> Result<(), GateError> {
         let unjudged = |(gate, lacks): (&Gate, &'static str)| GateError::Unjudged {
             gate: gate.to_string(),
@@ -108,7 +109,7 @@ impl Gate {
     }
 }
 
-/// As it is read.
+/// Writes the gate as it is parsed.
 impl fmt::Display for Gate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -122,7 +123,7 @@ impl fmt::Display for Gate {
     }
 }
 
-/// As they are read.
+/// Writes the gates as they are parsed.
 impl fmt::Display for Gates {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let gates: Vec<String> = self.0.iter().map(ToString::to_string).collect();

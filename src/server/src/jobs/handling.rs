@@ -1,26 +1,27 @@
-//! What is said of a job beside what it computes.
+//! Client settings of a job beside what it computes.
 
 use super::digest::Digest;
 use super::gates::Gates;
 use super::metadata::Metadata;
 use super::webhook::Webhook;
 
-/// How a job is handled; equal jobs may be handled differently.
+/// Handling of a job; jobs that compute the same may be handled differently.
 #[derive(Clone, Debug, Default)]
 pub struct Handling {
-    /// Of the waiting jobs of one owner, those of higher priority start first.
+    /// Priority: of an owner's waiting jobs, those with a higher one start first.
     pub priority: i32,
-    /// What the client notes of it.
+    /// Notes of the client.
     pub metadata: Metadata,
-    /// What its result has to be.
+    /// Gates that the result has to pass.
     pub accept: Option<Gates>,
-    /// Where its end is told.
+    /// Webhook that is told of the end.
     pub webhook: Option<Webhook>,
 }
 
 impl Handling {
-    /// What a repetition under one key must agree in: what is asked for, of which this is the digest, and what is said of it. The
-    /// priority may differ.
+    /// Returns the digest of everything that a request with the same idempotency key must repeat. `digest` is
+    /// that of its
+    /// computation. The priority may differ.
     pub fn fingerprint(&self, digest: &str) -> String {
         let Self {
             metadata,

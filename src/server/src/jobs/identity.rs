@@ -1,8 +1,9 @@
 //! The identity that a database and its files share.
 //!
-//! A database that is missing, empty or of another service would make every file look like one
-//! without a job. So both have the same random name, and a process starts on no other pair. A store
-//! of version 0.1.0 has no name; it gets one when a job of the database has files.
+//! If a database is missing, empty or belongs to another service, every file looks like one without a job. So
+//! both carry the same random id, and a process starts only if they match. A store of version 0.1.0 has no
+//! id;
+//! it gets one when a job of the database has files.
 
 use super::blobs::Blobs;
 use super::job::JobId;
@@ -10,14 +11,13 @@ use super::storage::JobStore;
 use super::store_error::{StoreError, StoreResult};
 use super::store_id::StoreId;
 
-/// Jobs that are looked up at once.
+/// Number of jobs looked up at once.
 const TOGETHER: usize = 1000;
 
-/// Returns the identity that records and files share. New stores, and those of version 0.1.0, get
-/// one.
+/// Returns the identity that records and files share. New stores, and those of version 0.1.0, get one.
 ///
 /// # Errors
-/// Why the two do not belong together, and what to do about it.
+/// Returns why the two do not belong together, and what to do about it.
 pub async fn shared_identity(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<StoreId> {
     match (store.identity().await?, blobs.identity().await?) {
         (Some(records), Some(files)) if records == files => Ok(records),
@@ -38,15 +38,14 @@ pub async fn shared_identity(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreRe
     }
 }
 
-/// Makes records and files one store, whatever they were.
+/// Gives records and files a common identity, whatever they had before.
 pub async fn adopt(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<StoreId> {
     let chosen = store.identify(StoreId::fresh()).await?;
     blobs.identify(chosen).await?;
     Ok(chosen)
 }
 
-/// Whether records and files belong together as far as their contents tell: neither has any, or a
-/// job has both.
+/// Checks from the contents that records and files belong together: neither has any, or some job has both.
 async fn check_match(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<()> {
     let census = store.census().await?;
     let owners = blobs.owners().await?;

@@ -1,4 +1,4 @@
-//! Records and files compared: what is missing, what is damaged, what has no job.
+//! Comparison of records and files: finds missing, damaged and orphaned files.
 
 use futures_util::TryStreamExt;
 
@@ -13,48 +13,47 @@ use super::storage::JobStore;
 use super::store_error::{StoreError, StoreResult};
 use super::timestamp::Timestamp;
 
-/// Jobs of a page.
+/// Jobs per page.
 const PAGE: u32 = 200;
-/// Files of younger jobs may belong to a submission under way, in milliseconds.
+/// Minimum age of files without a job, in milliseconds. Younger ones may belong to a submission under way.
 const SUBMISSION_MS: u64 = 3_600_000;
 
-/// What is wrong with a file that a record lists.
+/// Defect of a file that a record lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loss {
-    /// It is not there.
+    /// It is missing.
     Missing,
-    /// It is not what was stored.
+    /// Its content is not what was stored.
     Damaged,
 }
 
-/// A file that a record lists and that is not as it was stored.
+/// A listed file that is missing or damaged.
 #[derive(Clone, Debug)]
 pub struct LostFile {
-    /// Whose file it is.
+    /// Job that has the file.
     pub job: JobId,
-    /// Its key.
+    /// Key of the file.
     pub key: String,
-    /// Whether the job made it; otherwise it is a part of its input.
+    /// True for an output of the job, false for an input.
     pub is_output: bool,
-    /// What is wrong with it.
+    /// Defect of the file.
     pub loss: Loss,
 }
 
-/// What an inspection found.
+/// Result of an inspection.
 #[derive(Clone, Debug, Default)]
 pub struct Inspection {
-    /// Jobs that were looked at.
+    /// Number of jobs checked.
     pub jobs: usize,
-    /// Files that were read.
+    /// Number of files read.
     pub files: usize,
-    /// Files that are not as they were stored.
+    /// Missing and damaged files.
     pub lost: Vec<LostFile>,
-    /// Jobs that have files and no record, with the bytes of these.
+    /// Jobs that have files but no record, with the bytes of their files.
     pub unknown: Vec<(JobId, u64)>,
 }
 
-/// Reads every file of every job, and looks for files without a job. The service may go on
-/// meanwhile.
+/// Reads every file of every job, and looks for files without a job. The service may keep running meanwhile.
 pub async fn inspect(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<Inspection> {
     let mut inspection = Inspection::default();
     let mut listing = Listing {
@@ -75,8 +74,8 @@ pub async fn inspect(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<Ins
     Ok(inspection)
 }
 
-/// Puts what was found into quarantine: files without a job will be deleted after days, and no job
-/// gets a copy of a damaged result.
+/// Quarantines what an inspection found: orphaned files will be deleted after some days, and damaged results
+/// are no longer copied to other jobs.
 pub async fn repair(store: &dyn JobStore, found: &Inspection) -> StoreResult<()> {
     store.quarantine(&found.unknown).await?;
     for file in found.lost.iter().filter(|file| file.is_output) {
@@ -85,7 +84,7 @@ pub async fn repair(store: &dyn JobStore, found: &Inspection) -> StoreResult<()>
     Ok(())
 }
 
-/// Deletes what is in quarantine and still has no job. Returns how many jobs had these files.
+/// Deletes quarantined files that still have no job. Returns the number of jobs that had such files.
 pub async fn purge(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<usize> {
     let mut purged = 0;
     for files in store.quarantined().await? {
@@ -156,7 +155,7 @@ impl Inspection {
     }
 }
 
-/// Reads a whole file and compares its size and its checksum, if that is known.
+/// Reads a whole file and compares its size, and its checksum if one is known.
 async fn read(blobs: &dyn Blobs, key: &str, bytes: u64, sha256: Option<&str>) -> StoreResult<()> {
     let content = blobs.read(key, 0..bytes).await?;
     let content = match sha256 {

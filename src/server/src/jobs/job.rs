@@ -16,17 +16,17 @@ use super::timestamp::Timestamp;
 use super::webhook::Webhook;
 use unwrapd_api::{Failure, InputFile, Kind, OutputFile, Progress, Verdict};
 
-/// Names a job; ids sort by the time of their making (UUID version 7).
+/// Id of a job; ids sort by creation time (UUID version 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct JobId(Uuid);
 
 impl JobId {
-    /// A fresh id, later than every id this process made before.
+    /// Creates an id later than every id that this process created before.
     pub fn fresh() -> Self {
         Self(Uuid::now_v7())
     }
 
-    /// When it was made, by the clock of the process that did.
+    /// Returns the time of creation by the clock of the creating process.
     pub fn made(self) -> Timestamp {
         let (seconds, nanos) = self.0.get_timestamp().map_or((0, 0), |time| time.to_unix());
         Timestamp(seconds as i64 * 1000 + i64::from(nanos) / 1_000_000)
@@ -53,75 +53,75 @@ impl Serialize for JobId {
     }
 }
 
-/// Everything that is known of a job.
+/// Complete record of a job.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// Names it.
+    /// Id of the job.
     pub id: JobId,
-    /// Whose it is.
+    /// Owner of the job.
     pub owner: Owner,
-    /// What it does.
+    /// Kind of the computation.
     pub kind: Kind,
-    /// Where it stands.
+    /// Current state.
     pub state: State,
     /// Options of its kind, complete with defaults.
     pub options: serde_json::Value,
-    /// The mesh, then the files it references.
+    /// Input files: the mesh, then the files it references.
     pub input: Vec<InputFile>,
-    /// What it made; empty until it succeeded. The main result is first.
+    /// Output files, the main result first; empty until it succeeds.
     pub output: Vec<OutputFile>,
-    /// Pictures that were drawn of that after its end.
+    /// Pictures of the result that were drawn after its end.
     pub drawn: Vec<OutputFile>,
-    /// What is known of that; empty until it succeeded.
+    /// Verdict on the result; empty until it succeeds.
     pub verdict: Verdict,
-    /// How often it was started.
+    /// Number of the current attempt; 0 before the first.
     pub attempt: u32,
-    /// Names what was asked for: jobs with the same digest have equal inputs, kinds and options.
+    /// Digest of the request: jobs with equal digests have equal inputs, kinds and options.
     pub digest: String,
-    /// Of the waiting jobs of one owner, those of higher priority start first.
+    /// Priority: of an owner's waiting jobs, those with a higher one start first.
     pub priority: i32,
-    /// The `traceparent` that the client sent (W3C Trace Context), which logs repeat.
+    /// The client's `traceparent` (W3C Trace Context), repeated in logs.
     pub trace: Option<String>,
-    /// What its client notes of it.
+    /// Notes of the client.
     pub metadata: Metadata,
-    /// What its result has to be.
+    /// Gates that the result has to pass.
     pub accept: Option<Gates>,
-    /// Where its end is told.
+    /// Webhook that is told of the end.
     pub webhook: Option<Webhook>,
-    /// Names its present or last holder; fences off what former ones report.
+    /// Fencing token of the current or last holder; reports of former holders are rejected.
     pub token: Token,
-    /// Who has it.
+    /// Worker that holds the job.
     pub worker: Option<WorkerId>,
-    /// When that worker must have given a sign of life, by the clock of the store.
+    /// End of that worker's lease, by the clock of the store.
     pub lease: Option<Timestamp>,
-    /// When it may be started.
+    /// Earliest time of the next start.
     pub due: Timestamp,
-    /// How many attempts were ended from outside.
+    /// Number of attempts whose computation was killed.
     pub lost: u32,
-    /// Attempts that were lost with their workers since it was last queued by a client.
+    /// Number of attempts lost with their workers since a client last queued the job.
     pub interrupted: u32,
-    /// Whether it shall stop.
+    /// Set if it has been told to stop.
     pub cancel: bool,
-    /// Whether it shall end early with the map it has.
+    /// Set if it has been told to end early with its current map.
     pub finish_early: bool,
-    /// Whether it belongs to a waiting call and is of no use without it.
+    /// Set if it belongs to a waiting request and is of no use without it.
     pub ephemeral: bool,
     /// Number of its latest event.
     pub seq: u64,
-    /// How far it is.
+    /// Progress of the current attempt.
     pub progress: Progress,
-    /// Why it failed.
+    /// Cause of failure.
     pub failure: Option<Failure>,
-    /// When it was accepted.
+    /// Time of acceptance.
     pub created: Timestamp,
-    /// When its present or last attempt started.
+    /// Start of the current or last attempt.
     pub started: Option<Timestamp>,
-    /// When it reached its final state.
+    /// Time at which it reached its final state.
     pub finished: Option<Timestamp>,
 }
 
 impl Job {
-    /// A job of the anonymous owner that waits and has no files yet.
+    /// Creates a queued job of the anonymous owner, without files.
     pub fn queued(id: JobId, kind: Kind, options: serde_json::Value) -> Self {
         Self {
             id,
@@ -158,7 +158,7 @@ impl Job {
         }
     }
 
-    /// Its present state as an event.
+    /// Returns the current state as an event.
     pub fn event(&self) -> Event {
         let until = self.finished.unwrap_or_else(Timestamp::now);
         Event {
@@ -169,7 +169,7 @@ impl Job {
         }
     }
 
-    /// Whether it is as its client wants it; none if nothing is wanted, or before its end.
+    /// Returns whether the result meets the gates; `None` without gates or before the end.
     pub fn accepted(&self) -> Option<bool> {
         let gates = self.accept.as_ref()?;
         let end = self.finished?;
@@ -181,7 +181,7 @@ impl Job {
         }
     }
 
-    /// Bytes of the files that are kept of it.
+    /// Returns the bytes of its stored files; 0 for a cancelled job.
     pub fn stored_bytes(&self) -> u64 {
         if self.state == State::Cancelled {
             return 0;
@@ -191,7 +191,7 @@ impl Job {
         input.chain(made.map(|file| file.bytes)).sum()
     }
 
-    /// The output found under a role.
+    /// Returns the output file with this role.
     pub fn output(&self, role: &str) -> Option<&OutputFile> {
         self.output.iter().find(|file| file.role == role)
     }

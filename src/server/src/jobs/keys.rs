@@ -1,4 +1,4 @@
-//! The names under which blobs of a job are stored.
+//! Blob keys of a job's files.
 
 use super::job::JobId;
 use super::lease::Token;
@@ -8,8 +8,8 @@ pub(super) fn input_key(id: JobId, index: usize) -> String {
     format!("{id}/input/{index}")
 }
 
-/// The folder of what one attempt made: an outdated one never touches the files of its successor.
-/// No attempt has the token 0; files of versions without tokens lie there.
+/// Returns the folder for the output of one attempt: an outdated attempt never touches the files of its
+/// successor. No attempt has the token 0, which stands for files of versions without tokens.
 pub(super) fn output_folder(id: JobId, token: Token) -> String {
     match token {
         0 => format!("{id}/output"),
@@ -21,8 +21,9 @@ pub(super) fn output_key(id: JobId, token: Token, index: usize) -> String {
     format!("{}/{index}", output_folder(id, token))
 }
 
-/// Where a picture lies that was drawn after the job ended. The name says what is in it: who draws the same again stores the same,
-/// and who draws another one does not overwrite it.
+/// Returns the key of a picture that was drawn after the job ended. The key contains the checksum: drawing
+/// the
+/// same picture again stores the same file, and a different picture never overwrites it.
 pub(super) fn picture_key(id: JobId, token: Token, file: &OutputFile) -> String {
     let sha256 = file.sha256.as_deref().unwrap_or_default();
     format!("{}/{sha256}-{}", output_folder(id, token), file.role)

@@ -1,7 +1,7 @@
-//! Slots of a process: those for all jobs, and one in reserve for small ones.
+//! Lanes of a process: slots for all jobs, and one reserved for small jobs.
 //!
-//! A small job that finds all slots taken would wait for a large one. It gets the slot in reserve
-//! instead, and shares the cores for the time it takes.
+//! A small job that finds all slots taken would wait for a large one. It gets the reserved slot instead, and
+//! shares the cores while it runs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,17 +11,17 @@ use tokio::sync::{Notify, Semaphore};
 use super::settings::Settings;
 use super::storage::Share;
 
-/// Slots for jobs, and which jobs they are for.
+/// Slots, and the jobs that may take them.
 pub(super) struct Lane {
     pub slots: Arc<Semaphore>,
     pub share: Share,
     is_reserve: bool,
-    /// Whether a slot for all jobs is free, and one is looked for.
+    /// Set while a free slot of the main lane waits for a job.
     is_any_free: Arc<AtomicBool>,
 }
 
 impl Lane {
-    /// The lanes of a process.
+    /// Returns the lanes of a process.
     pub fn all(settings: &Settings) -> Vec<Self> {
         let is_any_free = Arc::new(AtomicBool::new(true));
         let share = Share {
@@ -48,19 +48,19 @@ impl Lane {
         std::iter::once(main).chain(reserve).collect()
     }
 
-    /// Whether jobs may start in it now.
+    /// Returns whether jobs may start in this lane now.
     pub fn is_open(&self) -> bool {
         !self.is_reserve || !self.is_any_free.load(Ordering::Relaxed)
     }
 
-    /// Says whether a slot of this lane is free.
+    /// Records whether a slot of this lane is free.
     pub fn set_free(&self, is_free: bool) {
         if !self.is_reserve {
             self.is_any_free.store(is_free, Ordering::Relaxed);
         }
     }
 
-    /// The one of two bells that rings for it.
+    /// Returns the notifier of this lane.
     pub fn bell<'a>(&self, main: &'a Notify, reserve: &'a Notify) -> &'a Notify {
         if self.is_reserve { reserve } else { main }
     }

@@ -1,4 +1,4 @@
-//! Who works on a job, for how long without a sign of life, and how often.
+//! Leases of workers on jobs, and the rules for retries.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use uuid::Uuid;
 
-/// Names one run of a worker process: never a host, which may run several or come back as another.
+/// Id of one run of a worker process. It does not name a host, which may run several or come back as another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorkerId(Uuid);
 
 impl WorkerId {
-    /// A name that nobody had before.
+    /// Creates an id that no worker had before.
     pub fn fresh() -> Self {
         Self(Uuid::now_v7())
     }
@@ -31,28 +31,29 @@ impl FromStr for WorkerId {
     }
 }
 
-/// Names one holder of a job. It rises whenever the job changes hands, so a former holder is known
+/// Fencing token of a job's holder. It rises whenever the job changes hands, so a former holder is recognized
 /// by its lower number.
 pub type Token = u64;
 
-/// When a job changes hands, and how often it may.
+/// Rules for losing and retrying jobs.
 #[derive(Clone, Copy, Debug)]
 pub struct Rules {
-    /// How long a worker may be silent.
+    /// Time for which a lease lasts without a heartbeat.
     pub lease: Duration,
-    /// Attempts whose computation may be killed, as for want of memory, before the job fails.
+    /// Maximum number of attempts whose computation is killed, as for lack of memory, before the job fails.
     pub attempts: u32,
-    /// Attempts that may be lost with their workers before the job fails. A worker rarely dies of a
-    /// job, so these are many more; but one that kills every worker must end.
+    /// Maximum number of attempts lost with their workers before the job fails. Jobs rarely kill workers, so
+    /// this
+    /// is much larger than `attempts`; but a job that kills every worker must end.
     pub interruptions: u32,
     /// Pause after the first lost attempt; it doubles with each further one.
     pub pause: Duration,
 }
 
-/// No pause is longer: the twentieth would take a week.
+/// Upper bound of the pause: the twentieth would take a week otherwise.
 const LONGEST_PAUSE: Duration = Duration::from_mins(5);
-/// A job that was lost with so many workers may be what kills them. From then on it is computed by
-/// a worker that computes nothing else meanwhile, so that it takes no other job down with it.
+/// Number of lost workers after which a job is suspected of killing them. From then on a worker computes it
+/// alone, so that it takes no other job down with it.
 pub const SUSPECT: u32 = 2;
 
 impl Default for Rules {
@@ -67,13 +68,13 @@ impl Default for Rules {
 }
 
 impl Rules {
-    /// Pause after so many lost attempts, at least one.
+    /// Returns the pause after `lost` lost attempts, at least one.
     pub(super) fn pause_after(&self, lost: u32) -> Duration {
         let doubled = 1 << lost.saturating_sub(1).min(16);
         self.pause.saturating_mul(doubled).min(LONGEST_PAUSE)
     }
 
-    /// No pause is longer.
+    /// Returns the longest pause under these rules.
     pub fn longest_pause(&self) -> Duration {
         self.pause_after(self.attempts.max(self.interruptions))
     }

@@ -1,4 +1,4 @@
-//! Which jobs a list has, and in which order.
+//! Filter and order of job lists.
 
 use serde::Deserialize;
 
@@ -9,26 +9,26 @@ use super::state::State;
 use super::timestamp::Timestamp;
 use unwrapd_api::Kind;
 
-/// Which jobs to list. What is absent does not matter.
+/// Filter, order and page of a job list. Absent filters match everything.
 #[derive(Clone, Debug, Default)]
 pub struct Listing {
-    /// Only those in this state.
+    /// State to match.
     pub state: Option<State>,
-    /// Only those of this kind.
+    /// Kind to match.
     pub kind: Option<Kind>,
-    /// Only those of this owner.
+    /// Owner to match.
     pub owner: Option<Owner>,
-    /// Only those whose metadata has all of these members.
+    /// Metadata members that must all match.
     pub metadata: Metadata,
-    /// Only those accepted at this time or later.
+    /// Earliest time of acceptance.
     pub since: Option<Timestamp>,
-    /// Only those accepted before this time.
+    /// Time before which jobs were accepted.
     pub until: Option<Timestamp>,
-    /// Which comes first.
+    /// Order of the list.
     pub order: Order,
-    /// Only those that come after this one.
+    /// Job after which the page starts.
     pub after: Option<JobId>,
-    /// At most so many.
+    /// Maximum number of jobs.
     pub limit: u32,
 }
 

@@ -1,7 +1,7 @@
-//! Events of jobs that somebody watches in this process.
+//! Events of jobs that have subscribers in this process.
 //!
-//! An attempt that runs here tells its events itself. All others are seen in the records, which
-//! are read again and again: that works whichever process runs the job.
+//! An attempt that runs here publishes its events itself. Events of all others are polled from the records,
+//! which works whichever process runs the job.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -12,7 +12,7 @@ use super::job::JobId;
 use super::progress::Event;
 use super::subscription::Subscription;
 
-/// The newest event of each job that somebody watches.
+/// The newest event of each job with subscribers.
 #[derive(Default)]
 pub(super) struct Live {
     watched: Mutex<HashMap<JobId, watch::Sender<Option<Event>>>>,
@@ -23,13 +23,13 @@ impl Live {
         self.watched.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Watches a job from now on.
+    /// Subscribes to a job.
     pub fn subscribe(&self, id: JobId) -> Subscription {
         let mut watched = self.watched();
         Subscription::new(watched.entry(id).or_default().subscribe())
     }
 
-    /// Tells those who watch a job about a newer event. After a final one there are no more.
+    /// Publishes an event of a job unless it is outdated. A final event is the last one.
     pub fn publish(&self, id: JobId, event: Event) {
         let mut watched = self.watched();
         if let Some(sender) = watched.get(&id) {
@@ -48,12 +48,12 @@ impl Live {
         }
     }
 
-    /// There is no such job any more: nobody has to wait for it.
+    /// Ends the subscriptions to a job that no longer exists.
     pub fn forget(&self, id: JobId) {
         self.watched().remove(&id);
     }
 
-    /// The jobs that somebody watches.
+    /// Returns the jobs with subscribers.
     pub fn ids(&self) -> Vec<JobId> {
         let mut watched = self.watched();
         watched.retain(|_, sender| 0 < sender.receiver_count());

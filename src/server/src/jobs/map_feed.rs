@@ -1,4 +1,4 @@
-//! Maps of charts under way, on their way from the compute child to those who watch.
+//! Frames of maps under way, passed from the compute child to its listeners.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -8,28 +8,28 @@ use tokio_util::bytes::Bytes;
 
 use unwrapd_api::{MAPS, number_frame};
 
-/// The latest frame of an attempt. Who is slow misses those between.
+/// The latest frame of an attempt. Slow listeners skip frames.
 pub(super) struct MapFeed {
-    /// Somebody waits for the next one.
+    /// Notified when a listener waits for the next frame.
     pub asked: Arc<Notify>,
     latest: watch::Sender<Frame>,
 }
 
-/// A frame with its number; 0 for none.
+/// A numbered frame; number 0 means that there is none.
 #[derive(Clone, Default)]
 struct Frame {
     number: u64,
     bytes: Bytes,
 }
 
-/// Who waits for the next frame of an attempt. It does not keep the attempt.
+/// A listener for the next frame of an attempt. It does not keep the attempt alive.
 pub(super) struct MapListener {
     asked: Arc<Notify>,
     latest: watch::Receiver<Frame>,
 }
 
 impl MapFeed {
-    /// The frames of an attempt have numbers above this one.
+    /// Creates a feed whose frames have numbers above `before`.
     pub fn new(before: u64) -> Self {
         let none = Frame {
             number: before,
@@ -41,7 +41,7 @@ impl MapFeed {
         }
     }
 
-    /// Waits with others for frames.
+    /// Creates a listener.
     pub fn listener(&self) -> MapListener {
         MapListener {
             asked: Arc::clone(&self.asked),
@@ -49,7 +49,7 @@ impl MapFeed {
         }
     }
 
-    /// Passes on the frame in the folder of the attempt.
+    /// Publishes the frame in the folder of the attempt; does nothing if it cannot be read.
     pub async fn take(&self, folder: &Path) {
         let Ok(mut bytes) = tokio::fs::read(folder.join(MAPS)).await else {
             return;
@@ -65,7 +65,9 @@ impl MapFeed {
 }
 
 impl MapListener {
-    /// The bytes of the next frame after this one, asked for if need be; `None` when the attempt has ended.
+    /// Waits for the first frame with a number above `after`, requesting one if needed. Returns `None` when
+    /// the
+    /// attempt has ended.
     pub async fn next(mut self, after: u64) -> Option<Bytes> {
         self.asked.notify_one();
         loop {

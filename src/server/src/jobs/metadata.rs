@@ -1,4 +1,4 @@
-//! What clients note of their jobs.
+//! Client metadata of jobs.
 
 use std::str::FromStr;
 
@@ -7,34 +7,35 @@ use serde_json::{Map, Value};
 
 use super::digest::Digest;
 
-/// Bytes of the JSON text, and members.
+/// Limits of the JSON text in bytes, and of its members.
 const MOST_BYTES: usize = 4096;
 const MOST_MEMBERS: usize = 64;
 
-/// What a client notes of a job: a JSON object, which is repeated wherever the job is shown, and by
-/// whose members jobs are found.
+/// Client metadata: a JSON object that is repeated wherever the job is shown, and by whose members jobs can
+/// be
+/// found.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Metadata(Map<String, Value>);
 
-/// What is no metadata.
+/// Error for a text that is not metadata.
 #[derive(Debug, thiserror::Error)]
 pub enum MetadataError {
     /// It is not a JSON object.
     #[error("metadata is not a JSON object: {0}")]
     Malformed(#[from] serde_json::Error),
-    /// It is too long.
+    /// It is too large.
     #[error("metadata can have at most {MOST_BYTES} bytes of JSON and {MOST_MEMBERS} members")]
     TooLarge,
 }
 
 impl Metadata {
-    /// Whether nothing is noted.
+    /// Returns whether there are no members.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// A digest of each member, name and value, by which it is looked up.
+    /// Returns a digest of each member, name and value, for lookups.
     pub fn labels(&self) -> Vec<String> {
         let label = |(name, value): (&String, &Value)| {
             let mut label = Digest::default();

@@ -1,7 +1,7 @@
-//! What those who run the service count and time: jobs, their stages, and what went wrong.
+//! Metrics of jobs, their stages and errors.
 //!
-//! The names follow the conventions of Prometheus and do not change, because dashboards and alerts
-//! know them. Each process counts what it did itself; what is read of the store is the same in all.
+//! Names follow the conventions of Prometheus and do not change, because dashboards and alerts refer to them.
+//! Each process counts its own actions; figures read from the store are the same in all.
 
 use metrics::{
     Unit, counter, describe_counter, describe_gauge, describe_histogram, gauge, histogram,
@@ -24,10 +24,10 @@ const WAIT: &str = "unwrapd_job_wait_seconds";
 const RUN: &str = "unwrapd_job_run_seconds";
 const STAGE: &str = "unwrapd_job_stage_seconds";
 
-/// Results of jobs. A copy of an earlier result is one of its own.
+/// Results of jobs. A copy of an earlier result counts separately.
 const RESULTS: [&str; 4] = ["succeeded", "failed", "cancelled", "reused"];
 
-/// Says what is counted here, and starts the counters at zero, so that their first rise is seen.
+/// Describes the metrics and sets the counters to zero, so that their first increment is visible.
 pub fn describe() {
     describe_counter!(ENQUEUED, "Jobs accepted by this process");
     describe_counter!(FINISHED, "Jobs whose end this process recorded");
@@ -55,13 +55,13 @@ pub fn describe() {
     gauge!(QUARANTINE_STOPPED).set(0.0);
 }
 
-/// A job was accepted.
+/// Counts an accepted job.
 pub(super) fn enqueued(job: &Job) {
     counter!(ENQUEUED, "kind" => job.kind.word()).increment(1);
     finished(job);
 }
 
-/// A job changed: counted if that was its end.
+/// Counts a job that has ended, and records its times; does nothing for one that has not.
 pub(super) fn finished(job: &Job) {
     let Some(end) = job.finished.filter(|_| job.state.is_final()) else {
         return;
@@ -80,34 +80,34 @@ pub(super) fn finished(job: &Job) {
     }
 }
 
-/// A job was taken from a silent worker.
+/// Counts a job taken from a silent worker.
 pub(super) fn taken() {
     counter!(TAKEN).increment(1);
 }
 
-/// A call of the store failed.
+/// Counts a failed call of the store.
 pub fn store_failed() {
     counter!(STORE_ERRORS).increment(1);
 }
 
-/// A stored file is missing or damaged.
+/// Counts a stored file that is missing or damaged.
 pub(super) fn file_lost() {
     counter!(LOSSES).increment(1);
 }
 
-/// Whether so many files have no job that none of them is deleted.
+/// Records whether deletion is suspended because too many files have no job.
 pub(super) fn quarantine_stopped(is_stopped: bool) {
     gauge!(QUARANTINE_STOPPED).set(f64::from(u8::from(is_stopped)));
 }
 
-/// Times the stages of an attempt, the last one until it is dropped.
+/// Times the stages of an attempt; dropping it ends the last stage.
 pub(super) struct StageClock {
     kind: Kind,
     present: Option<(Stage, Instant)>,
 }
 
 impl StageClock {
-    /// Before the first stage.
+    /// Creates a clock that is in no stage yet.
     pub fn of(kind: Kind) -> Self {
         Self {
             kind,
@@ -115,7 +115,7 @@ impl StageClock {
         }
     }
 
-    /// The stage that an attempt is in.
+    /// Switches to the stage that an attempt is in.
     pub fn show(&mut self, stage: Option<Stage>) {
         if self.present.map(|(stage, _)| stage) != stage {
             self.end();

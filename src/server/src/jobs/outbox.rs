@@ -1,4 +1,4 @@
-//! Ends of jobs that are still to be told.
+//! Notices of ended jobs, waiting for delivery.
 
 use std::time::Duration;
 
@@ -11,23 +11,23 @@ use super::job::Job;
 use super::store_error::StoreResult;
 use super::webhook::Webhook;
 
-/// The end of a job, which is to be told.
+/// A notice that a job has ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// Names it, however often it is told.
+    /// Id of the notice, the same in every delivery.
     pub id: String,
-    /// Whose the job is.
+    /// Owner of the job.
     pub owner: Owner,
-    /// Where to.
+    /// Destination.
     pub webhook: Webhook,
-    /// What: a JSON object.
+    /// Content: a JSON object.
     pub body: String,
-    /// How often that was tried, this time included.
+    /// Number of delivery attempts, including the current one.
     pub attempt: u32,
 }
 
 impl Notice {
-    /// That of a job which has just ended, if somebody wants to know.
+    /// Returns the notice of a job that has just ended; `None` if it has no webhook or has not ended.
     pub fn of_end(job: &Job) -> Option<Self> {
         let end = job.finished.filter(|_| job.state.is_final())?;
         let body = json!({
@@ -58,16 +58,17 @@ impl Notice {
     }
 }
 
-/// Notices that are still to be told. They are recorded in the transaction in which a job ends, and
-/// stay until they are settled.
+/// Queue of notices to be delivered. They are recorded in the transaction that ends the job, and stay until
+/// they
+/// are settled.
 pub trait Outbox: Send + Sync {
-    /// Takes at most so many notices whose time has come. Nobody else gets them for this time, and
-    /// after it they come again.
+    /// Takes at most `most` notices that are due. Nobody else gets them during `lease`; afterwards they are
+    /// due again.
     fn take(&self, most: u32, lease: Duration) -> BoxFuture<'_, StoreResult<Vec<Notice>>>;
 
-    /// Forgets a notice: it was told, or nobody will hear it.
+    /// Deletes a notice that was delivered or given up.
     fn settle<'a>(&'a self, id: &'a str) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// Has a notice come again after this time.
+    /// Makes a notice due again after a pause.
     fn defer<'a>(&'a self, id: &'a str, pause: Duration) -> BoxFuture<'a, StoreResult<()>>;
 }

@@ -1,4 +1,4 @@
-//! What jobs made, and what they made it of, as it is read.
+//! Verified reading of the output and input files of jobs.
 
 use std::ops::Range;
 use std::path::Path;
@@ -14,12 +14,14 @@ use super::queue::Jobs;
 use super::store_error::{StoreError, StoreResult};
 use unwrapd_api::{InputFile, OutputFile};
 
-/// Files of at most so many bytes are verified before their first byte is passed on, also where only
-/// a range of them is read. They are read twice then, which takes a tenth of a second at most. Larger
-/// ones are verified as they pass, if they are read as a whole.
+/// Maximum size in bytes of files that are verified before their first byte is passed on, even if only a
+/// range
+/// of them is read. They are read twice, which takes a tenth of a second at most. Larger files are verified
+/// in
+/// passing, if they are read as a whole.
 const VERIFIED_FIRST: u64 = 16 << 20;
 
-/// A stored file of a job: its key, its size and its checksum, if that is known.
+/// A stored file of a job: key, size and checksum, if known.
 struct Stored<'a> {
     key: String,
     bytes: u64,
@@ -27,9 +29,10 @@ struct Stored<'a> {
 }
 
 impl Jobs {
-    /// Reads these bytes of a file that a job made. A damaged file is an error before the first byte
-    /// if it is small, else instead of the last block. The job no longer serves as a copy for equal
-    /// ones then.
+    /// Reads a byte range of an output file. If the file is damaged, a small one fails before the first byte
+    /// and a
+    /// large one in place of its last block. If the failure comes first, the job is no longer copied for
+    /// equal jobs.
     pub async fn read(
         &self,
         job: &Job,
@@ -45,7 +48,7 @@ impl Jobs {
         content
     }
 
-    /// Reads these bytes of a file of a job's input, verified in the same way.
+    /// Reads a byte range of an input file, verified in the same way.
     pub async fn read_input(
         &self,
         job: &Job,
@@ -61,7 +64,7 @@ impl Jobs {
         self.read_verified(&stored, range).await
     }
 
-    /// Reads a file that a job made, to see whether it is whole.
+    /// Reads a whole output file to verify it.
     pub(super) async fn verify(
         &self,
         job: &Job,
@@ -75,7 +78,7 @@ impl Jobs {
         }
     }
 
-    /// Brings a stored file to a local path and compares its checksum, if that is known.
+    /// Copies a stored file to a local path and compares its checksum, if known.
     pub(super) async fn fetch_verified(
         &self,
         key: &str,
@@ -92,7 +95,7 @@ impl Jobs {
         }
     }
 
-    /// Has no equal job get a copy of the result of this one.
+    /// Excludes the result of this job from being copied for equal jobs.
     pub(super) async fn spoil(&self, job: &Job) {
         tracing::error!(job = %job.id, "a stored result is missing or damaged");
         if let Err(error) = self.store.spoil(job.id).await {
@@ -100,7 +103,7 @@ impl Jobs {
         }
     }
 
-    /// Why a file could not be read: if it is missing, the whole place for files may be.
+    /// Returns the cause of a failed read: if a file is missing, all of file storage may be.
     pub(super) async fn lost_file(&self, error: StoreError) -> StoreError {
         if !error.is_loss() {
             return error;

@@ -1,13 +1,17 @@
-//! Pictures of results, drawn when they are first asked for and kept from then on.
+//! Pictures of results, drawn on first request and then kept.
 //!
-//! Drawing a small mesh costs more than unwrapping it, and most pictures are never looked at. So a job leaves what a picture can be
-//! drawn from: its result and its report. The first request for a picture starts a child (`unwrapd draw FOLDER`) in the process that
-//! answers it, whether or not that process computes jobs. The child draws what the computation would have drawn, and the picture is
-//! stored beside the result and noted in the record.
+//! Drawing a small mesh costs more than unwrapping it, and most pictures are never viewed. So a job keeps
+//! only the
+//! sources of its pictures: its result and its report. The first request for a picture starts a child
+//! (`unwrapd draw FOLDER`) in the process that answers it, whether or not that process computes jobs. The
+//! child
+//! draws exactly what the computation would have drawn. The picture is stored beside the result and recorded.
 //!
-//! The record decides. A picture that is not noted there does not exist, one of a job that was removed meanwhile is removed again, and
-//! one that is missing or damaged is drawn anew. Its key names its content, so that two processes which draw the same picture do
-//! not overwrite each other.
+//! The record decides. A picture that it does not list does not exist; one of a job that was removed
+//! meanwhile is
+//! removed again; and one that is missing or damaged is redrawn. The key contains the checksum of the
+//! content, so
+//! two processes that draw the same picture do not overwrite each other.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -31,16 +35,16 @@ use unwrapd_api::{
     sha256, write_json,
 };
 
-/// For a picture to be drawn while its client waits: the default of synchronous calls.
+/// Time limit of drawing while a client waits: the default of synchronous requests.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// Why there is no picture.
+/// Reason why there is no picture.
 #[derive(Debug, thiserror::Error)]
 pub enum Undrawn {
     /// The job was removed meanwhile.
     #[error("the job was removed")]
     Removed,
-    /// It could not be drawn.
+    /// Drawing failed.
     #[error("{}", .0.detail)]
     Failed(Failure),
     /// Records or files cannot be used.
@@ -49,7 +53,7 @@ pub enum Undrawn {
 }
 
 impl Job {
-    /// The pictures that can be had of its result.
+    /// Returns the pictures that its result can have.
     pub fn pictures(&self) -> &'static [Picture] {
         match self.output.first() {
             Some(_) if self.is_atlas() => &Picture::ALL,
@@ -60,19 +64,21 @@ impl Job {
         }
     }
 
-    /// What it made beside pictures.
+    /// Returns the output files without pictures.
     pub fn results(&self) -> impl Iterator<Item = &OutputFile> {
         let is_picture = |file: &OutputFile| Picture::ALL.iter().any(|it| it.role() == file.role);
         self.output.iter().filter(move |file| !is_picture(file))
     }
 
-    /// A picture that was drawn: when it was asked for, or by a version of the program that drew all when the job ended.
+    /// Returns a picture that exists: drawn on request, or by a version of the program that drew all pictures
+    /// at the
+    /// end of a job.
     pub fn drawn(&self, picture: Picture) -> Option<&OutputFile> {
         let drawn = self.drawn.iter().chain(&self.output);
         drawn.into_iter().find(|file| file.role == picture.role())
     }
 
-    /// Where a picture is that was drawn.
+    /// Returns the key and the file of a picture that exists.
     fn key_of_drawn(&self, picture: Picture) -> Option<(String, &OutputFile)> {
         let file = self.drawn(picture)?;
         let key = match self
@@ -90,7 +96,7 @@ impl Job {
         matches!(self.kind, Kind::Unwrap | Kind::Repack)
     }
 
-    /// Whether a picture shows densities that only the input tells.
+    /// Returns whether a picture shows texel densities, which only the input contains.
     fn needs_input(&self, picture: Picture) -> bool {
         let weights = self.options.get("texel_weight");
         let is_weighed = weights
@@ -101,10 +107,10 @@ impl Job {
 }
 
 impl Jobs {
-    /// Returns a picture of a job that has it: the one that is kept, or one that is drawn now and kept.
+    /// Returns a picture that the job can have: the stored one, or one that is drawn now and stored.
     ///
     /// # Errors
-    /// If the job was removed meanwhile, the picture cannot be drawn, or the stores cannot be used.
+    /// Fails if the job was removed meanwhile, the picture cannot be drawn, or the stores cannot be used.
     pub async fn picture(
         self: &Arc<Self>,
         job: &Job,
@@ -140,7 +146,7 @@ impl Jobs {
             .map_err(|error| Undrawn::Failed(Failure::new("internal_error", error.to_string())))?
     }
 
-    /// The picture as it is stored; `None` if there is none, or it is damaged.
+    /// Returns the stored picture; `None` if there is none or it is damaged.
     async fn kept(&self, job: &Job, picture: Picture) -> StoreResult<Option<Vec<u8>>> {
         let Some((key, file)) = job.key_of_drawn(picture) else {
             return Ok(None);
@@ -169,7 +175,7 @@ impl Jobs {
         content.try_fold(Vec::new(), append).await
     }
 
-    /// Draws a picture, stores it and notes it.
+    /// Draws a picture, stores it and records it.
     async fn draw(&self, job: &Job, picture: Picture) -> Result<Vec<u8>, Undrawn> {
         self.has_room()?;
         let path = self
@@ -196,14 +202,14 @@ impl Jobs {
         self.blobs.put(&key, &path).await?;
         let drawn = Happening::Drawn(job.token, file);
         if let Changed::Missing = self.store.change(&Reach::All, job.id, &drawn).await? {
-            // Whoever removed the record has removed its files already, or is about to.
+            // The remover of the record may have removed its files before this one was stored.
             self.blobs.remove(&job.id.to_string()).await?;
             return Err(Undrawn::Removed);
         }
         Ok(content)
     }
 
-    /// Brings what a picture is drawn from to the folder of a child.
+    /// Copies the sources of a picture to the folder of a child.
     async fn bring(&self, job: &Job, picture: Picture, folder: &Path) -> StoreResult<()> {
         let mut output = Vec::new();
         for (index, file) in job.output.iter().enumerate() {
@@ -239,7 +245,7 @@ impl Jobs {
     }
 }
 
-/// Whether pictures are drawn from this file of a job. Everything that belongs to a mesh is read with it.
+/// Returns whether a picture is drawn from this output file. A mesh needs all of its files.
 fn is_drawn_from(file: &OutputFile, is_atlas: bool) -> bool {
     file.role == "result"
         || (is_atlas && (file.role == "report" || file.role.starts_with("files/")))

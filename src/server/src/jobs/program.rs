@@ -1,30 +1,31 @@
-//! The program of which compute children are instances.
+//! The program that compute children run.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Where the dynamic linker looks for libraries first.
+/// Environment variable with the search path of the dynamic linker.
 const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
 
-/// What is started as a child: this program once more, wherever its code is.
+/// Command line that starts this program as a child.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// The file that is executed.
+    /// File to execute.
     pub file: PathBuf,
-    /// What it is given before the words for the child.
+    /// Arguments before those of the child.
     pub arguments: Vec<OsString>,
-    /// The file whose checksum says which build computes.
+    /// File whose checksum identifies the build that computes.
     pub engine: PathBuf,
 }
 
 impl Program {
-    /// The executable that runs now.
+    /// Returns the running executable.
     pub fn current() -> std::io::Result<Self> {
         std::env::current_exe().map(Self::from)
     }
 
-    /// A child with these words and an empty environment. Only an interpreter is told where libraries are: it may find its own
-    /// there alone.
+    /// Returns a command with these arguments and an empty environment. Only an interpreter keeps the library
+    /// search
+    /// path, where it may find its own libraries.
     pub(super) fn command(&self, word: &str, folder: &Path) -> tokio::process::Command {
         let mut command = tokio::process::Command::new(&self.file);
         command.args(&self.arguments).arg(word).arg(folder);

@@ -1,18 +1,18 @@
-//! How far a job is, as its child says it and as clients see it.
+//! Progress and events of a job.
 
 use serde::Serialize;
 
 use super::state::State;
 use unwrapd_api::Progress;
 
-/// How far an attempt is, as its worker says it.
+/// Progress report of an attempt.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Saying {
     /// Number of its latest event.
     pub seq: u64,
-    /// How far it is.
+    /// Progress of the attempt.
     pub progress: Progress,
-    /// Processor time that it has used.
+    /// Processor time used, in milliseconds.
     pub cpu_ms: u64,
 }
 
@@ -30,10 +30,12 @@ pub struct Event {
     pub elapsed_ms: u64,
 }
 
-/// Numbers set aside for the events of one attempt.
+/// Event numbers reserved for each attempt.
 const EVENTS_PER_ATTEMPT: u64 = 1_000_000;
 
-/// The first number of the next attempt: above all that a lost attempt may have sent without storing it.
+/// Returns the first event number of the next attempt. It is above all numbers that a lost attempt may have
+/// sent
+/// without recording them.
 pub fn next_attempt_seq(seq: u64) -> u64 {
     (seq / EVENTS_PER_ATTEMPT + 1) * EVENTS_PER_ATTEMPT
 }

@@ -1,10 +1,14 @@
-//! Files whose job is not in the database.
+//! Quarantine of files whose job is not in the database.
 //!
-//! A crash leaves a few: between the storing of files and of their record, or between the removal of
-//! a record and of its files. A database that was restored from an older backup leaves many. So they
-//! are never deleted when they are found. They stay where they are, are listed, count against the
-//! quota, and go only when they have been unknown for days, by a clock that advances normally and
-//! without a gap between looks. A job that is known again takes its files back.
+//! A crash leaves a few such files: between storing files and their record, or between removing a record and
+//! its
+//! files. A database restored from an older backup leaves many. So files are never deleted when they are
+//! found.
+//! They stay in place, are listed, count against the quota, and are deleted only after they have been unknown
+//! for
+//! days, by a clock that advances normally and without a gap between checks. A job that becomes known again
+//! takes
+//! its files back.
 
 use std::collections::{HashMap, HashSet};
 use std::time::Duration;
@@ -16,15 +20,17 @@ use super::state::State;
 use super::store_error::StoreResult;
 use super::timestamp::Timestamp;
 
-/// Jobs of files that are looked for at once.
+/// Number of jobs looked up at once.
 const TOGETHER: usize = 1000;
-/// More unknown files than this share of all, in percent, and than this number are no accident.
+/// Threshold above which unknown files are no accident: more than this percentage of all, and more than
+/// `MOST`.
 const MOST_PERCENT: usize = 1;
 const MOST: usize = 20;
 
 impl Jobs {
-    /// Puts files without a job into quarantine if their job is older than this, and deletes those
-    /// that have been there for long enough. Nothing is deleted while too many are unknown.
+    /// Quarantines files without a job if the job's id is older than `age`, and deletes those that have been
+    /// in
+    /// quarantine long enough. Deletes nothing while too many are unknown.
     pub(super) async fn sweep_unknown_files(&self, age: Duration) -> StoreResult<()> {
         let owners = self.blobs.owners().await?;
         let unknown = self.unknown(&owners, age).await?;
@@ -33,6 +39,7 @@ impl Jobs {
         let known: Vec<JobId> = (known.into_iter())
             .filter(|job| !unknown.contains(job))
             .collect();
+        // Release files whose job is known again, and quarantine the rest.
         self.store.release(&known).await?;
         for jobs in unknown.iter().copied().collect::<Vec<_>>().chunks(TOGETHER) {
             let mut found = Vec::new();
@@ -47,6 +54,7 @@ impl Jobs {
                 tracing::warn!(%job, "files without a job are in quarantine");
             }
         }
+        // Delete nothing if the number suggests a wrong or restored database.
         let is_stopped = is_too_many(unknown.len(), owners.len());
         meters::quarantine_stopped(is_stopped);
         if is_stopped {
@@ -65,8 +73,9 @@ impl Jobs {
         Ok(())
     }
 
-    /// The jobs of this age or older that have files and no record. Files of cancelled jobs, which
-    /// need none, are removed.
+    /// Returns the jobs at least this old that have files but no record. Removes files of cancelled jobs,
+    /// which need
+    /// none.
     async fn unknown(&self, owners: &[JobId], age: Duration) -> StoreResult<HashSet<JobId>> {
         let is_old = |id: &JobId| age.as_millis() <= u128::from(Timestamp::now().since(id.made()));
         let old: Vec<JobId> = owners.iter().copied().filter(is_old).collect();
@@ -86,7 +95,7 @@ impl Jobs {
         Ok(unknown)
     }
 
-    /// Deletes what has been in quarantine for long enough.
+    /// Deletes files that have been in quarantine long enough.
     async fn delete_quarantined(&self) -> StoreResult<()> {
         for files in self.store.quarantined().await? {
             let is_due = self.settings.quarantine <= files.held;
@@ -100,7 +109,7 @@ impl Jobs {
     }
 }
 
-/// Whether so many of all files cannot be unknown by accident.
+/// Returns whether too many of all files are unknown for an accident.
 fn is_too_many(unknown: usize, all: usize) -> bool {
     MOST < unknown && MOST_PERCENT * all < 100 * unknown
 }

@@ -1,4 +1,4 @@
-//! The queue as clients see it: jobs are looked at, waited for, ended, tried again and removed.
+//! The queue as clients see it: jobs are read, awaited, ended, retried and removed.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -25,10 +25,10 @@ use super::store_error::StoreResult;
 use super::store_id::StoreId;
 use super::transition::{Happening, Wish};
 
-/// For a job that nobody waits for to end.
+/// Time limit for a dismissed job to end.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
 
-/// The queue and all that belongs to it in this process.
+/// The job queue and its state in this process.
 pub struct Jobs {
     pub(super) store: Arc<dyn JobStore>,
     pub(super) blobs: Arc<dyn Blobs>,
@@ -47,17 +47,17 @@ pub struct Jobs {
     pub(super) drawing: DrawingQueue,
 }
 
-/// Whether a wait saw the end of the job.
+/// Outcome of waiting for a job.
 #[derive(Debug)]
 pub enum Ended {
-    /// It is in a final state.
+    /// The job is in a final state.
     Yes(Job),
-    /// Time was over first.
+    /// The time limit came first.
     NotYet(Job),
 }
 
 impl Jobs {
-    /// A queue on these stores. Nothing runs before [`Jobs::recover`] and [`Jobs::run`].
+    /// Creates a queue on these stores. Nothing runs before [`Jobs::recover`] and [`Jobs::run`].
     pub fn new(settings: Settings, store: Arc<dyn JobStore>, blobs: Arc<dyn Blobs>) -> Self {
         Self {
             drawing: DrawingQueue::new(&settings),
@@ -78,12 +78,12 @@ impl Jobs {
         }
     }
 
-    /// The limits of this queue.
+    /// Returns the limits of this queue.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The job as it is now. Its progress is that of the moment if it runs in this process.
+    /// Returns the record of a job, with live progress if it runs in this process.
     pub async fn get(&self, reach: &Reach, id: JobId) -> StoreResult<Option<Job>> {
         let running = self.running.attempt(id);
         let mut job = self.store.get(reach, id).await?;
@@ -97,22 +97,22 @@ impl Jobs {
         Ok(job)
     }
 
-    /// Whether there was such a job until its time was over.
+    /// Returns whether there was such a job until it expired.
     pub async fn has_expired(&self, reach: &Reach, id: JobId) -> StoreResult<bool> {
         self.store.has_expired(reach, id).await
     }
 
-    /// A page of jobs.
+    /// Returns a page of jobs.
     pub async fn list(&self, reach: &Reach, listing: &Listing) -> StoreResult<Vec<Job>> {
         self.store.list(reach, listing).await
     }
 
-    /// How many jobs there are in each state, and how long the oldest of those that wait does so.
+    /// Returns the number of jobs in each state, and the wait of the oldest queued job.
     pub async fn queue(&self) -> StoreResult<Queue> {
         self.store.queue().await
     }
 
-    /// Waits for the end of a job, but not longer than this.
+    /// Waits for the end of a job, up to `at_most`. Returns `None` if there is no such job.
     pub async fn wait(
         &self,
         reach: &Reach,
@@ -134,7 +134,7 @@ impl Jobs {
         }))
     }
 
-    /// Cancels a job, has it end early with the map it has, or tries it again, wherever it runs.
+    /// Cancels a job, ends it early with its current map, or retries it, wherever it runs.
     pub async fn wish(&self, reach: &Reach, id: JobId, wish: Wish) -> StoreResult<Changed> {
         // The child of this process first, it should not wait for the disk.
         self.running.wish(reach, id, wish);
@@ -146,7 +146,7 @@ impl Jobs {
         Ok(changed)
     }
 
-    /// Removes a job in a final state, with its files. False: there is none.
+    /// Removes a job in a final state with its files. Returns `false` if there is none.
     pub async fn remove(&self, reach: &Reach, id: JobId, reason: Reason) -> StoreResult<bool> {
         let removed = self.store.delete(reach, id, reason).await?;
         if removed {
@@ -156,7 +156,7 @@ impl Jobs {
         Ok(removed)
     }
 
-    /// Ends a job and removes it, in the background: nobody waits for it any more.
+    /// Cancels a job and removes it, in the background, because nobody waits for it any more.
     pub fn dismiss(self: &Arc<Self>, id: JobId) {
         let jobs = Arc::clone(self);
         self.tasks.spawn(async move {
@@ -171,8 +171,7 @@ impl Jobs {
         });
     }
 
-    /// Tells those who watch, and those who wait for work, of a record that changed. The files that
-    /// it does not need are removed.
+    /// Notifies watchers and idle workers of a changed record, and removes the files that it no longer needs.
     pub(super) async fn tell(&self, job: &Job) {
         meters::finished(job);
         if let Err(error) = self.remove_unneeded(job).await {
@@ -184,13 +183,13 @@ impl Jobs {
         }
     }
 
-    /// Has this process look for jobs that can be started.
+    /// Wakes this process to look for jobs that can start.
     pub(super) fn look(&self) {
         self.wake.notify_one();
         self.wake_reserve.notify_one();
     }
 
-    /// Nothing but the record is kept of a cancelled job, and nothing of lost attempts.
+    /// Removes unneeded files: all of a cancelled job, and those of lost attempts of a finished one.
     async fn remove_unneeded(&self, job: &Job) -> StoreResult<()> {
         match job.state {
             State::Cancelled => return self.blobs.remove(&job.id.to_string()).await,

@@ -1,30 +1,30 @@
-//! How much may be stored, in all and of one owner.
+//! Storage quotas, in total and per owner.
 
 use std::time::Duration;
 
-/// How much may be stored.
+/// Limits on what may be stored.
 #[derive(Clone, Copy, Debug)]
 pub struct Capacity {
-    /// Jobs that may wait.
+    /// Maximum number of queued jobs.
     pub depth: u32,
-    /// Bytes that the files of all jobs may take when one more is accepted.
+    /// Maximum bytes of all jobs' files, including those of the job to be accepted.
     pub bytes: Option<u64>,
-    /// What one owner may have.
+    /// Quotas of each owner.
     pub of_owner: OwnerQuotas,
 }
 
-/// What one owner may have.
+/// Quotas of one owner.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OwnerQuotas {
-    /// Jobs that wait or run.
+    /// Maximum number of queued and running jobs.
     pub jobs: Option<u32>,
-    /// Bytes of the files of all their jobs.
+    /// Maximum bytes of the files of all their jobs.
     pub bytes: Option<u64>,
-    /// Processor time of a day in UTC.
+    /// Maximum processor time per day in UTC.
     pub cpu_of_day: Option<Duration>,
 }
 
-/// A quota of an owner.
+/// Kind of quota of an owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OwnerQuota {
     /// [`OwnerQuotas::jobs`].

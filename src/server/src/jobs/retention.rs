@@ -1,4 +1,4 @@
-//! The store kept in order: jobs whose time is over, files without a job.
+//! Housekeeping of the store: removal of expired jobs and of files without a job.
 
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -14,22 +14,26 @@ use super::storage::{Reason, Sweep};
 use super::store_error::{StoreError, StoreResult};
 use super::transition::Wish;
 
-/// Searches for expired jobs per retention time: a job outlives it by a tenth at most,
+/// Number of searches for expired jobs per retention time, so that a job outlives it by a tenth at most.
 const SEARCHES: u32 = 10;
-/// and by no more than an hour. More than one search per second would keep the server busy.
+/// Bounds on the time between searches: jobs outlive their retention by an hour at most, and searching more
+/// often than once per second would keep the server busy.
 const LONGEST_PAUSE: Duration = Duration::from_hours(1);
 const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
-/// Files whose job is younger may belong to a submission under way in another process, whose clock
-/// may be another.
+/// Minimum age of files without a job. Younger ones may belong to a submission under way in another process,
+/// whose clock may differ.
 const SUBMISSION: Duration = Duration::from_hours(24);
-/// Nothing expires before the clock of the store has advanced normally for this time, or for the
-/// time that jobs are kept, if that is shorter.
+/// Time for which the clock of the store must have advanced normally before anything expires. The retention
+/// time
+/// applies if that is shorter.
 const STEADY: Duration = Duration::from_hours(1);
 
 impl Jobs {
-    /// Checks that records and files belong together, and puts the house in order after a start:
-    /// scratch is emptied. What the only process left behind goes back to the queue, calls that
-    /// nobody waits for any more are forgotten, and files without a job are put into quarantine.
+    /// Checks that records and files belong together, and cleans up after a start: empties the scratch
+    /// folder. If
+    /// this is the only process, also requeues its former jobs, removes jobs of requests that nobody waits
+    /// for, and
+    /// quarantines files without a job.
     pub async fn recover(&self) -> StoreResult<()> {
         let identity = shared_identity(self.store.as_ref(), self.blobs.as_ref()).await?;
         let _ = self.identity.set(identity);
@@ -52,8 +56,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// Removes expired jobs, and looks for files without a job, from time to time until told to
-    /// stop.
+    /// Removes expired jobs and looks for files without a job, periodically until stopped.
     pub(super) async fn keep_until(&self, stop: &CancellationToken) {
         let retention = self.settings.retention.unwrap_or(Duration::MAX);
         let search = (retention / SEARCHES).clamp(SHORTEST_PAUSE, LONGEST_PAUSE);
@@ -109,8 +112,9 @@ impl Jobs {
         }
     }
 
-    /// Whether the clock of the store has advanced normally for long enough to remove what it says
-    /// has expired. Says so in the log when it begins to wait.
+    /// Returns whether the clock of the store has advanced normally for long enough to trust it with expiry.
+    /// Logs
+    /// jumps and the first wait.
     pub(super) async fn clock_is_steady(&self) -> StoreResult<bool> {
         let wait = self.settings.retention.unwrap_or(STEADY).min(STEADY);
         let now = self.store.now().await?;
@@ -128,7 +132,7 @@ impl Jobs {
     }
 }
 
-/// Whether it is time to look for files without a job again.
+/// Returns whether it is time to look for files without a job again.
 fn is_long_ago(last: Instant) -> bool {
     SUBMISSION <= last.elapsed()
 }

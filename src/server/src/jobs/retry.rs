@@ -1,4 +1,4 @@
-//! Failed jobs tried again, many at once.
+//! Retrying many failed jobs at once.
 
 use super::access::Reach;
 use super::job::{Job, JobId};
@@ -9,22 +9,23 @@ use super::storage::{Changed, JobStore};
 use super::store_error::StoreResult;
 use super::transition::{Happening, Wish};
 
-/// Jobs that are looked at together.
+/// Jobs per page.
 const PAGE: u32 = 200;
-/// Jobs that one call tries again.
+/// Maximum number of jobs retried by one request.
 const MOST: usize = 1000;
 
-/// Failed jobs that were queued again.
+/// Failed jobs that were requeued.
 #[derive(Debug, Default)]
 pub struct Retried {
-    /// These, the oldest first.
+    /// The jobs, oldest first.
     pub jobs: Vec<Job>,
-    /// There may be more after this one.
+    /// Job after which there may be more; `None` if all were retried.
     pub next: Option<JobId>,
 }
 
-/// Tries up to 1000 failed jobs again: those that a listing asks for, the oldest first, that failed
-/// with this code if there is one.
+/// Retries up to 1000 failed jobs that match a listing, oldest first. If a code is given, retries only jobs
+/// that
+/// failed with it.
 pub async fn retry_failed(
     store: &dyn JobStore,
     reach: &Reach,
@@ -62,7 +63,7 @@ pub async fn retry_failed(
 }
 
 impl Jobs {
-    /// Tries failed jobs again; see [`retry_failed`].
+    /// Retries failed jobs and notifies watchers; see [`retry_failed`].
     pub async fn retry_failed(
         &self,
         reach: &Reach,

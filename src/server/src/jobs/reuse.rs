@@ -1,4 +1,4 @@
-//! Equal jobs: what one made is given to the next.
+//! Reuse of results among equal jobs.
 
 use super::checksum;
 use super::job::Job;
@@ -8,17 +8,16 @@ use super::state::State;
 use super::store_error::StoreResult;
 
 impl Jobs {
-    /// What computes: the checksum of the program, since results of another build may differ.
+    /// Returns the checksum of the program, since another build may compute different results.
     pub(super) async fn engine(&self) -> StoreResult<&str> {
         let file = &self.settings.program.engine;
         let engine = self.engine.get_or_try_init(|| checksum::of(file));
         engine.await.map(String::as_str)
     }
 
-    /// Ends a new job with copies of what an equal one of its owner made, if there is one that is
-    /// whole. A copy that fails is
-    /// no reason to refuse the job: the result can be computed. What was copied by then is removed with
-    /// the job.
+    /// Completes a new job with copies of the results of an equal, undamaged job of its owner, if there is
+    /// one. If
+    /// copying fails, the job stays queued and is computed; partial copies are removed with the job.
     pub(super) async fn reuse(&self, job: &mut Job) {
         match self.copy_equal(job).await {
             Ok(Some(earlier)) => {
@@ -34,7 +33,7 @@ impl Jobs {
         }
     }
 
-    /// The job whose files were copied.
+    /// Copies the files of an equal job and returns that job.
     async fn copy_equal(&self, job: &Job) -> StoreResult<Option<Job>> {
         let engine = self.engine().await?;
         let equal = self.store.equal(job).await?;
@@ -51,7 +50,7 @@ impl Jobs {
         Ok(None)
     }
 
-    /// Copies what an earlier job made, if all of it is whole.
+    /// Copies the output of an earlier job if all of it is intact.
     async fn copy_verified(&self, earlier: &Job, job: &Job) -> StoreResult<()> {
         for (index, file) in earlier.output.iter().enumerate() {
             self.verify(earlier, index, file).await?;
@@ -66,12 +65,12 @@ impl Jobs {
 }
 
 impl Job {
-    /// Whether its result was made by an earlier job.
+    /// Returns whether the result is a copy of an earlier job's.
     pub fn is_copy(&self) -> bool {
         self.state == State::Succeeded && self.attempt == 0
     }
 
-    /// Whether this engine would make the same again: the result was not cut short.
+    /// Returns whether this engine would compute the same result: the job was not ended early.
     fn is_repeatable(&self, engine: &str) -> bool {
         let is_cut_short = |code: &str| code == "ended_early";
         let mut warnings = self.verdict.warnings.iter();

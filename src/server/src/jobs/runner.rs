@@ -1,4 +1,4 @@
-//! The worker: attempts started as jobs come.
+//! The worker: starts attempts as jobs arrive.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -17,7 +17,7 @@ use super::queue::Jobs;
 use super::running::Attempt;
 use super::storage::Share;
 
-/// Between two tries of a store that fails.
+/// Delay before asking a failed store again.
 const STORE_RETRY: Duration = Duration::from_secs(1);
 
 /// A claimed job with its slot.
@@ -28,10 +28,11 @@ struct Claimed {
 }
 
 impl Jobs {
-    /// Starts attempts as jobs come and slots are free, and keeps the store in order. When told to
-    /// stop, claims no more, lets running attempts go on for the time of grace, hands back the jobs
-    /// of those that are left, and returns.
+    /// Starts attempts as jobs arrive and slots are free, and keeps the store in order. When stopped, claims
+    /// no more
+    /// jobs, gives running attempts the grace period to finish, hands back the jobs of the rest, and returns.
     pub async fn run(self: Arc<Self>, stop: CancellationToken) {
+        // Start the background tasks: retention, sweeping, watching, hints, heartbeats.
         let upkeep = Arc::clone(&self);
         let stopped = stop.clone();
         self.tasks
@@ -57,11 +58,13 @@ impl Jobs {
         self.tasks
             .spawn(async move { reader.engine().await.map(drop) });
 
+        // Claim jobs in every lane until told to stop.
         let (leave, attempts) = (CancellationToken::new(), TaskTracker::new());
         let lanes = Lane::all(&self.settings);
         let started = lanes.iter();
         let started = started.map(|lane| self.start_in(lane, &leave, &attempts, &stop));
         join_all(started).await;
+        // Let running attempts finish, then hand back the rest.
         attempts.close();
         if tokio::time::timeout(self.settings.grace, attempts.wait())
             .await
@@ -75,7 +78,7 @@ impl Jobs {
         self.tasks.wait().await;
     }
 
-    /// Starts attempts as jobs come and slots of a lane are free, until told to stop.
+    /// Starts attempts as jobs arrive and slots of a lane are free, until told to stop.
     async fn start_in(
         self: &Arc<Self>,
         lane: &Lane,
@@ -97,7 +100,7 @@ impl Jobs {
         }
     }
 
-    /// Looks for jobs when the store hints at one, until told to stop.
+    /// Looks for jobs whenever the store hints at one, until told to stop.
     async fn wake_until(&self, stop: &CancellationToken) {
         loop {
             tokio::select! {
@@ -107,7 +110,7 @@ impl Jobs {
         }
     }
 
-    /// The next job, when there are a slot, space and a job; `None` after a stop.
+    /// Waits for a slot, space and a job, and claims the job. Returns `None` after a stop.
     async fn next(&self, lane: &Lane, stop: &CancellationToken) -> Option<Claimed> {
         let bell = lane.bell(&self.wake, &self.wake_reserve);
         let slot = tokio::select! {

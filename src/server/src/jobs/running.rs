@@ -1,4 +1,4 @@
-//! The attempts of this process: what they are told, and the signs of life they give.
+//! The attempts of this process: commands to them and heartbeats from them.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -18,20 +18,20 @@ use super::transition::Wish;
 pub(super) struct Attempt {
     pub owner: Owner,
     pub token: Token,
-    /// Whether the job was lost with several workers, and is computed alone.
+    /// Set if the job was lost with several workers and must run alone.
     is_suspect: bool,
-    /// A client wants it to stop.
+    /// Set when a client cancels the job.
     pub cancel: CancellationToken,
-    /// A client wants it to end early with the map it has.
+    /// Set when a client ends the job early with its current map.
     pub finish: CancellationToken,
-    /// The job is somebody else's now.
+    /// Set when the job belongs to another worker.
     pub outdated: CancellationToken,
-    /// Maps under way.
+    /// Feed of maps under way.
     pub maps: MapFeed,
     state: Mutex<Present>,
 }
 
-/// How far an attempt is, and until when it is the only one.
+/// Progress of an attempt and the end of its lease.
 struct Present {
     event: Event,
     lease_end: Instant,
@@ -43,7 +43,7 @@ impl Attempt {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The newest event.
+    /// Returns the newest event.
     pub fn event(&self) -> Event {
         self.state().event
     }
@@ -53,13 +53,13 @@ impl Attempt {
         self.state().event = event;
     }
 
-    /// Says how much processor time it has used.
+    /// Records the processor time used so far, in milliseconds; it never decreases.
     pub fn set_cpu_ms(&self, cpu_ms: u64) {
         let mut state = self.state();
         state.cpu_ms = state.cpu_ms.max(cpu_ms);
     }
 
-    /// What it says of itself.
+    /// Returns its progress report.
     pub fn saying(&self) -> Saying {
         let state = self.state();
         Saying {
@@ -69,14 +69,15 @@ impl Attempt {
         }
     }
 
-    /// Whether another worker may have the job by now. The time counts from when the last renewal
-    /// was sent, by the monotonic clock of this machine: the store's clock started later.
+    /// Returns whether the lease is over, so that another worker may have the job. The lease counts from when
+    /// the
+    /// last renewal was sent, by the monotonic clock of this machine: by the store's clock it started later.
     pub fn has_lapsed(&self) -> bool {
         self.state().lease_end <= Instant::now()
     }
 }
 
-/// The attempts of this process, by job.
+/// The attempts of this process by job.
 #[derive(Default)]
 pub(super) struct Running {
     attempts: Mutex<HashMap<JobId, Arc<Attempt>>>,
@@ -87,7 +88,7 @@ impl Running {
         self.attempts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// An attempt at a claimed job, whose lease is at least this long.
+    /// Registers an attempt at a claimed job, whose lease lasts at least until `lease_end`.
     pub fn start(&self, job: &Job, lease_end: Instant) -> Arc<Attempt> {
         let attempt = Arc::new(Attempt {
             owner: job.owner.clone(),
@@ -110,7 +111,7 @@ impl Running {
         attempt
     }
 
-    /// An attempt has ended.
+    /// Removes an attempt that has ended.
     pub fn end(&self, id: JobId, token: Token) {
         let mut attempts = self.attempts();
         if attempts.get(&id).is_some_and(|it| it.token == token) {
@@ -118,22 +119,22 @@ impl Running {
         }
     }
 
-    /// How many there are.
+    /// Returns the number of attempts.
     pub fn len(&self) -> usize {
         self.attempts().len()
     }
 
-    /// Whether one of them must be alone.
+    /// Returns whether one of the attempts must run alone.
     pub fn has_suspect(&self) -> bool {
         self.attempts().values().any(|attempt| attempt.is_suspect)
     }
 
-    /// The attempt at a job, if it runs here.
+    /// Returns the attempt at a job if it runs here.
     pub fn attempt(&self, id: JobId) -> Option<Arc<Attempt>> {
         self.attempts().get(&id).cloned()
     }
 
-    /// Tells the attempt at a job, if it runs here and is within reach, what a client wants.
+    /// Passes a client's command to the attempt at a job, if it runs here and is visible to the client.
     pub fn wish(&self, reach: &Reach, id: JobId, wish: Wish) {
         let attempt = self.attempt(id);
         let Some(attempt) = attempt.filter(|it| reach.covers(&it.owner)) else {
@@ -146,7 +147,7 @@ impl Running {
         }
     }
 
-    /// The signs of life of all of them.
+    /// Returns the heartbeats of all attempts.
     pub fn beats(&self) -> Vec<Beat> {
         let attempts = self.attempts();
         let beats = attempts.iter();
@@ -155,7 +156,8 @@ impl Running {
             .collect()
     }
 
-    /// What became of a sign of life that was sent at a time.
+    /// Handles the answer to a heartbeat: renews the lease and passes on commands, or marks the attempt
+    /// outdated.
     pub fn answered(&self, (id, token, _): &Beat, changed: &Changed, lease_end: Instant) {
         let attempt = self.attempt(*id).filter(|it| it.token == *token);
         match (attempt, changed) {

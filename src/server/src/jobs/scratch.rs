@@ -1,19 +1,19 @@
-//! Folders for what is in the making.
+//! Temporary folders.
 
 use std::path::{Path, PathBuf};
 
-/// A folder that goes, with what is in it, when this is dropped.
+/// A folder that is removed with its contents on drop.
 #[derive(Debug)]
 pub struct Scratch(PathBuf);
 
 impl Scratch {
-    /// Makes it.
+    /// Creates the folder.
     pub fn make(path: PathBuf) -> std::io::Result<Self> {
         std::fs::create_dir(&path)?;
         Ok(Self(path))
     }
 
-    /// Where it is.
+    /// Returns its path.
     pub fn path(&self) -> &Path {
         &self.0
     }

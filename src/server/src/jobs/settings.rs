@@ -1,4 +1,4 @@
-//! What a job may use.
+//! Limits of the queue and of jobs.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -8,18 +8,19 @@ use super::program::Program;
 use super::quotas::OwnerQuotas;
 use unwrapd_api::Catalog;
 
-/// Whether there are other processes on the same records.
+/// Presence of other processes on the same records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Deployment {
-    /// This is the only one.
+    /// This is the only process.
     Embedded,
-    /// There may be others, on other machines.
+    /// There may be other processes, also on other machines.
     Shared,
 }
 
 impl Deployment {
-    /// How often a worker gives a sign of life. Others see its progress, and it hears their
-    /// wishes, no sooner.
+    /// Returns the interval between heartbeats. It bounds the delay of progress shown by other processes, and
+    /// of
+    /// commands to the worker.
     pub(super) fn beat_interval(self, rules: &Rules) -> Duration {
         match self {
             Self::Embedded => rules.lease / 3,
@@ -27,8 +28,8 @@ impl Deployment {
         }
     }
 
-    /// How often an idle worker looks for jobs that nobody told it of, and a process at the
-    /// records of watched jobs.
+    /// Returns the interval at which idle workers look for jobs, and at which records of watched jobs are
+    /// polled.
     pub(super) fn look_interval(self) -> Duration {
         match self {
             Self::Embedded => Duration::from_secs(1),
@@ -40,51 +41,54 @@ impl Deployment {
 /// Limits of the queue and of each job.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Who else uses the records.
+    /// Presence of other processes on the same records.
     pub deployment: Deployment,
-    /// When a job changes hands.
+    /// Rules for losing and retrying jobs.
     pub rules: Rules,
-    /// Folder for what is in the making: uploads being received and the folders of attempts. It is
-    /// of this process alone, and emptied at the start.
+    /// Folder for uploads under way and for attempts. It belongs to this process alone and is emptied at
+    /// startup.
     pub scratch: PathBuf,
-    /// What is started as compute child.
+    /// Program started as the compute child.
     pub program: Program,
-    /// What children can compute.
+    /// Catalog of computations that children offer.
     pub catalog: &'static dyn Catalog,
-    /// Jobs that this process computes at the same time.
+    /// Number of jobs that this process computes at a time.
     pub workers: usize,
     /// Cores that they share.
     pub cores: usize,
-    /// Jobs of one owner that are computed at the same time, in all processes.
+    /// Maximum number of jobs of one owner that run at a time, in all processes.
     pub owner_running: Option<u32>,
-    /// Jobs with files of at most so many bytes may also start while all of `workers` are taken, one
-    /// at a time: they do not wait for large ones. `None`: they wait like all others.
+    /// Size in bytes up to which a job counts as small: one small job at a time may start although all
+    /// `workers`
+    /// slots are taken, so that it does not wait for large ones. `None` if small jobs wait like all others.
     pub small: Option<u64>,
-    /// Jobs that may wait.
+    /// Maximum number of queued jobs.
     pub queue_depth: u32,
-    /// Wall-clock time after which an attempt ends with the map it has.
+    /// Wall-clock time after which an attempt ends with its current map.
     pub time: Duration,
-    /// Memory of a job, in bytes.
+    /// Memory limit of a job in bytes.
     pub memory: u64,
-    /// Triangles of a mesh.
+    /// Maximum number of triangles of a mesh.
     pub triangles: u64,
-    /// Bytes that the files of all jobs may take together.
+    /// Maximum bytes of the files of all jobs together.
     pub quota: Option<u64>,
-    /// What one owner may have.
+    /// Quotas of each owner.
     pub of_owner: OwnerQuotas,
     /// Bytes that must be free for a job to be accepted or started.
     pub min_free: u64,
-    /// How long a job is kept after its end, with its files. `None`: another process sees to that.
+    /// Time for which a job is kept after its end, with its files; `None` if another process takes care of
+    /// that.
     pub retention: Option<Duration>,
-    /// How long files without a job are kept before they are deleted.
+    /// Time for which files without a job are kept before they are deleted.
     pub quarantine: Duration,
-    /// How long attempts may go on after a stop, before their jobs are handed back.
+    /// Time for which attempts may continue after a stop, before their jobs are handed back.
     pub grace: Duration,
 }
 
 impl Settings {
-    /// Threads of an attempt that begins when so many run here, itself included: one that is alone
-    /// has all cores, and where each core has its attempt, none takes a second one.
+    /// Returns the number of threads for a new attempt when `attempts` run here, including itself: cores /
+    /// attempts,
+    /// at least 1.
     pub fn threads(&self, attempts: usize) -> usize {
         (self.cores / attempts.max(1)).max(1)
     }

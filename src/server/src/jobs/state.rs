@@ -1,4 +1,4 @@
-//! Where jobs stand.
+//! States of jobs.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,12 +28,12 @@ impl State {
         Self::Cancelled,
     ];
 
-    /// Whether the job will never change again.
+    /// Returns whether the job has ended. A failed job can still be retried.
     pub fn is_final(self) -> bool {
         matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
     }
 
-    /// The word used in JSON and in the store.
+    /// Returns the name used in JSON and in the store.
     pub fn word(self) -> &'static str {
         match self {
             Self::Queued => "queued",

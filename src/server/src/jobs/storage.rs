@@ -1,4 +1,4 @@
-//! What the queue needs from a place for records.
+//! The storage interface for job records.
 
 use std::time::Duration;
 
@@ -16,112 +16,114 @@ use super::store_id::StoreId;
 use super::timestamp::Timestamp;
 use super::transition::{Happening, Refusal};
 
-/// A client's promise that two submissions with the same key are one. Each owner has keys of their
-/// own.
+/// Key by which a client marks repeated submissions as one. Each owner has keys of its own.
 #[derive(Clone, Debug)]
 pub struct IdempotencyKey {
-    /// The client's word.
+    /// Key chosen by the client.
     pub key: String,
-    /// Hash of what was submitted: files, kind and options.
+    /// Hash of the submission, which must be the same whenever the key is used.
     pub fingerprint: String,
 }
 
-/// What became of a submission.
+/// Outcome of a submission.
 #[derive(Debug)]
 pub enum Enqueued {
     /// It is a new job, as recorded.
     New(Box<Job>),
-    /// It was made before, under the same key.
+    /// It was submitted before under the same key.
     Replay(Box<Job>),
-    /// The key was used for something else.
+    /// The key was used for a different submission.
     KeyReused,
-    /// As many jobs wait as may wait.
+    /// The queue is full.
     Full,
-    /// Its owner would have more than one may have, or has used it up.
+    /// Its owner would exceed a quota or has used it up.
     OwnerOverQuota(OwnerQuota),
-    /// The files of all jobs together would take more than they may.
+    /// The files of all jobs together would exceed the quota.
     OverQuota,
 }
 
-/// Which jobs a worker takes.
+/// Filter of the jobs that a worker takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Share {
-    /// Only those whose files have at most so many bytes.
+    /// Maximum bytes of a job's files.
     pub largest: Option<u64>,
-    /// Only those of owners of whom fewer than so many run, in all processes.
+    /// Maximum number of running jobs of its owner, in all processes, including the new one.
     pub of_owner: Option<u32>,
-    /// Whether the worker computes other jobs. Those that may kill their workers are not for it, and
-    /// when one of them has waited for minutes, it gets none at all: it has to become free.
+    /// Set if the worker computes other jobs. A busy worker gets no suspected job, and when a suspected job
+    /// has
+    /// waited for minutes, it gets no job at all, so that it becomes free.
     pub is_busy: bool,
 }
 
-/// All jobs at a glance.
+/// Overview of all jobs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Queue {
-    /// How many there are in each state.
+    /// Number of jobs in each state.
     pub counts: Vec<(State, u64)>,
-    /// For how long the oldest of those that wait has been there.
+    /// Waiting time of the oldest queued job.
     pub oldest_wait: Duration,
 }
 
-/// What records there are.
+/// Numbers of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Census {
-    /// Jobs.
+    /// Number of jobs.
     pub jobs: u64,
-    /// Those that have files.
+    /// Number of jobs that have files.
     pub with_files: u64,
 }
 
-/// What became of a record.
+/// Outcome of an event.
 #[derive(Clone, Debug)]
 pub enum Changed {
-    /// It changed to this.
+    /// The record changed to this.
     Yes(Box<Job>),
-    /// It is still this.
+    /// The record was not changed, for this reason.
     No(Box<Job>, Refusal),
-    /// There is none.
+    /// There is no such record.
     Missing,
 }
 
-/// A worker's sign of life for one job: which, as which holder, and how far it is.
+/// Heartbeat of a worker for one job: job, token and progress.
 pub type Beat = (JobId, Token, Saying);
 
-/// Which running jobs to take from their workers.
+/// Running jobs to take from their workers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sweep {
-    /// Those whose workers have been silent for too long.
+    /// Jobs whose leases have expired.
     Overdue,
-    /// All: no worker of an earlier time can be alive.
+    /// All jobs: no former worker can be alive.
     Abandoned,
 }
 
-/// Why a record is removed.
+/// Reason for removing a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// A client wished so.
+    /// A client deleted it.
     Deleted,
-    /// Its time was over. That is remembered.
+    /// It expired, which is remembered.
     Expired,
 }
 
 /// Files in quarantine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quarantined {
-    /// The job whose folder they are in.
+    /// Job whose folder they are in.
     pub job: JobId,
-    /// Their size.
+    /// Size in bytes.
     pub bytes: u64,
-    /// For how long they have been unknown.
+    /// Time for which they have been unknown.
     pub held: Duration,
 }
 
-/// Records of jobs. Every call is one transaction, durable when it returns. Times are those of the
-/// store's own clock, and what becomes of a record is decided by [`after`](super::after) alone. What
-/// lies beyond the reach that a call has is missing for it.
+/// Store of job records. Every call is one transaction, durable when it returns. Times are those of the
+/// store's
+/// own clock. Only [`after`](super::after) decides how a record changes. Jobs outside the reach of a call are
+/// reported as missing.
 pub trait JobStore: Send + Sync {
-    /// Stores a job that is queued or has ended, unless that would exceed the capacity or its key has been used. Its
-    /// times are set.
+    /// Records a job that is queued or has ended, unless it would exceed the capacity or its key has been
+    /// used. Sets
+    /// its times.
     fn enqueue<'a>(
         &'a self,
         job: &'a Job,
@@ -129,40 +131,41 @@ pub trait JobStore: Send + Sync {
         capacity: Capacity,
     ) -> BoxFuture<'a, StoreResult<Enqueued>>;
 
-    /// The record of a job.
+    /// Returns the record of a job.
     fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>>;
 
-    /// A page of the list.
+    /// Returns a page of the list.
     fn list<'a>(
         &'a self,
         reach: &'a Reach,
         listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
-    /// The present states of those of these jobs that exist, in any order.
+    /// Returns the current states of those of these jobs that exist, in any order.
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>>;
 
-    /// The latest jobs with the digest and the owner of this one that succeeded and are kept.
+    /// Returns the latest succeeded jobs with the digest and the owner of this one.
     fn equal<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
-    /// Gives a queued job that may be started to a worker. It belongs to the owner who has the fewest
-    /// running, and among those to the one whose last start was longest ago. Of this owner's jobs it
-    /// is one of the highest priority, and of those the oldest.
+    /// Assigns a queued job that may start to a worker. Takes the owner with the fewest running jobs, and
+    /// among
+    /// those the one whose last start was longest ago. Of that owner's jobs, takes the oldest of the highest
+    /// priority.
     fn claim(&self, worker: WorkerId, share: Share) -> BoxFuture<'_, StoreResult<Option<Job>>>;
 
-    /// Has no job claimed by anybody from now on, or again.
+    /// Pauses or resumes claiming, for all processes.
     fn set_paused(&self, paused: bool) -> BoxFuture<'_, StoreResult<()>>;
 
-    /// Whether no job is claimed.
+    /// Returns whether claiming is paused.
     fn is_paused(&self) -> BoxFuture<'_, StoreResult<bool>>;
 
-    /// How many jobs were computed and ended within this time before now.
+    /// Returns the number of jobs that were computed and ended within this time before now.
     fn ended_within(&self, time: Duration) -> BoxFuture<'_, StoreResult<u64>>;
 
-    /// Waits for a hint that a job can be claimed. A hint may be lost, and some stores give none.
+    /// Waits for a hint that a job can be claimed. Hints may be lost, and some stores give none.
     fn hint(&self) -> BoxFuture<'_, ()>;
 
-    /// Changes a record as what happens demands.
+    /// Applies an event to a record.
     fn change<'a>(
         &'a self,
         reach: &'a Reach,
@@ -170,13 +173,13 @@ pub trait JobStore: Send + Sync {
         happening: &'a Happening,
     ) -> BoxFuture<'a, StoreResult<Changed>>;
 
-    /// Records signs of life of one worker; what became of each record, in their order.
+    /// Records the heartbeats of one worker. Returns the outcome for each, in order.
     fn beat<'a>(&'a self, beats: &'a [Beat]) -> BoxFuture<'a, StoreResult<Vec<Changed>>>;
 
-    /// Takes running jobs from their workers. Returns those that changed.
+    /// Takes running jobs from their workers. Returns the records that changed.
     fn sweep(&self, sweep: Sweep) -> BoxFuture<'_, StoreResult<Vec<Job>>>;
 
-    /// Removes a record in a final state and its idempotency key; false if there is none.
+    /// Removes a record in a final state and its idempotency key. Returns `false` if there is none.
     fn delete<'a>(
         &'a self,
         reach: &'a Reach,
@@ -184,50 +187,51 @@ pub trait JobStore: Send + Sync {
         reason: Reason,
     ) -> BoxFuture<'a, StoreResult<bool>>;
 
-    /// Whether there was a job until its time was over. This is known for a year.
+    /// Returns whether there was a job until it expired. This is known for a year.
     fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>>;
 
-    /// Some jobs that ended longer ago than this. A job that belongs to a call is of no use a few
+    /// Returns some jobs that ended longer ago than `kept`. A job that belongs to a request is included a few
     /// minutes after its end.
     fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
-    /// Forgets the idempotency keys of submissions that were made more than a day ago.
+    /// Deletes the idempotency keys of submissions made more than a day ago.
     fn forget_keys(&self) -> BoxFuture<'_, StoreResult<()>>;
 
-    /// The jobs that belong to calls.
+    /// Returns the jobs that belong to synchronous requests.
     fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
-    /// How many jobs there are in each state, and how long the oldest of those that wait does so.
+    /// Returns the number of jobs in each state, and the wait of the oldest queued job.
     fn queue(&self) -> BoxFuture<'_, StoreResult<Queue>>;
 
-    /// Bytes of the files of all jobs, and of those in quarantine.
+    /// Returns the bytes of the files of all jobs, including quarantined files.
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>>;
 
-    /// What time it is by the clock of the store.
+    /// Returns the time by the clock of the store.
     fn now(&self) -> BoxFuture<'_, StoreResult<Timestamp>>;
 
-    /// Which store this is; `None` in a new one, and in one of version 0.1.0.
+    /// Returns the id of this store; `None` for a new one and for one of version 0.1.0.
     fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>>;
 
-    /// Gives the store this identity if it has none. Returns the one that it has then.
+    /// Sets the id of the store if it has none. Returns its id.
     fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<StoreId>>;
 
-    /// What records there are.
+    /// Returns the numbers of records.
     fn census(&self) -> BoxFuture<'_, StoreResult<Census>>;
 
-    /// Notes files without a job, with their sizes. The time of those that were not looked at for
-    /// three days, or that the clock has left behind, begins anew.
+    /// Records files without a job, with their sizes in bytes. Restarts the time of files that were last
+    /// recorded
+    /// more than three days ago, or at a time that the clock has not reached.
     fn quarantine<'a>(&'a self, files: &'a [(JobId, u64)]) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// All files that were noted, the oldest first.
+    /// Returns all quarantined files, oldest first.
     fn quarantined(&self) -> BoxFuture<'_, StoreResult<Vec<Quarantined>>>;
 
-    /// Forgets files that were noted: they have a job, or they are gone.
+    /// Removes entries from quarantine because their files have a job again or are gone.
     fn release<'a>(&'a self, jobs: &'a [JobId]) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// Has no other job get a copy of the result of this one.
+    /// Excludes the result of this job from being copied for equal jobs.
     fn spoil(&self, id: JobId) -> BoxFuture<'_, StoreResult<()>>;
 
-    /// Writes something, so that whoever asks knows that records can be written.
+    /// Writes a probe to check that records can be written.
     fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
 }

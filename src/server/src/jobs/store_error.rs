@@ -1,47 +1,47 @@
-//! Why a store did not do what it was asked.
+//! Errors of stores.
 
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-/// The store did not do what it was asked. Each holds one line for the log.
+/// Error of a store. Each variant holds one line for the log.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StoreError {
-    /// There is no space for it. Deleting still works.
+    /// There is no space left. Deleting still works.
     #[error("no space left: {0}")]
     Full(String),
-    /// Somebody else changed what it was to change.
+    /// The target was changed concurrently.
     #[error("changed meanwhile: {0}")]
     Conflict(String),
-    /// It cannot be reached, or it is too busy. The same may work later.
+    /// The store is unreachable or too busy. A retry may succeed.
     #[error("not available: {0}")]
     Unavailable(String),
-    /// It may have done it or not: the answer did not come.
+    /// The answer was lost, so the operation may or may not have happened.
     #[error("not answered: {0}")]
     Unanswered(String),
-    /// What it returned is not what was stored.
+    /// The content read is not what was stored.
     #[error("damaged: {0}")]
     Damaged(String),
-    /// A file that was stored is not there.
+    /// A stored file is missing.
     #[error("missing: {0}")]
     Missing(String),
     /// A file or a folder cannot be used.
     #[error("{path}: {why}")]
     File {
-        /// Where it is.
+        /// Its path.
         path: String,
-        /// Why not.
+        /// The reason.
         why: String,
     },
-    /// Nothing that waiting would mend.
+    /// Any other error, which a retry would not fix.
     #[error("{0}")]
     Other(String),
 }
 
-/// What store operations return.
+/// Result of a store operation.
 pub type StoreResult<T> = Result<T, StoreError>;
 
 impl StoreError {
-    /// Whether the same may work later without anybody changing the request.
+    /// Returns whether the same request may succeed later.
     pub fn is_passing(&self) -> bool {
         matches!(
             self,
@@ -51,17 +51,17 @@ impl StoreError {
 }
 
 impl StoreError {
-    /// That a file which was stored is not there.
+    /// Returns the error of a stored file that is missing.
     pub fn missing() -> Self {
         Self::Missing("a stored file is missing".to_owned())
     }
 
-    /// Whether what was stored is not there, or is not what was stored.
+    /// Returns whether stored content is missing or damaged.
     pub fn is_loss(&self) -> bool {
         matches!(self, Self::Damaged(_) | Self::Missing(_))
     }
 
-    /// That something could not be done with the file or folder at a path.
+    /// Converts I/O errors of the file or folder at a path.
     pub fn at(path: &Path) -> impl FnOnce(Error) -> Self + use<> {
         let path = path.display().to_string();
         move |error| match error.into() {

@@ -1,16 +1,16 @@
-//! The name that a database and its files share.
+//! The id that a database and its files share.
 
 use std::fmt;
 use std::str::FromStr;
 
 use uuid::Uuid;
 
-/// Names a store: a database together with its files.
+/// Id of a store: a database together with its files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StoreId(Uuid);
 
 impl StoreId {
-    /// A name that no other store has.
+    /// Creates an id that no other store has.
     pub fn fresh() -> Self {
         Self(Uuid::now_v7())
     }

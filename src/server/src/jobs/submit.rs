@@ -1,4 +1,4 @@
-//! From received files to a queued job.
+//! Submission: from received files to a queued job.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -15,30 +15,30 @@ use super::store_error::StoreError;
 use super::timestamp::Timestamp;
 use unwrapd_api::{InputFile, Kind};
 
-/// For an owner to delete jobs.
+/// Retry delay suggested when an owner has to delete jobs first.
 const DELETION_TIME: Duration = Duration::from_mins(1);
 
-/// A wish for a job, checked as far as that is possible without computing.
+/// A requested job, checked as far as possible without computing.
 pub struct Submission {
-    /// Whose the job is.
+    /// Owner of the job.
     pub owner: Owner,
-    /// What to do.
+    /// Kind of the computation.
     pub kind: Kind,
     /// Options of its kind, complete with defaults.
     pub options: serde_json::Value,
-    /// The mesh, then the files it references, each with the place where it lies now. They are moved away.
+    /// Input files with their current paths: the mesh, then the files it references. They may be moved away.
     pub files: Vec<(InputFile, PathBuf)>,
-    /// Names what is asked for; see [`Job::digest`].
+    /// Digest of the request; see [`Job::digest`].
     pub digest: String,
-    /// How it is handled.
+    /// Handling of the job.
     pub handling: Handling,
-    /// Whether the result of an equal job will do.
+    /// Set if the result of an equal job may be reused.
     pub reuse: bool,
-    /// The trace that it is a part of; see [`Job::trace`].
+    /// Trace that it is part of; see [`Job::trace`].
     pub trace: Option<String>,
-    /// The client's word that makes a repetition harmless.
+    /// Idempotency key.
     pub key: Option<String>,
-    /// Whether it is of no use without the call that waits for it.
+    /// Set if it is of no use without the request that waits for it.
     pub ephemeral: bool,
 }
 
@@ -47,20 +47,20 @@ pub struct Submission {
 pub enum Submitted {
     /// A new job.
     New(Job),
-    /// The job that the same key made before.
+    /// The job created before with the same key.
     Replay(Job),
 }
 
-/// Why a submission was not accepted.
+/// Reason for rejecting a submission.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmitError {
-    /// As many jobs wait as may wait. At the present pace there is a place after this time.
+    /// The queue is full. At its current throughput there will be a place after this time.
     #[error("the queue is full")]
     QueueFull(Duration),
-    /// Its owner has as much as one may have. It may be less after this time.
+    /// Its owner has used up a quota. The use may be lower after this time.
     #[error("the owner has used up a quota")]
     OwnerQuota(OwnerQuota, Duration),
-    /// The key belongs to another submission.
+    /// The key belongs to a different submission.
     #[error("the Idempotency-Key belongs to a different submission")]
     KeyReused,
     /// Files or record could not be stored.
@@ -69,7 +69,7 @@ pub enum SubmitError {
 }
 
 impl Jobs {
-    /// Stores the files, then the record, and wakes the queue. When this returns, the job is not lost any more.
+    /// Stores the files, then the record, and wakes the queue. Once this returns, the job is durable.
     pub async fn submit(&self, submission: Submission) -> Result<Submitted, SubmitError> {
         let id = JobId::fresh();
         let outcome = self.store_submission(id, submission).await;
@@ -90,6 +90,7 @@ impl Jobs {
         id: JobId,
         submission: Submission,
     ) -> Result<Submitted, SubmitError> {
+        // Store the files first: a record must never refer to missing ones.
         self.has_room()?;
         for (index, (_, path)) in submission.files.iter().enumerate() {
             self.blobs.put(&input_key(id, index), path).await?;
@@ -98,6 +99,7 @@ impl Jobs {
             key,
             fingerprint: submission.handling.fingerprint(&submission.digest),
         });
+        // Build the record, completed from an equal job where possible.
         let mut job = Job {
             owner: submission.owner,
             input: submission.files.into_iter().map(|(file, _)| file).collect(),
@@ -113,6 +115,7 @@ impl Jobs {
         if submission.reuse {
             self.reuse(&mut job).await;
         }
+        // Record the job, or explain the rejection.
         let capacity = self.capacity();
         match self.store.enqueue(&job, key.as_ref(), capacity).await? {
             Enqueued::New(job) => {

@@ -1,19 +1,19 @@
-//! What one listener sees of a job's events.
+//! A listener's view of a job's events.
 
 use tokio::sync::watch;
 
 use super::progress::Event;
 
-/// A view on the events of one job. Whoever is slow misses the ones between.
+/// Subscription to the events of one job. A slow reader skips events.
 pub struct Subscription {
     receiver: watch::Receiver<Option<Event>>,
     last: Last,
 }
 
-/// What was seen last.
+/// The last event delivered.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Last {
-    /// Nothing.
+    /// No event yet.
     None,
     /// An event with this number.
     Seq(u64),
@@ -36,8 +36,9 @@ impl Subscription {
         self
     }
 
-    /// The next event that is newer than the last one; `None` after a final event, or when the job
-    /// is removed.
+    /// Waits for the next event newer than the last one. Returns `None` after a final event, or when the job
+    /// is
+    /// removed.
     pub async fn next(&mut self) -> Option<Event> {
         while self.last != Last::Final {
             let event = *self.receiver.borrow_and_update();

@@ -1,4 +1,4 @@
-//! A compute child under way: its progress is passed on, and it ends when it must.
+//! Supervision of a compute child: passes on its progress and ends it when needed.
 
 use std::path::Path;
 use std::time::Duration;
@@ -18,20 +18,20 @@ use super::settings::Deployment;
 use super::transition::Ending;
 use unwrapd_api::Message;
 
-/// How often the child's memory and the lease are looked at.
+/// Interval at which memory, processor time and lease are checked.
 const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 
-/// Why a child is not watched any more.
+/// Reason why supervision ended.
 pub(super) enum Watched {
-    /// Its output ended.
+    /// The child's output ended.
     Silent,
-    /// There is a reason to end it.
+    /// The child has to be ended.
     EndedBy(Ending),
-    /// The job is somebody else's.
+    /// The job belongs to another worker.
     Outdated,
 }
 
-/// Passes on progress and wishes.
+/// Passes on progress from a child and commands to it, until it ends or has to be ended.
 pub(super) async fn watch(
     jobs: &Jobs,
     job: &Job,
@@ -93,9 +93,10 @@ pub(super) async fn watch(
     }
 }
 
-/// What becomes of an attempt whose lease is over. Either this worker was silent, and the job has
-/// gone to another one, or the store was away: it says so when the job is handed back. The only
-/// process there is has its store at hand, and was silent.
+/// Decides on an attempt whose lease is over. With shared records, either this worker was silent and the job
+/// has
+/// gone to another one, or the store was unreachable: handing the job back tells which. An embedded process
+/// always reaches its store, so it was silent.
 fn lapsed(jobs: &Jobs) -> Watched {
     match jobs.settings.deployment {
         Deployment::Embedded => Watched::Outdated,
@@ -103,7 +104,7 @@ fn lapsed(jobs: &Jobs) -> Watched {
     }
 }
 
-/// An event with the time since the attempt started.
+/// Returns the event with the time since the attempt started.
 fn job_event(job: &Job, event: Event) -> Event {
     Event {
         elapsed_ms: job.event().elapsed_ms,

@@ -1,4 +1,4 @@
-//! Jobs of silent workers, which go back to the queue.
+//! Sweeping: jobs of silent workers go back to the queue.
 
 use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
@@ -9,13 +9,13 @@ use super::state::State;
 use super::storage::Sweep;
 use super::store_error::StoreResult;
 
-/// Sweeps per lease: a job is taken from a silent worker that much later at most.
+/// Sweeps per lease, which bounds the delay of taking a job from a silent worker.
 const SWEEPS: u32 = 3;
 
 impl Jobs {
-    /// Sweeps from time to time until told to stop. Nothing is taken before the store has answered
-    /// without delay for the time of a lease: workers that could not reach it are not silent, and
-    /// hand their jobs back.
+    /// Sweeps periodically until stopped. Takes no job before the store has answered without delay for the
+    /// time of a
+    /// lease: workers that could not reach the store are not silent, and hand their jobs back themselves.
     pub(super) async fn sweep_until(&self, stop: &CancellationToken) {
         let lease = self.settings.rules.lease;
         let pause = lease / SWEEPS;
@@ -43,7 +43,7 @@ impl Jobs {
         }
     }
 
-    /// Takes jobs from their workers, and tells those who watch.
+    /// Takes jobs from their workers and notifies watchers.
     pub(super) async fn sweep(&self, sweep: Sweep) -> StoreResult<()> {
         for job in self.store.sweep(sweep).await? {
             if job.state != State::Running {

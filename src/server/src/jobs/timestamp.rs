@@ -1,4 +1,4 @@
-//! A moment, to the millisecond, in UTC.
+//! Timestamps in UTC, to the millisecond.
 
 use std::fmt;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -12,23 +12,23 @@ const DAY_MS: i64 = 86_400_000;
 pub struct Timestamp(pub i64);
 
 impl Timestamp {
-    /// The system clock now.
+    /// Returns the time of the system clock.
     pub fn now() -> Self {
         SystemTime::now().into()
     }
 
-    /// The moment so much later.
+    /// Returns the time later by this duration.
     #[must_use]
     pub fn later(self, by: Duration) -> Self {
         Self(self.0.saturating_add(by.as_millis() as i64))
     }
 
-    /// How long its day still lasts.
+    /// Returns the time left until the next day in UTC.
     pub(super) fn until_next_day(self) -> Duration {
         Duration::from_millis((DAY_MS - self.0.rem_euclid(DAY_MS)) as u64)
     }
 
-    /// Milliseconds from an earlier moment to this one; 0 from a later one.
+    /// Returns the milliseconds since an earlier time; 0 if it is later.
     pub fn since(self, earlier: Self) -> u64 {
         (self.0 - earlier.0).max(0) as u64
     }
@@ -54,7 +54,7 @@ impl fmt::Display for Timestamp {
     }
 }
 
-/// Year, month and day of the Gregorian calendar for a day number counted from 1970-01-01.
+/// Converts a day number counted from 1970-01-01 to year, month and day of the Gregorian calendar.
 ///
 /// Counts in eras of 400 years (146,097 days) that begin on 1 March, so that the leap day is a year's last.
 fn civil_date(day: i64) -> (i64, i64, i64) {

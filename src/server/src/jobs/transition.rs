@@ -1,7 +1,6 @@
-//! How the record of a job changes: a pure function of the record and of what happens.
+//! State machine of job records: a pure function of record and event.
 //!
-//! Stores read a record, call [`after`] and write the answer, in one transaction. Nothing else
-//! decides.
+//! Stores read a record, call [`after`] and write the result, in one transaction. Nothing else decides.
 
 use std::time::Duration;
 
@@ -12,69 +11,68 @@ use super::state::State;
 use super::timestamp::Timestamp;
 use unwrapd_api::{Failure, OutputFile, Progress, Verdict};
 
-/// What can happen to a job.
+/// Event in the life of a job.
 #[derive(Clone, Debug)]
 pub enum Happening {
-    /// A worker takes it.
+    /// A worker claims it.
     Claimed(WorkerId),
-    /// The worker that has it is alive and says how far it is.
+    /// Its worker sends a heartbeat with its progress.
     Beat(Token, Saying),
-    /// Somebody checks whether the worker has been silent for too long.
+    /// A process checks whether its lease has expired.
     Swept,
-    /// The worker that had it is known to be gone.
+    /// Its worker is known to be gone.
     Abandoned,
-    /// The attempt of a worker ended.
+    /// A worker's attempt ended.
     Ended(Token, Saying, Ending),
-    /// A client asks for something.
+    /// A client sends a command.
     Wished(Wish),
-    /// A picture of what it made was drawn and stored.
+    /// A picture of its result was drawn and stored.
     Drawn(Token, OutputFile),
 }
 
-/// What a client may ask of a job.
+/// Command of a client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wish {
-    /// Stop; nothing is kept but the record.
+    /// Stop, and keep nothing but the record.
     Cancel,
-    /// Stop iterating and write the map as it is.
+    /// Stop iterating and write the current map.
     FinishEarly,
-    /// Try again what failed.
+    /// Retry a failed job.
     Retry,
 }
 
-/// How an attempt ended.
+/// Outcome of an attempt.
 #[derive(Clone, Debug)]
 pub enum Ending {
-    /// With these files.
+    /// It succeeded with these files.
     Succeeded(Vec<OutputFile>, Verdict),
-    /// By itself, and it would again.
+    /// It failed and would fail again.
     Failed(Failure),
-    /// By request.
+    /// It was canceled.
     Cancelled,
-    /// Its computation was killed while its worker lived, which may be the fault of the job.
-    /// Another attempt may succeed.
+    /// Its computation was killed while its worker lived, possibly because of the job. A retry may succeed.
     Lost(Failure),
-    /// It was told from outside to stop, as when a machine is shut down, which is no fault of the
-    /// job.
+    /// It was stopped from outside, as on shutdown, which says nothing about the job.
     Interrupted(Failure),
-    /// The worker cannot go on, for a reason that is not the job's. Any worker may, after this
+    /// The worker cannot go on, for a reason unrelated to the job. Any worker may take the job after this
     /// time.
     HandedBack(Duration),
 }
 
-/// Why a record stays as it is.
+/// Reason why a record stays unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// The token is not that of the present attempt.
+    /// The token is not that of the current attempt.
     Outdated,
-    /// This cannot happen in its state.
+    /// The event is not possible in its state.
     WrongState,
-    /// Its time has not come.
+    /// The time for the event has not come.
     TooEarly,
 }
 
-/// The record after something happened at a time, or why it stays as it is. An end that is
-/// reported twice is no fault.
+/// Returns the record after an event at time `now`, or why it stays unchanged. Reporting an end twice is not
+/// an
+/// error.
 pub fn after(
     job: &Job,
     happening: &Happening,
@@ -164,14 +162,14 @@ fn taken_away(
     Ok(())
 }
 
-/// Counts an attempt whose computation was killed. It is never given back.
+/// Counts an attempt whose computation was killed.
 fn lost(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     job.lost += 1;
     try_again(job, cause, (job.lost, rules.attempts), rules, now);
 }
 
-/// Counts an attempt that was lost with its worker, apart from those that were killed: the job just
-/// happened to be there, most likely.
+/// Counts an attempt lost with its worker. These are counted apart from killed computations, because most of
+/// them are not the job's fault.
 fn interrupted(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     job.interrupted += 1;
     try_again(
@@ -183,7 +181,8 @@ fn interrupted(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     );
 }
 
-/// Queues a job again after a pause, unless as many attempts are lost as may be.
+/// Requeues a job after a pause, or fails it if `lost` has reached the limit `most`. Ends it if it is
+/// canceled.
 fn try_again(
     job: &mut Job,
     cause: &Failure,
@@ -207,7 +206,7 @@ fn ended(job: &mut Job, ending: &Ending, rules: &Rules, now: Timestamp) {
     match ending {
         Ending::Lost(cause) => lost(job, cause, rules, now),
         Ending::Interrupted(cause) => interrupted(job, cause, rules, now),
-        // Whoever asked for that first has been promised it.
+        // A cancellation that came first has been promised.
         _ if job.cancel => end(job, State::Cancelled, now),
         Ending::Cancelled => end(job, State::Cancelled, now),
         Ending::Failed(failure) => {
@@ -247,7 +246,7 @@ fn wished(job: &mut Job, wish: Wish, now: Timestamp) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Notes a picture in the place of an earlier one, which was lost or drawn at the same time.
+/// Records a picture in place of an earlier one, which was lost or drawn at the same time.
 fn drawn(job: &mut Job, token: Token, file: &OutputFile) -> Result<(), Refusal> {
     match job.state {
         _ if job.token != token => return Err(Refusal::Outdated),

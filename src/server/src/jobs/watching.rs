@@ -1,4 +1,4 @@
-//! Jobs that are watched, wherever they run.
+//! Watching of jobs, wherever they run.
 
 use std::collections::HashMap;
 use std::time::Duration;
@@ -15,11 +15,11 @@ use super::settings::Deployment;
 use super::store_error::StoreResult;
 use super::subscription::Subscription;
 
-/// How often the attempt at a job that was just claimed is looked for.
+/// Number of looks for the attempt at a job that was just claimed, and the interval between them.
 const LOOKS: usize = 5;
 const LOOK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// What whoever asks for the maps of a job that runs gets.
+/// Answer to a request for the maps of a running job.
 pub enum NextMaps {
     /// The bytes of a frame.
     Frame(Bytes),
@@ -30,7 +30,7 @@ pub enum NextMaps {
 }
 
 impl Jobs {
-    /// Watches a job; `None` if there is none.
+    /// Subscribes to a job; `None` if there is no such job.
     pub async fn subscribe(&self, reach: &Reach, id: JobId) -> StoreResult<Option<Subscription>> {
         // What happens after this line is seen, so that no end can fall between it and the record.
         let subscription = self.live.subscribe(id);
@@ -42,8 +42,8 @@ impl Jobs {
         Ok(Some(subscription))
     }
 
-    /// The next frame of maps after this one; waits until the compute child tells it. Frames stay in
-    /// the process that computes.
+    /// Waits for the next frame of maps after `after`. Frames are only available in the process that computes
+    /// the job.
     pub async fn next_maps(&self, id: JobId, after: u64) -> NextMaps {
         let Some(listener) = self.map_listener(id).await else {
             return match self.settings.deployment {
@@ -64,7 +64,7 @@ impl Jobs {
         None
     }
 
-    /// Reads the records of watched jobs from time to time until told to stop.
+    /// Polls the records of watched jobs until stopped.
     pub(super) async fn watch_until(&self, stop: &CancellationToken) {
         let mut interval = tokio::time::interval(self.settings.deployment.look_interval());
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);

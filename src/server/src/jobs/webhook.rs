@@ -1,33 +1,33 @@
-//! Where the end of a job is told.
+//! Webhook addresses.
 
 use std::fmt;
 use std::str::FromStr;
 
 use url::Url;
 
-/// Bytes of an address.
+/// Maximum length of an address in bytes.
 const MOST: usize = 2048;
 
-/// An address to which the end of a job is posted.
+/// Address to which the end of a job is posted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Webhook(Url);
 
-/// What is no such address.
+/// Error for a text that is not a webhook address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WebhookError {
-    /// It is not one of HTTP.
+    /// It is not an HTTP address.
     #[error("it is not an address that begins with http:// or https://")]
     NoAddress,
     /// It is too long.
     #[error("it can have at most {MOST} bytes")]
     TooLong,
-    /// It has a name or a password before the host.
+    /// It has a user name or a password.
     #[error("it must not contain credentials: deliveries are signed")]
     Credentials,
 }
 
 impl Webhook {
-    /// The address.
+    /// Returns the address.
     pub fn url(&self) -> &Url {
         &self.0
     }

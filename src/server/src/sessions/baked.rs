@@ -1,4 +1,4 @@
-//! Sessions as jobs.
+//! Conversion of sessions to jobs.
 
 use serde_json::Value;
 
@@ -6,20 +6,21 @@ use super::session::Session;
 use crate::jobs::{Digest, Handling, JobId, Scratch, Submission};
 use unwrapd_api::{Failure, InputFile, Kind, START, input_file, sha256};
 
-/// The job that a session has become, with the folder in which its files lie: it has to be kept until they are moved.
+/// Job made from a session, and the folder with its files, which has to be kept until they are moved.
 pub struct Baked {
-    /// What is to be submitted.
+    /// Submission of the job.
     pub submission: Submission,
-    /// The folder.
+    /// Folder with its files.
     pub folder: Scratch,
 }
 
 impl Session {
-    /// What the session would be as a job: the same input and options, with the present handles, and the present map as its
-    /// [start](START). The session goes on.
+    /// Turns the present state of the session into a job: the same input and options, with the current
+    /// handles, and
+    /// the current map as its [start](START). The session goes on.
     ///
     /// # Errors
-    /// If there is no handle, or a file cannot be written.
+    /// Fails if there is no handle, or a file cannot be written.
     pub async fn bake(&self) -> Result<Baked, Failure> {
         // One at a time: each writes the same file.
         let mut bakes = self.bakes.lock().await;
@@ -31,6 +32,7 @@ impl Session {
         let gone = || Failure::new("session_not_found", "it has ended");
         let handles = said.ok_or_else(gone)??;
         if handles.is_empty() {
+            // Link the input files into a folder of their own.
             return Err(Failure::new("no_handle", "nothing is pulled"));
         }
         let path = self
@@ -49,6 +51,7 @@ impl Session {
             tokio::fs::hard_link(self.folder.path().join(input_file(index)), &place).await?;
             files.push((file.clone(), place));
         }
+        // Add the current map, which the child has just written.
         let start = tokio::fs::read(self.folder.path().join(START)).await?;
         let place = folder.path().join(START);
         tokio::fs::write(&place, &start).await?;
@@ -75,7 +78,7 @@ impl Session {
     }
 }
 
-/// The options of a job with these handles.
+/// Returns the options of a job with these handles.
 fn with_handles(kind: Kind, mut options: Value, handles: Vec<Value>) -> Value {
     let name = match kind {
         Kind::EditUv | Kind::TextureMap => "anchors",

@@ -1,11 +1,11 @@
-//! Records of the pipe between server and child, written and read without blocking.
+//! Asynchronous records on the pipe between server and child.
 
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio_util::bytes::Bytes;
 
 use unwrapd_api::pipe::{head, length};
 
-/// Writes a record without blocking.
+/// Writes a record.
 pub(super) async fn send(
     to: &mut (impl AsyncWrite + Unpin),
     tag: u8,
@@ -15,7 +15,7 @@ pub(super) async fn send(
         .await
 }
 
-/// Reads a record without blocking.
+/// Reads a record: its tag and its bytes.
 pub(super) async fn receive(from: &mut (impl AsyncRead + Unpin)) -> std::io::Result<(u8, Bytes)> {
     let mut head = [0; 5];
     from.read_exact(&mut head).await?;

@@ -1,4 +1,4 @@
-//! All sessions of this process.
+//! Registry of the sessions of this process.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
@@ -18,22 +18,22 @@ use crate::jobs::{self, JobId, Scratch, read_stderr};
 use unwrapd_api::pipe::{FAILED, MESH};
 use unwrapd_api::{Failure, InputFile, Kind, Limits, Pictures, TASK, Task, input_file, write_json};
 
-/// For a child to read its input and be ready.
+/// Time for a child to read its input and become ready.
 const START_TIME: Duration = Duration::from_mins(2);
 
-/// How many sessions there may be, and how long.
+/// Limits of sessions.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Sessions at the same time.
+    /// Maximum number of sessions at a time.
     pub most: usize,
-    /// Those of one owner. `None`: half of all, or all where nobody has a key.
+    /// Maximum number per owner. `None` stands for half of `most`, or for all of it without keys.
     pub most_of_owner: Option<usize>,
-    /// Silence of all clients after which a session ends.
+    /// Time without messages after which a session ends.
     pub idle: Duration,
 }
 
 impl Settings {
-    /// Sessions of one owner at the same time.
+    /// Returns the maximum number of sessions of an owner.
     fn most_of(&self, owner: &Owner) -> usize {
         self.most_of_owner.unwrap_or(match owner.name() {
             Some(_) => self.most.div_ceil(2),
@@ -52,26 +52,26 @@ pub struct Sessions {
     tasks: TaskTracker,
 }
 
-/// What a session is made of.
+/// Input of a new session.
 pub struct Opened {
-    /// Whose it is.
+    /// Owner of the session.
     pub owner: Owner,
-    /// What a job would do.
+    /// Kind of the job that it corresponds to.
     pub kind: Kind,
-    /// The options of the job, complete.
+    /// Options of that job, complete.
     pub options: Value,
-    /// The mesh, then the files it refers to, each with the place where it lies now. They are moved away.
+    /// Input files with their current paths: the mesh, then the files it references. They are moved away.
     pub files: Vec<(InputFile, PathBuf)>,
 }
 
-/// Why a session was not opened.
+/// Reason why a session was not opened.
 #[derive(Debug)]
 pub enum Unopened {
-    /// There are as many as there may be.
+    /// The maximum number of sessions is open.
     AllTaken,
-    /// Its owner has as many as one may have.
+    /// Its owner has the maximum number of sessions open.
     OwnTaken,
-    /// The input or the options are of no use, or the service failed.
+    /// The input or the options are invalid, or the service failed.
     Failed(Failure),
 }
 
@@ -82,7 +82,7 @@ impl From<std::io::Error> for Unopened {
 }
 
 impl Sessions {
-    /// None yet. Children get what the settings of jobs give those.
+    /// Creates an empty registry. Children are started with the limits of jobs.
     pub fn new(settings: Settings, jobs: jobs::Settings) -> Self {
         Self {
             slots: Arc::new(Semaphore::new(settings.most)),
@@ -94,18 +94,19 @@ impl Sessions {
         }
     }
 
-    /// How many there may be, and how long.
+    /// Returns the limits of sessions.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// How many there are.
+    /// Returns the number of open sessions.
     pub fn count(&self) -> usize {
         lock(&self.open).len()
     }
 
     /// Opens a session. When this returns, its child has read the input and is ready.
     pub async fn open(self: &Arc<Self>, opened: Opened) -> Result<Arc<Session>, Unopened> {
+        // Move the input to the folder of the session and start the child.
         let slots = self.slots(&opened.owner)?;
         let id = JobId::fresh();
         let folder = Scratch::make(self.jobs.scratch.join(format!("session-{id}")))?;
@@ -118,6 +119,7 @@ impl Sessions {
         let mut stdout = child.stdout.take().ok_or_else(gone)?;
         let stdin = child.stdin.take().ok_or_else(gone)?;
         tokio::spawn(log(id, child.stderr.take().ok_or_else(gone)?));
+        // The mesh is the first thing that the child sends.
         let session = Arc::new(Session::new(Parts {
             id,
             owner: opened.owner,
@@ -135,7 +137,7 @@ impl Sessions {
         Ok(session)
     }
 
-    /// The places of a session: one of all, and one of its owner.
+    /// Reserves a slot of all and a slot of the owner.
     fn slots(&self, owner: &Owner) -> Result<[OwnedSemaphorePermit; 2], Unopened> {
         let most = self.settings.most_of(owner);
         let of_owner = Arc::clone(
@@ -167,7 +169,7 @@ impl Sessions {
         }
     }
 
-    /// Relays until the session ends, and ends its child.
+    /// Relays until the session ends, then kills its child.
     async fn supervise(
         self: Arc<Self>,
         session: Arc<Session>,
@@ -191,20 +193,20 @@ impl Sessions {
         drop(slots);
     }
 
-    /// The session of this id, if it is within reach.
+    /// Returns the session with this id if it is visible.
     pub fn get(&self, reach: &Reach, id: JobId) -> Option<Arc<Session>> {
         let session = lock(&self.open).get(&id).cloned();
         session.filter(|session| reach.covers(&session.owner))
     }
 
-    /// The sessions within reach, in the order in which they were opened.
+    /// Returns the visible sessions in the order of opening.
     pub fn list(&self, reach: &Reach) -> Vec<Arc<Session>> {
         let open = lock(&self.open);
         let within = open.values().filter(|session| reach.covers(&session.owner));
         within.cloned().collect()
     }
 
-    /// Ends all sessions, and returns when their children are gone.
+    /// Ends all sessions and waits until their children are gone.
     pub async fn stop(&self) {
         self.slots.close();
         for session in self.list(&Reach::All) {
@@ -215,7 +217,7 @@ impl Sessions {
     }
 }
 
-/// The mesh, with which a child says that it is ready.
+/// Receives the mesh, which a child sends when it is ready.
 async fn mesh(stdout: &mut ChildStdout) -> Result<Bytes, Failure> {
     match tokio::time::timeout(START_TIME, pipe::receive(stdout)).await {
         Ok(Ok((MESH, mesh))) => Ok(mesh),
@@ -230,7 +232,7 @@ async fn mesh(stdout: &mut ChildStdout) -> Result<Bytes, Failure> {
     }
 }
 
-/// Logs what a child says beside its work.
+/// Logs the standard error of a child.
 async fn log(session: JobId, stderr: ChildStderr) {
     let said = read_stderr(stderr).await;
     if !said.is_empty() {

@@ -1,4 +1,4 @@
-//! A session as the server has it: a process, its pipes, and who listens.
+//! A session on the server's side: a process, its pipes and its listeners.
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
@@ -16,49 +16,49 @@ use crate::jobs::{JobId, Scratch};
 use unwrapd_api::pipe::{BAKE, BAKED, FAILED, FRAME, MESSAGE, REPLY};
 use unwrapd_api::{Failure, InputFile, Kind};
 
-/// Replies that a client may be behind.
+/// Number of replies that a client may lag behind.
 const MOST_REPLIES: usize = 4096;
 
-/// Why a session is over.
+/// Reason why a session ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum End {
-    /// A client wanted that.
+    /// A client closed it.
     Closed,
-    /// Nobody said anything for a time.
+    /// No client sent a message for the idle time.
     Expired,
-    /// The service stops.
+    /// The service is stopping.
     Stopping,
     /// The computation failed.
     Failed(Failure),
 }
 
-/// A session.
+/// A live session.
 pub struct Session {
-    /// Names it.
+    /// Id of the session.
     pub id: JobId,
-    /// Whose it is.
+    /// Owner of the session.
     pub owner: Owner,
-    /// What a job would do.
+    /// Kind of the job that it corresponds to.
     pub kind: Kind,
-    /// The options of the job, complete.
+    /// Options of that job, complete.
     pub options: Value,
-    /// The files that it was made of, the mesh first.
+    /// Input files, the mesh first.
     pub input: Vec<InputFile>,
-    /// The mesh, as the protocol has it.
+    /// The mesh in the format of the protocol.
     pub mesh: Bytes,
     pub(super) folder: Scratch,
     stdin: tokio::sync::Mutex<ChildStdin>,
     frames: watch::Sender<Bytes>,
     replies: broadcast::Sender<Bytes>,
     heard: Mutex<Instant>,
-    /// What the child says of starts that it was asked for.
+    /// Answers of the child to requests for a start file.
     baked: mpsc::Sender<Result<Vec<Value>, Failure>>,
     pub(super) bakes: tokio::sync::Mutex<mpsc::Receiver<Result<Vec<Value>, Failure>>>,
     end: CancellationToken,
     why: OnceLock<End>,
 }
 
-/// What a session is made of.
+/// Parts of a new session.
 pub(super) struct Parts {
     pub id: JobId,
     pub owner: Owner,
@@ -92,10 +92,10 @@ impl Session {
         }
     }
 
-    /// Passes a client's message on. It waits where the child has not read those before.
+    /// Passes a client's message to the child. Waits while the child has unread messages that fill the pipe.
     ///
     /// # Errors
-    /// If the child is gone.
+    /// Fails if the child is gone.
     pub async fn say(&self, message: &[u8]) -> std::io::Result<()> {
         *lock(&self.heard) = Instant::now();
         pipe::send(&mut *self.stdin.lock().await, MESSAGE, message).await
@@ -106,39 +106,39 @@ impl Session {
         pipe::send(&mut *self.stdin.lock().await, BAKE, &[]).await
     }
 
-    /// The latest frame, and each after it that is still the latest when it is looked at. Empty before the first.
+    /// Subscribes to frames. Each read returns the latest one; it is empty before the first.
     pub fn frames(&self) -> watch::Receiver<Bytes> {
         self.frames.subscribe()
     }
 
-    /// All replies from now on.
+    /// Subscribes to replies from now on.
     pub fn replies(&self) -> broadcast::Receiver<Bytes> {
         self.replies.subscribe()
     }
 
-    /// Clients that listen.
+    /// Returns the number of connected clients.
     pub fn n_clients(&self) -> usize {
         self.replies.receiver_count()
     }
 
-    /// Seconds since a client said something.
+    /// Returns the time since the last message of a client.
     pub fn idle(&self) -> Duration {
         lock(&self.heard).elapsed()
     }
 
-    /// Ends it, unless it has ended.
+    /// Ends the session for this reason, unless it has ended.
     pub fn close(&self, why: End) {
         self.why.get_or_init(|| why);
         self.end.cancel();
     }
 
-    /// Why it is over, when it is.
+    /// Waits for the end of the session and returns the reason.
     pub async fn ended(&self) -> End {
         self.end.cancelled().await;
         self.why.get().cloned().unwrap_or(End::Closed)
     }
 
-    /// Passes on what the child says until it says no more; then why.
+    /// Relays the child's records until its output ends. Returns the failure that it reports, if any.
     pub(super) async fn relay(&self, stdout: &mut ChildStdout) -> Option<Failure> {
         while let Ok((tag, bytes)) = pipe::receive(stdout).await {
             match tag {
@@ -161,7 +161,7 @@ impl Session {
         None
     }
 
-    /// Returns when nobody has said anything for so long.
+    /// Waits until no message has arrived for the time `idle`.
     pub(super) async fn expired(&self, idle: Duration) {
         loop {
             let until = *lock(&self.heard) + idle;
@@ -173,7 +173,7 @@ impl Session {
     }
 }
 
-/// A `Result` as JSON has it.
+/// A `Result` in JSON.
 #[derive(serde::Deserialize)]
 enum Outcome {
     Ok(Vec<Value>),

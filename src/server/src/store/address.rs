@@ -1,4 +1,4 @@
-//! Places for files by their URLs.
+//! File storage by URL.
 
 use std::path::Path;
 
@@ -8,8 +8,9 @@ use super::files::FileBlobs;
 use super::objects::ObjectBlobs;
 use crate::jobs::{Blobs, StoreError, StoreResult};
 
-/// The place that a URL names: `file:///FOLDER`, `s3://BUCKET` or `s3://BUCKET/PREFIX`. The
-/// environment says how to reach a bucket.
+/// Opens the file storage at a URL: `file:///FOLDER`, `s3://BUCKET` or `s3://BUCKET/PREFIX`. Environment
+/// variables
+/// tell how to connect to a bucket.
 pub fn blobs_at(url: &str) -> StoreResult<Box<dyn Blobs>> {
     match url.split_once("://") {
         Some(("file", path)) => {

@@ -1,8 +1,10 @@
-//! Who gets which job: owners take turns.
+//! Assignment of jobs to workers: owners take turns.
 //!
-//! The next job is one of the owner who has the fewest running, and among those of the one whose
-//! last start was longest ago. Priorities order the jobs of one owner, never those of two. So
-//! whoever submits a thousand jobs waits for them, and nobody else does.
+//! The next job belongs to the owner with the fewest running jobs, and among those to the one whose last
+//! start was
+//! longest ago. Priorities order the jobs of one owner, never those of different owners. So an owner who
+//! submits a
+//! thousand jobs delays nobody else.
 
 use sqlx::{Any, Row, Transaction};
 
@@ -10,16 +12,17 @@ use super::database::Database;
 use super::transitions::written;
 use crate::jobs::{Changed, Happening, Job, Rules, SUSPECT, Share, StoreResult, WorkerId};
 
-/// Which queued jobs may be started, of at most so many bytes. No pause is longer than the longest:
-/// one that is was made before the clock was set back. A busy worker ($3 = 1) gets no job that was
-/// lost with so many workers ($4), and none at all while such a one has waited for five minutes.
+/// Condition for queued jobs of at most `$2` bytes that may start. A job whose pause exceeds the longest one
+/// (`$1`)
+/// is due, because the clock was set back since. A busy worker (`$3 = 1`) gets no job that was lost with `$4`
+/// workers, and no job at all while such a job has been due for five minutes.
 const DUE: &str = "job.state = 'queued' AND (job.due <= {now} OR {now} + $1 < job.due)
      AND job.bytes <= $2 AND NOT EXISTS (SELECT id FROM pause)
      AND ($3 = 0 OR (job.interrupted < $4 AND NOT EXISTS (
          SELECT suspect.id FROM job AS suspect WHERE suspect.state = 'queued'
          AND $4 <= suspect.interrupted AND suspect.due <= {now} - 300000)))";
 
-/// Gives the next job of its share to a worker.
+/// Assigns the next job of its share to a worker.
 pub(super) async fn claim(
     database: &Database,
     worker: WorkerId,
@@ -40,11 +43,13 @@ pub(super) async fn claim(
         return Ok(None);
     }
     let mut transaction = database.begin().await?;
+    // With a limit per owner, only one process at a time may count running jobs.
     if share.of_owner.is_some()
         && let Some(lock) = database.dialect.lock_claims()
     {
         sqlx::query(lock).execute(&mut *transaction).await?;
     }
+    // Choose the owner whose turn it is, then the job.
     let next = database.sql(&format!(
         "SELECT job.id FROM job
          LEFT JOIN turn ON turn.owner = job.owner
@@ -66,6 +71,7 @@ pub(super) async fn claim(
     let Some(next) = next else {
         return Ok(None);
     };
+    // Read the whole record and mark it as running.
     let row = database.sql("SELECT {columns}, {now} AS now FROM job WHERE id = $1");
     let row = sqlx::query(row)
         .bind(next.try_get::<String, _>("id")?)
@@ -80,7 +86,7 @@ pub(super) async fn claim(
     Ok(Some(*job))
 }
 
-/// The owner of a job that is started goes to the end of the line.
+/// Moves the owner of a started job to the end of the line.
 async fn take_turn(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
     let last = "INSERT INTO turn (owner, at)
          VALUES ($1, (SELECT coalesce(max(at), 0) + 1 FROM turn))
@@ -92,7 +98,7 @@ async fn take_turn(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreRe
     Ok(())
 }
 
-/// Has no job started from now on, or again.
+/// Pauses or resumes the queue.
 pub(super) async fn set_paused(database: &Database, paused: bool) -> StoreResult<()> {
     let statement = if paused {
         "INSERT INTO pause (id, since) VALUES (1, {now}) ON CONFLICT (id) DO NOTHING"
@@ -105,7 +111,7 @@ pub(super) async fn set_paused(database: &Database, paused: bool) -> StoreResult
     Ok(())
 }
 
-/// Whether no job is started.
+/// Returns whether the queue is paused.
 pub(super) async fn is_paused(database: &Database) -> StoreResult<bool> {
     let row = sqlx::query("SELECT id FROM pause")
         .fetch_optional(&database.readers)

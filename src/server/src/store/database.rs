@@ -1,4 +1,4 @@
-//! The database: how it is opened, brought up to date and written to.
+//! The database: opening, migration and connections.
 
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
@@ -10,8 +10,9 @@ use sqlx::{Any, AnyConnection, AnyPool, AssertSqlSafe, Connection, Row, SqlSafeS
 use super::dialect::Dialect;
 use crate::jobs::{StoreError, StoreResult};
 
-/// The n-th leads from version n to the next. A program of the version before must be able to go on
-/// after it: columns are added, never taken away.
+/// Migrations: the n-th one leads from version n to the next. Programs of the previous version must keep
+/// working
+/// after it: columns are added, never removed.
 const SQLITE: [&str; 14] = [
     include_str!("schema/sqlite/1.sql"),
     include_str!("schema/sqlite/2.sql"),
@@ -42,34 +43,34 @@ const POSTGRES: [&str; 11] = [
     include_str!("schema/postgres/11.sql"),
 ];
 
-/// What every connection to SQLite is set to. What is committed is durable; the log is copied into
-/// the database after a quarter of the pages that are set aside for it. What is sorted stays in memory:
-/// an image has no folder for temporary files.
+/// Settings of every connection to SQLite. Commits are durable; the log is copied into the database after a
+/// quarter
+/// of the usual number of pages. Sorting stays in memory, because an image has no folder for temporary files.
 const PRAGMAS: &str = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;
     PRAGMA wal_autocheckpoint = 256; PRAGMA foreign_keys = ON; PRAGMA busy_timeout = 5000;
     PRAGMA temp_store = MEMORY;";
-/// Connections of a process to PostgreSQL, and those to SQLite that read.
+/// Number of connections per process to PostgreSQL, and of reading connections to SQLite.
 const POSTGRES_CONNECTIONS: u32 = 8;
 const SQLITE_READERS: u32 = 4;
-/// How long a statement waits for a connection, and a connection for a sign that it still is one.
+/// Time limit for a free connection, for connecting, and for the check that a connection is alive.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Between two tries to connect at the start.
+/// Delay between attempts to connect at startup.
 const REACH_PAUSE: Duration = Duration::from_millis(200);
 
-/// An open database. What is committed is durable.
+/// An open database. Commits are durable.
 pub(super) struct Database {
-    /// For what only reads.
+    /// Connections for reading.
     pub readers: AnyPool,
-    /// SQLite has one writer at a time, and its own way of waiting is to ask again and again. One
-    /// connection writes instead, and whoever needs it stands in line.
+    /// Connections for writing. SQLite allows one writer at a time and makes others poll, so there is only
+    /// one
+    /// connection here, for which writers queue.
     pub writers: AnyPool,
     pub dialect: Dialect,
     url: String,
 }
 
 impl Database {
-    /// Opens a database, makes a file if need be, and brings what an earlier version of the program
-    /// made up to date.
+    /// Opens a database, creates the file if needed, and migrates a database of an earlier version.
     pub async fn open(url: &str) -> StoreResult<Self> {
         sqlx::any::install_default_drivers();
         let dialect = Dialect::of(url).ok_or_else(|| {
@@ -125,7 +126,7 @@ impl Database {
         Ok(())
     }
 
-    /// Why the database cannot be reached, rather than that no connection became free.
+    /// Replaces the error that no connection became free by the cause, if the database cannot be reached.
     pub async fn explained(&self, error: StoreError) -> StoreError {
         match error {
             StoreError::Unavailable(_) => match reach(&self.url, Duration::ZERO).await {
@@ -136,19 +137,19 @@ impl Database {
         }
     }
 
-    /// Begins a transaction that writes.
+    /// Begins a writing transaction.
     pub async fn begin(&self) -> sqlx::Result<Transaction<'_, Any>> {
         self.writers.begin_with(self.dialect.begin()).await
     }
 
-    /// A statement in the words of this database; see [`Dialect::sql`].
+    /// Returns a statement in the dialect of this database; see [`Dialect::sql`].
     pub fn sql(&self, text: &str) -> AssertSqlSafe<String> {
         AssertSqlSafe(self.dialect.sql(text))
     }
 }
 
-/// Connects once, so that the cause is known if that fails: a pool only says that its time was over.
-/// A server that is starting is waited for.
+/// Connects once to learn the cause of a failure, since a pool only reports a timeout. Retries for the time
+/// `patience` while a server is starting.
 async fn reach(url: &str, patience: Duration) -> StoreResult<()> {
     let begin = Instant::now();
     loop {
@@ -190,9 +191,10 @@ fn pool(dialect: Dialect, connections: u32) -> AnyPoolOptions {
     }
 }
 
-/// Whether a connection may be used again. SQLite ends a transaction by itself when a disk is full;
-/// sqlx then fails to roll it back, counts it as open for ever, and refuses every further one. A
-/// connection that was cut without anybody noticing answers nothing, and must not keep its place.
+/// Returns whether a connection may be reused. SQLite ends a transaction by itself when a disk is full; sqlx
+/// then
+/// fails to roll it back, considers it open forever, and refuses every further one. A connection that was
+/// silently cut does not answer, and must not keep its place.
 async fn is_usable(connection: &mut AnyConnection) -> sqlx::Result<bool> {
     // After this, a rollback that a dropped transaction asked for is done.
     let answer = tokio::time::timeout(PATIENCE, connection.ping()).await;

@@ -1,4 +1,4 @@
-//! What SQLite and PostgreSQL say differently.
+//! Differences between SQLite and PostgreSQL.
 
 use super::rows::COLUMNS;
 
@@ -10,7 +10,7 @@ pub(super) enum Dialect {
 }
 
 impl Dialect {
-    /// That of a database's URL.
+    /// Returns the engine for a database URL; `None` for an unknown scheme.
     pub fn of(url: &str) -> Option<Self> {
         match url.split(':').next()? {
             "sqlite" => Some(Self::Sqlite),
@@ -19,8 +19,9 @@ impl Dialect {
         }
     }
 
-    /// Begins a transaction that writes. SQLite has one lock for all: a transaction that reads
-    /// first could not get it later.
+    /// Returns the statement that begins a writing transaction. SQLite has a single lock, which a transaction
+    /// that
+    /// reads first could not get later.
     pub fn begin(self) -> &'static str {
         match self {
             Self::Sqlite => "BEGIN IMMEDIATE",
@@ -28,8 +29,9 @@ impl Dialect {
         }
     }
 
-    /// Lets one submission at a time count the waiting jobs and look for its key. SQLite has one
-    /// writer anyway.
+    /// Returns the statement that lets one submission at a time count the queued jobs and look for its key;
+    /// `None` for
+    /// SQLite, which has one writer anyway.
     pub fn lock_submissions(self) -> Option<&'static str> {
         match self {
             Self::Sqlite => None,
@@ -37,7 +39,8 @@ impl Dialect {
         }
     }
 
-    /// Lets one claim at a time count the running jobs of an owner.
+    /// Returns the statement that lets one claim at a time count the running jobs of an owner; `None` for
+    /// SQLite.
     pub fn lock_claims(self) -> Option<&'static str> {
         match self {
             Self::Sqlite => None,
@@ -45,8 +48,9 @@ impl Dialect {
         }
     }
 
-    /// A statement with `{columns}` of a job, and with what differs filled in: `{now}`, the clock; `{locked}`, keeping rows after
-    /// waiting for others; `{free}`, keeping the rows of jobs that no other transaction keeps.
+    /// Expands a statement: `{columns}` to the columns of a job, `{now}` to the clock, `{locked}` to a lock
+    /// on the rows
+    /// after waiting for others, `{free}` to a lock on the job rows that no other transaction has locked.
     pub fn sql(self, text: &str) -> String {
         let (locked, free) = match self {
             Self::Sqlite => ("", ""),
@@ -58,7 +62,9 @@ impl Dialect {
             .replace("{free}", free)
     }
 
-    /// Milliseconds since 1970 by the clock of the database, as it goes on within a transaction.
+    /// Returns the expression for milliseconds since 1970 by the clock of the database, which advances within
+    /// a
+    /// transaction.
     fn now(self) -> &'static str {
         match self {
             Self::Sqlite => "CAST(unixepoch('now', 'subsec') * 1000 AS INTEGER)",

@@ -1,15 +1,16 @@
-//! Errors of databases as errors of the store.
+//! Conversion of database errors to store errors.
 
 use sqlx::Error;
 use sqlx::migrate::MigrateError;
 
 use crate::jobs::StoreError;
 
-/// What SQLite calls a full disk, a database in use, and a table in use: the low byte of its codes.
+/// SQLite's codes, in the low byte, for a full disk, and for a database or a table in use.
 const SQLITE_FULL: i32 = 13;
 const SQLITE_BUSY: [i32; 2] = [5, 6];
-/// What PostgreSQL calls a full disk, and the classes of its codes that may pass: connections,
-/// deadlocks, a lack of resources, interventions of an operator such as a restart, its disk.
+/// PostgreSQL's code for a full disk, and the classes of its temporary errors: connections, deadlocks, lack
+/// of
+/// resources, interventions of an operator such as a restart, its disk.
 const POSTGRES_FULL: &str = "53100";
 const POSTGRES_PASSING: [&str; 5] = ["08", "40", "53", "57", "58"];
 

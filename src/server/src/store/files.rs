@@ -1,4 +1,4 @@
-//! Files of jobs in a folder, of this machine or of a network.
+//! Job files in a folder, local or on a network.
 
 use std::fs::File;
 use std::io::{ErrorKind, SeekFrom};
@@ -15,20 +15,20 @@ use uuid::Uuid;
 
 use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult, free_bytes};
 
-/// The file that says which store this is. It is no name of a job.
+/// Name of the file with the id of the store. It is not a job id.
 const IDENTITY: &str = "store-id";
 
-/// Further tries to remove a folder into which somebody stored a file meanwhile: a picture, of which a job has three.
+/// Number of further attempts to remove a folder into which one of a job's three pictures was stored meanwhile.
 const REMOVALS: usize = 3;
 
-/// A folder with one subfolder per job. Files are moved rather than copied where it is on one file
-/// system with the folder they come from.
+/// A folder with one subfolder per job. Files are moved rather than copied if they are on the same file
+/// system.
 pub struct FileBlobs {
     root: PathBuf,
 }
 
 impl FileBlobs {
-    /// Uses this folder, and makes it if need be.
+    /// Opens this folder, and creates it if needed.
     pub fn open(root: &Path) -> StoreResult<Self> {
         std::fs::create_dir_all(root).map_err(StoreError::at(root))?;
         Ok(Self {
@@ -36,8 +36,9 @@ impl FileBlobs {
         })
     }
 
-    /// Brings the name of a file to the disk, with all folders on its way. They are synced at once, which the file system can do
-    /// as one.
+    /// Syncs all folders on the path of a file, so that its name is durable. They are synced concurrently,
+    /// which the
+    /// file system can combine.
     async fn sync_folders_of(&self, path: &Path) -> StoreResult<()> {
         let folders = path.ancestors().skip(1);
         let folders = folders.take_while(|folder| folder.starts_with(&self.root));
@@ -50,7 +51,7 @@ impl FileBlobs {
     }
 }
 
-/// Does in one go what would wait for a thread at each step.
+/// Runs blocking work as a whole on a thread for it.
 async fn blocking<T: Send + 'static>(
     work: impl FnOnce() -> StoreResult<T> + Send + 'static,
 ) -> StoreResult<T> {
@@ -58,13 +59,14 @@ async fn blocking<T: Send + 'static>(
     done.map_err(std::io::Error::from)?
 }
 
-/// Whether an error means that there is no file at a path.
+/// Returns whether an error means that there is no file at the path.
 fn is_absent(error: &std::io::Error, path: &Path) -> bool {
     error.kind() == ErrorKind::NotFound && !path.exists()
 }
 
-/// The files below a folder, by their paths from the root, with their sizes. What goes away meanwhile
-/// is left out.
+/// Lists the files below a folder by their paths from the root, with sizes in bytes. Skips files that
+/// disappear
+/// meanwhile.
 fn listed(root: &Path, folder: &Path) -> std::io::Result<Vec<(String, u64)>> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -91,7 +93,7 @@ fn listed(root: &Path, folder: &Path) -> std::io::Result<Vec<(String, u64)>> {
     Ok(files)
 }
 
-/// Brings a file to its place, its content to the disk first.
+/// Moves a file to its place after syncing its content.
 fn moved(from: &Path, to: &Path) -> StoreResult<()> {
     if let Some(folder) = to.parent() {
         std::fs::create_dir_all(folder).map_err(StoreError::at(folder))?;
@@ -110,8 +112,7 @@ fn moved(from: &Path, to: &Path) -> StoreResult<()> {
 }
 
 impl Blobs for FileBlobs {
-    /// The content reaches the disk before the name does, and the name with all folders on its way
-    /// before this returns.
+    /// Syncs the content before the name, and the name with all folders on its path before returning.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
         async move {
             let (from, to) = (from.to_owned(), self.root.join(key));
@@ -132,7 +133,7 @@ impl Blobs for FileBlobs {
         .boxed()
     }
 
-    /// A second name for the same content where that is possible: nobody writes into a stored file.
+    /// Creates a hard link where possible: stored files are never modified.
     fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>> {
         async move {
             let from = self.root.join(key);

@@ -1,4 +1,4 @@
-//! Hints of PostgreSQL that a job can be claimed: who waits need not ask again and again.
+//! Notifications from PostgreSQL that a job can be claimed, which save idle workers from polling.
 
 use std::time::Duration;
 
@@ -10,13 +10,13 @@ use tokio::sync::Mutex;
 use super::dialect::Dialect;
 use crate::jobs::{Job, State};
 
-/// The channel of the hints.
+/// Notification channel.
 const CHANNEL: &str = "unwrapd_queued";
 const NOTIFY: &str = "SELECT pg_notify('unwrapd_queued', '')";
-/// Before a connection that failed is tried again.
+/// Delay before reconnecting after a failure.
 const PAUSE: Duration = Duration::from_secs(5);
 
-/// A connection of its own that listens, made when it is needed.
+/// A dedicated listening connection, opened when needed.
 pub(super) struct Hints {
     url: String,
     dialect: Dialect,
@@ -24,7 +24,7 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    /// Those of the database at a URL.
+    /// Creates the hints of the database at a URL.
     pub fn of(url: &str, dialect: Dialect) -> Self {
         Self {
             url: url.to_owned(),
@@ -33,7 +33,7 @@ impl Hints {
         }
     }
 
-    /// Hints at a job that waits once the transaction is committed.
+    /// Sends a hint when the transaction commits, if the job is queued. SQLite sends none.
     pub async fn give(
         &self,
         job: &Job,
@@ -45,7 +45,7 @@ impl Hints {
         Ok(())
     }
 
-    /// Waits for a hint. SQLite gives none: its only process knows of its jobs.
+    /// Waits for a hint. With SQLite there is none: its only process knows its jobs.
     pub async fn next(&self) {
         if self.dialect == Dialect::Sqlite {
             return future::pending().await;

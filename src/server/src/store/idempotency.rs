@@ -1,4 +1,4 @@
-//! Idempotency keys: which submission used one first.
+//! Idempotency keys and the submissions that used them first.
 
 use sqlx::{Any, Row, Transaction};
 
@@ -7,10 +7,10 @@ use super::rows;
 use crate::jobs::access::Owner;
 use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult};
 
-/// How long a key is remembered at least: one day.
+/// Minimum lifetime of a key: one day.
 const LIFE_MS: i64 = 86_400_000;
 
-/// What a key was used for before, if it was.
+/// Returns the outcome for a key that was used before; `None` for a new key.
 pub(super) async fn earlier_use(
     database: &Database,
     key: &IdempotencyKey,
@@ -33,7 +33,7 @@ pub(super) async fn earlier_use(
     Ok(Some(Enqueued::Replay(Box::new(rows::job(&row)?))))
 }
 
-/// Forgets the keys that are too old.
+/// Deletes expired keys.
 pub(super) async fn forget(database: &Database) -> StoreResult<()> {
     let mut transaction = database.begin().await?;
     sqlx::query(database.sql("DELETE FROM idempotency WHERE created < {now} - $1"))
@@ -44,13 +44,13 @@ pub(super) async fn forget(database: &Database) -> StoreResult<()> {
     Ok(())
 }
 
-/// A key with its owner. Neither has a line break in it.
+/// Returns the key with its owner. Neither contains a line break.
 fn of_owner(IdempotencyKey { key, .. }: &IdempotencyKey, owner: &Owner) -> String {
     let owner = owner.name().map(|name| format!("{name}\n"));
     owner.unwrap_or_default() + key
 }
 
-/// Remembers what a key was used for.
+/// Records the submission that used a key.
 pub(super) async fn remember(
     key: &IdempotencyKey,
     job: &Job,

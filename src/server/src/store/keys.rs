@@ -1,4 +1,4 @@
-//! Keys of the API in a database.
+//! API keys in the database.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use super::rows::{self, damaged, time};
 use crate::jobs::access::{Key, KeyId, KeyStore, NewKey, Owner};
 use crate::jobs::{StoreResult, Timestamp};
 
-/// The columns of a key, in a statement that calls the row `key`.
+/// Columns of a key, for statements with the alias `key`.
 const COLUMNS: &str = "key.id, key.digest, key.owner, key.scopes, key.name, key.parent,
     key.created, key.expires, key.revoked, key.used";
 
@@ -85,7 +85,7 @@ impl KeyStore for RecordStore {
     }
 }
 
-/// Adds a key, by the time of the database. Those of pages that are of no use any more go.
+/// Adds a key, timed by the database. Deletes the expired and revoked keys of pages.
 async fn add(database: &Database, new: &NewKey) -> StoreResult<Key> {
     let mut transaction = database.begin().await?;
     let row = sqlx::query(database.sql("SELECT {now} AS now"))
@@ -117,7 +117,7 @@ async fn add(database: &Database, new: &NewKey) -> StoreResult<Key> {
     Ok(key)
 }
 
-/// The key that a row with its [`COLUMNS`] holds.
+/// Reads a key from a row with [`COLUMNS`].
 fn key(row: &AnyRow) -> StoreResult<Key> {
     let text = |column| row.try_get::<String, _>(column).map_err(damaged);
     let parent: Option<String> = row.try_get("parent").map_err(damaged)?;

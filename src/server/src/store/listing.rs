@@ -1,4 +1,4 @@
-//! Pages of the list of jobs.
+//! Pages of the job list.
 
 use sqlx::query::Query;
 use sqlx::{Any, AssertSqlSafe};
@@ -10,13 +10,13 @@ use crate::jobs::access::{Owner, Reach};
 use crate::jobs::{Job, Listing, Order, State, StoreResult};
 use unwrapd_api::Kind;
 
-/// A value in a statement.
+/// A bound value of a statement.
 enum Value {
     Text(String),
     Number(i64),
 }
 
-/// Conditions that hold together, with their values in the order of their places.
+/// Conditions joined by AND, with the values of their placeholders in order.
 #[derive(Default)]
 struct Conditions {
     texts: Vec<String>,
@@ -24,7 +24,7 @@ struct Conditions {
 }
 
 impl Conditions {
-    /// Adds one in which `?` is the place of its value.
+    /// Adds a condition, in which `?` is the placeholder of its value.
     fn add(&mut self, condition: &str, value: Value) {
         self.values.push(value);
         let place = format!("${}", self.values.len());
@@ -44,7 +44,7 @@ impl Conditions {
     }
 }
 
-/// A page of jobs, without those of calls.
+/// Returns a page of jobs, without those of synchronous requests.
 pub(super) async fn page(
     database: &Database,
     reach: &Reach,

@@ -1,16 +1,18 @@
-//! Where the records and files of jobs lie, and those of keys.
+//! Storage of job records, job files and keys.
 //!
-//! Records are in SQLite or in PostgreSQL, by one code: `dialect.rs` has the few words that differ.
-//! Files are in a folder or in an object store.
+//! Records are in SQLite or in PostgreSQL, with shared code: `dialect.rs` has the few differences. Files are
+//! in a
+//! folder or in an object store.
 //!
-//! An embedded service has both below one data folder, which one process at a time may use; `unwrapd
-//! keys` opens the records beside it:
+//! An embedded service keeps both in one data folder, which one process at a time may use; only `unwrapd
+//! keys` opens
+//! the records alongside it:
 //!
 //! ```text
 //! DATA/lock             held by the process that uses the folder
 //! DATA/unwrapd.sqlite   records (write-ahead log beside it)
 //! DATA/blobs/ID/…       input and output files
-//! DATA/scratch/…        what is in the making; emptied at every start
+//! DATA/scratch/…        temporary files; emptied at every start
 //! ```
 
 mod address;

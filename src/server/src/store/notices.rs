@@ -1,10 +1,10 @@
-//! Notices in a database, as they are recorded with the ends of jobs.
+//! Recording of notices in the database when jobs end.
 
 use sqlx::{Any, Transaction};
 
 use crate::jobs::{Job, Notice, StoreResult, Timestamp};
 
-/// Records the end of a job, if somebody wants to know.
+/// Records a notice if a job has ended and has a webhook.
 pub(super) async fn tell(
     job: &Job,
     now: Timestamp,

@@ -1,4 +1,4 @@
-//! Files of jobs in an object store that speaks the protocol of S3.
+//! Job files in an object store with the S3 protocol.
 
 use std::ops::Range;
 use std::path::Path;
@@ -19,32 +19,32 @@ use tokio::io::AsyncWriteExt;
 
 use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult};
 
-/// For one request; files are sent and fetched in parts.
+/// Timeouts of a request and of connecting. Files are sent and fetched in parts.
 const REQUEST_TIME: Duration = Duration::from_mins(5);
 const CONNECT_TIME: Duration = Duration::from_secs(5);
-/// For the next bytes of an answer. A connection may be cut without anybody noticing.
+/// Timeout for the next bytes of a response, since a connection may be silently cut.
 const SILENCE: Duration = Duration::from_secs(30);
-/// How long a request that fails is tried again; whoever asked tries later.
+/// Total time, and number, of retries of a failed request. After that, the caller retries later.
 const RETRY_TIME: Duration = Duration::from_secs(10);
 const RETRIES: usize = 4;
 
-/// The object that says which store this is, and one that is written to see whether that works. They
-/// are no names of jobs.
+/// Names of the object with the id of the store and of a probe written to check access. They are not job ids.
 const IDENTITY: &str = "store-id";
 const PROBE: &str = "probe";
-/// Between two probes: each costs a request.
+/// Minimum time between two probes, since each costs a request.
 const PROBE_PAUSE: Duration = Duration::from_mins(1);
 
-/// A bucket, or what of it has a prefix. An object is there completely or not at all.
+/// A bucket, or the part of it under a prefix. An object exists completely or not at all.
 pub struct ObjectBlobs {
     store: Arc<dyn ObjectStore>,
-    /// When an object was last written to see whether that works.
+    /// Time of the last probe.
     probed: Mutex<Option<Instant>>,
 }
 
 impl ObjectBlobs {
-    /// The bucket and prefix of `s3://BUCKET/PREFIX`. Endpoint, region, keys and the like are set
-    /// by variables with their usual names, such as `AWS_ENDPOINT_URL`; others are ignored.
+    /// Opens the bucket and prefix of `s3://BUCKET/PREFIX`. Endpoint, region, credentials and the like are
+    /// set by their
+    /// usual variables, such as `AWS_ENDPOINT_URL`; other variables are ignored.
     pub fn open(url: &str, variables: impl Iterator<Item = (String, String)>) -> StoreResult<Self> {
         // Another user of TLS in this process may have chosen first.
         let _ = rustls::crypto::ring::default_provider().install_default();
@@ -234,7 +234,7 @@ impl Blobs for ObjectBlobs {
     }
 }
 
-/// Why a bucket cannot be used, with what its user may have to set.
+/// Returns the error of an unusable bucket, with a hint at the setting that may be missing.
 fn unusable(error: &Error) -> StoreError {
     let text = error.to_string();
     let is_absent = matches!(error, Error::NotFound { .. });

@@ -1,4 +1,4 @@
-//! Notices in a database, as they are taken and settled.
+//! The outbox of notices in the database.
 
 use std::time::Duration;
 
@@ -12,8 +12,8 @@ use super::rows::damaged;
 use crate::jobs::access::Owner;
 use crate::jobs::{Notice, Outbox, StoreResult};
 
-/// Which notices come now. No pause is longer than a day: one that is was made before the clock was
-/// set back.
+/// Condition for notices that are due. No pause exceeds a day: a longer one means that the clock was set
+/// back.
 const DUE: &str = "(due <= {now} OR {now} + 86400000 < due)";
 
 impl Outbox for RecordStore {

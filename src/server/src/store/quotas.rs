@@ -1,4 +1,4 @@
-//! What one owner may have, and what they have used.
+//! Quotas of owners and their use.
 
 use sqlx::{Any, Row, Transaction};
 
@@ -7,7 +7,7 @@ use crate::jobs::{Job, OwnerQuota, OwnerQuotas, State, StoreResult, Timestamp};
 
 const DAY_MS: i64 = 86_400_000;
 
-/// The quota of its owner that a new job would exceed, if any.
+/// Returns the quota of its owner that a new job would exceed; `None` if it exceeds none.
 pub(super) async fn exceeded(
     job: &Job,
     quotas: OwnerQuotas,
@@ -44,7 +44,7 @@ pub(super) async fn exceeded(
     Ok(None)
 }
 
-/// Adds to what an owner has used on this day. What was used before yesterday is forgotten.
+/// Adds processor time to the use of an owner on this day. Deletes the use before yesterday.
 pub(super) async fn spend(
     owner: &Owner,
     cpu_ms: u64,

@@ -1,4 +1,4 @@
-//! Records that are only looked at.
+//! Read-only queries of job records.
 
 use std::time::Duration;
 
@@ -11,10 +11,10 @@ use super::within::within;
 use crate::jobs::access::Reach;
 use crate::jobs::{Event, Job, JobId, Queue, State, StoreResult};
 
-/// Jobs that are looked at together.
+/// Number of jobs per query.
 const BATCH: usize = 64;
 
-/// The job of this id.
+/// Returns the job with this id if it is visible.
 pub(super) async fn one(database: &Database, reach: &Reach, id: JobId) -> StoreResult<Option<Job>> {
     let (within, owner) = within(reach, 2);
     let one = format!("SELECT {{columns}} FROM job WHERE id = $1 AND {within}");
@@ -26,7 +26,7 @@ pub(super) async fn one(database: &Database, reach: &Reach, id: JobId) -> StoreR
     row.as_ref().map(rows::job).transpose()
 }
 
-/// Whether there was a job of this id until its time was over.
+/// Returns whether there was a job with this id until it expired.
 pub(super) async fn has_expired(
     database: &Database,
     reach: &Reach,
@@ -42,7 +42,7 @@ pub(super) async fn has_expired(
     Ok(row.is_some())
 }
 
-/// The latest jobs that this one equals, of the same owner.
+/// Returns the latest succeeded jobs with the same digest and owner, at most four.
 pub(super) async fn equal(database: &Database, job: &Job) -> StoreResult<Vec<Job>> {
     let equal = "SELECT {columns} FROM job
          WHERE digest = $1 AND owner = $2 AND state = 'succeeded' AND ephemeral = 0
@@ -55,7 +55,7 @@ pub(super) async fn equal(database: &Database, job: &Job) -> StoreResult<Vec<Job
     jobs(&found)
 }
 
-/// The present events of those of these jobs that there are.
+/// Returns the current events of those of these jobs that exist.
 pub(super) async fn events(database: &Database, ids: &[JobId]) -> StoreResult<Vec<(JobId, Event)>> {
     let places: Vec<String> = (1..=BATCH).map(|place| format!("${place}")).collect();
     let statement = database.sql(&format!(
@@ -77,7 +77,7 @@ pub(super) async fn events(database: &Database, ids: &[JobId]) -> StoreResult<Ve
     Ok(events)
 }
 
-/// How many jobs there are in each state, and how long the oldest of those that wait does so.
+/// Returns the number of jobs in each state, and the wait of the oldest queued job.
 pub(super) async fn queue(database: &Database) -> StoreResult<Queue> {
     let oldest = "SELECT coalesce({now} - min(created), 0) AS waits
          FROM job WHERE state = 'queued'";
@@ -91,7 +91,7 @@ pub(super) async fn queue(database: &Database) -> StoreResult<Queue> {
     })
 }
 
-/// How many jobs were computed and ended within this time before now.
+/// Returns the number of jobs that were computed and ended within this time before now.
 pub(super) async fn ended_within(database: &Database, time: Duration) -> StoreResult<u64> {
     let ended = "SELECT count(*) AS jobs FROM job
          WHERE {now} - $1 < finished AND started IS NOT NULL";
@@ -118,7 +118,7 @@ async fn counts(database: &Database) -> StoreResult<Vec<(State, u64)>> {
     Ok(counts)
 }
 
-/// The ids that a statement with these numbers finds.
+/// Returns the ids found by a statement with these bound numbers.
 pub(super) async fn ids(
     database: &Database,
     statement: &str,
@@ -132,7 +132,7 @@ pub(super) async fn ids(
     found.iter().map(rows::id).collect()
 }
 
-/// Bytes of the files of all jobs, and of those in quarantine.
+/// Returns the bytes of the files of all jobs, including quarantined files.
 pub(super) async fn stored_bytes(connection: &mut AnyConnection) -> StoreResult<u64> {
     let sum = "SELECT CAST(coalesce((SELECT sum(bytes) FROM job), 0)
          + coalesce((SELECT sum(bytes) FROM quarantine), 0) AS BIGINT) AS bytes";
@@ -140,7 +140,7 @@ pub(super) async fn stored_bytes(connection: &mut AnyConnection) -> StoreResult<
     Ok(row.try_get::<i64, _>("bytes")? as u64)
 }
 
-/// The jobs that rows hold.
+/// Reads jobs from rows.
 fn jobs(found: &[AnyRow]) -> StoreResult<Vec<Job>> {
     found.iter().map(rows::job).collect()
 }

@@ -1,4 +1,4 @@
-//! Records of jobs in a database.
+//! The job store in a database.
 
 use std::time::Duration;
 
@@ -15,9 +15,9 @@ use crate::jobs::{
     Sweep, Timestamp, WorkerId,
 };
 
-/// How long a call may take, a lost connection included.
+/// Time limit of a call, including a lost connection.
 const PATIENCE: Duration = Duration::from_secs(15);
-/// How long the job of a call is kept after its end, if the call does not remove it.
+/// Time for which the job of a synchronous request is kept after its end, if the request does not remove it.
 const EPHEMERAL_MS: i64 = 10 * 60_000;
 
 /// Records in SQLite or PostgreSQL. Every change is one transaction, durable when the method returns;
@@ -29,8 +29,7 @@ pub struct RecordStore {
 }
 
 impl RecordStore {
-    /// Opens the database at a URL such as `sqlite:///folder/file?mode=rwc` or
-    /// `postgres://user@host/name`.
+    /// Opens the database at a URL such as `sqlite:///folder/file?mode=rwc` or `postgres://user@host/name`.
     pub async fn open(url: &str, rules: Rules) -> StoreResult<Self> {
         let database = Database::open(url).await?;
         reserve::keep(&database).await?;
@@ -42,7 +41,7 @@ impl RecordStore {
     }
 }
 
-/// A call that does not wait for ever: a connection may be cut without anybody noticing.
+/// Limits the duration of a call, since a connection may be silently cut.
 pub(super) fn bounded<'a, T: 'a>(
     call: impl Future<Output = StoreResult<T>> + Send + 'a,
 ) -> BoxFuture<'a, StoreResult<T>> {

@@ -1,9 +1,9 @@
-//! Disk space set aside for records, so that jobs can end and be deleted on a full disk.
+//! Reserved disk space for records, so that jobs can end and be deleted on a full disk.
 //!
-//! This is about SQLite, whose disk is that of the files of jobs. A transaction writes its pages to
-//! the write-ahead log first, and a checkpoint copies them into the database. Neither file shrinks
-//! while the database is open: a log that was once large, and a database with free pages, take more
-//! records without more space.
+//! This concerns SQLite, which shares its disk with the files of jobs. A transaction writes its pages to the
+//! write-ahead log first, and a checkpoint copies them into the database. Neither file shrinks while the
+//! database is
+//! open: a log that was once large, and a database with free pages, take more records without more space.
 
 use sqlx::Row;
 
@@ -11,13 +11,12 @@ use super::database::Database;
 use super::dialect::Dialect;
 use crate::jobs::StoreResult;
 
-/// Bytes of free pages, and of the log. A record has about two thousand.
+/// Bytes of free pages, and of the log. A record takes about two thousand.
 const RESERVE: i64 = 4 << 20;
-/// Below this the free pages are filled up again.
+/// Number of free bytes below which the reserve is refilled.
 const LEAST: i64 = RESERVE / 4;
 
-/// Sets space aside where there is too little of it and the disk is that of SQLite. One transaction
-/// of that size makes the log as long.
+/// Refills the reserve of SQLite if it is low. One transaction of that size makes the log as long.
 pub(super) async fn keep(database: &Database) -> StoreResult<()> {
     if database.dialect != Dialect::Sqlite {
         return Ok(());

@@ -1,4 +1,4 @@
-//! A job as a row of the table `job`.
+//! Jobs as rows of the table `job`.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -8,14 +8,15 @@ use sqlx::{Any, Row, Transaction};
 use crate::jobs::access::Owner;
 use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 
-/// The columns of a job, each by its name: a statement for all columns would fail in processes that
-/// go on while a newer program adds one.
+/// Columns of a job, each by name: a statement for all columns would fail in processes that are still running
+/// when
+/// a newer program adds one.
 pub(super) const COLUMNS: &str =
     "id, owner, kind, state, options, input, output, verdict, attempt, digest,
     priority, token, worker, lease, due, lost, cancel, finish_early, ephemeral, seq, progress,
     failure, created, started, finished, trace, metadata, accept, webhook, interrupted, drawn";
 
-/// Adds a job that nobody works on.
+/// Inserts a job that no worker holds.
 pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
     sqlx::query(
         "INSERT INTO job (id, kind, state, options, input, output, verdict, attempt, token, due,
@@ -62,7 +63,8 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     Ok(())
 }
 
-/// Writes what can change of a job whose record has this token; false if it has another one.
+/// Updates the mutable columns of a job if its record has this token. Returns `false` if it has a different
+/// one.
 pub(super) async fn update(
     job: &Job,
     token: Token,
@@ -102,28 +104,28 @@ pub(super) async fn update(
     Ok(changed.rows_affected() == 1)
 }
 
-/// JSON text of a value, for a column.
+/// Serializes a value to JSON text for a column.
 pub(super) fn json<T: Serialize>(value: &T) -> StoreResult<String> {
     serde_json::to_string(value).map_err(damaged)
 }
 
-/// A record that cannot be read is reported, never guessed at.
+/// Returns the error for a record that cannot be read. It is reported, never guessed at.
 pub(super) fn damaged(error: impl std::fmt::Display) -> StoreError {
     StoreError::Other(format!("a record is damaged: {error}"))
 }
 
-/// The id that a row holds.
+/// Reads the id from a row.
 pub(super) fn id(row: &AnyRow) -> StoreResult<JobId> {
     let text: String = row.try_get("id").map_err(damaged)?;
     text.parse().map_err(damaged)
 }
 
-/// The time by the clock of the database that a row holds.
+/// Reads the time by the clock of the database from a row.
 pub(super) fn now(row: &AnyRow) -> StoreResult<Timestamp> {
     row.try_get("now").map(Timestamp).map_err(damaged)
 }
 
-/// The event that a row of `SELECT id, state, seq, progress, started, finished, {now} AS now` holds.
+/// Reads an event from a row of `SELECT id, state, seq, progress, started, finished, {now} AS now`.
 pub(super) fn event(row: &AnyRow) -> StoreResult<(JobId, Event)> {
     let text = |column| row.try_get::<String, _>(column).map_err(damaged);
     let seq: i64 = row.try_get("seq").map_err(damaged)?;
@@ -137,13 +139,13 @@ pub(super) fn event(row: &AnyRow) -> StoreResult<(JobId, Event)> {
     Ok((id(row)?, event))
 }
 
-/// The time that a row holds in a column, if it does.
+/// Reads a time from a column of a row; `None` if it is null.
 pub(super) fn time(row: &AnyRow, column: &str) -> StoreResult<Option<Timestamp>> {
     let ms = row.try_get::<Option<i64>, _>(column).map_err(damaged)?;
     Ok(ms.map(Timestamp))
 }
 
-/// The job that a row with its [`COLUMNS`] holds.
+/// Reads a job from a row with [`COLUMNS`].
 pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
     let text = |column| row.try_get::<String, _>(column).map_err(damaged);
     let number = |column| row.try_get::<i64, _>(column).map_err(damaged);
@@ -189,12 +191,12 @@ pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
     })
 }
 
-/// The value that a column holds as JSON text.
+/// Parses the JSON text of a column.
 fn parsed<T: DeserializeOwned>(text: &str) -> StoreResult<T> {
     serde_json::from_str(text).map_err(damaged)
 }
 
-/// The enum value that a column holds as a bare word.
+/// Parses a column that holds an enum value as a bare word.
 pub(super) fn word<T: DeserializeOwned>(text: &str) -> StoreResult<T> {
     serde_json::from_value(text.into()).map_err(damaged)
 }

@@ -1,4 +1,4 @@
-//! Records of new jobs, if there is room for them and their key is new.
+//! Recording of new jobs, subject to capacity and idempotency.
 
 use sqlx::{Any, Row, Transaction};
 
@@ -10,7 +10,7 @@ use crate::jobs::{
     Capacity, Enqueued, IdempotencyKey, Job, State, StoreError, StoreResult, Timestamp,
 };
 
-/// Adds a job, by the time of the database.
+/// Adds a job, timed by the database.
 pub(super) async fn enqueue(
     database: &Database,
     hints: &Hints,
@@ -18,6 +18,7 @@ pub(super) async fn enqueue(
     key: Option<&IdempotencyKey>,
     capacity: Capacity,
 ) -> StoreResult<Enqueued> {
+    // One submission at a time counts jobs and looks for its key.
     let mut transaction = database.begin().await?;
     if let Some(lock) = database.dialect.lock_submissions() {
         sqlx::query(lock).execute(&mut *transaction).await?;
@@ -26,12 +27,14 @@ pub(super) async fn enqueue(
     let mut job = job.clone();
     (job.created, job.due) = (now, now);
     job.finished = job.finished.map(|_| now);
+    // A repeated submission gets its earlier job.
     if let Some(key) = key
         && let Some(earlier) =
             idempotency::earlier_use(database, key, &job.owner, &mut transaction).await?
     {
         return Ok(earlier);
     }
+    // Check the capacity, the quotas of the owner and the total.
     if job.state == State::Queued && i64::from(capacity.depth) <= queued {
         return Ok(Enqueued::Full);
     }
@@ -44,6 +47,7 @@ pub(super) async fn enqueue(
     {
         return Ok(Enqueued::OverQuota);
     }
+    // Insert the job, its key and its notice, and hint at it.
     rows::insert(&job, &mut transaction).await?;
     if let Some(key) = key {
         idempotency::remember(key, &job, &mut transaction).await?;
@@ -54,7 +58,7 @@ pub(super) async fn enqueue(
     Ok(Enqueued::New(Box::new(job)))
 }
 
-/// How many jobs wait, and what time it is.
+/// Returns the number of queued jobs and the current time.
 async fn queued(
     database: &Database,
     transaction: &mut Transaction<'_, Any>,
@@ -66,7 +70,7 @@ async fn queued(
     Ok((row.try_get("queued")?, rows::now(&row)?))
 }
 
-/// Why nobody knows whether a transaction was committed, if so.
+/// Converts the error of a commit: after a lost connection its outcome is unknown.
 fn unanswered(error: sqlx::Error) -> StoreError {
     match error.into() {
         StoreError::Unavailable(text) => StoreError::Unanswered(text),

@@ -1,7 +1,8 @@
-//! Records that change: beaten for, swept, ended, wished for, removed.
+//! Changes of job records: heartbeat, sweep, end, client command, deletion.
 //!
-//! Each is one transaction: a row is read and kept, [`after`] says what becomes of it, and it is
-//! written with the token that it had in the WHERE clause.
+//! Each is one transaction: it locks and reads a row, [`after`] computes the next record, and the row is
+//! written with
+//! its former token in the WHERE clause.
 
 use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
@@ -15,16 +16,15 @@ use crate::jobs::{
     after,
 };
 
-/// Jobs of one sweep; the next one comes soon.
+/// Jobs per transaction of a sweep.
 const SWEPT: i64 = 100;
-/// How long it is remembered that there was a job: a year.
+/// Time for which an expired job is remembered: a year.
 const REMEMBERED_MS: i64 = 365 * 86_400_000;
 
-/// Whose workers have been silent for too long, or seem to have leases longer than any that is
-/// given.
+/// Condition for running jobs whose leases are over, or longer than any that is given.
 const OVERDUE: &str =
     "state = 'running' AND (lease IS NULL OR lease < {now} OR {now} + $1 < lease)";
-/// All that run; the lease, which is bound to every sweep, makes no difference.
+/// Condition for all running jobs. It mentions the lease only because every sweep binds it.
 const ANY_RUNNING: &str = "state = 'running' AND $1 = $1";
 
 pub(super) async fn change(
@@ -163,7 +163,7 @@ async fn changed(
     }
 }
 
-/// Writes what becomes of a job whose row is kept by this transaction.
+/// Applies an event to a row locked by this transaction, and writes the result.
 pub(super) async fn written(
     row: &AnyRow,
     happening: &Happening,

@@ -1,4 +1,4 @@
-//! What a database knows of the store as a whole: its identity, its clock, files without a job.
+//! Facts about the store as a whole: identity, clock, files without a job.
 
 use std::time::Duration;
 
@@ -9,11 +9,11 @@ use super::database::Database;
 use super::rows;
 use crate::jobs::{Census, JobId, Quarantined, StoreId, StoreResult, Timestamp};
 
-/// Files that were not looked at for this long were not unknown all the time: a process looks every
-/// day. The database may have been restored, or its clock may have jumped.
+/// Time between checks after which quarantined files count as newly found: a process checks every day, so the
+/// database may have been restored, or its clock may have jumped.
 const GAP_MS: i64 = 3 * 86_400_000;
 
-/// What time it is.
+/// Returns the current time by the clock of the database.
 pub(super) async fn now(database: &Database) -> StoreResult<Timestamp> {
     let row = sqlx::query(database.sql("SELECT {now} AS now"))
         .fetch_one(&database.readers)
@@ -21,7 +21,7 @@ pub(super) async fn now(database: &Database) -> StoreResult<Timestamp> {
     rows::now(&row)
 }
 
-/// Which store this is.
+/// Returns the id of the store; `None` if it has none yet.
 pub(super) async fn identity(database: &Database) -> StoreResult<Option<StoreId>> {
     let row = sqlx::query("SELECT store FROM identity WHERE id = 1")
         .fetch_optional(&database.readers)
@@ -33,7 +33,7 @@ pub(super) async fn identity(database: &Database) -> StoreResult<Option<StoreId>
     row.map(parsed).transpose()
 }
 
-/// Gives the store an identity if it has none. Returns the one that it has then.
+/// Sets the id of the store if it has none. Returns its id.
 pub(super) async fn identify(database: &Database, identity: StoreId) -> StoreResult<StoreId> {
     let insert = "INSERT INTO identity (id, store) VALUES (1, $1) ON CONFLICT (id) DO NOTHING";
     sqlx::query(insert)
@@ -44,7 +44,7 @@ pub(super) async fn identify(database: &Database, identity: StoreId) -> StoreRes
     Ok(present.unwrap_or(identity))
 }
 
-/// How many jobs there are, and how many of them have files.
+/// Returns the number of jobs, and of those that have files.
 pub(super) async fn census(database: &Database) -> StoreResult<Census> {
     let count = "SELECT count(*) AS jobs,
          CAST(coalesce(sum(CASE WHEN 0 < bytes THEN 1 ELSE 0 END), 0) AS BIGINT) AS with_files
@@ -56,7 +56,7 @@ pub(super) async fn census(database: &Database) -> StoreResult<Census> {
     })
 }
 
-/// Notes files without a job, or that they still have none.
+/// Records files without a job, or that they still have none.
 pub(super) async fn quarantine(database: &Database, files: &[(JobId, u64)]) -> StoreResult<()> {
     let mut transaction = database.begin().await?;
     for (job, bytes) in files {
@@ -77,7 +77,7 @@ pub(super) async fn quarantine(database: &Database, files: &[(JobId, u64)]) -> S
     Ok(())
 }
 
-/// All files that were noted, the oldest first.
+/// Returns all quarantined files, oldest first.
 pub(super) async fn quarantined(database: &Database) -> StoreResult<Vec<Quarantined>> {
     let all = "SELECT job AS id, bytes, since, {now} AS now FROM quarantine ORDER BY since, job";
     let found = sqlx::query(database.sql(all))
@@ -94,7 +94,7 @@ pub(super) async fn quarantined(database: &Database) -> StoreResult<Vec<Quaranti
     found.iter().map(files).collect()
 }
 
-/// Forgets files that were noted.
+/// Removes files from quarantine.
 pub(super) async fn release(database: &Database, jobs: &[JobId]) -> StoreResult<()> {
     for job in jobs {
         sqlx::query("DELETE FROM quarantine WHERE job = $1")
@@ -105,7 +105,7 @@ pub(super) async fn release(database: &Database, jobs: &[JobId]) -> StoreResult<
     Ok(())
 }
 
-/// Has no job equal this one, whose files are damaged.
+/// Excludes a job with damaged files from being copied, by clearing its digest.
 pub(super) async fn spoil(database: &Database, id: JobId) -> StoreResult<()> {
     sqlx::query("UPDATE job SET digest = '' WHERE id = $1")
         .bind(id.to_string())

@@ -1,8 +1,8 @@
-//! How far a call sees, in SQL.
+//! Visibility of a request in SQL.
 
 use crate::jobs::access::Reach;
 
-/// The condition that a row is within reach, with what is bound at this place.
+/// Returns the condition that a row is visible, and the value to bind to its placeholder.
 pub(super) fn within(reach: &Reach, place: u8) -> (String, &str) {
     match reach {
         Reach::Own(owner) => (format!("owner = ${place}"), owner.as_str()),

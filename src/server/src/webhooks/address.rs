@@ -1,9 +1,10 @@
-//! Which addresses of the network are everybody's.
+//! Classification of network addresses.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 
-/// Whether an address is one of the public network: not of this host, not of a private network, and
-/// for no special use (RFC 6890). What embeds an address of version 4 is judged by that.
+/// Returns whether an address belongs to the public network: not to this host, not to a private network, and
+/// not to
+/// a special-purpose range (RFC 6890). Addresses that embed an IPv4 address are judged by it.
 pub fn is_public(address: IpAddr) -> bool {
     match address {
         IpAddr::V4(address) => is_public_v4(address),

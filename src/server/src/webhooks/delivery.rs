@@ -1,4 +1,4 @@
-//! Notices, posted until they are heard.
+//! Delivery of notices, with retries.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,15 +14,15 @@ use super::guard::{Guard, Reachable, check};
 use super::secret::Secrets;
 use crate::jobs::{Notice, Outbox, Timestamp};
 
-/// Between two looks for notices.
+/// Interval between polls of the outbox.
 const PAUSE: Duration = Duration::from_secs(1);
-/// Deliveries at once: a slow receiver holds up no other.
+/// Maximum number of concurrent deliveries, so that a slow receiver does not delay others.
 const TOGETHER: usize = 32;
-/// How long a receiver may take.
+/// Timeout of a receiver.
 const PATIENCE: Duration = Duration::from_secs(15);
-/// How long a notice is this process's alone: longer than a receiver may take.
+/// Lease of this process on a notice, which is longer than the timeout.
 const LEASE: Duration = Duration::from_mins(1);
-/// Pauses between tries, after the last of which a notice is given up: those of Standard Webhooks.
+/// Pauses before retries; after the last retry a notice is given up. Values of Standard Webhooks.
 const RETRIES: [Duration; 7] = [
     Duration::from_secs(5),
     Duration::from_mins(5),
@@ -35,16 +35,16 @@ const RETRIES: [Duration; 7] = [
 
 const DELIVERIES: &str = "unwrapd_webhook_deliveries_total";
 
-/// How deliveries are made.
+/// Settings of deliveries.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// What they are signed with.
+    /// Secrets for signing.
     pub secrets: Secrets,
-    /// Where they may go.
+    /// Addresses that deliveries may go to.
     pub reachable: Reachable,
 }
 
-/// Delivers what is in an outbox until told to stop.
+/// Delivers the notices of an outbox until told to stop.
 pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: CancellationToken) {
     describe_counter!(DELIVERIES, "Tries to deliver a webhook by this process");
     for result in ["delivered", "failed", "given_up"] {
@@ -52,6 +52,7 @@ pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: Cancella
     }
     // Another part of the process may have chosen already.
     let _ = rustls::crypto::ring::default_provider().install_default();
+    // Build a client that follows no redirects, uses no proxy and resolves names with the guard.
     let client = Client::builder()
         .user_agent(concat!("unwrapd/", env!("CARGO_PKG_VERSION")))
         .redirect(Policy::none())
@@ -68,6 +69,7 @@ pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: Cancella
         settings,
         client,
     });
+    // Take notices as delivery slots become free.
     let mut under_way = JoinSet::new();
     loop {
         let room = TOGETHER - under_way.len();
@@ -97,17 +99,17 @@ struct Courier {
     client: Client,
 }
 
-/// What became of a delivery.
+/// Outcome of a delivery.
 enum Answer {
     Heard,
-    /// Why not.
+    /// Reason for the failure.
     Unheard(String),
-    /// The receiver wants no more of it.
+    /// The receiver wants no more notices of this job.
     Gone,
 }
 
 impl Courier {
-    /// Delivers a notice, or decides when that is tried again.
+    /// Delivers a notice, and settles it or schedules a retry.
     async fn carry(&self, notice: &Notice) {
         let host = notice.webhook.url().host_str().unwrap_or_default();
         let (id, attempt) = (&*notice.id, notice.attempt);
@@ -161,7 +163,8 @@ impl Courier {
     }
 }
 
-/// An error with its causes, on one line. Addresses may hold what only their receiver knows.
+/// Formats an error with its causes on one line. Callers remove URLs, which may contain secrets of the
+/// receiver.
 fn text(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     let mut words: Vec<String> = causes.map(ToString::to_string).collect();

@@ -1,4 +1,4 @@
-//! Names are resolved here, and only to addresses that may be reached.
+//! Name resolution restricted to permitted addresses.
 
 use std::net::{IpAddr, SocketAddr};
 
@@ -8,16 +8,16 @@ use url::Host;
 use super::address::is_public;
 use crate::jobs::Webhook;
 
-/// Which addresses deliveries may go to.
+/// Addresses that deliveries may go to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reachable {
-    /// Those of the public network.
+    /// Addresses of the public network.
     Public,
-    /// All, also of this host and of its network.
+    /// All addresses, including this host and its network.
     Any,
 }
 
-/// Why an address is not reached.
+/// Reason why an address is rejected.
 #[derive(Debug, thiserror::Error)]
 #[error("it is not an address of the public network")]
 pub struct NotPublic;
@@ -28,7 +28,7 @@ impl Reachable {
     }
 }
 
-/// Whether deliveries may go to an address, as far as that is known without resolving its name.
+/// Checks that deliveries may go to an address, as far as possible without resolving its name.
 pub fn check(webhook: &Webhook, reachable: Reachable) -> Result<(), NotPublic> {
     let is_allowed = match webhook.url().host() {
         Some(Host::Ipv4(address)) => reachable.allows(address.into()),
@@ -39,8 +39,9 @@ pub fn check(webhook: &Webhook, reachable: Reachable) -> Result<(), NotPublic> {
     if is_allowed { Ok(()) } else { Err(NotPublic) }
 }
 
-/// Resolves names to those of their addresses that may be reached. The connection is made to these,
-/// so that a name which means something else a moment later changes nothing.
+/// Resolves names to their permitted addresses only. Connections use these addresses, so a name that changes
+/// its
+/// meaning a moment later has no effect.
 pub(super) struct Guard(pub Reachable);
 
 impl Resolve for Guard {

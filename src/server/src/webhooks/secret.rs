@@ -1,4 +1,4 @@
-//! What deliveries are signed with.
+//! Secrets for signing deliveries.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,20 +10,21 @@ use sha2::Sha256;
 
 use crate::jobs::access::Owner;
 
-/// Bytes that a secret of a service has at least.
+/// Minimum length of a secret in bytes.
 const LEAST: usize = 24;
 
-/// A secret of the service, from which each owner has one of their own: none can sign for another,
-/// and nothing has to be kept.
+/// Secret of the service, from which a secret per owner is derived: no owner can sign for another, and
+/// nothing has
+/// to be stored.
 #[derive(Clone)]
 pub struct Secret(String);
 
-/// What is no secret.
+/// Error for a text that is not a secret.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a secret has at least {LEAST} characters, no space and no comma")]
 pub struct SecretError;
 
-/// Secrets that are in force: deliveries are signed with each, so that one can replace another.
+/// Secrets in force. Deliveries are signed with each of them, so that one can replace another.
 #[derive(Clone, Debug)]
 pub struct Secrets(Vec<Secret>);
 
@@ -41,19 +42,19 @@ impl Secret {
         hmac(self.0.as_bytes(), &["unwrapd webhooks of ", owner.as_str()])
     }
 
-    /// The secret by which an owner checks deliveries, as Standard Webhooks writes it.
+    /// Returns the secret with which an owner verifies deliveries, in the format of Standard Webhooks.
     pub fn told_to(&self, owner: &Owner) -> String {
         format!("whsec_{}", STANDARD.encode(self.of_owner(owner)))
     }
 }
 
 impl Secrets {
-    /// The first: that which is to be told.
+    /// Returns the first secret, from which the owners' secrets are derived when they ask.
     pub fn present(&self) -> Option<&Secret> {
         self.0.first()
     }
 
-    /// The signatures of a delivery to an owner.
+    /// Returns the signatures of a delivery to an owner.
     pub(super) fn sign(&self, owner: &Owner, (id, time, body): (&str, i64, &str)) -> String {
         let time = time.to_string();
         let sign = |secret: &Secret| {
@@ -65,7 +66,7 @@ impl Secrets {
     }
 }
 
-/// Hidden: it may come into a log.
+/// Omits the secret, which must not reach a log.
 impl fmt::Debug for Secret {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("***")

@@ -1,4 +1,4 @@
-//! A body or a picture in the hand of a client.
+//! Live editing of a body or a picture.
 
 use serde_json::Value;
 
@@ -12,30 +12,30 @@ use unwrapd_deform::{Handle, HandleId, Model, ProblemError};
 use unwrapd_method::solver::Stage;
 use unwrapd_pipeline::HeldBody;
 
-/// How handles are written.
+/// Format of handles.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
     /// Vertices, places and discs.
     Body,
-    /// Places only: the body is a cage.
+    /// Places only, because the body is a cage.
     Cage,
     /// Pixels.
     Picture,
 }
 
-/// A body or a picture in the hand.
+/// A body or a picture under live editing.
 pub(super) struct BodyHand {
     held: HeldBody,
     form: Form,
-    /// Of each element the determinant at rest.
+    /// Determinant of each element at rest.
     rest: Vec<f64>,
     names: Names<HandleId>,
-    /// Handles that no client added: a border that stays.
+    /// Handles that no client added: a fixed border.
     border: Vec<Handle>,
 }
 
 impl BodyHand {
-    /// As it was taken into the hand.
+    /// Wraps a body whose only handles are its fixed border.
     pub fn new(held: HeldBody, form: Form) -> Self {
         let border = held.session.handles().map(|(_, handle)| handle.clone());
         Self {

@@ -16,10 +16,10 @@ use unwrapd_api::pipe::{self, BAKE, BAKED, FAILED, FRAME, MESH, REPLY};
 use unwrapd_api::{Failure, START, TASK, Task, read_json, read_upload};
 use unwrapd_pipeline::{Workers, in_pool, start_file};
 
-/// Messages that wait. Behind them the pipe fills up, and the client waits.
+/// Maximum number of queued messages. When the queue is full, the pipe fills up and the client waits.
 const MOST_WAITING: usize = 1024;
 
-/// What came from the server.
+/// A record from the server.
 enum Said {
     Message(Result<Message, (u32, Failure)>),
     Bake,
@@ -56,7 +56,9 @@ fn session(folder: &Path, out: &File) -> Result<(), Failure> {
     served.map_err(|error| Failure::new(error.code(), error.to_string()))?
 }
 
-/// Starts the thread that hears the server. The process ends with standard input: the server is gone, or wants it to.
+/// Starts the thread that listens to the server. The process exits when standard input ends, because the
+/// server is
+/// gone or closed the session.
 fn listen() -> std::io::Result<Receiver<Said>> {
     let (say, said) = sync_channel(MOST_WAITING);
     std::thread::Builder::new().spawn(move || {
@@ -75,7 +77,7 @@ fn listen() -> std::io::Result<Receiver<Said>> {
     Ok(said)
 }
 
-/// Takes messages as they come, iterates while there is something to do, and tells a frame each time.
+/// Handles messages as they arrive, iterates while the map moves, and sends a frame after each iteration.
 fn serve(mut course: Course, said: &Receiver<Said>, folder: &Path, out: &File) {
     tell(out, MESH, &course.mesh());
     tell(out, FRAME, &course.frame());
@@ -95,8 +97,9 @@ fn serve(mut course: Course, said: &Receiver<Said>, folder: &Path, out: &File) {
     }
 }
 
-/// Takes what came since the last iteration. Of several moves of a handle, with nothing but moves between them, only the last
-/// has an effect: dragging is not held up by places that are left already.
+/// Handles the records since the last iteration. Among moves of one handle with nothing but moves between
+/// them, only
+/// the last one has an effect, so outdated positions do not delay a drag.
 fn take(course: &mut Course, batch: Vec<Said>, folder: &Path, out: &File) {
     let is_late = superseded(&batch);
     for (said, is_late) in batch.into_iter().zip(is_late) {
@@ -113,7 +116,7 @@ fn take(course: &mut Course, batch: Vec<Said>, folder: &Path, out: &File) {
     }
 }
 
-/// Which of these are moves that a later one takes the place of.
+/// Returns which records are moves superseded by a later one.
 fn superseded(batch: &[Said]) -> Vec<bool> {
     let mut moved_later = BTreeSet::new();
     let mut late = vec![false; batch.len()];
@@ -129,7 +132,7 @@ fn superseded(batch: &[Said]) -> Vec<bool> {
     late
 }
 
-/// Leaves the start in the folder; its handles, or why that failed.
+/// Writes the map to the folder and returns its handles.
 fn bake(course: &Course, folder: &Path) -> Result<Vec<Value>, Failure> {
     let (handles, start) = course.baked();
     std::fs::write(folder.join(START), start_file(&start))?;
@@ -140,7 +143,7 @@ fn json(value: &impl Serialize) -> Vec<u8> {
     serde_json::to_vec(value).unwrap_or_default()
 }
 
-/// Nobody listens any more if this fails: there is no reason to go on.
+/// Sends a record. Exits if that fails, because nobody listens any more.
 fn tell(mut out: &File, tag: u8, bytes: &[u8]) {
     if pipe::write(&mut out, tag, bytes).is_err() {
         std::process::exit(1);

@@ -1,4 +1,4 @@
-//! The course of a session: messages in, frames out.
+//! The state of a session: messages in, frames out.
 
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -15,7 +15,7 @@ use unwrapd_pipeline::{
     hold_picture, hold_uvs,
 };
 
-/// All that a session does. It depends on nothing but the input and the messages, and on which iterations these come before.
+/// State of a session. It depends only on the input, the messages, and the iterations that these precede.
 pub struct Course {
     hand: Box<dyn Hand>,
     step: u32,
@@ -23,11 +23,11 @@ pub struct Course {
 }
 
 impl Course {
-    /// Takes into the hand what a job of this kind with these options would deform, at rest, with the handles of the options, named by
-    /// their places in the list.
+    /// Opens a session on what such a job would deform, at rest, with the handles of the options, numbered in
+    /// list order.
     ///
     /// # Errors
-    /// As the job, or if it is of another kind than those that can be pulled.
+    /// Fails like the job, or if its kind has no handles.
     pub fn new(
         kind: Kind,
         options: &Value,
@@ -68,12 +68,12 @@ impl Course {
         Ok(course)
     }
 
-    /// The mesh, as the protocol has it.
+    /// Returns the mesh in the format of the protocol.
     pub fn mesh(&self) -> Vec<u8> {
         frame::mesh(&self.hand.drawn(), &self.hand.elements())
     }
 
-    /// The present frame, as the protocol has it.
+    /// Returns the current frame in the format of the protocol.
     pub fn frame(&self) -> Vec<u8> {
         let positions = self.hand.positions();
         let header = Header {
@@ -86,18 +86,18 @@ impl Course {
         frame::frame(&header, &self.hand.elements(), &positions)
     }
 
-    /// Whether another iteration would change the map.
+    /// Returns whether another iteration would change the map.
     pub fn is_moving(&self) -> bool {
         self.hand.stage() == Stage::Moving
     }
 
-    /// One iteration, unless there is nothing left to do. Counted in any case.
+    /// Performs one iteration unless the map is settled. Counts it in any case.
     pub fn step(&mut self) {
         self.hand.step();
         self.step = self.step.wrapping_add(1);
     }
 
-    /// Does what a message wishes.
+    /// Executes the command of a message.
     pub fn take(&mut self, message: &Message) -> Reply {
         let reply = self.reply(message.n);
         let done = self.wished(&message.wish);
@@ -112,7 +112,7 @@ impl Course {
         }
     }
 
-    /// Answers a move whose place a later one takes.
+    /// Answers a move that a later one supersedes.
     pub fn supersede(&mut self, n: u32) -> Reply {
         Reply {
             superseded: true,
@@ -120,7 +120,7 @@ impl Course {
         }
     }
 
-    /// Answers a message that is none.
+    /// Answers a malformed message.
     pub fn refuse(&mut self, n: u32, error: Failure) -> Reply {
         Reply {
             error: Some(error),
@@ -163,7 +163,8 @@ impl Course {
         }
     }
 
-    /// The handles as the options of the job have them, and the coordinates of its [start](unwrapd_api::START).
+    /// Returns the handles in the format of the job's options, and the coordinates of its
+    /// [start](unwrapd_api::START).
     pub fn baked(&self) -> (Vec<Value>, Vec<f64>) {
         let handles = self.hand.handles().into_iter().map(|named| named.handle);
         (handles.collect(), self.hand.start())
@@ -174,7 +175,7 @@ fn there_is(something: bool, otherwise: impl FnOnce() -> Failure) -> Result<(), 
     if something { Ok(()) } else { Err(otherwise()) }
 }
 
-/// UVs in the hand, and their anchors.
+/// Opens UVs for live editing, and returns the anchors of the options.
 fn uvs(
     upload: &Upload,
     editing: Editing,

@@ -21,30 +21,30 @@ use unwrapd_method::numerics::predicates::{orient2d_sign, orient3d_sign};
 use unwrapd_method::solver::Stage;
 use unwrapd_pipeline::Skin;
 
-/// The first byte of a mesh.
+/// First byte of a mesh.
 const MESH: u8 = 1;
-/// The first byte of a frame.
+/// First byte of a frame.
 const FRAME: u8 = 2;
 
-/// Elements, and for some of the plane the sign that the area of each has to have, 0 for any; without, all are positive.
+/// Elements. Triangles may have required signs of their areas, 0 for any; without signs all must be positive.
 pub(super) enum Elements<'a> {
     Triangles(&'a [[u32; 3]], Option<Vec<i8>>),
     Tetrahedra(&'a [[u32; 4]]),
 }
 
-/// What a client needs to know once.
+/// Data that a client needs once.
 pub(super) struct Drawn<'a> {
     /// Coordinates at rest.
     pub rest: Vec<f64>,
-    /// What is seen.
+    /// Triangles to draw.
     pub triangles: &'a [[u32; 3]],
-    /// What is carried along.
+    /// Skin that follows the elements.
     pub skin: Option<&'a Skin>,
-    /// Columns and rows.
+    /// Columns and rows of the picture.
     pub picture: Option<[usize; 2]>,
 }
 
-/// What a frame says beside positions.
+/// Header of a frame.
 pub(super) struct Header {
     pub stage: Stage,
     pub step: u32,
@@ -54,7 +54,7 @@ pub(super) struct Header {
 }
 
 impl<'a> Elements<'a> {
-    /// Of a body, in which all are positive.
+    /// Returns the elements of a body, which must all be positive.
     pub fn of_body(body: &'a Body) -> Self {
         match &body.elements {
             BodyElements::Triangles { corners, .. } => Self::Triangles(corners, None),
@@ -69,7 +69,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// How many do not have the orientation that they have to have, exactly.
+    /// Counts the elements without their required orientation, exactly.
     fn flips(&self, x: &[f64]) -> u32 {
         let flips = match self {
             Self::Triangles(triangles, signs) => {
@@ -94,7 +94,8 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// A frame. Coordinates are rounded to f32 unless that would flip an element; flips are those of the numbers in it.
+/// Encodes a frame. Rounds coordinates to f32 unless that would flip an element; `flips` counts the encoded
+/// numbers.
 pub(super) fn frame(header: &Header, elements: &Elements, x: &[f64]) -> Vec<u8> {
     let rounded: Vec<f64> = x.iter().map(|&x| f64::from(x as f32)).collect();
     let mut flips = elements.flips(&rounded);
@@ -126,7 +127,7 @@ pub(super) fn frame(header: &Header, elements: &Elements, x: &[f64]) -> Vec<u8> 
     bytes
 }
 
-/// A mesh.
+/// Encodes a mesh.
 pub(super) fn mesh(drawn: &Drawn, elements: &Elements) -> Vec<u8> {
     let (corners, n_corners): (&[u32], usize) = match elements {
         Elements::Triangles(triangles, _) => (triangles.as_flattened(), 3),

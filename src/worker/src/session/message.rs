@@ -1,4 +1,4 @@
-//! What clients say to a session, and what it answers.
+//! Messages of clients to a session, and its replies.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -6,82 +6,82 @@ use serde_json::Value;
 use unwrapd_api::Failure;
 use unwrapd_deform::Model;
 
-/// One message of a client.
+/// A message of a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Message {
-    /// The client's number of it. A frame has that of the last message that it contains.
+    /// The client's number of the message. A frame has that of the last message that it contains.
     pub n: u32,
-    /// What it wishes.
+    /// Command of the message.
     #[serde(flatten)]
     pub wish: Wish,
 }
 
-/// What a client wishes.
+/// Command of a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wish {
-    /// Take hold of something, or exchange the handle that has this name.
+    /// Add a handle, or replace the handle with this name.
     Add {
-        /// The client's name for it.
+        /// The client's name for the handle.
         name: u32,
-        /// As in the options of the job.
+        /// Handle in the format of the job's options.
         handle: Value,
     },
-    /// Give a handle another target.
+    /// Move the target of a handle.
     Move {
-        /// Which.
+        /// Name of the handle.
         name: u32,
-        /// Its target.
+        /// Coordinates of the target.
         to: Vec<f64>,
     },
-    /// Let go of a handle.
+    /// Remove a handle.
     Remove {
-        /// Which.
+        /// Name of the handle.
         name: u32,
     },
-    /// Exchange energy and barrier; what is absent has its default.
+    /// Replace energy and barrier; absent settings have their defaults.
     Settings(Model),
-    /// Remember map and handles, as before a drag.
+    /// Save map and handles, as before a drag.
     Remember {},
-    /// Return to what was remembered last.
+    /// Restore what was saved last.
     Undo {},
-    /// Take an undo back.
+    /// Revert an undo.
     Redo {},
-    /// Return to the start, without handles.
+    /// Restore the initial map, without handles.
     Reset {},
-    /// Tell which handles there are.
+    /// List the handles.
     List {},
 }
 
-/// What a message is answered.
+/// Reply to a message.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reply {
-    /// The number of the message.
+    /// Number of the message.
     pub n: u32,
-    /// Iterations of the session before it took effect.
+    /// Iterations of the session before the message took effect.
     pub step: u32,
-    /// Whether a later move of the same handle took its place: it had no effect of its own.
+    /// Set if a later move of the same handle superseded this one, which had no effect.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub superseded: bool,
-    /// The handles that there are, after what changes all of them.
+    /// Current handles, after a command that changes all of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub handles: Option<Vec<Named>>,
-    /// Why it had no effect.
+    /// Reason why the command had no effect.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<Failure>,
 }
 
-/// A handle and its name.
+/// A named handle.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Named {
-    /// The client's name for it.
+    /// The client's name for the handle.
     pub name: u32,
-    /// As in the options of the job.
+    /// Handle in the format of the job's options.
     pub handle: Value,
 }
 
 impl Message {
-    /// Reads one. The number is 0 where even that cannot be read.
+    /// Parses a message. On failure returns its number, or 0 if even that cannot be read.
     pub(super) fn read(json: &[u8]) -> Result<Self, (u32, Failure)> {
         serde_json::from_slice(json).map_err(|error| {
             let n = serde_json::from_slice::<Value>(json).ok();
@@ -90,7 +90,7 @@ impl Message {
         })
     }
 
-    /// The handle that it moves, if that is all it does.
+    /// Returns the name of the handle if the message is a move.
     pub(super) fn moved(&self) -> Option<u32> {
         match self.wish {
             Wish::Move { name, .. } => Some(name),

@@ -1,7 +1,8 @@
 //! The child of a live session: messages in, frames out.
 //!
-//! [`Course`] is all that the child does between its pipes: it takes messages in their order and makes a frame after each
-//! iteration, so that whoever has both can make the frames again.
+//! [`Course`] is the whole state between the pipes of the child: it handles messages in order and produces a
+//! frame
+//! after each iteration, so the frames can be reproduced from input and messages.
 
 mod body_hand;
 mod child;

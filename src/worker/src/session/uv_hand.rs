@@ -1,4 +1,4 @@
-//! UVs in the hand of a client.
+//! Live editing of UVs.
 
 use serde_json::Value;
 
@@ -11,14 +11,14 @@ use unwrapd_deform::Model;
 use unwrapd_deform::uv::{Anchor, AnchorId, EditError, UvSession};
 use unwrapd_method::solver::Stage;
 
-/// UVs in the hand.
+/// UVs under live editing.
 pub(super) struct UvHand {
     session: UvSession,
     names: Names<AnchorId>,
 }
 
 impl UvHand {
-    /// As they were taken into the hand.
+    /// Wraps a session on UVs.
     pub fn new(session: UvSession) -> Self {
         Self {
             session,

@@ -1,20 +1,20 @@
-//! Who asks.
+//! The identity and the permissions behind a request.
 
 use super::key::Key;
 use super::owner::Owner;
 use super::scope::{Scope, Scopes};
 
-/// How far somebody sees. What lies beyond does not exist for them.
+/// Visibility of jobs and sessions. Anything outside it is reported as missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reach {
-    /// What belongs to this owner.
+    /// Only what this owner has.
     Own(Owner),
     /// Everything.
     All,
 }
 
 impl Reach {
-    /// Whether what belongs to this owner is seen.
+    /// Returns whether something of this owner is visible.
     pub fn covers(&self, owner: &Owner) -> bool {
         match self {
             Self::Own(own) => own == owner,
@@ -23,17 +23,17 @@ impl Reach {
     }
 }
 
-/// Who asks, and what they may.
+/// An authenticated caller with its scopes.
 #[derive(Clone, Debug)]
 pub struct Caller {
     owner: Owner,
     scopes: Scopes,
-    /// The key that came; none where none is asked for.
+    /// Key of the request; `None` if the service requires no keys.
     pub(super) key: Option<Key>,
 }
 
 impl Caller {
-    /// Anybody, where no key is asked for: they may do everything.
+    /// Returns the caller of a service that requires no keys; it has every scope.
     pub fn anonymous() -> Self {
         Self {
             owner: Owner::anonymous(),
@@ -42,7 +42,7 @@ impl Caller {
         }
     }
 
-    /// Whoever has this key.
+    /// Returns the caller that holds this key.
     pub(super) fn of(key: Key) -> Self {
         Self {
             owner: key.owner.clone(),
@@ -51,17 +51,17 @@ impl Caller {
         }
     }
 
-    /// Whose what they make is.
+    /// Returns the owner of everything that the caller creates.
     pub fn owner(&self) -> &Owner {
         &self.owner
     }
 
-    /// What they may do.
+    /// Returns the scopes of the caller.
     pub fn scopes(&self) -> &Scopes {
         &self.scopes
     }
 
-    /// How far they see.
+    /// Returns the visibility of the caller: everything with the `admin` scope, otherwise its own.
     pub fn reach(&self) -> Reach {
         if self.scopes.have(Scope::Admin) {
             Reach::All
@@ -70,7 +70,7 @@ impl Caller {
         }
     }
 
-    /// Their key.
+    /// Returns the key of the caller; `None` if the service requires no keys.
     pub fn key(&self) -> Option<&Key> {
         self.key.as_ref()
     }

@@ -1,4 +1,4 @@
-//! Keys as they are recorded.
+//! Key records and the store that keeps them.
 
 use std::time::Duration;
 
@@ -9,27 +9,27 @@ use super::owner::Owner;
 use super::scope::Scopes;
 use crate::jobs::{StoreResult, Timestamp};
 
-/// A key that is to be recorded.
+/// A key to be recorded.
 #[derive(Clone, Debug)]
 pub struct NewKey {
-    /// Names it.
+    /// Id of the key.
     pub id: KeyId,
     /// SHA-256 of its secret, in hexadecimal digits.
     pub digest: String,
-    /// Whose what is made with it is.
+    /// Owner of everything created with it.
     pub owner: Owner,
-    /// What it is good for.
+    /// Scopes that it grants.
     pub scopes: Scopes,
-    /// What people call it.
+    /// Label for people.
     pub name: String,
-    /// How long it is good; none: until it is revoked.
+    /// Lifetime; `None` if it is valid until it is revoked.
     pub life: Option<Duration>,
-    /// The key that signed in with it. It is good no longer than that one.
+    /// Key that signed in with it. It expires no later than that one.
     pub parent: Option<Key>,
 }
 
 impl NewKey {
-    /// The key as it is recorded at a time.
+    /// Returns the record of the key if it is created at `now`.
     pub fn recorded(&self, now: Timestamp) -> Key {
         let parent = self.parent.as_ref();
         let ends = [
@@ -51,50 +51,49 @@ impl NewKey {
     }
 }
 
-/// A key as it is recorded.
+/// A recorded key.
 #[derive(Clone, Debug)]
 pub struct Key {
-    /// Names it.
+    /// Id of the key.
     pub id: KeyId,
     /// SHA-256 of its secret, in hexadecimal digits.
     pub digest: String,
-    /// Whose what is made with it is.
+    /// Owner of everything created with it.
     pub owner: Owner,
-    /// What it is good for.
+    /// Scopes that it grants.
     pub scopes: Scopes,
-    /// What people call it.
+    /// Label for people.
     pub name: String,
-    /// The key that signed in with it.
+    /// Id of the key that signed in with it.
     pub parent: Option<KeyId>,
-    /// When it was made.
+    /// Time of creation.
     pub created: Timestamp,
-    /// When it is good no longer.
+    /// Time of expiry; `None` if it never expires.
     pub expires: Option<Timestamp>,
-    /// When it was revoked.
+    /// Time of revocation.
     pub revoked: Option<Timestamp>,
-    /// When it was used last, to the hour.
+    /// Time of last use, to the hour.
     pub used: Option<Timestamp>,
 }
 
-/// Records of keys, in one place with those of jobs, so that all processes that share these share
-/// them. Times are those of the store's own clock.
+/// Store of key records. It lies beside the job records, so all processes that share these share the keys.
+/// Times are those of the store's clock.
 pub trait KeyStore: Send + Sync {
     /// Records a key.
     fn add_key<'a>(&'a self, new: &'a NewKey) -> BoxFuture<'a, StoreResult<Key>>;
 
-    /// Whether a key was ever made.
+    /// Returns whether any key was ever created.
     fn has_keys(&self) -> BoxFuture<'_, StoreResult<bool>>;
 
-    /// The keys that were ever made, the oldest first, without those of pages that signed in.
+    /// Returns all keys ever created, oldest first, without the keys of signed-in pages.
     fn keys(&self) -> BoxFuture<'_, StoreResult<Vec<Key>>>;
 
-    /// A key that is neither revoked nor expired, and nor is the one that signed in with it.
+    /// Returns a key if neither it nor its parent is revoked or expired.
     fn good_key<'a>(&'a self, id: &'a KeyId) -> BoxFuture<'a, StoreResult<Option<Key>>>;
 
-    /// Notes that a key is used, and the one that signed in with it, unless that was noted within
-    /// this time.
+    /// Records the use of a key and of its parent, unless a use was recorded within `every`.
     fn note_use<'a>(&'a self, id: &'a KeyId, every: Duration) -> BoxFuture<'a, StoreResult<()>>;
 
-    /// Revokes a key; false if there is none that is not revoked.
+    /// Revokes a key. Returns `false` if there is no such key or it was already revoked.
     fn revoke<'a>(&'a self, id: &'a KeyId) -> BoxFuture<'a, StoreResult<bool>>;
 }

@@ -1,27 +1,27 @@
-//! What names a key.
+//! Ids of keys.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Random bytes of an id.
+/// Number of random bytes in an id.
 pub(super) const ID_BYTES: usize = 8;
 
-/// Names a key. It is no secret.
+/// Id of a key. It is not secret.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct KeyId(String);
 
-/// What is no id of a key.
+/// Error for a text that is not a key id.
 #[derive(Debug, thiserror::Error)]
 #[error("the id of a key has 16 hexadecimal digits")]
 pub struct InvalidKeyId;
 
 impl KeyId {
-    /// The id that a record has.
+    /// Returns the id stored in a record, without checking it.
     pub fn recorded(text: String) -> Self {
         Self(text)
     }
 
-    /// The id as records have it.
+    /// Returns the id as records store it.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -42,7 +42,7 @@ impl fmt::Display for KeyId {
     }
 }
 
-/// Whether a text is the id of a key.
+/// Returns whether a text has the form of a key id.
 fn is_id(text: &str) -> bool {
     let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
     text.len() == 2 * ID_BYTES && text.bytes().all(is_digit)

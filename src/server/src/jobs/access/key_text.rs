@@ -9,19 +9,19 @@ use super::key_id::{ID_BYTES, KeyId};
 use crate::jobs::{StoreError, StoreResult};
 use unwrapd_api::sha256;
 
-/// What a key begins with, so that people and scanners for leaked secrets know it.
+/// Prefix of every key, by which people and scanners for leaked secrets recognize it.
 const PREFIX: &str = "uw_";
-/// Random bytes of a secret.
+/// Number of random bytes in a secret.
 const SECRET_BYTES: usize = 32;
 
-/// The text of a key: `uw_ID_SECRET`, both parts in hexadecimal digits.
+/// Text of a key: `uw_ID_SECRET`, both parts in hexadecimal digits.
 pub struct KeyText {
     id: KeyId,
     secret: String,
 }
 
 impl KeyText {
-    /// A fresh one, of the system's randomness.
+    /// Generates a key from the system's randomness.
     pub fn fresh() -> StoreResult<Self> {
         Ok(Self {
             id: KeyId::recorded(random_hex::<ID_BYTES>()?),
@@ -29,7 +29,7 @@ impl KeyText {
         })
     }
 
-    /// The key that a text is, if it has the form of one.
+    /// Parses a key; returns `None` if the text does not have the form of one.
     pub fn parse(text: &str) -> Option<Self> {
         let (id, secret) = text.strip_prefix(PREFIX)?.split_once('_')?;
         Some(Self {
@@ -38,28 +38,28 @@ impl KeyText {
         })
     }
 
-    /// What names it, and is no secret.
+    /// Returns the id of the key, which is not secret.
     pub fn id(&self) -> &KeyId {
         &self.id
     }
 
-    /// What is kept of the secret.
+    /// Returns the SHA-256 of the secret, which is all that is stored of it.
     pub fn digest(&self) -> String {
         sha256(self.secret.as_bytes())
     }
 
-    /// Whether this is the digest of its secret. That takes as long wherever they differ.
+    /// Returns whether this is the digest of the secret, in constant time.
     pub fn has_digest(&self, digest: &str) -> bool {
         self.digest().as_bytes().ct_eq(digest.as_bytes()).into()
     }
 
-    /// The whole text, to be given to its owner.
+    /// Returns the full text, to be given to its owner.
     pub fn reveal(&self) -> String {
         format!("{PREFIX}{}_{}", self.id, self.secret)
     }
 }
 
-/// Without the secret: it must not come into a log.
+/// Omits the secret, which must not reach a log.
 impl fmt::Debug for KeyText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{PREFIX}{}_…", self.id)

@@ -1,17 +1,21 @@
-//! Who may do what: owners, keys with scopes, and the calls that come with them.
+//! Access control: owners, keys with scopes, and callers.
 //!
-//! Every job and every live session has an [`Owner`]. Whoever looks for one says how far they see, their
-//! [`Reach`], and what lies beyond it does not exist for them. A call gets its reach from its
-//! [`Caller`], and that from the key that it carries, so none can be looked for without.
+//! Every job and every live session has an [`Owner`]. Each lookup takes a [`Reach`], and anything outside it
+//! is
+//! reported as missing. A request gets its reach from its [`Caller`], and the caller from the key in the
+//! request,
+//! so no lookup can skip the check.
 //!
-//! A [`Key`] is kept as the digest of its secret. Secrets are 32 random bytes that nobody can guess,
-//! so that SHA-256 is enough: a slow hash protects words that people choose. Once a key was made, a
-//! service asks for one, even after all are revoked or have expired: forgetting to make a new one
-//! locks everybody out and lets nobody in.
+//! Of a [`Key`] only the digest of its secret is stored. Secrets are 32 random bytes that nobody can guess,
+//! so
+//! SHA-256 is enough: slow hashes protect passwords that people choose. Once a key exists, the service
+//! requires
+//! one, even after all keys are revoked or expired: forgetting to create a new key locks everybody out and
+//! lets nobody in.
 //!
-//! Browsers cannot send a header with a WebSocket or a picture. A page signs in instead: it gets a key
-//! made for it, in a cookie that no script reads, which ends after some hours or with the key that
-//! made it.
+//! Browsers cannot send a header with a WebSocket or an image. A page signs in instead: it gets a key of its
+//! own in a cookie that scripts cannot read. That key expires after some hours, or with the key that created
+//! it.
 
 mod caller;
 mod key;

@@ -1,36 +1,36 @@
-//! Whose something is.
+//! Owners of jobs and sessions.
 
 use std::str::FromStr;
 
-/// Characters of a name at most.
+/// Maximum length of a name in characters.
 const MOST: usize = 64;
 
-/// Whose a job or a session is. What is made without a key is the anonymous owner's.
+/// Owner of a job or a session. Anything created without a key belongs to the anonymous owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Owner(String);
 
-/// What is no name of an owner.
+/// Error for a text that is not the name of an owner.
 #[derive(Debug, thiserror::Error)]
 #[error("a name has 1 to {MOST} characters: letters, digits and any of . _ @ + -")]
 pub struct InvalidOwner;
 
 impl Owner {
-    /// The owner of what is made without a key.
+    /// Returns the owner of everything created without a key.
     pub fn anonymous() -> Self {
         Self::default()
     }
 
-    /// The owner that a record names.
+    /// Returns the owner named by a record, without checking the name.
     pub fn recorded(text: String) -> Self {
         Self(text)
     }
 
-    /// The name as records have it, which is empty for the anonymous one.
+    /// Returns the name as records store it; it is empty for the anonymous owner.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// The name, if there is one.
+    /// Returns the name; `None` for the anonymous owner.
     pub fn name(&self) -> Option<&str> {
         Some(self.as_str()).filter(|name| !name.is_empty())
     }

@@ -1,4 +1,4 @@
-//! Keys that come with calls, and whether they are good.
+//! Authentication of requests by key, with a short-lived cache.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -12,54 +12,54 @@ use super::key_id::KeyId;
 use super::key_text::KeyText;
 use crate::jobs::{StoreError, StoreResult, Timestamp};
 
-/// How long an answer of the store is used again: a revoked key is refused that much later at most.
+/// Time for which an answer of the store is cached. A revoked key is accepted for at most that long.
 const FRESH: Duration = Duration::from_secs(2);
-/// Between two notes that a key is used.
+/// Minimum time between two records of a key's use.
 const NOTED: Duration = Duration::from_hours(1);
-/// How long a page stays signed in.
+/// Lifetime of a page's sign-in.
 const SIGNED_IN: Duration = Duration::from_hours(12);
 
-/// Why a call is not answered.
+/// Reason for rejecting a request.
 #[derive(Debug, thiserror::Error)]
 pub enum Denied {
-    /// It has no key.
+    /// The request has no key.
     #[error("a key is needed")]
     NoKey,
-    /// Its key is unknown, revoked or expired.
+    /// The key is unknown, revoked or expired.
     #[error("the key is not good")]
     BadKey,
-    /// The store does not say.
+    /// The store cannot be read.
     #[error(transparent)]
     Store(#[from] StoreError),
 }
 
-/// A key that was made for a page.
+/// A key created for a page that signed in.
 #[derive(Debug)]
 pub struct Signed {
-    /// Its text.
+    /// Text of the key.
     pub text: KeyText,
-    /// How long it is good.
+    /// Lifetime of the key.
     pub life: Duration,
 }
 
-/// The keys of a store, as a service asks about them again and again.
+/// Cached view of the keys of a store.
 pub struct KeyRing {
     store: Arc<dyn KeyStore>,
     known: Mutex<Known>,
 }
 
-/// What the store has said.
+/// Cached answers of the store.
 struct Known {
-    /// Whether keys are asked for: that never ends.
+    /// Set once keys are required; never reset.
     are_required: bool,
-    /// When it was last found that they are not.
+    /// Time at which keys were last found not to be required.
     are_free: Option<Instant>,
-    /// Good keys, and when they were found to be.
+    /// Valid keys, each with the time of its lookup.
     good: HashMap<KeyId, (Key, Instant)>,
 }
 
 impl KeyRing {
-    /// Asks for keys once there is one.
+    /// Creates a key ring that requires keys once the store has one.
     pub fn new(store: Arc<dyn KeyStore>) -> Self {
         let known = Known {
             are_required: false,
@@ -72,7 +72,7 @@ impl KeyRing {
         }
     }
 
-    /// Asks for keys from the start.
+    /// Requires keys from the start.
     #[must_use]
     pub fn requiring_keys(self) -> Self {
         self.known().are_required = true;
@@ -83,7 +83,7 @@ impl KeyRing {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether a call needs a key.
+    /// Returns whether requests need a key.
     pub async fn are_required(&self) -> StoreResult<bool> {
         {
             let known = self.known();
@@ -99,7 +99,7 @@ impl KeyRing {
         Ok(known.are_required)
     }
 
-    /// Who calls with this text for a key.
+    /// Authenticates a request by the text of its key.
     pub async fn caller(&self, text: Option<&str>) -> Result<Caller, Denied> {
         if !self.are_required().await? {
             return Ok(Caller::anonymous());
@@ -113,7 +113,7 @@ impl KeyRing {
         Ok(Caller::of(key))
     }
 
-    /// The good key of this id.
+    /// Returns the key with this id if it is valid; asks the store unless the cached answer is fresh.
     async fn good(&self, id: &KeyId) -> StoreResult<Option<Key>> {
         let known = self.known().good.get(id).cloned();
         if let Some((key, found)) = known
@@ -124,7 +124,7 @@ impl KeyRing {
         let asked = Instant::now();
         let key = self.store.good_key(id).await?;
         let mut known = self.known();
-        // Whoever knows no secret cannot fill it: ids that are unknown are not kept.
+        // Unknown ids are not kept, so callers without a key cannot fill it.
         known.good.retain(|_, (_, found)| is_fresh(*found));
         if let Some(key) = &key {
             known.good.insert(id.clone(), (key.clone(), asked));
@@ -147,7 +147,8 @@ impl KeyRing {
         }
     }
 
-    /// Makes a key for a page of a caller; none for a caller without one.
+    /// Creates a key for a page of the caller. Returns `None` if the caller has no key, or if it was just
+    /// revoked.
     pub async fn sign_in(&self, caller: &Caller) -> StoreResult<Option<Signed>> {
         let Some(key) = caller.key() else {
             return Ok(None);
@@ -176,7 +177,7 @@ impl KeyRing {
         Ok(Some(Signed { text, life }))
     }
 
-    /// Ends the key of a page; that of a person stays.
+    /// Revokes the key of a signed-in page. A key of a person stays valid.
     pub async fn sign_out(&self, caller: &Caller) -> StoreResult<()> {
         if let Some(key) = caller.key().filter(|key| key.parent.is_some()) {
             self.store.revoke(&key.id).await?;
@@ -185,7 +186,7 @@ impl KeyRing {
         Ok(())
     }
 
-    /// Returns when a caller would not be let in any more: what goes on for long ends then.
+    /// Waits until the caller would no longer be let in, so that long-running responses can end.
     pub async fn lapsed(&self, caller: &Caller) {
         loop {
             sleep(FRESH).await;

@@ -1,4 +1,4 @@
-//! What a key is good for.
+//! Scopes of keys.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -21,7 +21,7 @@ pub enum Scope {
 impl Scope {
     const ALL: [Self; 3] = [Self::Read, Self::Write, Self::Admin];
 
-    /// The word that people use.
+    /// Returns the scope's name on the command line and in the API.
     pub fn word(self) -> &'static str {
         match self {
             Self::Read => "read",
@@ -31,22 +31,22 @@ impl Scope {
     }
 }
 
-/// Several scopes. As text they are words with commas between; `admin` alone stands for all.
+/// A set of scopes. Its text form is a comma-separated list of names; `admin` alone stands for all scopes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Scopes(BTreeSet<Scope>);
 
-/// What are no scopes.
+/// Error for a text that is not a set of scopes.
 #[derive(Debug, thiserror::Error)]
 #[error("expected some of read, write and admin, with commas between")]
 pub struct InvalidScopes;
 
 impl Scopes {
-    /// All of them.
+    /// Returns all scopes.
     pub fn all() -> Self {
         Self(Scope::ALL.into())
     }
 
-    /// Whether this one is among them.
+    /// Returns whether the set contains a scope.
     pub fn have(&self, scope: Scope) -> bool {
         self.0.contains(&scope)
     }
