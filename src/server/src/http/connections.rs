@@ -5,8 +5,11 @@
 //! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single
 //! address from taking all of them (`gate.rs`).
 
-use std::pin::pin;
-
+use super::admission::Peer;
+use super::counted::Counted;
+use super::crowds::{Crowds, Seat};
+use super::problem::{Code, Problem};
+use super::settings::Connections;
 use axum::Router;
 use hyper::Request;
 use hyper::body::Incoming;
@@ -14,15 +17,20 @@ use hyper::server::conn::http1::Builder;
 use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use tokio::net::TcpListener;
+use std::collections::VecDeque;
+use std::io;
+use std::io::{Error, ErrorKind};
+use std::net::{IpAddr, SocketAddr};
+use std::pin::{Pin, pin};
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio_io_timeout::TimeoutStream;
 use tokio_util::sync::CancellationToken;
-use tokio_util::task::TaskTracker;
-
-use super::admission::Peer;
-use super::counted::Counted;
-use super::gate::Gate;
-use super::held::Held;
-use super::settings::Connections;
+use tokio_util::task::{AbortOnDropHandle, TaskTracker};
 
 /// Serves connections until told to stop, then completes the requests under way.
 pub(super) async fn serve(
@@ -67,4 +75,187 @@ pub(super) async fn serve(
     drop(gate);
     open.close();
     open.wait().await;
+}
+
+// Connection limits, global and per address.
+
+/// Delay after a temporary error, such as too many open files.
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// Accepts connections within the limits.
+struct Gate {
+    listener: TcpListener,
+    places: Arc<Semaphore>,
+    crowds: Arc<Crowds<IpAddr>>,
+    most_of_address: Option<usize>,
+    refused: Refused,
+}
+
+/// Slots of a connection, global and of its address, until it is dropped.
+type Place = (Option<OwnedSemaphorePermit>, Seat<IpAddr>);
+
+impl Gate {
+    /// Creates a gate with these limits.
+    pub fn new(listener: TcpListener, limits: &Connections) -> Self {
+        Self {
+            listener,
+            places: Arc::new(Semaphore::new(limits.most)),
+            crowds: Arc::default(),
+            most_of_address: limits.most_of_address,
+            refused: Refused::of_more_than(limits.most_of_address.unwrap_or(limits.most)),
+        }
+    }
+
+    /// Waits for the next connection that may stay. Connections of addresses that have too many are refused
+    /// meanwhile
+    /// and take no slot.
+    pub async fn next(&mut self) -> (TcpStream, IpAddr, Place) {
+        // The semaphore is never closed.
+        let place = Arc::clone(&self.places).acquire_owned().await.ok();
+        loop {
+            let (stream, peer) = accepted(&self.listener).await;
+            match Crowds::enter(&self.crowds, peer.ip(), self.most_of_address) {
+                Some(seat) => return (stream, peer.ip(), (place, seat)),
+                None => self.refused.add(stream),
+            }
+        }
+    }
+}
+
+/// Accepts the next connection from any address.
+async fn accepted(listener: &TcpListener) -> (TcpStream, SocketAddr) {
+    loop {
+        match listener.accept().await {
+            Ok((stream, address)) => {
+                // A frame behind a reply would else wait for the reply's acknowledgment: 40 ms.
+                let _ = stream.set_nodelay(true);
+                return (stream, address);
+            }
+            // The client has gone already.
+            Err(error) if is_of_client(&error) => {}
+            Err(error) => {
+                tracing::error!(%error, "no connection can be accepted");
+                tokio::time::sleep(PAUSE).await;
+            }
+        }
+    }
+}
+
+fn is_of_client(error: &Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::ConnectionRefused | ErrorKind::ConnectionAborted | ErrorKind::ConnectionReset
+    )
+}
+
+// Refusal of connections whose address has too many. They have a few slots of their own, so that they delay
+// nobody else.
+
+/// Time for the request of a refused client.
+const TIME: Duration = Duration::from_secs(1);
+/// Maximum number of refusals under way. Clients that send at once are answered before they are pushed out;
+/// each
+/// connection takes an open file.
+const MOST: usize = 32;
+
+/// Connections waiting for their refusal, oldest first.
+struct Refused {
+    answer: Router,
+    waiting: VecDeque<AbortOnDropHandle<()>>,
+}
+
+impl Refused {
+    /// Creates an empty set. The refusal states the limit per address, `most`.
+    pub fn of_more_than(most: usize) -> Self {
+        let answer = Router::new().fallback(async move || {
+            let detail = format!("an address may have {most} connections at a time");
+            Problem::new(Code::TooManyConnections, detail).with_limit(most as u64)
+        });
+        Self {
+            answer,
+            waiting: VecDeque::with_capacity(MOST),
+        }
+    }
+
+    /// Answers the request of a connection with a refusal, then closes it. Closes it without an answer if no
+    /// request
+    /// comes within a second, or if it is the oldest of too many. Never waits.
+    pub fn add(&mut self, stream: TcpStream) {
+        self.waiting.retain(|one| !one.is_finished());
+        if self.waiting.len() == MOST {
+            self.waiting.pop_front();
+        }
+        let service = TowerToHyperService::new(self.answer.clone());
+        let counted = Counted::refused();
+        let answered = async move {
+            let _counted = counted;
+            let mut http1 = Builder::new();
+            let connection = http1.keep_alive(false);
+            let connection = connection.serve_connection(TokioIo::new(stream), service);
+            // What goes wrong here is the client's going away, or its silence.
+            let _ = tokio::time::timeout(TIME, connection).await;
+        };
+        let waiting = AbortOnDropHandle::new(tokio::spawn(answered));
+        self.waiting.push_back(waiting);
+    }
+}
+
+// Connections that keep their slot until they are closed, even after an upgrade to a WebSocket.
+
+/// A connection together with its slot.
+struct Held<P> {
+    stream: Pin<Box<TimeoutStream<TcpStream>>>,
+    _place: P,
+}
+
+impl<P> Held<P> {
+    /// Creates a connection that fails if nothing can be written for the time `silence`.
+    pub fn new(stream: TcpStream, silence: Duration, place: P) -> Self {
+        let mut stream = TimeoutStream::new(stream);
+        stream.set_write_timeout(Some(silence));
+        Self {
+            stream: Box::pin(stream),
+            _place: place,
+        }
+    }
+}
+
+impl<P: Unpin> AsyncRead for Held<P> {
+    fn poll_read(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        buffer: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        self.stream.as_mut().poll_read(context, buffer)
+    }
+}
+
+impl<P: Unpin> AsyncWrite for Held<P> {
+    fn poll_write(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        bytes: &[u8],
+    ) -> Poll<io::Result<usize>> {
+        self.stream.as_mut().poll_write(context, bytes)
+    }
+
+    fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        self.stream.as_mut().poll_flush(context)
+    }
+
+    fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        self.stream.as_mut().poll_shutdown(context)
+    }
+
+    fn poll_write_vectored(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        parts: &[io::IoSlice<'_>],
+    ) -> Poll<io::Result<usize>> {
+        self.stream.as_mut().poll_write_vectored(context, parts)
+    }
+
+    fn is_write_vectored(&self) -> bool {
+        self.stream.is_write_vectored()
+    }
 }

@@ -1,17 +1,19 @@
 //! The OpenAPI document: the docs of the handlers, and what several of them share.
 
-use std::collections::BTreeSet;
-
-use serde_json::{Map, Value, json};
-use utoipa::openapi::tag::TagBuilder;
-use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
-
+use super::admission::COOKIE;
+use super::answers::problems;
 use super::causes::CAUSES;
 use super::problem::Code;
 use super::schemas::{self, bytes, reference};
-use super::security;
+use super::scopes::needed;
 use super::upload::{other_types, surface_types};
+use crate::jobs::access::Scope;
+use axum::http::Method;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 use unwrapd_api::{Catalog, Kind};
+use utoipa::openapi::tag::TagBuilder;
+use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 
 const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
     distortion report out. Also deforms meshes, pictures and UVs by handles without inverting an element. Errors are \
@@ -74,7 +76,7 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     let mut document = serde_json::to_value(api).unwrap_or_default();
     document["servers"] =
         json!([{ "url": "/", "description": "The service that this document comes from" }]);
-    document["x-problems"] = problems();
+    document["x-problems"] = table_of_codes();
     document["webhooks"] = webhooks();
     schemas::merge_groups(&mut document["components"]["schemas"]);
 
@@ -99,7 +101,7 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     for operations in members(paths) {
         members(operations).for_each(complete);
     }
-    security::describe(&mut document, open);
+    describe(&mut document, open);
     serde_json::to_string_pretty(&document).unwrap_or_default()
 }
 
@@ -243,7 +245,7 @@ fn webhooks() -> Value {
 }
 
 /// Returns the table of codes.
-fn problems() -> Value {
+fn table_of_codes() -> Value {
     let row = |code: &Code| {
         let (word, status, title) = code.row();
         json!({ "code": word, "status": status, "title": title })
@@ -319,4 +321,70 @@ fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
         "description": "The input as a form, with the files it references, or the bytes of a single file",
         "content": content,
     });
+}
+
+// Keys in the OpenAPI document: how they are sent, and which scopes each operation requires.
+
+/// Names of the security schemes.
+const BEARER: &str = "key";
+const OF_PAGE: &str = "page";
+
+/// Adds the security requirements of all operations; those at `open` paths have none.
+fn describe(document: &mut Value, open: &[String]) {
+    document["components"]["securitySchemes"] = json!({
+        BEARER: {
+            "type": "http",
+            "scheme": "bearer",
+            "description": "A key that `unwrapd keys create` made. Without any key, a service asks for none.",
+        },
+        OF_PAGE: {
+            "type": "apiKey",
+            "in": "cookie",
+            "name": COOKIE,
+            "description": "The cookie of a page that signed in",
+        },
+    });
+    let paths = document["paths"].as_object_mut();
+    for (path, operations) in paths.into_iter().flatten() {
+        let operations = operations.as_object_mut();
+        for (method, operation) in operations.into_iter().flatten() {
+            if open.contains(path) {
+                operation["security"] = json!([]);
+            } else {
+                ask(operation, method, path);
+            }
+        }
+    }
+}
+
+fn ask(operation: &mut Value, method: &str, path: &str) {
+    let method = method.to_ascii_uppercase();
+    let method = Method::from_bytes(method.as_bytes()).unwrap_or_default();
+    let scopes: Vec<&str> = needed(&method, path).into_iter().map(Scope::word).collect();
+    operation["security"] = json!([{ BEARER: scopes }, { OF_PAGE: scopes }, {}]);
+    let mut codes = vec![
+        Code::KeyRequired,
+        Code::KeyRefused,
+        Code::MissingScope,
+        Code::RateLimited,
+    ];
+    // What a page of another site must not do: change something, or open a WebSocket.
+    if method != Method::GET || !operation["responses"]["101"].is_null() {
+        codes.push(Code::ForeignOrigin);
+    }
+    let mut refusals = json!(problems(&codes));
+    let challenge = json!({ "description": "How to send a key", "schema": { "type": "string" } });
+    refusals["401"]["headers"] = json!({ "WWW-Authenticate": challenge });
+    for (status, refusal) in refusals.as_object().into_iter().flatten() {
+        let answer = &mut operation["responses"][status];
+        match answer["description"].as_str() {
+            Some(known) => {
+                let both = format!("{known}; {}", refusal["description"].as_str().unwrap_or(""));
+                answer["description"] = both.into();
+            }
+            None => *answer = refusal.clone(),
+        }
+    }
+    let answers = operation["responses"].as_object_mut();
+    answers.into_iter().for_each(Map::sort_keys);
 }

@@ -1,27 +1,28 @@
 //! One attempt at a job, from the worker's side.
 
+use super::access::Reach;
+use super::child::{Child, Exit};
+use super::deadline::{given_up_after, timed_out};
+use super::job::Job;
+use super::keys::{input_key, output_folder, output_key};
+use super::memory_failure::{Kills, killed_for_memory, out_of_memory};
+use super::meters::StageClock;
+use super::progress::Event;
+use super::queue::Jobs;
+use super::running::Attempt;
+use super::settings::Deployment;
+use super::storage::Changed;
+use super::store_error::{StoreError, StoreResult};
+use super::transition::{Ending, Happening};
 use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
-
-use tokio::time::Instant;
+use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
-
-use super::cgroup::Kills;
-use super::child::{Child, Exit};
-use super::conclusion::{conclude, disown};
-use super::job::Job;
-use super::keys::{input_key, output_key};
-use super::memory_failure::{killed_for_memory, out_of_memory};
-use super::queue::Jobs;
-use super::running::Attempt;
-use super::store_error::{StoreError, StoreResult};
-use super::supervision::{Watched, watch};
-use super::transition::Ending;
 use unwrapd_api::{
-    ERROR, Failure, Limits, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task, input_file,
+    ERROR, Failure, Limits, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task, input_file,
     output_file, read_json, write_json,
 };
 
@@ -182,4 +183,149 @@ async fn compute(
 /// sent.
 pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
     jobs.running.start(job, sent + jobs.settings.rules.lease)
+}
+
+// The end of an attempt: recorded, or disowned.
+
+/// Delay between two tries to record an end.
+const RECORDING_PAUSE: Duration = Duration::from_secs(1);
+
+/// Records how an attempt ended, and retries until the store answers: an outage of the store must not discard
+/// the result. If the job has gone to another worker meanwhile, the store rejects the outcome. A worker that
+/// has to leave does not wait: another one takes the job when the lease expires.
+async fn conclude(
+    jobs: &Jobs,
+    job: &Job,
+    attempt: &Attempt,
+    ending: Ending,
+    leave: &CancellationToken,
+) {
+    let happening = Happening::Ended(attempt.token, attempt.saying(), ending);
+    loop {
+        match jobs.store.change(&Reach::All, job.id, &happening).await {
+            Ok(Changed::Yes(job)) => {
+                let failure = job.failure.as_ref();
+                let code = failure.map(|failure| failure.code.as_str());
+                tracing::info!(job = %job.id, state = job.state.word(), code, "ended");
+                return jobs.tell(&job).await;
+            }
+            Ok(Changed::No(..) | Changed::Missing) => return disown(jobs, job).await,
+            Err(error) if error.is_passing() => {
+                tracing::warn!(job = %job.id, %error, "end not recorded yet");
+                tokio::select! {
+                    () = tokio::time::sleep(RECORDING_PAUSE) => {}
+                    () = leave.cancelled() => return,
+                }
+            }
+            Err(error) => {
+                tracing::error!(job = %job.id, %error, "end not recorded");
+                return;
+            }
+        }
+    }
+}
+
+/// Removes the files of an outdated attempt.
+async fn disown(jobs: &Jobs, job: &Job) {
+    tracing::warn!(job = %job.id, attempt = job.attempt, "outdated attempt");
+    let folder = output_folder(job.id, job.token);
+    if let Err(error) = jobs.blobs.remove(&folder).await {
+        tracing::warn!(job = %job.id, %error, "files of an outdated attempt not removed");
+    }
+}
+
+// Supervision of a compute child: passes on its progress and ends it when needed.
+
+/// Interval at which memory, processor time and lease are checked.
+const WATCH_INTERVAL: Duration = Duration::from_millis(250);
+
+/// Reason why supervision ended.
+enum Watched {
+    /// The child's output ended.
+    Silent,
+    /// The child has to be ended.
+    EndedBy(Ending),
+    /// The job belongs to another worker.
+    Outdated,
+}
+
+/// Passes on progress from a child and commands to it, until it ends or has to be ended.
+async fn watch(
+    jobs: &Jobs,
+    job: &Job,
+    attempt: &Attempt,
+    (child, folder): (&mut Child, &Path),
+    leave: &CancellationToken,
+) -> Watched {
+    let limits = &jobs.settings;
+    let deadline = Instant::now() + given_up_after(limits.time);
+    let mut interval = tokio::time::interval(WATCH_INTERVAL);
+    interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let mut event = attempt.event();
+    let mut stages = StageClock::of(job.kind);
+    let (mut is_ready, mut is_told, mut is_asked) = (false, false, false);
+    loop {
+        tokio::select! {
+            message = child.next_message() => match message {
+                None => return Watched::Silent,
+                Some(Message::Ready) => is_ready = true,
+                Some(Message::Cpu(ms)) => attempt.set_cpu_ms(ms),
+                Some(Message::Progress(progress)) => {
+                    event.progress.advance(progress);
+                    stages.show(progress.stage);
+                    event = Event { seq: event.seq + 1, ..job_event(job, event) };
+                    attempt.set_event(event);
+                    jobs.live.publish(job.id, event);
+                }
+                Some(Message::Maps) => {
+                    attempt.maps.take(folder).await;
+                    is_asked = false;
+                }
+            },
+            () = attempt.outdated.cancelled() => return Watched::Outdated,
+            () = attempt.cancel.cancelled() => return Watched::EndedBy(Ending::Cancelled),
+            () = leave.cancelled() => {
+                return Watched::EndedBy(Ending::HandedBack(Duration::ZERO));
+            }
+            () = tokio::time::sleep_until(deadline) => {
+                return Watched::EndedBy(Ending::Failed(timed_out(limits.time)));
+            }
+            () = attempt.finish.cancelled(), if is_ready && !is_told => {
+                child.interrupt();
+                is_told = true;
+            }
+            () = attempt.maps.asked.notified(), if is_ready && !is_asked => {
+                child.ask_for_maps().await;
+                is_asked = true;
+            }
+            _ = interval.tick() => {
+                attempt.set_cpu_ms(child.cpu_ms());
+                if attempt.has_lapsed() {
+                    return lapsed(jobs);
+                }
+                if limits.memory < child.resident_bytes() {
+                    return Watched::EndedBy(Ending::Failed(out_of_memory(limits.memory)));
+                }
+            }
+        }
+    }
+}
+
+/// Decides on an attempt whose lease is over. With shared records, either this worker was silent and the job
+/// has
+/// gone to another one, or the store was unreachable: handing the job back tells which. An embedded process
+/// always reaches its store, so it was silent.
+fn lapsed(jobs: &Jobs) -> Watched {
+    match jobs.settings.deployment {
+        Deployment::Embedded => Watched::Outdated,
+        Deployment::Shared => Watched::EndedBy(Ending::HandedBack(Duration::ZERO)),
+    }
+}
+
+/// Returns the event with the time since the attempt started.
+fn job_event(job: &Job, event: Event) -> Event {
+    Event {
+        elapsed_ms: job.event().elapsed_ms,
+        ..event
+    }
 }

@@ -1,29 +1,28 @@
 //! The queue as clients see it: jobs are read, awaited, ended, retried and removed.
 
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-use std::time::Duration;
-
-use tokio::sync::{Notify, OnceCell};
-use tokio_util::task::TaskTracker;
-
 use super::access::Reach;
 use super::blobs::Blobs;
 use super::clock::SteadyClock;
-use super::drawing_queue::DrawingQueue;
 use super::job::{Job, JobId};
 use super::keys::output_folder;
 use super::lease::WorkerId;
 use super::listing::Listing;
-use super::live::Live;
 use super::meters;
+use super::progress::Event;
 use super::running::Running;
 use super::settings::Settings;
 use super::state::State;
 use super::storage::{Changed, JobStore, Queue, Reason};
 use super::store_error::StoreResult;
 use super::store_id::StoreId;
+use super::subscription::Subscription;
 use super::transition::{Happening, Wish};
+use std::collections::HashMap;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::Duration;
+use tokio::sync::{Notify, OnceCell, OwnedMutexGuard, OwnedSemaphorePermit, Semaphore, watch};
+use tokio_util::task::TaskTracker;
 
 /// Time limit for a dismissed job to end.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
@@ -202,5 +201,95 @@ impl Jobs {
             _ => {}
         }
         Ok(())
+    }
+}
+
+// Scheduling of picture drawing in this process.
+
+/// Limits drawing to one picture per job, and to a number of children at a time.
+pub(super) struct DrawingQueue {
+    /// Locks of jobs with a picture being drawn or waiting. Later requests wait, then find it drawn.
+    turns: Mutex<HashMap<JobId, Weak<tokio::sync::Mutex<()>>>>,
+    /// Slots for drawing children: half of the cores, so that jobs keep the rest.
+    places: Arc<Semaphore>,
+}
+
+impl DrawingQueue {
+    pub fn new(settings: &Settings) -> Self {
+        Self {
+            turns: Mutex::default(),
+            places: Arc::new(Semaphore::new((settings.cores / 2).max(1))),
+        }
+    }
+
+    /// Waits until no picture of the job is being drawn.
+    pub async fn turn(&self, id: JobId) -> OwnedMutexGuard<()> {
+        let turn = {
+            let mut turns = self.turns.lock().unwrap_or_else(PoisonError::into_inner);
+            turns.retain(|_, turn| 0 < turn.strong_count());
+            let known = turns.get(&id).and_then(Weak::upgrade);
+            known.unwrap_or_else(|| {
+                let turn = Arc::default();
+                turns.insert(id, Arc::downgrade(&turn));
+                turn
+            })
+        };
+        turn.lock_owned().await
+    }
+
+    /// Waits for a drawing slot.
+    pub async fn place(&self) -> Option<OwnedSemaphorePermit> {
+        Arc::clone(&self.places).acquire_owned().await.ok()
+    }
+}
+
+// Events of jobs that have subscribers in this process.
+
+/// The newest event of each job with subscribers.
+#[derive(Default)]
+pub(super) struct Live {
+    watched: Mutex<HashMap<JobId, watch::Sender<Option<Event>>>>,
+}
+
+impl Live {
+    fn watched(&self) -> MutexGuard<'_, HashMap<JobId, watch::Sender<Option<Event>>>> {
+        self.watched.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Subscribes to a job.
+    pub fn subscribe(&self, id: JobId) -> Subscription {
+        let mut watched = self.watched();
+        Subscription::new(watched.entry(id).or_default().subscribe())
+    }
+
+    /// Publishes an event of a job unless it is outdated. A final event is the last one.
+    pub fn publish(&self, id: JobId, event: Event) {
+        let mut watched = self.watched();
+        if let Some(sender) = watched.get(&id) {
+            sender.send_if_modified(|last| {
+                let is_newer = last.is_none_or(|last| {
+                    last.seq < event.seq || !last.state.is_final() && event.state.is_final()
+                });
+                if is_newer {
+                    *last = Some(event);
+                }
+                is_newer
+            });
+            if event.state.is_final() {
+                watched.remove(&id);
+            }
+        }
+    }
+
+    /// Ends the subscriptions to a job that no longer exists.
+    pub fn forget(&self, id: JobId) {
+        self.watched().remove(&id);
+    }
+
+    /// Returns the jobs with subscribers.
+    pub fn ids(&self) -> Vec<JobId> {
+        let mut watched = self.watched();
+        watched.retain(|_, sender| 0 < sender.receiver_count());
+        watched.keys().copied().collect()
     }
 }

@@ -1,19 +1,23 @@
 //! The job store in a database.
 
-use std::time::Duration;
-
-use futures_util::FutureExt;
-use futures_util::future::BoxFuture;
-
 use super::database::Database;
+use super::dialect::Dialect;
 use super::hints::Hints;
-use super::{claims, idempotency, listing, reading, reserve, submissions, transitions, upkeep};
-use crate::jobs::access::Reach;
+use super::reading::stored_bytes;
+use super::within::within;
+use super::{claims, idempotency, notices, quotas, reading, rows, transitions, upkeep};
+use crate::jobs::access::{Owner, Reach};
 use crate::jobs::{
     Beat, Capacity, Census, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId,
-    JobStore, Listing, Quarantined, Queue, Reason, Rules, Share, StoreError, StoreId, StoreResult,
-    Sweep, Timestamp, WorkerId,
+    JobStore, Listing, Order, Quarantined, Queue, Reason, Rules, Share, State, StoreError, StoreId,
+    StoreResult, Sweep, Timestamp, WorkerId,
 };
+use futures_util::FutureExt;
+use futures_util::future::BoxFuture;
+use sqlx::query::Query;
+use sqlx::{Any, AssertSqlSafe, Row, Transaction};
+use std::time::Duration;
+use unwrapd_api::Kind;
 
 /// Time limit of a call, including a lost connection.
 const PATIENCE: Duration = Duration::from_secs(15);
@@ -32,7 +36,7 @@ impl RecordStore {
     /// Opens the database at a URL such as `sqlite:///folder/file?mode=rwc` or `postgres://user@host/name`.
     pub async fn open(url: &str, rules: Rules) -> StoreResult<Self> {
         let database = Database::open(url).await?;
-        reserve::keep(&database).await?;
+        keep(&database).await?;
         Ok(Self {
             hints: Hints::of(url, database.dialect),
             database,
@@ -60,13 +64,7 @@ impl JobStore for RecordStore {
         key: Option<&'a IdempotencyKey>,
         capacity: Capacity,
     ) -> BoxFuture<'a, StoreResult<Enqueued>> {
-        bounded(submissions::enqueue(
-            &self.database,
-            &self.hints,
-            job,
-            key,
-            capacity,
-        ))
+        bounded(enqueue(&self.database, &self.hints, job, key, capacity))
     }
 
     fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>> {
@@ -78,7 +76,7 @@ impl JobStore for RecordStore {
         reach: &'a Reach,
         listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
-        bounded(listing::page(&self.database, reach, listing))
+        bounded(page(&self.database, reach, listing))
     }
 
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>> {
@@ -174,7 +172,7 @@ impl JobStore for RecordStore {
     fn stored_bytes(&self) -> BoxFuture<'_, StoreResult<u64>> {
         bounded(async move {
             let mut connection = self.database.readers.acquire().await?;
-            reading::stored_bytes(&mut connection).await
+            stored_bytes(&mut connection).await
         })
     }
 
@@ -219,7 +217,191 @@ impl JobStore for RecordStore {
             if let Err(error) = written {
                 return Err(self.database.explained(error.into()).await);
             }
-            reserve::keep(&self.database).await
+            keep(&self.database).await
         })
+    }
+}
+
+// Pages of the job list.
+
+/// A bound value of a statement.
+enum Value {
+    Text(String),
+    Number(i64),
+}
+
+/// Conditions joined by AND, with the values of their placeholders in order.
+#[derive(Default)]
+struct Conditions {
+    texts: Vec<String>,
+    values: Vec<Value>,
+}
+
+impl Conditions {
+    /// Adds a condition, in which `?` is the placeholder of its value.
+    fn add(&mut self, condition: &str, value: Value) {
+        self.values.push(value);
+        let place = format!("${}", self.values.len());
+        self.texts.push(condition.replace('?', &place));
+    }
+
+    fn words(&mut self, condition: &str, word: Option<&str>) {
+        if let Some(word) = word {
+            self.add(condition, Value::Text(word.to_owned()));
+        }
+    }
+
+    fn numbers(&mut self, condition: &str, number: Option<i64>) {
+        if let Some(number) = number {
+            self.add(condition, Value::Number(number));
+        }
+    }
+}
+
+/// Returns a page of jobs, without those of synchronous requests.
+async fn page(database: &Database, reach: &Reach, listing: &Listing) -> StoreResult<Vec<Job>> {
+    let (within, owner) = within(reach, 1);
+    let mut met = Conditions::default();
+    met.texts.push(format!("ephemeral = 0 AND {within}"));
+    met.values.push(Value::Text(owner.to_owned()));
+    met.words("state = ?", listing.state.map(State::word));
+    met.words("kind = ?", listing.kind.map(Kind::word));
+    met.words("owner = ?", listing.owner.as_ref().map(Owner::as_str));
+    met.numbers("? <= created", listing.since.map(|time| time.0));
+    met.numbers("created < ?", listing.until.map(|time| time.0));
+    let labelled = "id IN (SELECT job FROM label WHERE digest = ?)";
+    for label in listing.metadata.labels() {
+        met.add(labelled, Value::Text(label));
+    }
+    let (beyond, direction) = match listing.order {
+        Order::NewestFirst => ("id < ?", "DESC"),
+        Order::OldestFirst => ("? < id", "ASC"),
+    };
+    let after = listing.after.map(|id| id.to_string());
+    met.words(beyond, after.as_deref());
+    met.values.push(Value::Number(i64::from(listing.limit)));
+    let page = format!(
+        "SELECT {{columns}} FROM job WHERE {} ORDER BY id {direction} LIMIT ${}",
+        met.texts.join(" AND "),
+        met.values.len()
+    );
+    let found = bound(database.sql(&page), met.values)
+        .fetch_all(&database.readers)
+        .await?;
+    found.iter().map(rows::job).collect()
+}
+
+fn bound(
+    statement: AssertSqlSafe<String>,
+    values: Vec<Value>,
+) -> Query<'static, Any, <Any as sqlx::Database>::Arguments> {
+    let statement = sqlx::query(statement);
+    values
+        .into_iter()
+        .fold(statement, |query, value| match value {
+            Value::Text(text) => query.bind(text),
+            Value::Number(number) => query.bind(number),
+        })
+}
+
+// Reserved disk space for records, so that jobs can end and be deleted on a full disk.
+
+/// Bytes of free pages, and of the log. A record takes about two thousand.
+const RESERVE: i64 = 4 << 20;
+/// Number of free bytes below which the reserve is refilled.
+const LEAST: i64 = RESERVE / 4;
+
+/// Refills the reserve of SQLite if it is low. One transaction of that size makes the log as long.
+async fn keep(database: &Database) -> StoreResult<()> {
+    if database.dialect != Dialect::Sqlite {
+        return Ok(());
+    }
+    let free = "SELECT freelist_count * page_size FROM pragma_freelist_count, pragma_page_size";
+    let row = sqlx::query(free).fetch_one(&database.readers).await?;
+    if LEAST <= row.try_get::<i64, _>(0)? {
+        return Ok(());
+    }
+    let mut transaction = database.begin().await?;
+    sqlx::raw_sql("CREATE TABLE reserve (bytes BLOB)")
+        .execute(&mut *transaction)
+        .await?;
+    sqlx::query("INSERT INTO reserve VALUES (zeroblob($1))")
+        .bind(RESERVE)
+        .execute(&mut *transaction)
+        .await?;
+    sqlx::raw_sql("DROP TABLE reserve")
+        .execute(&mut *transaction)
+        .await?;
+    transaction.commit().await?;
+    Ok(())
+}
+
+// Recording of new jobs, subject to capacity and idempotency.
+
+/// Adds a job, timed by the database.
+async fn enqueue(
+    database: &Database,
+    hints: &Hints,
+    job: &Job,
+    key: Option<&IdempotencyKey>,
+    capacity: Capacity,
+) -> StoreResult<Enqueued> {
+    // One submission at a time counts jobs and looks for its key.
+    let mut transaction = database.begin().await?;
+    if let Some(lock) = database.dialect.lock_submissions() {
+        sqlx::query(lock).execute(&mut *transaction).await?;
+    }
+    let (queued, now) = queued(database, &mut transaction).await?;
+    let mut job = job.clone();
+    (job.created, job.due) = (now, now);
+    job.finished = job.finished.map(|_| now);
+    // A repeated submission gets its earlier job.
+    if let Some(key) = key
+        && let Some(earlier) =
+            idempotency::earlier_use(database, key, &job.owner, &mut transaction).await?
+    {
+        return Ok(earlier);
+    }
+    // Check the capacity, the quotas of the owner and the total.
+    if job.state == State::Queued && i64::from(capacity.depth) <= queued {
+        return Ok(Enqueued::Full);
+    }
+    let quotas = capacity.of_owner;
+    if let Some(quota) = quotas::exceeded(&job, quotas, now, &mut transaction).await? {
+        return Ok(Enqueued::OwnerOverQuota(quota));
+    }
+    if let Some(bytes) = capacity.bytes
+        && bytes < stored_bytes(&mut transaction).await? + job.stored_bytes()
+    {
+        return Ok(Enqueued::OverQuota);
+    }
+    // Insert the job, its key and its notice, and hint at it.
+    rows::insert(&job, &mut transaction).await?;
+    if let Some(key) = key {
+        idempotency::remember(key, &job, &mut transaction).await?;
+    }
+    notices::tell(&job, now, &mut transaction).await?;
+    hints.give(&job, &mut transaction).await?;
+    transaction.commit().await.map_err(unanswered)?;
+    Ok(Enqueued::New(Box::new(job)))
+}
+
+/// Returns the number of queued jobs and the current time.
+async fn queued(
+    database: &Database,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<(i64, Timestamp)> {
+    let count = "SELECT count(*) AS queued, {now} AS now FROM job WHERE state = 'queued'";
+    let row = sqlx::query(database.sql(count))
+        .fetch_one(&mut **transaction)
+        .await?;
+    Ok((row.try_get("queued")?, rows::now(&row)?))
+}
+
+/// Converts the error of a commit: after a lost connection its outcome is unknown.
+fn unanswered(error: sqlx::Error) -> StoreError {
+    match error.into() {
+        StoreError::Unavailable(text) => StoreError::Unanswered(text),
+        error => error,
     }
 }

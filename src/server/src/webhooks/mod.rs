@@ -12,12 +12,11 @@
 //! not
 //! followed, and no proxy is used.
 
-mod address;
 mod delivery;
 mod guard;
 mod secret;
 
-pub use address::is_public;
 pub use delivery::{Settings, deliver};
+pub use guard::is_public;
 pub use guard::{Reachable, check};
 pub use secret::{Secret, SecretError, Secrets};
