@@ -1,9 +1,8 @@
 //! Connections: their number, timeouts and shutdown.
 //!
-//! A silent peer loses its connection: without headers, between two requests, or within a body in either
-//! direction.
-//! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single
-//! address from taking all of them (`gate.rs`).
+//! A silent peer loses its connection: without headers, between two requests, or within a body in either direction.
+//! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single address
+//! from taking all of them (`gate.rs`).
 
 use std::pin::pin;
 

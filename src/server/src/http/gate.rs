@@ -39,8 +39,7 @@ impl Gate {
         }
     }
 
-    /// Waits for the next connection that may stay. Connections of addresses that have too many are refused
-    /// meanwhile
+    /// Waits for the next connection that may stay. Connections of addresses that have too many are refused meanwhile
     /// and take no slot.
     pub async fn next(&mut self) -> (TcpStream, IpAddr, Place) {
         // The semaphore is never closed.

@@ -1,5 +1,5 @@
-//! Refusal of connections whose address has too many. They have a few slots of their own, so that they delay
-//! nobody else.
+//! Refusal of connections whose address has too many. They have a few slots of their own, so that they delay nobody
+//! else.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -16,8 +16,7 @@ use super::problem::{Code, Problem};
 
 /// Time for the request of a refused client.
 const TIME: Duration = Duration::from_secs(1);
-/// Maximum number of refusals under way. Clients that send at once are answered before they are pushed out;
-/// each
+/// Maximum number of refusals under way. Clients that send at once are answered before they are pushed out; each
 /// connection takes an open file.
 const MOST: usize = 32;
 
@@ -40,8 +39,7 @@ impl Refused {
         }
     }
 
-    /// Answers the request of a connection with a refusal, then closes it. Closes it without an answer if no
-    /// request
+    /// Answers the request of a connection with a refusal, then closes it. Closes it without an answer if no request
     /// comes within a second, or if it is the oldest of too many. Never waits.
     pub fn add(&mut self, stream: TcpStream) {
         self.waiting.retain(|one| !one.is_finished());

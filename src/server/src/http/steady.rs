@@ -24,8 +24,7 @@ pub(super) enum Tardy {
 pub(super) struct Tempo {
     /// Timeout between two chunks.
     pub silence: Duration,
-    /// Minimum rate in bytes per second, on average over each period of `silence` spent waiting for chunks.
-    /// The first
+    /// Minimum rate in bytes per second, on average over each period of `silence` spent waiting for chunks. The first
     /// period is the grace of a body that starts slowly.
     pub rate: u64,
 }
@@ -35,8 +34,7 @@ pub(super) struct Steady {
     body: BodyDataStream,
     tempo: Tempo,
     alarm: Pin<Box<Sleep>>,
-    /// Start of waiting for the next chunk. While this process is busy with the last one, the client is not
-    /// slow.
+    /// Start of waiting for the next chunk. While this process is busy with the last one, the client is not slow.
     waits: Option<Instant>,
     waited: Duration,
     /// Bytes received in the time waited.

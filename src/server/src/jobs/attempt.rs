@@ -42,9 +42,9 @@ pub(super) async fn run_logged(
     run(jobs, job, attempt, leave).instrument(span).await
 }
 
-/// Runs a claimed job to its end and records the outcome. `leave` asks to hand the job back. Returns the time
-/// for which this worker should pause: if files or space are unavailable, its next job would fare no better,
-/// but another worker may succeed.
+/// Runs a claimed job to its end and records the outcome. `leave` asks to hand the job back. Returns the time for
+/// which this worker should pause: if files or space are unavailable, its next job would fare no better, but another
+/// worker may succeed.
 async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) -> Duration {
     let name = format!("attempt-{}-{}", job.id, job.token);
     let folder = jobs.settings.scratch.join(name);
@@ -120,8 +120,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
     Ok(write_json(folder, TASK, &task)?)
 }
 
-/// Runs the compute child and returns how the attempt ended; `None` if the job belongs to another worker by
-/// now.
+/// Runs the compute child and returns how the attempt ended; `None` if the job belongs to another worker by now.
 async fn compute(
     jobs: &Jobs,
     job: &Job,
@@ -178,8 +177,7 @@ async fn compute(
     })))
 }
 
-/// Registers an attempt at a job that was just claimed. Its lease counts from `sent`, before the claim was
-/// sent.
+/// Registers an attempt at a job that was just claimed. Its lease counts from `sent`, before the claim was sent.
 pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
     jobs.running.start(job, sent + jobs.settings.rules.lease)
 }

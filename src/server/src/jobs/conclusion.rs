@@ -15,9 +15,9 @@ use super::transition::{Ending, Happening};
 /// Delay between two tries to record an end.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Records how an attempt ended, and retries until the store answers: an outage of the store must not discard
-/// the result. If the job has gone to another worker meanwhile, the store rejects the outcome. A worker that
-/// has to leave does not wait: another one takes the job when the lease expires.
+/// Records how an attempt ended, and retries until the store answers: an outage of the store must not discard the
+/// result. If the job has gone to another worker meanwhile, the store rejects the outcome. A worker that has to leave
+/// does not wait: another one takes the job when the lease expires.
 pub(super) async fn conclude(
     jobs: &Jobs,
     job: &Job,

@@ -1,7 +1,7 @@
 //! Lanes of a process: slots for all jobs, and one reserved for small jobs.
 //!
-//! A small job that finds all slots taken would wait for a large one. It gets the reserved slot instead, and
-//! shares the cores while it runs.
+//! A small job that finds all slots taken would wait for a large one. It gets the reserved slot instead, and shares
+//! the cores while it runs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,7 +1,7 @@
 //! Events of jobs that have subscribers in this process.
 //!
-//! An attempt that runs here publishes its events itself. Events of all others are polled from the records,
-//! which works whichever process runs the job.
+//! An attempt that runs here publishes its events itself. Events of all others are polled from the records, which
+//! works whichever process runs the job.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};

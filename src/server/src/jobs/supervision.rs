@@ -64,6 +64,7 @@ pub(super) async fn watch(
                     is_asked = false;
                 }
             },
+            // Reasons to end the child.
             () = attempt.outdated.cancelled() => return Watched::Outdated,
             () = attempt.cancel.cancelled() => return Watched::EndedBy(Ending::Cancelled),
             () = leave.cancelled() => {
@@ -72,6 +73,7 @@ pub(super) async fn watch(
             () = tokio::time::sleep_until(deadline) => {
                 return Watched::EndedBy(Ending::Failed(timed_out(limits.time)));
             }
+            // Commands, which the child understands once it is ready.
             () = attempt.finish.cancelled(), if is_ready && !is_told => {
                 child.interrupt();
                 is_told = true;
@@ -80,6 +82,7 @@ pub(super) async fn watch(
                 child.ask_for_maps().await;
                 is_asked = true;
             }
+            // Limits that only polling reveals.
             _ = interval.tick() => {
                 attempt.set_cpu_ms(child.cpu_ms());
                 if attempt.has_lapsed() {
@@ -93,10 +96,9 @@ pub(super) async fn watch(
     }
 }
 
-/// Decides on an attempt whose lease is over. With shared records, either this worker was silent and the job
-/// has
-/// gone to another one, or the store was unreachable: handing the job back tells which. An embedded process
-/// always reaches its store, so it was silent.
+/// Decides on an attempt whose lease is over. With shared records, either this worker was silent and the job has gone
+/// to another one, or the store was unreachable: handing the job back tells which. An embedded process always reaches
+/// its store, so it was silent.
 fn lapsed(jobs: &Jobs) -> Watched {
     match jobs.settings.deployment {
         Deployment::Embedded => Watched::Outdated,

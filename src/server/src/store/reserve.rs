@@ -1,8 +1,7 @@
 //! Reserved disk space for records, so that jobs can end and be deleted on a full disk.
 //!
 //! This concerns SQLite, which shares its disk with the files of jobs. A transaction writes its pages to the
-//! write-ahead log first, and a checkpoint copies them into the database. Neither file shrinks while the
-//! database is
+//! write-ahead log first, and a checkpoint copies them into the database. Neither file shrinks while the database is
 //! open: a log that was once large, and a database with free pages, take more records without more space.
 
 use sqlx::Row;

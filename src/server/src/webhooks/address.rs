@@ -2,9 +2,8 @@
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 
-/// Returns whether an address belongs to the public network: not to this host, not to a private network, and
-/// not to
-/// a special-purpose range (RFC 6890). Addresses that embed an IPv4 address are judged by it.
+/// Returns whether an address belongs to the public network: not to this host, not to a private network, and not to a
+/// special-purpose range (RFC 6890). Addresses that embed an IPv4 address are judged by it.
 pub fn is_public(address: IpAddr) -> bool {
     match address {
         IpAddr::V4(address) => is_public_v4(address),

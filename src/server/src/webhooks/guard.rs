@@ -39,8 +39,7 @@ pub fn check(webhook: &Webhook, reachable: Reachable) -> Result<(), NotPublic> {
     if is_allowed { Ok(()) } else { Err(NotPublic) }
 }
 
-/// Resolves names to their permitted addresses only. Connections use these addresses, so a name that changes
-/// its
+/// Resolves names to their permitted addresses only. Connections use these addresses, so a name that changes its
 /// meaning a moment later has no effect.
 pub(super) struct Guard(pub Reachable);
 
