@@ -131,8 +131,7 @@ impl PipelineError {
         }
     }
 
-    /// Returns the exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 1 anything
-    /// else.
+    /// Returns the exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 1 anything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::InvalidOptions(_) => 2,

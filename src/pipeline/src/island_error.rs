@@ -1,7 +1,6 @@
 //! Errors of island placements.
 
-/// Reason why islands cannot have their placements. Islands are numbered by their position in the list, from
-/// 0.
+/// Reason why islands cannot have their placements. Islands are numbered by their position in the list, from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum IslandError {
     /// An island is named by a face that does not exist or has no area.

@@ -30,22 +30,18 @@ pub struct Progress {
 
 /// Receives progress, decides whether to continue, and provides the time.
 ///
-/// Called from several threads at once. The library has no clock of its own; callers without interest in
-/// progress use
+/// Called from several threads at once. The library has no clock of its own; callers without interest in progress use
 /// [`Unobserved`].
 pub trait Observer: Sync {
-    /// Receives a progress report. Returning [`Control::Finish`] ends the optimization with the current valid
-    /// map.
+    /// Receives a progress report. Returning [`Control::Finish`] ends the optimization with the current valid map.
     fn progress(&self, progress: &Progress) -> Control;
     /// Returns the time since the work began.
     fn elapsed(&self) -> Duration;
-    /// Receives the map of a chart at an iterate, first at the start, before progress is reported for it. The
-    /// chart is part
-    /// of the surface with this number.
+    /// Receives the map of a chart at an iterate, first at the start, before progress is reported for it. The chart
+    /// is part of the surface with this number.
     fn map(&self, _surface: usize, _map: &MapUnderway) {}
-    /// Receives the map of an iteration of a deformation; the start has number 0. `file` writes it in the
-    /// format of the
-    /// result.
+    /// Receives the map of an iteration of a deformation; the start has number 0. `file` writes it in the format of
+    /// the result.
     fn frame(&self, _number: usize, _file: &dyn Fn() -> Vec<u8>) {}
 }
 

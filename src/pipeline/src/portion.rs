@@ -1,4 +1,4 @@
-//! Portions of the work of a stage, each of which reports its progress.
+//! Portions of the work of a stage, which report their progress.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -9,8 +9,7 @@ use unwrapd_method::solver::{Control, Iterate};
 
 /// A portion of the work of a stage with an expected effort.
 ///
-/// Up to [`STEADY`] of the expected work its share grows linearly, beyond that more and more slowly, so that
-/// it never
+/// Up to [`STEADY`] of the expected work its share grows linearly, beyond that more and more slowly, so that it never
 /// appears complete before it is. Dropping the portion completes it.
 pub(super) struct Portion<'a> {
     tracker: &'a Tracker<'a>,
@@ -33,8 +32,8 @@ const STEPS_OF_CHART: f64 = 15.0;
 const STEADY: f64 = 0.7;
 
 impl<'a> Portion<'a> {
-    /// Creates the portion of an atlas: `words` budgeted, `expected` likely. The unit is a 64-bit word read
-    /// while packing.
+    /// Creates the portion of an atlas: `words` budgeted, `expected` likely. The unit is a 64-bit word read while
+    /// packing.
     pub fn of_atlas(tracker: &'a Tracker, words: u64, expected: u64) -> Self {
         Self::of(tracker, 0, [words as f64, expected as f64])
     }

@@ -37,12 +37,11 @@ enum EarlyEnd {
     OutOfTime,
 }
 
-/// Fractions of the work at which mapping begins and packing ends. Their shares in between depend on the
-/// mesh.
+/// Fractions of the work at which mapping begins and packing ends. Their shares in between depend on the mesh.
 const MAPPED: f64 = 0.04;
 const PACKED: f64 = 0.92;
-/// Words read while packing in the time that mapping one face takes. Measured on meshes of 6,000 and of
-/// 100,000 faces.
+/// Words read while packing in the time that mapping one face takes. Measured on meshes of 6,000 and of 100,000
+/// faces.
 const WORDS_PER_FACE: f64 = 10_000.0;
 
 impl State {
@@ -116,14 +115,13 @@ impl<'a> Tracker<'a> {
         self.begin(stage, 0.0);
     }
 
-    /// Begins a stage of this much work, in a unit of its own; [`Portion`](super::portion::Portion)s report
-    /// its progress.
+    /// Begins a stage of this much work, in a unit of its own; [`Portion`](super::portion::Portion)s report its
+    /// progress.
     pub(super) fn begin(&self, stage: Stage, work: f64) {
         self.update(|state| state.enter(stage, work));
     }
 
-    /// Announces charts about to be mapped: their number, 0 if unknown, and their faces, counted once per
-    /// mapping.
+    /// Announces charts about to be mapped: their number, 0 if unknown, and their faces, counted once per mapping.
     pub(super) fn charts(&self, charts: usize, faces: usize) {
         self.update(|state| {
             state.enter(Stage::Map, faces as f64);
@@ -211,8 +209,7 @@ impl<'a> Tracker<'a> {
 }
 
 /// Share of the remaining work that one iteration of a deformation completes: long paths take some hundred
-/// iterations,
-/// and 0.98^100 is an eighth.
+/// iterations, and 0.98^100 is an eighth.
 const OF_AN_ITERATION: f64 = 0.02;
 
 /// Watches the deformation of a body.

@@ -12,9 +12,8 @@ pub struct CageMap<'a> {
 }
 
 impl CageMap<'_> {
-    /// Embeds places in the cage. Nonfinite places, which only unused vertices of shared accessors can have,
-    /// count as the
-    /// origin.
+    /// Embeds places in the cage. Nonfinite places, which only unused vertices of shared accessors can have, count as
+    /// the origin.
     fn embed(&self, places: &[[f32; 3]]) -> Embedding {
         let finite = |place: &[f64; 3]| {
             if place.iter().all(|x| x.is_finite()) {

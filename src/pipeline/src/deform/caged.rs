@@ -23,9 +23,8 @@ use unwrapd_method::solver::Watch;
 
 /// A document with all its triangles in one cage.
 ///
-/// Positions are those of the meshes, each once: transforms of nodes are not applied, so meshes that a scene
-/// keeps apart
-/// may share voxels and then move together.
+/// Positions are those of the meshes, each once: transforms of nodes are not applied, so meshes that a scene keeps
+/// apart may share voxels and then move together.
 pub struct CagedDocument {
     document: Document,
     cage: Cage,
@@ -184,9 +183,8 @@ impl CagedDocument {
         }
     }
 
-    /// Writes the document with its surfaces moved by a solution of the problem. Everything else is kept:
-    /// nodes, skins,
-    /// morph targets, materials, UVs.
+    /// Writes the document with its surfaces moved by a solution of the problem. Everything else is kept: nodes,
+    /// skins, morph targets, materials, UVs.
     pub fn write(self, solution: &Solution) -> Result<(Written, CageReport), PipelineError> {
         let crossings_before = crossings_of(&self.document);
         let map = self.map(&solution.x);

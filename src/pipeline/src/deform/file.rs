@@ -15,8 +15,7 @@ use unwrapd_deform::{Problem, ProblemError};
 use unwrapd_files::document::Upload;
 use unwrapd_method::solver::Watch;
 
-/// Deforms a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles.
-/// With a
+/// Deforms a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a
 /// barrier no element is inverted in any iterate.
 pub fn deform_file(
     upload: &Upload,

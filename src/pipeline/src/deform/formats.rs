@@ -82,9 +82,8 @@ impl BodyFormat {
         }
     }
 
-    /// Returns the file of a deformed body: `elements` at the positions `x`, which are flattened. VTK files
-    /// also contain
-    /// the distortion of each element.
+    /// Returns the file of a deformed body: `elements` at the positions `x`, which are flattened. VTK files also
+    /// contain the distortion of each element.
     pub(crate) fn write(self, elements: &Elements, problem: &Problem, x: &[f64]) -> Vec<u8> {
         let format = self.file().and_then(ElementFormat::of);
         let dim = problem.body.dim();

@@ -34,8 +34,7 @@ pub struct Skin {
     pub weights: Vec<[f64; 4]>,
 }
 
-/// Opens a session on the body that [`deform_file`](crate::deform_file) would deform. The caller adds the
-/// handles.
+/// Opens a session on the body that [`deform_file`](crate::deform_file) would deform. The caller adds the handles.
 pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, PipelineError> {
     options.check()?;
     let Some(n_voxels) = options.cage else {
@@ -87,8 +86,7 @@ impl HeldBody {
     }
 }
 
-/// Opens a session on the grid on which [`warp_file`](crate::warp_file) would warp a picture, in pixels with
-/// y down.
+/// Opens a session on the grid on which [`warp_file`](crate::warp_file) would warp a picture, in pixels with y down.
 /// The caller adds the handles.
 pub fn hold_picture(upload: &Upload, options: &WarpOptions) -> Result<HeldBody, PipelineError> {
     options.check()?;

@@ -30,8 +30,8 @@ pub fn moved(
     Ok((moved, written))
 }
 
-/// Returns the main file of the moved document; empty if it cannot be written, since its result will be
-/// rejected, too.
+/// Returns the main file of the moved document; empty if it cannot be written, since its result will be rejected,
+/// too.
 pub fn moved_frame(document: &Document, map: &dyn SpaceMap, format: OutputFormat) -> Vec<u8> {
     let files = moved(document, map, format, "frame").map(|(_, written)| written.files);
     let main = files.ok().and_then(|files| files.into_iter().next());

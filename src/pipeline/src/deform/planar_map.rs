@@ -7,13 +7,12 @@ use unwrapd_files::io::Elements;
 use unwrapd_method::numerics::square::{Matrix, Square, apply, apply_transposed, times};
 use unwrapd_method::numerics::vec3;
 
-/// Map of vertices in a plane z = const, which keeps z. Other places, those of vertices without triangles,
-/// stay.
+/// Map of vertices in a plane z = const, which keeps z. Other places, those of vertices without triangles, stay.
 pub struct PlanarMap<'a> {
     vertices: HashMap<[u32; 3], usize>,
     to: &'a [[f64; 2]],
-    /// Jacobian of the map at each vertex: the mean over its triangles weighted by area. Not invertible if
-    /// they cancel.
+    /// Jacobian of the map at each vertex: the mean over its triangles weighted by area. Not invertible if they
+    /// cancel.
     jacobians: Vec<Matrix<2>>,
 }
 
@@ -55,8 +54,7 @@ impl<'a> PlanarMap<'a> {
         self.vertices.get(&key(*place)).copied()
     }
 
-    /// Applies a linear map, derived from the Jacobian at each place, to the first two coordinates of
-    /// vectors, and
+    /// Applies a linear map, derived from the Jacobian at each place, to the first two coordinates of vectors, and
     /// normalizes them.
     fn turned(
         &self,

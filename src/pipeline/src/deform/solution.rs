@@ -22,9 +22,8 @@ pub struct Deformed {
     pub files: Vec<(String, Vec<u8>)>,
     /// Report on the map.
     pub report: DeformReport,
-    /// Trace as CSV, one line per iteration: energy without the barrier, the barrier's and the constraints'
-    /// share, smallest
-    /// element, μ, σ, α and the residual, as in [`Iterate`].
+    /// Trace as CSV, one line per iteration: energy without the barrier, the barrier's and the constraints' share,
+    /// smallest element, μ, σ, α and the residual, as in [`Iterate`].
     pub trace: String,
 }
 

@@ -15,9 +15,8 @@ use unwrapd_files::document::{DocumentError, Upload};
 use unwrapd_files::io::{ElementFormat, Elements};
 use unwrapd_method::solver::Watch;
 
-/// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is
-/// inverted in any
-/// iterate.
+/// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in
+/// any iterate.
 pub fn solve_file(
     upload: &Upload,
     options: &SolveOptions,
@@ -49,8 +48,7 @@ pub fn solve_file(
     })?
 }
 
-/// Solves a problem in memory, with the options that do not concern files. `viewer` sees every iterate once,
-/// and may
+/// Solves a problem in memory, with the options that do not concern files. `viewer` sees every iterate once, and may
 /// end the work early with the current map.
 pub fn solve_problem(
     problem: &Problem,

@@ -25,9 +25,8 @@ pub struct Source {
 }
 
 impl Source {
-    /// Reads the mesh of a file, or fills the outline in a picture or drawing with about `triangles`
-    /// triangles. The extension
-    /// determines the format; without one, the first bytes do.
+    /// Reads the mesh of a file, or fills the outline in a picture or drawing with about `triangles` triangles. The
+    /// extension determines the format; without one, the first bytes do.
     pub fn read(upload: &Upload, triangles: usize, limits: &Limits) -> Result<Self, PipelineError> {
         let format = if upload.extension().is_empty() {
             other_than_documents(&upload.bytes)
@@ -84,8 +83,7 @@ impl Source {
         self.document.as_ref().map(|document| (document, format))
     }
 
-    /// Returns the files of a problem's result at the positions `x` under the name `stem`, the main file
-    /// first.
+    /// Returns the files of a problem's result at the positions `x` under the name `stem`, the main file first.
     pub fn files(
         &self,
         format: BodyFormat,

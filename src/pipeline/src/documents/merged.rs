@@ -54,8 +54,7 @@ impl Merged {
         merged
     }
 
-    /// Merges a group and adds the seams that the options request. Seam edges must have been
-    /// [checked](check_edges);
+    /// Merges a group and adds the seams that the options request. Seam edges must have been [checked](check_edges);
     /// `primitives` are those of the document, in any space.
     pub fn with_seams(
         (document, primitives): (&Document, &[Primitive]),

@@ -1,5 +1,4 @@
-//! Pictures of a result, drawn on request from the written bytes: immediately, or later from the stored
-//! files.
+//! Pictures of a result, drawn on request from the written bytes: immediately, or later from the stored files.
 
 use std::collections::BTreeMap;
 
@@ -58,9 +57,8 @@ struct DrawnNote {
 }
 
 impl Pictures {
-    /// Rebuilds the source of a stored result's pictures, equal to that of the computation that made it.
-    /// `report` is part
-    /// of its report. `input` is its input, which only a heat map with material weights needs.
+    /// Rebuilds the source of a stored result's pictures, equal to that of the computation that made it. `report` is
+    /// part of its report. `input` is its input, which only a heat map with material weights needs.
     ///
     /// # Errors
     /// Fails if a file cannot be read, or does not match the report.

@@ -82,9 +82,8 @@ fn can_rebake(document: &Document, format: OutputFormat) -> bool {
     matches!(document, Document::Gltf(_)) || format != OutputFormat::Obj
 }
 
-/// Renumbers [checked](check_edges) edges of a file for each primitive that now contains them. `vertices` are
-/// the original
-/// numbers of the vertices of all primitives.
+/// Renumbers [checked](check_edges) edges of a file for each primitive that now contains them. `vertices` are the
+/// original numbers of the vertices of all primitives.
 fn renumbered(edges: &[[u32; 2]], vertices: &[u32], primitives: &[Primitive]) -> Vec<[u32; 2]> {
     // Copies of a vertex lie in one place, so that the first of each primitive will do.
     let mut numbers: HashMap<u32, Vec<(usize, u32)>> = edges

@@ -10,8 +10,7 @@ use crate::PipelineError;
 use unwrapd_api::options::within;
 use unwrapd_files::document::{Document, Group, Primitive};
 
-/// Factor on the linear texel density of a material, relative to materials without a weight; written
-/// `MATERIAL=W`.
+/// Factor on the linear texel density of a material, relative to materials without a weight; written `MATERIAL=W`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct TexelWeight {

@@ -47,7 +47,7 @@ pub fn unwrap_document(
     unwrap_around(upload, options, &[], observer)
 }
 
-/// Like [`unwrap_document`], with islands of kept UVs at fixed placements.
+/// Unwraps a document like [`unwrap_document`], but with islands of kept UVs at fixed placements.
 pub fn unwrap_around(
     upload: &Upload,
     options: &Options,

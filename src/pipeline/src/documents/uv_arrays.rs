@@ -24,8 +24,7 @@ struct Arrays {
 }
 
 impl UvArrays {
-    /// Collects what was written of `uvs`, with v as in the written file. `notes` describe the written
-    /// document, and
+    /// Collects what was written of `uvs`, with v as in the written file. `notes` describe the written document, and
     /// `origins` its relation to the input.
     pub fn new(
         document: &Document,
@@ -91,8 +90,7 @@ fn sources(note: &PrimitiveNote) -> Vec<u32> {
 }
 
 /// Maps indices within a primitive to those of the input. `all` has the input's indices if the document was
-/// converted;
-/// the primitive's begin at `first`.
+/// converted; the primitive's begin at `first`.
 fn originals(
     numbers: impl IntoIterator<Item = u32>,
     first: usize,

@@ -7,8 +7,7 @@ use crate::options::{CommandOptions, EditOptions, Editing};
 use unwrapd_deform::uv::UvSession;
 use unwrapd_files::document::{Document, Upload};
 
-/// Opens a session on the UVs that [`edit_document`](crate::edit_document) would edit. The caller adds the
-/// anchors.
+/// Opens a session on the UVs that [`edit_document`](crate::edit_document) would edit. The caller adds the anchors.
 pub fn hold_uvs(
     upload: &Upload,
     editing: Editing,

@@ -9,8 +9,7 @@ use unwrapd_files::document::{Document, GroupBy, Marked, OutputFormat, Sets, Ter
 use unwrapd_maps::certificate::Overlap;
 
 /// Returns the record of a document with edited UVs in which no two faces overlap. It promises nothing about
-/// distances
-/// between charts, which the edit does not check.
+/// distances between charts, which the edit does not check.
 pub fn edited_terms(document: &Document, options: &EditOptions) -> Result<Terms, PipelineError> {
     let present = match document.marked()? {
         Marked::Fits(mark) if mark.sets == Sets::One(options.texcoord) => Some(mark.terms),

@@ -28,8 +28,7 @@ pub struct EditedDocument {
     pub report: EditReport,
 }
 
-/// Moves anchors of a document's UVs to their targets and judges the written bytes. UVs are those of the
-/// file, in
+/// Moves anchors of a document's UVs to their targets and judges the written bytes. UVs are those of the file, in
 /// glTF with v down; vertices are counted through all triangle primitives in file order.
 pub fn edit_document(
     upload: &Upload,
@@ -191,8 +190,7 @@ fn places(written: &Written, n_faces: usize) -> Vec<usize> {
     places
 }
 
-/// Judges each chart with anchors separately in the written bytes; `places` are the indices of its faces
-/// there.
+/// Judges each chart with anchors separately in the written bytes; `places` are the indices of its faces there.
 fn judge_charts(
     edited: &EditedUvs,
     (document, again): (&Document, &Document),

@@ -50,8 +50,8 @@ pub struct WorstChart {
     pub stretch: f64,
 }
 
-/// Returns the uniform stretch of a map with this symmetric Dirichlet energy E, in percent: the s > 0 with
-/// 2(1+s)² + 2(1+s)⁻² = E.
+/// Returns the uniform stretch of a map with this symmetric Dirichlet energy E, in percent: the s > 0 with 2(1+s)² +
+/// 2(1+s)⁻² = E.
 pub fn stretch_percent(energy: f64) -> f64 {
     let energy = energy.max(4.0);
     let squared = (energy + (energy * energy - 16.0).sqrt()) / 4.0;

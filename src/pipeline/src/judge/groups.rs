@@ -15,9 +15,8 @@ use unwrapd_maps::certificate::{Certificate, Claims};
 use unwrapd_maps::measure::{self, Measures};
 use unwrapd_maps::mesh::{Resolution, VAxis};
 
-/// Maximum number of texels of all coverage rasters together, and minimum side of each. Up to 256 groups get
-/// the finest
-/// raster.
+/// Maximum number of texels of all coverage rasters together, and minimum side of each. Up to 256 groups get the
+/// finest raster.
 const MOST_RASTER_TEXELS: u64 = 1 << 32;
 const COARSEST_RASTER: u32 = 256;
 
@@ -59,8 +58,7 @@ impl WrittenUvs {
         Self::gather(document, spaces, |primitive| sets[primitive])
     }
 
-    /// Gathers all UVs of a set, grouped as the document's materials suggest. Leaves out primitives without
-    /// the set.
+    /// Gathers all UVs of a set, grouped as the document's materials suggest. Leaves out primitives without the set.
     pub fn of_set(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
         let question = Question::of_options(&MeasureOptions {
             texcoord: Some(texcoord),

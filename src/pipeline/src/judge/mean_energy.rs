@@ -3,8 +3,7 @@
 use unwrapd_maps::measure::FaceDistortion;
 use unwrapd_method::numerics::vec3::{area_vector, norm};
 
-/// Mean of symmetric Dirichlet energies weighted by area. Degenerate faces and negligible needles do not
-/// count.
+/// Mean of symmetric Dirichlet energies weighted by area. Degenerate faces and negligible needles do not count.
 #[derive(Clone, Copy, Default)]
 pub(super) struct MeanEnergy {
     area: f64,

@@ -1,20 +1,18 @@
 //! Selection of the UVs to judge, and the properties to judge.
 //!
-//! A record in the file may name the UV set and add requirements. The judged faces, and the grouping into UV
-//! spaces,
-//! follow only from the file's meshes and materials and from the caller: a file cannot exempt itself from a
-//! test.
+//! A record in the file may name the UV set and add requirements. The judged faces, and the grouping into UV spaces,
+//! follow only from the file's meshes and materials and from the caller: a file cannot exempt itself from a test.
 
 use crate::PipelineError;
 use crate::options::{CommandOptions, MeasureOptions};
 use unwrapd_files::document::{Document, DocumentError, Mark, Marked, Sets, Warning};
 use unwrapd_maps::certificate::Overlap;
 
-/// Options, with the requirements that the record adds.
+/// UVs of a document to judge, and the properties to judge.
 pub struct Question {
-    /// Record of the document, if it matches the UVs and the caller named no set.
+    /// Options, with the requirements that the record adds.
     pub options: MeasureOptions,
-    /// The record of the document, if it fits the UVs and no set was asked for.
+    /// Record of the document, if it matches the UVs and the caller named no set.
     pub mark: Option<Mark>,
     /// Warning about the record.
     pub warning: Option<Warning>,
@@ -62,8 +60,8 @@ impl Question {
         }
     }
 
-    /// Returns the UV set of every primitive; `None` for one that lacks the set and is left out at the
-    /// caller's request.
+    /// Returns the UV set of every primitive; `None` for one that lacks the set and is left out at the caller's
+    /// request.
     ///
     /// A primitive for which the record names no set is judged, too: in the lowest set that the record names.
     pub fn set_of_each(&self, document: &Document) -> Result<Vec<Option<u32>>, DocumentError> {

@@ -6,9 +6,8 @@ use unwrapd_layout::charts::smoothed_where_rough;
 use unwrapd_maps::measure::face_distortion;
 use unwrapd_maps::mesh::{CornerUvs, Surface};
 
-/// Returns the mean symmetric Dirichlet energy of the smoothed map of the smoothed surface; `None` if the
-/// surface is not
-/// rough. Leaves out faces at chart borders, which have neighbors on one side only.
+/// Returns the mean symmetric Dirichlet energy of the smoothed map of the smoothed surface; `None` if the surface is
+/// not rough. Leaves out faces at chart borders, which have neighbors on one side only.
 pub(super) fn smoothed_distortion(group: &GroupUvs, aspect: f64) -> Option<f64> {
     let surface = Surface::new(&group.positions, &group.triangles).ok()?;
     let smooth = smoothed_where_rough(&surface)?;
@@ -38,8 +37,7 @@ pub(super) fn smoothed_distortion(group: &GroupUvs, aspect: f64) -> Option<f64> 
     sum.mean()
 }
 
-/// Returns the charts of a surface as surfaces in the plane, with the same triangles; `None` if a face is
-/// degenerate
+/// Returns the charts of a surface as surfaces in the plane, with the same triangles; `None` if a face is degenerate
 /// there.
 fn charts_in_the_plane(surface: &Surface, group: &GroupUvs, aspect: f64) -> Option<Surface> {
     let of_faces = surface.faces.iter().flat_map(|&f| group.uvs[f as usize]);

@@ -37,8 +37,7 @@ pub fn unwrap_meshes(
     unwrap_around(meshes, options, &[], observer)
 }
 
-/// Packs the UV islands of meshes into one atlas. Islands only undergo quarter turns, shifts and a common
-/// scale.
+/// Packs the UV islands of meshes into one atlas. Islands only undergo quarter turns, shifts and a common scale.
 pub fn repack_meshes(
     meshes: &[MeshArrays],
     options: &RepackOptions,

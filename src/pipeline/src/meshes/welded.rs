@@ -4,9 +4,8 @@ use std::collections::HashMap;
 
 use unwrapd_maps::mesh::CornerUvs;
 
-/// A mesh in which every vertex has one UV: each given vertex appears once per distinct UV of its corners, in
-/// the order
-/// of first use. Vertices without triangles are left out.
+/// A mesh in which every vertex has one UV: each given vertex appears once per distinct UV of its corners, in the
+/// order of first use. Vertices without triangles are left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WeldedUvs {
     /// Index of each vertex in the given mesh.

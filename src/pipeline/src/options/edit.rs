@@ -12,8 +12,7 @@ use unwrapd_files::document::OutputFormat;
 pub enum Editing {
     /// Moving parts of a map: by default boundaries follow, and the current UV shapes are preserved.
     Map,
-    /// Aligning a surface with a texture: by default boundaries stay, and the shapes of the surface are
-    /// preserved.
+    /// Aligning a surface with a texture: by default boundaries stay, and the shapes of the surface are preserved.
     Texture,
 }
 

@@ -31,8 +31,7 @@ pub(super) fn check_method(
     ])
 }
 
-/// Rejects options of unwrapping that the other options leave without effect. An option with its default
-/// value counts
+/// Rejects options of unwrapping that the other options leave without effect. An option with its default value counts
 /// as absent.
 pub(crate) fn check(options: &Options) -> Result<(), String> {
     let default = Options::default();
@@ -120,8 +119,7 @@ pub(crate) fn check(options: &Options) -> Result<(), String> {
     }
 }
 
-/// Rejects options that distinguish materials within an atlas if each material has its own. The grouping may
-/// be
+/// Rejects options that distinguish materials within an atlas if each material has its own. The grouping may be
 /// unknown before the file is read.
 pub(crate) fn check_grouping(options: &Options, group_by: Option<GroupBy>) -> Result<(), String> {
     const WITH: &str = "an atlas with several materials: `group_by` mesh or scene";

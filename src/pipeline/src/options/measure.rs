@@ -103,8 +103,7 @@ impl MeasureOptions {
         }
     }
 
-    /// Adds the requirements of a file's record. Distances in texels are one requirement: the options'
-    /// replace the
+    /// Adds the requirements of a file's record. Distances in texels are one requirement: the options' replace the
     /// record's, so that a file cannot choose the texture in which a caller's padding is counted.
     pub(crate) fn with_terms(&self, terms: &Terms) -> Self {
         let mut required = Self {

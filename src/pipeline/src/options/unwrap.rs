@@ -169,7 +169,6 @@ impl Options {
     }
 }
 
-/// Number of mip levels for which the padding of a lightmap holds: a distant room shows a quarter of the
-/// texels along a
-/// side.
+/// Number of mip levels for which the padding of a lightmap holds: a distant room shows a quarter of the texels along
+/// a side.
 const LIGHTMAP_MIPS: u32 = 2;

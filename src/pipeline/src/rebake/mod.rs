@@ -26,8 +26,8 @@ pub(super) const MOST_SIDE: u32 = 8192;
 /// Minimum distance of charts in texels at which bilinear filtering does not mix them.
 const FILTER_TEXELS: f64 = 2.0;
 
-/// Resamples all textures that can be read and are understood for `uvs`, v up. Enters the stage only if there
-/// are any.
+/// Resamples all textures that can be read and are understood for `uvs`, v up. Enters the stage only if there are
+/// any.
 pub(super) fn rebaked(
     document: &Document,
     groups: &[Group],
@@ -39,6 +39,7 @@ pub(super) fn rebaked(
         let what = "new textures for another format than glTF".to_owned();
         return Err(DocumentError::UnsupportedOutput(what).into());
     };
+    // Plan as if every image were readable; without anything to do, there is no stage.
     let hoped = document.bake_plan(groups, &BTreeMap::new())?;
     if hoped.planes.is_empty() && hoped.kept.is_empty() {
         return Ok(BakedTextures {
@@ -48,6 +49,7 @@ pub(super) fn rebaked(
             tangents: vec![None; document.primitives().len()],
         });
     }
+    // Read the images, and plan again with those that can be read.
     tracker.stage(Stage::Bake);
     let (images, unreadable) = read_images(document, &hoped.planes)?;
     let plan = document.bake_plan(groups, &unreadable)?;
@@ -71,8 +73,8 @@ pub(super) fn rebaked(
     })
 }
 
-/// Returns the side and the file of each texture of a plan. Resamples nothing if they would have too many
-/// texels in total.
+/// Returns the side and the file of each texture of a plan. Resamples nothing if they would have too many texels in
+/// total.
 fn files(
     bake: &Bake,
     plan: &BakePlan,
@@ -129,8 +131,7 @@ fn sides(
     Ok(sides)
 }
 
-/// Warns if there was nothing to resample, and of textures whose charts are so close that bilinear filtering
-/// at the
+/// Warns if there was nothing to resample, and of textures whose charts are so close that bilinear filtering at the
 /// border of one reads texels of another.
 pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning> {
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();

@@ -35,6 +35,7 @@ impl<'a> Bake<'a> {
         };
         for &index in members {
             let n_faces = self.surfaces[index].uvs.len();
+            // Primitives without this texture have empty faces.
             let Some(source) = wanted.sources.get(&index) else {
                 plane.faces.extend(std::iter::repeat_n(None, n_faces));
                 frames.skip(n_faces);
@@ -63,8 +64,7 @@ impl<'a> Bake<'a> {
         Ok(plane)
     }
 
-    /// Returns the places of a primitive's corners in its image. Without UVs all are at (0, 0), as in
-    /// renderers.
+    /// Returns the places of a primitive's corners in its image. Without UVs all are at (0, 0), as in renderers.
     fn places(
         &self,
         index: usize,

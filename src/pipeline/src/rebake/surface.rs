@@ -15,8 +15,8 @@ pub(super) struct Surface {
 pub(super) struct Directions {
     pub normals: Vec<[[f32; 3]; 3]>,
     pub tangents: Vec<CornerTangents>,
-    /// Set if the document has these normals. Otherwise they are those of the flat faces, and tangents are
-    /// not written.
+    /// Set if the document has these normals. Otherwise they are those of the flat faces, and tangents are not
+    /// written.
     are_given: bool,
 }
 
