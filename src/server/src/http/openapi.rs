@@ -154,7 +154,7 @@ fn complete(operation: &mut Value) {
     }
 }
 
-/// Returns true for the schema of `Vec<u8>`, which stands for the bytes of a file, not for JSON.
+/// Returns whether this is the schema of `Vec<u8>`, which stands for the bytes of a file, not for JSON.
 fn is_list_of_bytes(schema: &Value) -> bool {
     let item = &schema["items"];
     schema["type"] == "array" && item["type"] == "integer" && item["minimum"] == 0

@@ -85,7 +85,7 @@ async fn guard(State(allowed): State<Arc<Allowed>>, request: Request, next: Next
     next.run(request).await
 }
 
-/// Returns true if there is at most one `Host`, with a name and at most a port (RFC 9112, 3.2).
+/// Returns whether there is at most one `Host`, with a name and at most a port (RFC 9112, 3.2).
 fn names_one_host(headers: &HeaderMap) -> bool {
     let mut hosts = headers.get_all(header::HOST).iter();
     let (first, second) = (hosts.next(), hosts.next());
