@@ -1,9 +1,9 @@
 //! The compute child: one attempt at a job, in a process of its own.
 //!
 //! It reads the attempt's folder, limits its own memory, reports progress on standard output and leaves its results
-//! in the folder. SIGTERM ends it like any process; SIGINT makes it finish early with its current valid map; a byte
-//! on its standard input requests the maps under way; and when standard input closes, the server is gone and the
-//! child exits.
+//! in the folder. SIGTERM ends it like any process. SIGINT makes it finish early with its current valid map. A byte
+//! on its standard input requests the maps under way. When standard input closes, the server is gone and the child
+//! exits.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
