@@ -1,7 +1,7 @@
 //! From a mesh to a certified atlas and its report.
 //!
 //! [`unwrap`] takes plain arrays: it welds, cuts, maps every chart and packs. [`unwrap_document`] takes a file's
-//! bytes: it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and
+//! bytes: it reads, unwraps every group of primitives, writes, and then reads the written bytes again. The report and
 //! the certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same
 //! for existing UVs of a file; [`edit_document`] changes them, and [`repack_document`] packs them again.
 //! [`unwrap_meshes`], [`repack_meshes`], [`measure_meshes`] and [`verify_meshes`] do this for several meshes given as
